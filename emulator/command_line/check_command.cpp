@@ -51,6 +51,7 @@ std::string_view kind_name(play::FileKind kind) {
     case play::FileKind::bench: return "bench";
     case play::FileKind::scenario: return "scenario";
     case play::FileKind::steps: return "steps";
+    case play::FileKind::model: return "model";
   }
   return "file";
 }
@@ -71,6 +72,12 @@ std::string described(ModelList models, const std::string& file, play::FileKind 
       for (const play::Scenario& scenario : scenarios) steps += count_steps(scenario.steps);
       return (scenarios.size() == 1 ? "a scenario" : std::to_string(scenarios.size()) + " scenarios") +
              " with " + counted(steps, "step");
+    }
+    case play::FileKind::model: {
+      std::vector<FileClaim> files;
+      const Model& model = described_model(models, file, files);
+      return "a model with " + counted(register_rows(model).size(), "register") + " and " +
+             (model.axes.size() == 1 ? "1 axis" : std::to_string(model.axes.size()) + " axes");
     }
     case play::FileKind::steps: return "steps to include; they are checked with the scenarios that do";
   }

@@ -202,7 +202,7 @@ struct CheckArguments {
   ProgramTextArguments programs;   // with a model the files are programs for it
   std::string format = "text";     // or json, sarif, github
 };
-/// Benches, scenarios, and files of steps that scenarios include; or programs.
+/// Benches, scenarios, files of steps that scenarios include, and models; or programs.
 int check_files(ModelList models, const CheckArguments& arguments);
 struct InitArguments {
   std::string model = "simple2-r3";
@@ -210,8 +210,15 @@ struct InitArguments {
 };
 /// A bench, a scenario and their schemas, for a model of one's choice.
 int write_first_files(ModelList models, const InitArguments& arguments);
+struct ImportArguments {
+  std::string list;    // a file
+  std::string output;  // the model file; empty: beside the list
+  std::string name;    // of the model; empty: as the list
+};
+/// A model file and a bench, made of a list of registers.
+int import_registers(ModelList models, const ImportArguments& arguments);
 struct SchemaArguments {
-  std::string what;   // "bench" or "scenario"
+  std::string what;   // "bench", "scenario" or "model"
   std::string bench;  // whose names scenarios may use; empty: any
 };
 /// The JSON Schema of a kind of file.

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/command_line/commands.h"
@@ -14,12 +15,24 @@
 
 namespace understudy::emulator::command_line {
 
+const Model& described_model(ModelList models, const std::string& path, std::vector<FileClaim>& files) {
+  if (models.files == nullptr)
+    throw FileError(path + ": model: cannot be read here; expected a model's name");
+  return models.files->load(path, files);
+}
+
 const Model& demand_model(ModelList models, const std::string& name) {
+  std::vector<FileClaim> files;
+  return demand_model(models, name, files);
+}
+
+const Model& demand_model(ModelList models, const std::string& name, std::vector<FileClaim>& files) {
   if (const Model* model = find_model(models, name)) return *model;
+  if (names_model_file(name)) return described_model(models, name, files);
   std::vector<std::string> names;
   for (const Model* model : models) names.emplace_back(model->name);
   throw UsageError(quoted(name) + " is not a model" + suggestion(name, names) +
-                   " (`understudy models` lists them)");
+                   " (`understudy models` lists them; a model file ends in .yaml)");
 }
 
 int list_models(ModelList models) {

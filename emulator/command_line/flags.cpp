@@ -41,6 +41,7 @@ struct CommandLine {
   ProgramTextArguments program;
   CheckArguments check;
   InitArguments init;
+  ImportArguments import;
   SchemaArguments schema;
   std::string shell;
   std::function<int()> chosen;
@@ -65,6 +66,7 @@ struct CommandLine {
     add_check();
     add_schema();
     add_init();
+    add_import();
     add_tty_shim();
     add_completion();
   }
@@ -78,7 +80,8 @@ struct CommandLine {
 
   void add_describe() {
     CLI::App* command = app.add_subcommand("describe", "Print a model's tables");
-    command->add_option("MODEL", describe.model, "A name from `understudy models`")->required();
+    command->add_option("MODEL", describe.model, "A name from `understudy models`, or a model file")
+        ->required();
     command
         ->add_option("WHAT", describe.what,
                      "registers, parameters, instructions, commands, choices, ports or blocks")
@@ -349,10 +352,10 @@ struct CommandLine {
 
   void add_check() {
     CLI::App* command =
-        app.add_subcommand("check", "Validate benches, scenarios and programs without running them");
+        app.add_subcommand("check", "Validate benches, scenarios, models and programs without running them");
     command
         ->add_option("FILE", check.files,
-                     "Bench and scenario files, and folders of them; or with --model programs")
+                     "Bench, scenario and model files, and folders of them; or with --model programs")
         ->required();
     command->add_option("--model", check.programs.model, "The model whose programs the files are")
         ->check(kNotEmpty);
@@ -364,7 +367,7 @@ struct CommandLine {
 
   void add_schema() {
     CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of a kind of file, for editors");
-    command->add_option("WHAT", schema.what, "bench or scenario")->required();
+    command->add_option("WHAT", schema.what, "bench, scenario or model")->required();
     command->add_option("--bench", schema.bench, "List the names of this bench for its scenarios [any name]")
         ->check(kNotEmpty);
     command->callback([this] { chosen = [this] { return print_schema(models, schema); }; });
@@ -380,6 +383,18 @@ struct CommandLine {
         ->check(kNotEmpty)
         ->capture_default_str();
     command->callback([this] { chosen = [this] { return write_first_files(models, init); }; });
+  }
+
+  void add_import() {
+    CLI::App* command =
+        app.add_subcommand("import", "Make a model of one's own from a list of its registers");
+    command->add_option("REGISTERS", import.list, "The list (CSV): address, name, access, width, ...")
+        ->required();
+    command
+        ->add_option("-o,--output", import.output, "The model file to write [beside the list, as NAME.yaml]")
+        ->check(kNotEmpty);
+    command->add_option("--name", import.name, "What the model is called [as the list]")->check(kNotEmpty);
+    command->callback([this] { chosen = [this] { return import_registers(models, import); }; });
   }
 
   void add_completion() {

@@ -1,22 +1,16 @@
 // `init`: the files that somebody begins with.
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstddef>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
-#include "base/files/descriptor.h"
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
+#include "emulator/command_line/new_files.h"
 #include "emulator/device/model.h"
 #include "emulator/play/schema/json_schema.h"
 #include "emulator/world/bench_file/bench_file.h"
@@ -35,46 +29,6 @@ constexpr std::string_view kScenarioHead =
     "bench: bench.yaml\n"
     "steps:\n";
 
-struct NewFile {
-  std::string path;
-  std::string text;
-};
-
-/// Throws FileError, also where something of that name is there already: nothing is ever overwritten.
-void write_new(const NewFile& file) {
-  const Descriptor made(::open(file.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  const auto refuse = [&file](int error) {
-    throw FileError(file.path + ": file: cannot be written (" + std::strerror(error) +
-                    "); expected a new file");
-  };
-  if (!made) refuse(errno);
-  for (std::string_view rest = file.text; !rest.empty();) {
-    const ssize_t size = ::write(made.get(), rest.data(), rest.size());
-    if (size < 0 && errno != EINTR) {
-      const int error = errno;
-      ::unlink(file.path.c_str());
-      refuse(error);
-    }
-    if (size > 0) rest.remove_prefix(static_cast<std::size_t>(size));
-  }
-}
-
-/// All of them, or none: what was written before one failed is taken away again.
-void write_all(const std::vector<NewFile>& files) {
-  std::size_t written = 0;
-  try {
-    for (; written < files.size(); ++written) write_new(files[written]);
-  } catch (const FileError&) {
-    for (std::size_t i = 0; i < written; ++i) ::unlink(files[i].path.c_str());
-    throw;
-  }
-}
-
-bool is_there(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::symlink_status(path, error).type() != std::filesystem::file_type::not_found;
-}
-
 }  // namespace
 
 int write_first_files(ModelList models, const InitArguments& arguments) {
@@ -91,10 +45,7 @@ int write_first_files(ModelList models, const InitArguments& arguments) {
       {in_folder("scenario.schema.json"),
        play::scenario_schema(world::parse_bench(models, bench, in_folder("bench.yaml"), arguments.folder))},
   };
-  for (const NewFile& file : files) {
-    if (is_there(file.path))
-      throw FileError(file.path + ": file: is there already; expected a folder without it");
-  }
+  demand_new(files);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)

@@ -1,8 +1,10 @@
-// `understudy`: the program, with every model there is.
+// `understudy`: the program, with every model there is, and what makes models of files.
 #include "emulator/command_line/program.h"
+#include "emulator/model_file/model_files.h"
 #include "emulator/models/models.h"
 
 int main(int argc, char** argv) {
-  return understudy::emulator::command_line::run_program(argc, argv,
-                                                         understudy::emulator::models::all_models());
+  using namespace understudy::emulator;
+  model_file::DescribedModels described(models::all_models());
+  return command_line::run_program(argc, argv, {models::all_models(), &described});
 }

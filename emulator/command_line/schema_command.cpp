@@ -4,6 +4,7 @@
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/device/model.h"
+#include "emulator/model_file/model_form.h"
 #include "emulator/play/schema/json_schema.h"
 #include "emulator/world/bench_file/bench_file.h"
 
@@ -11,13 +12,15 @@ namespace understudy::emulator::command_line {
 
 int print_schema(ModelList models, const SchemaArguments& arguments) {
   const bool is_bench = arguments.what == "bench";
-  if (!is_bench && arguments.what != "scenario") {
-    throw UsageError(quoted(arguments.what) + " has no schema; expected bench or scenario");
+  const bool is_model = arguments.what == "model";
+  if (!is_bench && !is_model && arguments.what != "scenario") {
+    throw UsageError(quoted(arguments.what) + " has no schema; expected bench, scenario or model");
   }
-  if (is_bench && !arguments.bench.empty()) {
+  if ((is_bench || is_model) && !arguments.bench.empty()) {
     throw UsageError("schema: --bench belongs to `scenario`: the names are the bench's");
   }
-  const std::string schema = is_bench ? play::bench_schema()
+  const std::string schema = is_bench   ? play::bench_schema()
+                             : is_model ? play::file_schema("Understudy model", model_file::kModelKeys)
                              : arguments.bench.empty()
                                  ? play::scenario_schema()
                                  : play::scenario_schema(world::load_bench(models, arguments.bench));

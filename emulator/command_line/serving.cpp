@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/files/file_claims.h"
@@ -51,7 +52,8 @@ void demand_possible(const world::DeviceSetup& device) {
 
 /// One device on all its ports, from flags.
 world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
-  world::DeviceSetup device{.model = &demand_model(models, arguments.model), .settings = {}};
+  std::vector<FileClaim> files;
+  world::DeviceSetup device{.model = &demand_model(models, arguments.model, files), .settings = {}};
   device.settings.name = "device";
   device.settings.address = arguments.station;
   if (arguments.station && !device.model->line.station_numbers) {
@@ -76,7 +78,9 @@ world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
     throw UsageError("--link: " + link + ": has a control character; expected a path without one");
   }
   if (!link.empty()) link = (std::filesystem::path(arguments.links) / link).string();
-  return world::bench_of_one(*device.model, device.settings, link);
+  world::Bench bench = world::bench_of_one(*device.model, device.settings, link);
+  bench.files = std::move(files);
+  return bench;
 }
 
 world::Bench make_bench(ModelList models, const ServeArguments& arguments, const std::string& command) {

@@ -43,6 +43,8 @@ const Model* find_model(ModelList models, std::string_view name) {
   return found == models.end() ? nullptr : *found;
 }
 
+bool names_model_file(std::string_view name) { return name.ends_with(".yaml") || name.ends_with(".yml"); }
+
 int find_terminal(const Model& model, std::string_view name) {
   for (std::size_t i = 0; i < model.terminals.size(); ++i) {
     if (model.terminals[i].name == name) return static_cast<int>(i);

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/files/file_claims.h"
 #include "emulator/device/choices.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/program_error.h"
@@ -208,14 +209,36 @@ struct Model {
   std::optional<RtuRules> rtu{};            // of a model with ModbusStation
   const FirstFiles* first_files = nullptr;  // null: there are none
   int most_modules = 0;                     // the most that one device can consist of; 0: it is not a chain
+  /// Of a model that a file describes: that text, with all that belongs to it. ModelFiles::parse() makes the
+  /// same model of it.
+  std::string_view description{};
   /// Settings are checked by make_device() before it is called.
-  std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
+  std::function<std::unique_ptr<Device>(const DeviceSettings& settings)> make;
 };
 
-/// The models that benches may name: handed down by whoever knows them.
-using ModelList = std::span<const Model* const>;
+/// Makes models of files that describe them (docs/import.md). They live as long as this does; a description
+/// that it has read before gives the same model again. Both throw FileError. Any thread may call them.
+class ModelFiles {
+ public:
+  virtual ~ModelFiles() = default;
+  /// `files` gets what was read.
+  virtual const Model& load(const std::string& path, std::vector<FileClaim>& files) = 0;
+  /// Of a text that has all in itself; `name` stands for the file in messages.
+  virtual const Model& parse(const std::string& text, const std::string& name) = 0;
+};
+
+/// The models that benches may name, handed down by whoever knows them; and what makes models of files, null
+/// where none are read.
+struct ModelList : std::span<const Model* const> {
+  using std::span<const Model* const>::span;
+  ModelList(std::span<const Model* const> listed, ModelFiles* reader)
+      : std::span<const Model* const>(listed), files(reader) {}
+  ModelFiles* files = nullptr;
+};
 /// Null if there is none of that name.
 const Model* find_model(ModelList models, std::string_view name);
+/// Whether a model is named by its file: "drive.yaml".
+bool names_model_file(std::string_view name);
 
 /// The number of a terminal or an axis in its model's table; -1 if there is none of that name.
 int find_terminal(const Model& model, std::string_view name);

@@ -346,7 +346,9 @@ FileKind kind_of_file(const std::string& path) {
   const auto text = read_text_file(path);
   if (!text) throw FileError(path + ": file: " + text.why + "; expected a bench or a scenario");
   const world::YamlFields root = world::YamlFields::parse(
-      *text, path, "file", "a bench (`lines:`) or a scenario (`bench:` and `steps:`)");
+      *text, path, "file",
+      "a bench (`lines:`), a scenario (`bench:` and `steps:`) or a model (`registers:`)");
+  if (root.has("registers") && !root.has("lines")) return FileKind::model;
   if (!root.has("steps"))
     return root.has("bench") && !root.has("lines") ? FileKind::scenario : FileKind::bench;
   return root.has("bench") || root.has("name") ? FileKind::scenario : FileKind::steps;

@@ -29,6 +29,7 @@ enum class FileKind : std::uint8_t {
   bench,
   scenario,
   steps,  // for other scenarios to include
+  model,  // that benches name by its path (docs/import.md)
 };
 FileKind kind_of_file(const std::string& path);
 

@@ -185,6 +185,10 @@ std::string bench_schema() {
   return finished("Understudy bench", SchemaWriter(false).keys(world::kBenchKeys), Json::object());
 }
 
+std::string file_schema(const std::string& title, std::span<const world::KeyRow> keys) {
+  return finished(title, SchemaWriter(false).keys(keys), Json::object());
+}
+
 std::string scenario_schema() {
   const SchemaWriter writer(true);
   return finished("Understudy scenario", writer.keys(kScenarioKeys), step_definitions(writer));

@@ -23,7 +23,8 @@ using Json = nlohmann::ordered_json;
 
 Json device_text(const DeviceSetup& device) {
   const DeviceSettings& settings = device.settings;
-  Json text{{"model", device.model->name}};
+  const std::string_view description = device.model->description;  // its last line's end tells it from a path
+  Json text{{"model", description.empty() ? device.model->name : description}};
   if (settings.firmware != 0) text["firmware"] = version_text(settings.firmware);
   if (settings.modules != 0) text["modules"] = settings.modules;
   for (const auto& [name, on] : settings.dip) text["dip"][name] = on ? "on" : "off";

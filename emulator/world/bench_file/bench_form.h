@@ -25,7 +25,8 @@ inline constexpr Form kAddressForm = integer_form(0, 255);
 
 inline constexpr KeyRow kNameKey{"name", "What the device is called: letters, digits, _ and -.", &kText,
                                  true};
-inline constexpr KeyRow kModelKey{"model", "A model, as `understudy models` lists them.", &kText, true};
+inline constexpr KeyRow kModelKey{
+    "model", "A model, as `understudy models` lists them, or the path of a model file.", &kText, true};
 inline constexpr KeyRow kAddressKey{"address", "The station number (default: 1, or what its memory says).",
                                     &kAddressForm};
 inline constexpr KeyRow kPortKey{

@@ -110,11 +110,22 @@ void read_nv_path(const YamlFields& field, const std::optional<std::string>& fol
   }
 }
 
-const Model& demand_model(ModelList models, const YamlFields& field) {
-  if (const Model* const model = find_model(models, field.text())) return *model;
+/// A model's name, the path of a file that describes it, or, if it has several lines, that text itself.
+const Model& demand_model(ModelList models, const YamlFields& field, const std::optional<std::string>& folder,
+                          const std::string& device, Bench& bench) {
+  const std::string name = field.text();
+  if (const Model* const model = find_model(models, name)) return *model;
+  if (models.files != nullptr && name.find('\n') != std::string::npos)
+    return models.files->parse(name, device + ".model");
+  if (models.files != nullptr && names_model_file(name)) {
+    const std::string path = path_in(folder, field);
+    if (const std::string why = why_not_readable(path); !why.empty())
+      field.fail(path + " " + why + "; expected a model file");
+    return models.files->load(path, bench.files);
+  }
   std::vector<std::string> names;
   for (const Model* known : models) names.emplace_back(known->name);
-  field.fail(understudy::quoted(field.text()) + " is not a model" + suggestion(field.text(), names));
+  field.fail(understudy::quoted(name) + " is not a model" + suggestion(name, names));
 }
 
 /// Without a model they are numbers at least.
@@ -192,7 +203,7 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
   DeviceSetup device;
   DeviceSettings& settings = device.settings;
   settings.name = name;
-  complaints.attempt([&] { device.model = &demand_model(models, fields.at("model")); });
+  complaints.attempt([&] { device.model = &demand_model(models, fields.at("model"), folder, name, bench); });
   const auto read = [&](const char* key, const auto& how) {
     return complaints.attempt([&] {
       if (const auto field = fields.find(key)) how(*field);

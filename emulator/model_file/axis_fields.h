@@ -1,0 +1,18 @@
+// What a model file says of an axis.
+#pragma once
+
+#include <string>
+
+#include "emulator/model_file/binder.h"
+#include "emulator/models/imported/description.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::model_file {
+
+/// One entry of `axes`. Its inputs must have been read. All that is wrong is kept.
+models::imported::AxisBinding read_axis(const world::YamlFields& fields, const std::string& name,
+                                        const models::imported::Description& description, Binder& binder,
+                                        world::Complaints& complaints);
+
+}  // namespace understudy::emulator::model_file

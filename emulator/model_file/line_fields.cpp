@@ -1,0 +1,155 @@
+#include "emulator/model_file/line_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
+#include "base/text/suggestion.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/model_file/model_form.h"
+#include "emulator/world/stations/server.h"
+
+namespace understudy::emulator::model_file {
+
+using models::imported::Description;
+using models::imported::Line;
+using world::Complaints;
+using world::YamlFields;
+
+namespace {
+
+std::uint8_t read_function(const YamlFields& field) {
+  const auto code = field.integer(kFunctionForm);
+  std::string known;
+  for (const world::FunctionRow& row : world::kModbusFunctions) {
+    if (row.code == code) return row.code;
+    known += (known.empty() ? "" : ", ") + std::to_string(row.code);
+  }
+  field.fail(std::to_string(code) + " is not a function that can be served; expected one of " + known);
+}
+
+}  // namespace
+
+std::size_t read_word(const YamlFields& field, const Form& form) {
+  const std::string written = field.text();
+  for (std::size_t i = 0; i < form.words.size(); ++i) {
+    if (form.words[i] == written) return i;
+  }
+  const std::vector<std::string> words(form.words.begin(), form.words.end());
+  field.fail(understudy::quoted(written) + " is not possible" + suggestion(written, words));
+}
+
+void read_line(const YamlFields& fields, Line& line, Complaints& complaints) {
+  complaints.attempt([&] { fields.demand_keys(kLineKeys); });
+  const auto read = [&](std::string_view key, const auto& how) {
+    complaints.attempt([&] {
+      if (const auto field = fields.find(key)) how(*field);
+    });
+  };
+  read("baud", [&](const YamlFields& field) {
+    std::vector<int> bauds;
+    const auto add = [&](const YamlFields& one) {
+      bauds.push_back(static_cast<int>(one.integer(kBaudForm)));
+    };
+    if (field.is_list()) {
+      for (const YamlFields& one : field.elements()) add(one);
+    } else {
+      add(field);
+    }
+    if (bauds.empty()) field.fail("is empty; expected at least one speed");
+    line.bauds = bauds;
+  });
+  read("parity", [&](const YamlFields& field) {
+    constexpr std::array<pty::Parity, 3> kOrder{pty::Parity::none, pty::Parity::even, pty::Parity::odd};
+    line.parity = kOrder.at(read_word(field, kParityForm));
+  });
+  read("stop_bits",
+       [&](const YamlFields& field) { line.stop_bits = static_cast<int>(field.integer(kStopBitsForm)); });
+  read("silence", [&](const YamlFields& field) {
+    line.silence = field.duration();
+    constexpr pty::SimTime kLongest = std::chrono::seconds(1);
+    if (*line.silence <= pty::SimTime{0} || *line.silence > kLongest)
+      field.fail(understudy::quoted(field.text()) + " is not possible; expected more than 0, up to 1s");
+  });
+  read("stations", [&](const YamlFields& field) {
+    const auto ends = field.elements();
+    if (ends.size() != 2) field.fail("expected the lowest and the highest, as in [1, 247]");
+    line.lowest_station = static_cast<int>(ends[0].integer(kStationForm));
+    line.highest_station = static_cast<int>(ends[1].integer(kStationForm));
+    if (line.lowest_station > line.highest_station) field.fail("ends before it begins; expected [1, 247]");
+  });
+  read("functions", [&](const YamlFields& field) {
+    std::vector<std::uint8_t> functions;
+    for (const YamlFields& one : field.elements()) functions.push_back(read_function(one));
+    if (functions.empty()) field.fail("is empty; expected at least one");
+    line.functions = functions;
+  });
+  read("most", [&](const YamlFields& field) {
+    field.demand_map();
+    for (const auto& [code, most] : field.entries()) {
+      const auto number = parse_integer(code);
+      const bool is_known =
+          number && std::find(line.functions.begin(), line.functions.end(), *number) != line.functions.end();
+      if (!is_known)
+        most.fail(understudy::quoted(code) + " is not one of its functions; expected one of `functions`");
+      line.limits.push_back(
+          {.code = static_cast<std::uint8_t>(*number), .most = static_cast<int>(most.integer(kMostForm))});
+    }
+  });
+  read("broadcast",
+       [&](const YamlFields& field) { line.obeys_broadcasts = read_word(field, kBroadcastForm) == 0; });
+}
+
+void read_policy(const YamlFields& fields, MapPolicy& policy, Complaints& complaints) {
+  complaints.attempt([&] { fields.demand_keys(kMapKeys); });
+  const auto read = [&](std::string_view key, const Form& form, const auto& take) {
+    complaints.attempt([&] {
+      if (const auto field = fields.find(key)) take(read_word(*field, form));
+    });
+  };
+  read("holes", kRefusedOrZeroForm, [&](std::size_t word) {
+    policy.unmapped = word == 0 ? MapPolicy::Unmapped::refused : MapPolicy::Unmapped::reads_zero;
+  });
+  read("out_of_range", kOutOfRangeForm, [&](std::size_t word) {
+    constexpr std::array<MapPolicy::OutOfRange, 3> kOrder{
+        MapPolicy::OutOfRange::refused, MapPolicy::OutOfRange::clamped, MapPolicy::OutOfRange::stored};
+    policy.out_of_range = kOrder.at(word);
+  });
+  read("read_only", kRefusedOrIgnoredForm, [&](std::size_t word) {
+    policy.read_only = word == 0 ? MapPolicy::ReadOnly::refused : MapPolicy::ReadOnly::ignores_writes;
+  });
+  read("write_only", kZeroOrRefusedForm, [&](std::size_t word) {
+    policy.write_only = word == 0 ? MapPolicy::WriteOnly::reads_zero : MapPolicy::WriteOnly::refused;
+  });
+  read("halves", kAloneOrWholeForm, [&](std::size_t word) {
+    policy.halves = word == 0 ? MapPolicy::Halves::may_be_written_alone : MapPolicy::Halves::come_whole;
+    policy.read_halves =
+        word == 0 ? MapPolicy::ReadHalves::may_be_read_alone : MapPolicy::ReadHalves::come_whole;
+  });
+  read("first_word", kHighOrLowForm, [&](std::size_t word) { policy.low_word_first = word == 1; });
+}
+
+std::string read_station_register(const YamlFields& field, const Binder& binder,
+                                  const Description& description) {
+  const models::imported::Spot spot = binder.spot(field);
+  const auto& listed = description.registers[spot.number];
+  const bool suits = spot.is_whole() && listed.access != Access::write && listed.table == Table::holding &&
+                     !is_32_bit(listed.type);
+  if (!suits)
+    field.fail(understudy::quoted(field.text()) + " cannot hold it; expected a holding register of 16 bits");
+  const Line& line = description.line;
+  if (listed.factory < line.lowest_station || listed.factory > line.highest_station) {
+    field.fail(understudy::quoted(listed.name) + " has the default " + std::to_string(listed.factory) +
+               "; expected one from " + std::to_string(line.lowest_station) + " to " +
+               std::to_string(line.highest_station) + " (`stations`)");
+  }
+  return field.text();
+}
+
+}  // namespace understudy::emulator::model_file

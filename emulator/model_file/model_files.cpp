@@ -1,0 +1,49 @@
+#include "emulator/model_file/model_files.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/files/file_error.h"
+#include "base/files/text_file.h"
+#include "base/text/one_line.h"
+#include "emulator/device/model.h"
+#include "emulator/model_file/model_reader.h"
+#include "emulator/models/imported/model.h"
+
+namespace understudy::emulator::model_file {
+
+DescribedModels::DescribedModels(std::span<const Model* const> house) : house_(house) {}
+DescribedModels::~DescribedModels() = default;
+
+const Model& DescribedModels::load(const std::string& path, std::vector<FileClaim>& files) {
+  const auto text = read_text_file(path);
+  if (!text) throw FileError(path + ": model: " + text.why + "; expected a model file");
+  files.push_back({path, "the model file " + quoted(path)});
+  return read(*text, path, true, files);
+}
+
+const Model& DescribedModels::parse(const std::string& text, const std::string& name) {
+  std::vector<FileClaim> none;
+  return read(text, name, false, none);
+}
+
+const Model& DescribedModels::read(const std::string& text, const std::string& name, bool may_read,
+                                   std::vector<FileClaim>& files) {
+  models::imported::Description described = read_model(text, name, may_read, files);
+  for (const Model* const model : house_) {
+    if (model->name != described.name) continue;
+    throw FileError({name, 1, 1}, "model: " + quoted(described.name) +
+                                      " is a model of this program's own; expected another name");
+  }
+  const std::lock_guard lock(mutex_);
+  auto& model = models_[described.text];
+  if (model == nullptr) model = std::make_unique<models::imported::ImportedModel>(std::move(described));
+  return model->model();
+}
+
+}  // namespace understudy::emulator::model_file

@@ -1,0 +1,37 @@
+// What makes models of files: command_line hands it down with the list of the models.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/device/model.h"
+
+namespace understudy::emulator::models::imported {
+class ImportedModel;
+}
+
+namespace understudy::emulator::model_file {
+
+class DescribedModels final : public ModelFiles {
+ public:
+  /// `house`: those that have their names already.
+  explicit DescribedModels(std::span<const Model* const> house);
+  ~DescribedModels() override;
+
+  const Model& load(const std::string& path, std::vector<FileClaim>& files) override;
+  const Model& parse(const std::string& text, const std::string& name) override;
+
+ private:
+  const Model& read(const std::string& text, const std::string& name, bool may_read,
+                    std::vector<FileClaim>& files);
+
+  const std::span<const Model* const> house_;
+  std::mutex mutex_;
+  std::map<std::string, std::unique_ptr<models::imported::ImportedModel>> models_;  // by their whole text
+};
+
+}  // namespace understudy::emulator::model_file

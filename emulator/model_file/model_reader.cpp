@@ -1,0 +1,205 @@
+#include "emulator/model_file/model_reader.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/files/file_error.h"
+#include "base/files/text_file.h"
+#include "base/text/one_line.h"
+#include "base/text/suggestion.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/model_file/axis_fields.h"
+#include "emulator/model_file/binder.h"
+#include "emulator/model_file/line_fields.h"
+#include "emulator/model_file/model_form.h"
+#include "emulator/model_file/register_list.h"
+#include "emulator/model_file/value_fields.h"
+#include "emulator/models/imported/model.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/device_fields.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::model_file {
+
+using models::imported::Description;
+using models::imported::ListedRegister;
+using world::Complaints;
+using world::YamlFields;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The list, and where it stands.
+struct ReadList {
+  std::string text;
+  ListPlace place;
+};
+
+ReadList read_list(const YamlFields& field, bool may_read, std::vector<FileClaim>& files) {
+  if (field.text().find('\n') != std::string::npos)  // its first line is below that of the key
+    return {field.text(), {.file = field.file(), .lines_before = field.line()}};
+  if (!may_read)
+    field.fail("is a path; expected the list itself in a recording, which has everything in itself");
+  const std::string path = field.path();
+  auto text = read_text_file(path);
+  if (!text) field.fail(path + " " + text.why + "; expected a list of registers (CSV)");
+  files.push_back({path, "the list of registers of " + understudy::quoted(field.file())});
+  return {*std::move(text), {.file = path}};
+}
+
+/// What was written, as JSON, which is YAML as well; with the list in the place of its path.
+Json json_of(const YamlFields& fields, const std::string& list, bool is_root) {
+  if (fields.is_scalar()) return fields.text();
+  if (fields.is_list()) {
+    Json made = Json::array();
+    for (const YamlFields& element : fields.elements()) made.push_back(json_of(element, list, false));
+    return made;
+  }
+  if (!fields.is_map()) return nullptr;
+  Json made = Json::object();
+  for (const auto& [key, value] : fields.entries())
+    made[key] = is_root && key == "registers" ? Json(list) : json_of(value, list, false);
+  return made;
+}
+
+/// On one line, with its end: several lines tell a text from a path.
+std::string whole_text(const YamlFields& root, const std::string& list) {
+  const bool has_lines = list.find('\n') != std::string::npos;
+  return json_of(root, has_lines ? list : list + "\n", true)
+             .dump(-1, ' ', false, Json::error_handler_t::replace) +
+         "\n";
+}
+
+void read_bits(const YamlFields& field, Description& made, Complaints& complaints) {
+  complaints.attempt([&] { field.demand_map(); });
+  for (const auto& [name, bits] : field.entries()) {
+    complaints.attempt([&, &called = name, &entries = bits] {
+      const auto found = std::find_if(made.registers.begin(), made.registers.end(),
+                                      [&](const ListedRegister& listed) { return listed.name == called; });
+      if (found == made.registers.end()) {
+        std::vector<std::string> names;
+        for (const ListedRegister& listed : made.registers) names.push_back(listed.name);
+        entries.fail(understudy::quoted(called) + " is not a register of the list" +
+                     suggestion(called, names));
+      }
+      entries.demand_map();
+      for (const auto& [bit_name, bit] : entries.entries()) {
+        try {
+          found->bits.push_back(bits_called(bit_name, bit.text(), found->type));
+          demand_apart(found->bits);
+        } catch (const std::invalid_argument& error) {
+          bit.fail(error.what());
+        }
+      }
+    });
+  }
+}
+
+/// Of registers that have been found good one by one.
+std::unique_ptr<RegisterMap> plain_map(const Description& made, std::vector<std::vector<BitField>>& fields,
+                                       const YamlFields& list) {
+  try {
+    return std::make_unique<RegisterMap>(models::imported::plain_rows(made.registers, fields), made.policy);
+  } catch (const std::logic_error& error) {
+    list.fail(std::string(error.what()) + "; expected a list of which a map can be made");
+  }
+}
+
+class ModelReader {
+ public:
+  ModelReader(const YamlFields& root, Complaints& complaints) : root_(root), complaints_(complaints) {}
+
+  Description read(bool may_read, std::vector<FileClaim>& files) {
+    complaints_.attempt([&] { root_.demand_keys(kModelKeys); });
+    complaints_.attempt([&] { root_.at("understudy").integer(kVersionForm); });
+    complaints_.attempt([&] { read_names(); });
+    complaints_.attempt([&] {
+      const YamlFields field = root_.at("registers");
+      const ReadList list = read_list(field, may_read, files);
+      made_.text = whole_text(root_, list.text);
+      const std::size_t before = complaints_.count();
+      made_.registers = read_register_list(list.text, list.place, complaints_);
+      list_is_whole_ = complaints_.count() == before;
+    });
+    read("map", [&](const YamlFields& field) { read_policy(field, made_.policy, complaints_); });
+    read("bits", [&](const YamlFields& field) {
+      if (list_is_whole_) read_bits(field, made_, complaints_);
+    });
+    read("line", [&](const YamlFields& field) { read_line(field, made_.line, complaints_); });
+    if (list_is_whole_) complaints_.attempt([&] { read_bindings(); });
+    return std::move(made_);
+  }
+
+ private:
+  template <typename How>
+  void read(std::string_view key, const How& how) {
+    complaints_.attempt([&] {
+      if (const auto field = root_.find(key)) how(*field);
+    });
+  }
+
+  void read_names() {
+    const YamlFields model = root_.at("model");
+    made_.name = model.text();
+    world::demand_name(model, made_.name);
+    made_.title = "described by " + root_.file();
+    if (const auto title = root_.find("title")) made_.title = one_line(title->text());
+  }
+
+  /// What names registers: each is found in the list, or reported.
+  void read_bindings() {
+    std::vector<std::vector<BitField>> fields;
+    const auto map = plain_map(made_, fields, root_.at("registers"));
+    Binder binder(made_, *map);
+    if (const auto line = root_.find("line")) {
+      if (const auto field = line->find("station_in"))
+        complaints_.attempt([&] { made_.line.station_in = read_station_register(*field, binder, made_); });
+    }
+    read("inputs", [&](const YamlFields& field) { read_terminals(field, true, made_, binder, complaints_); });
+    read("outputs",
+         [&](const YamlFields& field) { read_terminals(field, false, made_, binder, complaints_); });
+    read("axes", [&](const YamlFields& axes) {
+      complaints_.attempt([&] { axes.demand_map(); });
+      for (const auto& [name, keys] : axes.entries()) {
+        complaints_.attempt([&, &called = name, &its = keys] {
+          world::demand_name(its, called);
+          made_.axes.push_back(read_axis(its, called, made_, binder, complaints_));
+        });
+      }
+    });
+    read("follows", [&](const YamlFields& field) { read_followings(field, made_, binder, complaints_); });
+    read("shows", [&](const YamlFields& field) { read_comparisons(field, made_, binder, complaints_); });
+    read("momentary", [&](const YamlFields& field) { read_momentary(field, made_, binder, complaints_); });
+    check_bindings(root_, made_, complaints_);
+  }
+
+  const YamlFields& root_;
+  Complaints& complaints_;
+  Description made_;
+  bool list_is_whole_ = false;
+};
+
+}  // namespace
+
+Description read_model(const std::string& text, const std::string& name, bool may_read,
+                       std::vector<FileClaim>& files) {
+  const YamlFields root =
+      YamlFields::parse(text, name, "model", "`understudy: 1`, `model:` and `registers:`");
+  Complaints complaints;
+  Description made = ModelReader(root, complaints).read(may_read, files);
+  complaints.throw_if_any();
+  return made;
+}
+
+}  // namespace understudy::emulator::model_file

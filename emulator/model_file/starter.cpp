@@ -1,0 +1,158 @@
+#include "emulator/model_file/starter.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/device/register_map/row.h"
+#include "emulator/model_file/register_list.h"
+#include "emulator/world/bench_file/complaints.h"
+
+namespace understudy::emulator::model_file {
+
+using models::imported::ListedRegister;
+
+namespace {
+
+/// A key of an axis, and the words by which makers call such registers.
+struct Guess {
+  std::string_view key;
+  bool is_written = true;  // by hosts
+  std::array<std::string_view, 4> words{};
+  std::string_view behind{};  // the name: a bit, or a value
+  std::string_view otherwise;
+  std::string_view meaning;
+};
+constexpr std::array<Guess, 9> kGuesses{
+    {{"target",
+      true,
+      {"target", "setpos", "position_set", "destination"},
+      "",
+      "TARGET",
+      "where `start` goes to"},
+     {"speed", true, {"speed", "velocity", "frequency", "rpm"}, "", "SPEED", "how fast"},
+     {"acceleration_time", true, {"acc", "ramp"}, "", "250ms", "a register of a time, or a duration"},
+     {"start",
+      true,
+      {"start", "control", "command", "trigger"},
+      ".0",
+      "CONTROL.0",
+      "a bit that comes on, or COMMAND == 1"},
+     {"stop", true, {"stop", "control", "command"}, ".1", "CONTROL.1", "slows down to a stop"},
+     {"position", false, {"position", "pos", "count"}, "", "POSITION", "shows where it is"},
+     {"busy", false, {"busy", "status", "moving", "running"}, ".0", "STATUS.0", "1 while it moves"},
+     {"arrived", false, {"arrived", "in_position", "status", "done"}, ".1", "STATUS.1", "1 at the target"},
+     {"actual_speed",
+      false,
+      {"speed", "velocity", "frequency", "rpm"},
+      "",
+      "ACTUAL_SPEED",
+      "shows how fast it is"}}};
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+const ListedRegister* find_likely(const std::vector<ListedRegister>& registers, const Guess& guess) {
+  for (const std::string_view word : guess.words) {
+    if (word.empty()) continue;
+    for (const ListedRegister& listed : registers) {
+      const bool suits = guess.is_written ? listed.access != Access::read : listed.access == Access::read;
+      if (suits && lower(listed.name).find(word) != std::string::npos) return &listed;
+    }
+  }
+  return nullptr;
+}
+
+std::string guessed(const std::vector<ListedRegister>& registers, const Guess& guess) {
+  const ListedRegister* const likely = find_likely(registers, guess);
+  if (likely == nullptr) return std::string(guess.otherwise);
+  return likely->name + (likely->type == Type::bit ? "" : std::string(guess.behind));
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
+  return text;
+}
+
+/// As a scalar of YAML, whatever is in it.
+std::string quoted_yaml(const std::string& text) {
+  const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+  }) && text.front() != '-';
+  if (is_plain) return text;
+  std::string made = "'";
+  for (const char c : text) made += c == '\'' ? "''" : std::string(1, c);
+  return made + "'";
+}
+
+}  // namespace
+
+std::vector<ListedRegister> read_list_file(const std::string& text, const std::string& path) {
+  world::Complaints complaints;
+  std::vector<ListedRegister> registers;
+  complaints.demand([&] { registers = read_register_list(text, {.file = path}, complaints); });
+  return registers;
+}
+
+std::string starter_model(const std::vector<ListedRegister>& registers, const std::string& name,
+                          const std::string& list_path) {
+  const bool has_pairs = std::any_of(registers.begin(), registers.end(),
+                                     [](const auto& listed) { return is_32_bit(listed.type); });
+  std::string text =
+      "# A model made of a list of registers. As it stands it stores what hosts write, within the ranges of "
+      "the\n"
+      "# list. docs/import.md has all keys; `understudy check` says what is wrong with them.\n"
+      "understudy: 1\n"
+      "model: " +
+      name +
+      "\n"
+      "title: a controller of one's own\n"
+      "registers: " +
+      quoted_yaml(list_path) +
+      "\n"
+      "line:\n"
+      "  baud: [19200, 9600]  # the factory's first\n"
+      "  parity: none\n"
+      "  stop_bits: 1\n"
+      "  stations: [1, 247]\n"
+      "map:\n"
+      "  out_of_range: refused  # or clamped, stored\n"
+      "  holes: refused         # or zero\n";
+  if (has_pairs) text += "  first_word: high       # of 32 bits; or low\n";
+  text +=
+      "\n"
+      "# An axis that moves: take the marks away, and put in the registers that are meant.\n"
+      "#axes:\n"
+      "#  A:\n";
+  for (const Guess& guess : kGuesses) {
+    text += padded("#    " + std::string(guess.key) + ": " + guessed(registers, guess), 44) + "  # " +
+            std::string(guess.meaning) + "\n";
+  }
+  text +=
+      "\n"
+      "# A value that comes after another one, as a temperature after its setpoint.\n"
+      "#follows:\n"
+      "#  TEMPERATURE: { of: SETPOINT, time_constant: 30s }\n";
+  return text;
+}
+
+std::string starter_bench(const std::string& name, const std::string& model_path) {
+  return "understudy: 1\n"
+         "lines:\n"
+         "  line:\n"
+         "    link: ./" +
+         name +
+         ".port\n"
+         "    stations:\n"
+         "      - { name: " +
+         name + ", model: " + quoted_yaml(model_path) + ", address: 1 }\n";
+}
+
+}  // namespace understudy::emulator::model_file

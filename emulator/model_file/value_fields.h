@@ -1,0 +1,26 @@
+// What a model file says of terminals, and of values without an axis.
+#pragma once
+
+#include "emulator/model_file/binder.h"
+#include "emulator/models/imported/description.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::model_file {
+
+/// `inputs`, or behind them `outputs`. All that is wrong is kept, as by the others.
+void read_terminals(const world::YamlFields& fields, bool are_inputs, models::imported::Description& made,
+                    Binder& binder, world::Complaints& complaints);
+void read_followings(const world::YamlFields& fields, models::imported::Description& made, Binder& binder,
+                     world::Complaints& complaints);
+void read_comparisons(const world::YamlFields& fields, models::imported::Description& made, Binder& binder,
+                      world::Complaints& complaints);
+void read_momentary(const world::YamlFields& field, models::imported::Description& made, const Binder& binder,
+                    world::Complaints& complaints);
+
+/// Reports what only the whole can tell: commands in registers that show something else, relations of
+/// relations, and the like.
+void check_bindings(const world::YamlFields& root, const models::imported::Description& made,
+                    world::Complaints& complaints);
+
+}  // namespace understudy::emulator::model_file

@@ -1,0 +1,138 @@
+// A described controller: registers, axes that are bound to them, values that follow others. Its state is one
+// value; what it is bound to is its model's (model.h).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
+#include "emulator/device/memory/eeprom.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/terminals.h"
+#include "emulator/models/imported/axis_drive.h"
+#include "emulator/models/imported/description.h"
+
+namespace understudy::emulator::models::imported {
+
+class ImportedModel;
+struct ShownPart;
+
+struct State {
+  bool touched = true;  // what hosts hold, or an input, may have changed since motion looked
+  std::vector<std::uint32_t> image{};
+  std::vector<std::uint8_t>
+      held{};  // by axis and command: whether its condition held when it was last looked at
+  std::vector<AxisState> axes{};
+  std::vector<double> followed{};  // by following: its value, in counts
+  Eeprom eeprom{};
+
+  bool operator==(const State&) const = default;
+};
+
+class ImportedDevice final : public DeviceOf<ImportedDevice>,
+                             public RegisterBankOf<ImportedDevice>,
+                             public ModbusStation,
+                             public KeptMemory,
+                             public Terminals,
+                             public Axes {
+ public:
+  /// The model must outlive it.
+  ImportedDevice(const ImportedModel& model, const DeviceSettings& settings);
+
+  // --- registers -----------------------------------------------------------------------------
+  std::span<std::uint32_t> image() override { return state_.image; }
+  std::span<const std::uint32_t> image() const override { return state_.image; }
+  DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override;
+  void register_written(const RegisterRow& row, std::size_t slot) override;
+  void registers_written() override;
+  void mention_unmodelled(const RegisterRow& row) const override {
+    Device::mention_unmodelled(row.name, row.unmodelled);
+  }
+  /// What a register holds at this moment, as its type has it.
+  Value value_of_register(std::size_t number) const;
+  Value value_at(const Spot& spot) const;
+  void write_view(std::size_t number, Value value);
+
+  // --- the line --------------------------------------------------------------------------------
+  Addressing addressing(std::uint8_t address) const override;
+  pty::SimTime end_silence(pty::SimTime usual) const override;
+
+  // --- memory ----------------------------------------------------------------------------------
+  std::uint64_t kept_revision() const override { return state_.eeprom.revision(); }
+  void settle_memory() override { state_.eeprom.settle(state_.image); }
+
+  // --- time ------------------------------------------------------------------------------------
+  void sample_inputs(Tick tick) override;
+  void step_motion(Tick tick) override;
+  void update_outputs(Tick tick) override;
+  Tick next_active_tick(Tick done) const override;
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
+  void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
+  bool same_state(const Device& other) const override;
+
+  // --- terminals and axes -------------------------------------------------------------------------
+  bool output(int terminal) const override;
+  std::int64_t pulses_this_tick(int axis) const override { return at(axis).sent_pulses; }
+  double speed_pps(int axis) const override { return imported::speed_pps(at(axis), now()); }
+  void connect_encoder(int axis, std::int64_t counts) override { set_encoder(axis, counts); }
+  void set_encoder(int axis, std::int64_t counts) override { at(axis).encoder_counts = counts; }
+  bool meets_edges() const override { return true; }
+  std::int64_t place_pulses(int axis) const override { return at(axis).motor.travel_pulses; }
+  void set_edges(int axis, const MachineEdges& edges) override;
+
+ protected:
+  void power_up() override;
+  void power_down() override;
+  void write_own_state(StateWriter& writer) const override;
+  std::function<void()> read_own_state(StateReader& reader) override;
+  std::string own_difference(StateReader& a, StateReader& b) const override;
+  std::function<void(NvImage&)> memory_writer() const override;
+  void read_memory(const NvImage& image) override;
+
+ private:
+  const Description& its() const;
+  AxisState& at(int axis) { return state_.axes[static_cast<std::size_t>(axis)]; }
+  const AxisState& at(int axis) const { return state_.axes[static_cast<std::size_t>(axis)]; }
+  State state_at_power_up() const;
+
+  Value value_of_part(const ShownPart& part, Type type) const;
+  Value value_of_view(std::size_t axis, View view, Type type) const;
+  bool holds(const Comparison& comparison) const;
+  double counts_of(const Quantity& quantity) const;
+  double goal_of(const Following& following) const;
+
+  bool holds_now(const Condition& condition) const { return condition.matches(value_at(condition.spot)); }
+  bool is_given(const Condition& condition, bool was_held) const;
+  void look_at_commands();
+  void steer_axes(Tick done);
+  template <typename Act>
+  void attempt(std::size_t axis, Act act);
+  void look_round(std::size_t axis);
+  void finish_step(std::size_t axis, std::int64_t pulses);
+  bool is_quiet(const AxisState& axis) const;
+  Tick next_tick_of_values(Tick done) const;
+  void renew_followed(Tick tick);
+
+  const ImportedModel& model_;
+  const CountsOf counts_of_ = [this](const Quantity& quantity) { return counts_of(quantity); };
+  State state_;
+  std::vector<MachineEdges> edges_;   // not state: they are told again
+  std::vector<std::size_t> written_;  // by the request that is being served: registers' slots
+  std::vector<double> shares_;        // by following: of the way, in one period
+};
+
+/// The reader and the effect of every row that shows something (Cell::argument: its number in the list).
+Value read_shown(const ImportedDevice& device, Cell cell);
+void write_shown(ImportedDevice& device, Cell cell, Value value);
+
+}  // namespace understudy::emulator::models::imported

@@ -1,0 +1,94 @@
+// What a described controller keeps without power, and its state as bytes.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/state/difference.h"
+#include "base/state/state_bytes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/register_memory.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/models/imported/device.h"
+#include "emulator/models/imported/model.h"
+#include "emulator/models/imported/state_fields.h"
+
+namespace understudy::emulator::models::imported {
+
+void ImportedDevice::write_own_state(StateWriter& writer) const { writer.write(state_); }
+
+std::function<void()> ImportedDevice::read_own_state(StateReader& reader) {
+  const auto restored = std::make_shared<State>();
+  reader.read(*restored);
+  demand_state(restored->image.size() == state_.image.size(), "the image has another size");
+  demand_state(restored->held.size() == state_.held.size(), "there are other commands");
+  demand_state(restored->axes.size() == state_.axes.size(), "there are other axes");
+  demand_state(restored->followed.size() == state_.followed.size(), "other values follow");
+  for (const double value : restored->followed) demand_state(std::isfinite(value), "a value is not a number");
+  for (const AxisState& axis : restored->axes) {
+    demand_state(std::isfinite(axis.run_pps) && axis.run_pps >= 0, "a speed is not one");
+    demand_state(axis.wanted_way >= -1 && axis.wanted_way <= 1, "a way is neither forward nor backward");
+  }
+  restored->eeprom.check_restored(state_.eeprom);
+  return [this, restored] { state_ = *restored; };
+}
+
+std::string ImportedDevice::own_difference(StateReader& a, StateReader& b) const {
+  return difference_of_saved<State>(a, b);
+}
+
+bool ImportedDevice::same_state(const Device& other) const {
+  const auto* const that = dynamic_cast<const ImportedDevice*>(&other);
+  return that != nullptr && &that->model_ == &model_ && that->now() == now() && that->state_ == state_;
+}
+
+std::function<void(NvImage&)> ImportedDevice::memory_writer() const {
+  return registers_writer(*this, state_.eeprom.kept());
+}
+
+void ImportedDevice::read_memory(const NvImage& image) {
+  const std::vector<std::uint32_t> values = read_registers(*this, image, firmware());
+  for (std::size_t slot = 0; slot < values.size(); ++slot) state_.eeprom.put(slot, values[slot]);
+}
+
+State ImportedDevice::state_at_power_up() const {
+  State made;
+  made.eeprom = state_.eeprom;
+  std::size_t slot = 0;
+  for (const RegisterRow& row : map().rows()) {
+    if (row.is_view) continue;
+    made.image.push_back(row.persistent ? made.eeprom.kept()[slot] : static_cast<std::uint32_t>(row.factory));
+    ++slot;
+  }
+  made.held.assign(its().axes.size() * kCommands, 0);
+  made.axes.resize(its().axes.size());
+  for (std::size_t i = 0; i < made.axes.size(); ++i) {
+    motion::Axis& motor = made.axes[i].motor;
+    motor.settings.needs_servo = its().axes[i].command(Command::enable).has_value();
+    motor.servo_on = !motor.settings.needs_servo;
+    if (i < state_.axes.size())
+      made.axes[i].encoder_counts = state_.axes[i].encoder_counts;  // of the machine
+  }
+  for (const Following& following : its().followings) {
+    const ListedRegister& listed = its().registers[following.spot.number];
+    made.followed.push_back(listed.type == Type::f32 ? double{real_of(listed.factory)}
+                                                     : static_cast<double>(listed.factory));
+  }
+  return made;
+}
+
+void ImportedDevice::power_up() {
+  state_ = state_at_power_up();
+  look_at_commands();
+}
+
+void ImportedDevice::power_down() {
+  state_.eeprom.lose_power();
+  state_ = state_at_power_up();
+}
+
+}  // namespace understudy::emulator::models::imported

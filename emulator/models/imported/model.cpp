@@ -1,0 +1,136 @@
+#include "emulator/models/imported/model.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "emulator/device/device.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/imported/description.h"
+#include "emulator/models/imported/device.h"
+#include "emulator/models/imported/shown.h"
+
+namespace understudy::emulator::models::imported {
+
+namespace {
+
+constexpr std::array<Firmware, 1> kFirmwares{100};
+
+constexpr std::array<std::string_view, 1> kGaps{
+    "It is what a file describes: registers that nothing is bound to only store what is written.",
+};
+
+constexpr std::size_t kMostStateRegisters = 12;
+
+}  // namespace
+
+std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers,
+                                    std::vector<std::vector<BitField>>& fields) {
+  std::vector<RegisterRow> rows;
+  rows.reserve(registers.size());
+  fields.resize(registers.size());
+  for (std::size_t i = 0; i < registers.size(); ++i) {
+    const ListedRegister& listed = registers[i];
+    RegisterRow row = reg(listed.table, listed.address, listed.name, listed.type, listed.access);
+    if (listed.ranged) row.range(listed.least, listed.most);
+    row.in(listed.unit).from_factory(listed.factory);
+    if (listed.persistent) row.kept_at_once();
+    for (const BitName& name : listed.bits) fields[i].push_back(bits(name.bit, name.name, name.width));
+    row.with_bits(fields[i]);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<RegisterRow> ImportedModel::bound_rows() {
+  std::vector<RegisterRow> rows = plain_rows(description_.registers, fields_);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    RegisterRow& row = rows[i];
+    row.argument = static_cast<int>(i);
+    if (shown_[i].empty() || row.access == Access::write) continue;
+    row.reads<read_shown>(static_cast<int>(i));
+    row.is_view = shown_[i].front().spot.is_whole();
+    if (row.is_view && row.access != Access::read) row.does<write_shown>(static_cast<int>(i));
+  }
+  return rows;
+}
+
+ImportedModel::ImportedModel(Description description)
+    : description_(std::move(description)),
+      shown_(shown_parts(description_)),
+      map_(bound_rows(), description_.policy),
+      model_(made_model()) {
+  for (const RegisterRow& row : map_.rows()) {
+    slots_.push_back(
+        map_.at(row.table, row.address, kFirmwares.back(), description_.policy.low_word_first).slot);
+  }
+}
+
+Model ImportedModel::made_model() {
+  const Line& line = description_.line;
+  ports_ = {{.kind = PortRow::Kind::rs485,
+             .name = "RS485",
+             .bauds = line.bauds,
+             .settings = {.data_bits = 8, .parity = line.parity, .stop_bits = line.stop_bits}}};
+  pty::LineSettings factory = ports_.front().settings;
+  factory.baud = line.bauds.front();
+  for (const Terminal& terminal : description_.terminals) {
+    const bool is_number = terminal.is_input && terminal.spot && terminal.spot->is_whole() &&
+                           type_of(terminal.spot->number) != Type::bit;
+    TerminalRow row{.kind = is_number           ? TerminalRow::Kind::analog_number
+                            : terminal.is_input ? TerminalRow::Kind::digital_in
+                                                : TerminalRow::Kind::digital_out,
+                    .name = terminal.name};
+    if (is_number) {
+      const TypeLimits limits = limits_of(type_of(terminal.spot->number));
+      row.lowest = static_cast<std::int32_t>(std::max<Value>(limits.lowest, INT32_MIN));
+      row.highest = static_cast<std::int32_t>(std::min<Value>(limits.highest, INT32_MAX));
+    }
+    terminals_.push_back(row);
+  }
+  for (const AxisBinding& axis : description_.axes) {
+    axes_.push_back({.name = axis.name,
+                     .upper_limit_input = axis.upper_limit_input,
+                     .lower_limit_input = axis.lower_limit_input,
+                     .home_input = axis.home_input,
+                     .alarm_input = axis.alarm_input,
+                     .pulses_per_revolution = axis.pulses_per_revolution});
+  }
+  // What is bound to something shows best what it is doing.
+  for (std::size_t i = 0; i < shown_.size() && state_names_.size() < kMostStateRegisters; ++i) {
+    const RegisterRow& row = map_.rows()[i];
+    if (!shown_[i].empty() && row.access != Access::write) state_names_.push_back(map_.unique_name(row, 0));
+  }
+  state_registers_.assign(state_names_.begin(), state_names_.end());
+  return Model{.name = description_.name,
+               .title = description_.title,
+               .firmwares = kFirmwares,
+               .registers = &map_,
+               .choices = {},
+               .terminals = terminals_,
+               .axes = axes_,
+               .state_registers = state_registers_,
+               .gaps = kGaps,
+               .line = {.protocol = kModbusRtu,
+                        .ports = ports_,
+                        .station_numbers = StationNumbers{.lowest = line.lowest_station,
+                                                          .highest = line.highest_station,
+                                                          .kept_in = line.station_in}},
+               .rtu = RtuRules{.end_silence = line.silence.value_or(standard_silence(factory)),
+                               .functions = line.functions,
+                               .limits = line.limits},
+               .description = description_.text,
+               .make = [this](const DeviceSettings& settings) -> std::unique_ptr<Device> {
+                 return std::make_unique<ImportedDevice>(*this, settings);
+               }};
+}
+
+}  // namespace understudy::emulator::models::imported
