@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/state/difference.h"
+#include "base/state/state_error.h"
+#include "motion/state_fields.h"
 #include "tests/motion/state_samples.h"
 
 namespace understudy::motion {
@@ -128,6 +131,39 @@ TEST(PathRunState, ThatStandsByAnOverrideOfNothingIsTakenBack) {
   PathRun restored;
   restore(restored, save(run));
   EXPECT_EQ(hash(restored), hash(run));
+}
+
+/// The first byte of a field in what is saved of a run.
+std::size_t place_of(const std::string& field) {
+  const std::vector<std::byte> bytes = save(PathRun{});
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    std::vector<std::byte> changed = bytes;
+    changed[i] ^= std::byte{1};
+    StateReader before(bytes);
+    StateReader after(changed);
+    try {
+      if (difference_of_saved<PathRun>(before, after).starts_with(field + ":")) return i;
+    } catch (const StateError&) {
+    }
+  }
+  throw std::logic_error("no field is called " + field);
+}
+
+TEST(PathRunState, WhoseNumbersContradictEachOtherIsRefused) {
+  const struct {
+    const char* field;
+    int value;
+    bool is_good;
+  } cases[] = {{"head", PathRun::kMaxPaths - 1, true},
+               {"head", PathRun::kMaxPaths, false},
+               {"count", PathRun::kMaxPaths, true},
+               {"count", PathRun::kMaxPaths + 1, false},
+               {"chain_count", 1, false}};
+  for (const auto& [field, value, is_good] : cases) {
+    std::vector<std::byte> bytes = save(PathRun{});
+    bytes[place_of(field)] = static_cast<std::byte>(value);
+    EXPECT_NE(refuses(PathRun{}, bytes), is_good) << field << " " << value;
+  }
 }
 
 TEST(StateBytes, AreTheSameOnEveryMachine) {
