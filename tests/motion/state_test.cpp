@@ -133,9 +133,16 @@ TEST(PathRunState, ThatStandsByAnOverrideOfNothingIsTakenBack) {
   EXPECT_EQ(hash(restored), hash(run));
 }
 
-/// The first byte of a field in what is saved of a run.
+/// Of a run that waits with one path.
+std::vector<std::byte> saved_run() {
+  PathRun run;
+  run.append(line(Point::Zero(), Point(1000, 0, 0, 0)), {}, 0);
+  return save(run);
+}
+
+/// The first byte of a field in that.
 std::size_t place_of(const std::string& field) {
-  const std::vector<std::byte> bytes = save(PathRun{});
+  const std::vector<std::byte> bytes = saved_run();
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     std::vector<std::byte> changed = bytes;
     changed[i] ^= std::byte{1};
@@ -158,9 +165,10 @@ TEST(PathRunState, WhoseNumbersContradictEachOtherIsRefused) {
                {"head", PathRun::kMaxPaths, false},
                {"count", PathRun::kMaxPaths, true},
                {"count", PathRun::kMaxPaths + 1, false},
-               {"chain_count", 1, false}};
+               {"chain_count", 1, true},
+               {"chain_count", 2, false}};
   for (const auto& [field, value, is_good] : cases) {
-    std::vector<std::byte> bytes = save(PathRun{});
+    std::vector<std::byte> bytes = saved_run();
     bytes[place_of(field)] = static_cast<std::byte>(value);
     EXPECT_NE(refuses(PathRun{}, bytes), is_good) << field << " " << value;
   }
