@@ -159,17 +159,22 @@ std::size_t place_of(const std::string& field) {
 TEST(PathRunState, WhoseNumbersContradictEachOtherIsRefused) {
   const struct {
     const char* field;
-    int value;
+    std::int64_t value;
     bool is_good;
   } cases[] = {{"head", PathRun::kMaxPaths - 1, true},
                {"head", PathRun::kMaxPaths, false},
                {"count", PathRun::kMaxPaths, true},
                {"count", PathRun::kMaxPaths + 1, false},
                {"chain_count", 1, true},
-               {"chain_count", 2, false}};
+               {"chain_count", 2, false},
+               {"begin_tick", Tick{1} << 56, true},
+               {"begin_tick", (Tick{1} << 56) + 1, false},
+               {"begin_tick", -(Tick{1} << 56), true},
+               {"begin_tick", -(Tick{1} << 56) - 1, false}};
   for (const auto& [field, value, is_good] : cases) {
     std::vector<std::byte> bytes = saved_run();
-    bytes[place_of(field)] = static_cast<std::byte>(value);
+    const std::size_t place = place_of(field);
+    for (std::size_t i = 0; i < sizeof value; ++i) bytes[place + i] = static_cast<std::byte>(value >> 8 * i);
     EXPECT_NE(refuses(PathRun{}, bytes), is_good) << field << " " << value;
   }
 }
