@@ -324,7 +324,7 @@ const Point& PathRun::step(Tick tick, Stretch* gone) {
   if (chain_count_ == 0) return last_place_;
   const double elapsed_s = seconds(tick - begin_tick_);
   const bool over = elapsed_s * kTicksPerSecond >= profile_.duration_s * kTicksPerSecond - kTickTolerance;
-  const double along_u = over ? profile_.end_position_u : profile_.position_at(elapsed_s);
+  const double along_u = over ? profile_.end_position_u : profile_.sample(elapsed_s).position_u;
   if (!over || along_u < chain_end_u_) {
     go_to(along_u);
     if (gone != nullptr) {

@@ -44,10 +44,16 @@ constexpr double pulse_tolerance(double distance_u) {
 }
 
 /// Where `segment` is `t_s` after its own beginning.
-Sample sample_segment(const Segment& segment, double t_s);
-inline double position_in_segment(const Segment& segment, double t_s) {
-  return segment.position_u + t_s * (segment.speed_u_s + t_s * (0.5 * segment.acceleration_u_s2 +
-                                                                t_s * (segment.jerk_u_s3 * (1.0 / 6.0))));
+inline Sample sample_segment(const Segment& segment, double t_s) {
+  const double half_jerk = 0.5 * segment.jerk_u_s3;
+  return {
+      .position_u = segment.position_u +
+                    t_s * (segment.speed_u_s +
+                           t_s * (0.5 * segment.acceleration_u_s2 + t_s * (segment.jerk_u_s3 * (1.0 / 6.0)))),
+      .speed_u_s = segment.speed_u_s + t_s * (segment.acceleration_u_s2 + t_s * half_jerk),
+      .acceleration_u_s2 = segment.acceleration_u_s2 + t_s * segment.jerk_u_s3,
+      .jerk_u_s3 = segment.jerk_u_s3,
+  };
 }
 
 /// A default-made profile is a move of no distance and no duration.
@@ -79,18 +85,17 @@ struct Profile {
 
   /// t_s < 0 gives the beginning, t_s >= duration_s exactly the end, at rest.
   Sample sample(double t_s) const;
-  /// The place alone, to the bit as sample() has it: all that a path's tick needs.
-  double position_at(double t_s) const;
 
   bool endless() const;
 };
 
-inline double Profile::position_at(double t_s) const {
-  if (segment_count == 0 || t_s >= duration_s) return end_position_u;
-  if (t_s <= 0) return position_in_segment(segments[0], 0);
+// Here, so that whoever needs the place alone, as each tick of a path does, does not pay for the rest.
+inline Sample Profile::sample(double t_s) const {
+  if (segment_count == 0 || t_s >= duration_s) return {.position_u = end_position_u};
+  if (t_s <= 0) return sample_segment(segments[0], 0);
   auto i = static_cast<std::size_t>(segment_count - 1);
   while (i > 0 && t_s < segments[i].begin_s) --i;
-  return position_in_segment(segments[i], t_s - segments[i].begin_s);
+  return sample_segment(segments[i], t_s - segments[i].begin_s);
 }
 
 /// The moment in [from_s, to_s] at which the profile first is at or beyond `position_u`, to the last bit;

@@ -174,26 +174,6 @@ TEST(Profile, TheMomentOfAPositionIsFoundToTheLastBit) {
   EXPECT_NEAR(time_of(profile, 12.5, -1, 3), 0.5, 1e-15) << "from before the beginning";
 }
 
-TEST(Profile, ThePlaceAloneIsTheSampledOneToTheBit) {
-  Profile bent = Profile::from(0.3);
-  bent.append(0.7, 0.1, 0, 3.3);
-  bent.append(1.9, 7.7, -0.3, 0.1);
-  bent.append(0.4, 3.1, -0.7, -2.3);
-  bent.end_exactly_at(bent.end_position_u + 1e-9);
-  Profile endless = Profile::from(7);
-  endless.append(1.1, 0, 9.1, 0);
-  endless.append(kForEver, 9.1 * 1.1, 0, 0);
-  for (const Profile& profile : {trapezoid(), bent, endless, Profile::from(5)}) {
-    for (double t_s = -0.5; t_s < 5; t_s += 0.00371) {
-      ASSERT_EQ(profile.position_at(t_s), profile.sample(t_s).position_u) << t_s;
-    }
-    for (const Segment& segment : profile.segments) {
-      EXPECT_EQ(profile.position_at(segment.begin_s), profile.sample(segment.begin_s).position_u);
-    }
-    EXPECT_EQ(profile.position_at(profile.duration_s), profile.end_position_u);
-  }
-}
-
 TEST(Profile, TheMomentOfAPositionIsFoundOnAWayDownToo) {
   Profile back = Profile::from(100);
   back.append(10, -10, 0, 0);

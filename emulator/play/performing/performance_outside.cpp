@@ -177,8 +177,10 @@ void Performance::perform(const ProgramStep& step) {
 }
 
 void Performance::perform(const MemoryStep& step) {
-  NvImage present;
-  stage_->with_world([&](world::World& world) { present = world.device(step.device).memory()->nv_image(); });
+  // The image is made here, not on the world's thread: that takes time where a memory is big.
+  LateImage kept;
+  stage_->with_world([&](world::World& world) { kept = world.device(step.device).memory()->kept_now(); });
+  const NvImage present = kept();
   if (step.what == MemoryStep::What::save) {
     std::string why = why_not_replaceable_by_image(step.file);
     if (why.empty()) why = replace_text_file(step.file, to_json(present));
