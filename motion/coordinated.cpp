@@ -118,6 +118,48 @@ Coordinated::Stopped Coordinated::first_stopped(const Targets& target, const Pat
   return stopped;
 }
 
+/// If an axis meets on its way what it has to slow down for, the path does so from that place on.
+void Coordinated::slow_within(Targets& target, PathRun::Stretch& gone, Tick tick, std::span<const Axis> axes,
+                              std::span<const Surroundings> here) {
+  if (slowing_for != Cause::none || run.paused() || gone.chain_is_over) return;
+  const double from_u = run.began_at(gone, tick);
+  double first_u = gone.to_u;
+  Cause why = Cause::none;
+  for (std::size_t i = 0; i < axis_of.size(); ++i) {
+    const auto number = static_cast<std::size_t>(axis_of[i]);
+    if (axis_of[i] < 0 || number >= axes.size()) continue;
+    const Axis& axis = axes[number];
+    if (axis.task != Task::coordinated || axis.slowing) continue;
+    const std::int64_t all = target[i] - axis.travel_pulses;
+    const auto slows_by = [&](std::int64_t pulses) {
+      Axis tried = axis;
+      tried.carry(pulses, tick, here[number]);
+      return tried.task == Task::coordinated && tried.slowing ? tried.cause : Cause::none;
+    };
+    const Cause its = slows_by(all);
+    if (its == Cause::none) continue;
+    std::int64_t least = 0;  // the first of its pulses by which it slows down
+    for (std::int64_t most = all; least != most;) {
+      const std::int64_t middle = least + (most - least) / 2;
+      if (slows_by(middle) != Cause::none) {
+        most = middle;
+      } else {
+        least = middle + (all < 0 ? -1 : +1);
+      }
+    }
+    const double along_u = along_where(i, axis.travel_pulses + least, axis.travel_pulses, gone, from_u);
+    if (why != Cause::none && along_u >= first_u) continue;
+    first_u = along_u;
+    why = its;
+  }
+  if (why == Cause::none || !run.pause_within(tick, first_u, gone)) return;
+  slowing_for = why;
+  const Point place = run.place_on(gone, gone.to_u);
+  for (std::size_t i = 0; i < axis_of.size(); ++i) {
+    if (axis_of[i] >= 0) target[i] = travel_at(i, place[static_cast<Eigen::Index>(i)]);
+  }
+}
+
 /// Takes each axis to its target and gives what ended the motion of one, or Cause::none.
 Cause Coordinated::carry(Targets target, const PathRun::Stretch& gone, Tick tick, std::span<Axis> axes,
                          std::span<const Surroundings> here, std::span<std::int64_t> pulses) {
@@ -168,6 +210,7 @@ void Coordinated::step(Tick tick, std::span<Axis> axes, std::span<const Surround
       pulses[static_cast<std::size_t>(axis_of[i])] += axis->carry_across(target[i] - axis->travel_pulses);
     }
   } else {
+    slow_within(target, gone, tick, axes, here);
     ended_by = carry(target, gone, tick, axes, here, pulses);
   }
   if (ended_by != Cause::none) {

@@ -40,7 +40,7 @@ struct Coordinated {
   /// to, signed as they come out) go with `axes`. When one is stopped, for whatever reason, all stop where
   /// they are, and the rest is abandoned; when the queue has run empty at rest, they are let go (unless the
   /// owner keeps them with `stays_engaged`). One that is stopped by what it meets within the tick stops the
-  /// others at that place of the path.
+  /// others at that place of the path; one that is to slow down slows all of them from there on.
   void step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
             std::span<std::int64_t> pulses, bool stays_engaged = false);
 
@@ -63,6 +63,8 @@ struct Coordinated {
                         std::span<const Axis> axes, std::span<const Surroundings> here) const;
   Cause carry(Targets target, const PathRun::Stretch& gone, Tick tick, std::span<Axis> axes,
               std::span<const Surroundings> here, std::span<std::int64_t> pulses);
+  void slow_within(Targets& target, PathRun::Stretch& gone, Tick tick, std::span<const Axis> axes,
+                   std::span<const Surroundings> here);
   double along_where(std::size_t i, std::int64_t travel, std::int64_t from_travel,
                      const PathRun::Stretch& gone, double from_u) const;
 };

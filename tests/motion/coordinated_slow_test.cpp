@@ -51,8 +51,8 @@ TEST(CoordinatedSlow, ALimitThatSlowsDownSlowsThePathAndKeepsItsShape) {
   }
   EXPECT_EQ(group.group.cause, Cause::limit_plus);
   EXPECT_EQ(group.axes[0].cause, Cause::limit_plus);
-  // 5000 units of path on, so 3000 of X, from the end of the tick in which the edge was met (60 of X).
-  EXPECT_NEAR(static_cast<double>(group.axes[0].travel_pulses), 15'030, 32);
+  // 5000 units of path on, so 3000 of X, from the pulse of the edge.
+  EXPECT_NEAR(static_cast<double>(group.axes[0].travel_pulses), 15'000, 1);
   EXPECT_EQ(group.group.run.queued(), 0U);
 }
 
