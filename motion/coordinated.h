@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "motion/axis.h"
@@ -59,14 +60,24 @@ struct Coordinated {
  private:
   struct Stopped;
   using Targets = std::array<std::int64_t, kPathAxes>;  // the travel of each coordinate's axis
-  Stopped first_stopped(const Targets& target, const PathRun::Stretch& gone, Tick tick,
-                        std::span<const Axis> axes, std::span<const Surroundings> here) const;
+  /// Where an axis has turned round within the tick, beyond where it began and where it ends.
+  struct Excursion {
+    std::int64_t travel = 0;
+    double along_u = 0;
+  };
+  using Excursions = std::array<std::optional<Excursion>, kPathAxes>;
+  Excursions excursions(const Targets& target, const PathRun::Stretch& gone, Tick tick,
+                        std::span<const Axis> axes) const;
+  bool comes_back(const Targets& target, const PathRun::Stretch& gone, Tick tick,
+                  std::span<const Axis> axes) const;
+  Stopped first_stopped(const Targets& target, const Excursions& beyond, const PathRun::Stretch& gone,
+                        Tick tick, std::span<const Axis> axes, std::span<const Surroundings> here) const;
   Cause carry(Targets target, const PathRun::Stretch& gone, Tick tick, std::span<Axis> axes,
               std::span<const Surroundings> here, std::span<std::int64_t> pulses);
   void slow_within(Targets& target, PathRun::Stretch& gone, Tick tick, std::span<const Axis> axes,
                    std::span<const Surroundings> here);
   double along_where(std::size_t i, std::int64_t travel, std::int64_t from_travel,
-                     const PathRun::Stretch& gone, double from_u) const;
+                     const PathRun::Stretch& gone, double from_u, double to_u) const;
 };
 
 }  // namespace understudy::motion

@@ -114,6 +114,8 @@ class PathRun {
   /// a length along the chain between there and `to_u`.
   double began_at(const Stretch& gone, Tick tick) const;
   Point place_on(const Stretch& gone, double along_u) const;
+  /// Whether it may have turned round in a coordinate: on an arc.
+  bool bends(const Stretch& gone) const { return pieces_[gone.last_piece].path.kind != Path::Kind::line; }
   /// Pauses from a length along the chain on that lies within the tick just stepped, which ends accordingly.
   /// False, and nothing has changed, where that is paused already, or has come into another path since.
   bool pause_within(Tick tick, double along_u, Stretch& gone);

@@ -29,9 +29,7 @@ constexpr std::array<std::string_view, 4> kGaps{
     "Comparators meet COUNTER1 to the pulse by methods 1, 4, 5 and as soft limits, four of them at once; by "
     "other "
     "numbers, and by methods 2 and 3, they stop an axis when the tick is over.",
-    "An axis that goes out and back within one tick, at the turn of an arc or behind the hand-wheel, does "
-    "not "
-    "see an edge beyond.",
+    "Behind the hand-wheel an axis goes by what it has turned in a tick: out and back within one is nothing.",
     "The chip's CSTA, CSTP, PCS, SD and DR are not brought out, nor are, but for the choice `pins_fitted`, "
     "its ERC, CLR and LTC.",
     "The user table and the direct command of D8020, which the manual leaves unfinished, are plain storage "
