@@ -37,7 +37,9 @@ StepPrograms::Slice StepPrograms::set_mode(Area area, const Instruction& line) {
     if (!is_empty(values)) machine_.set_positions({values, line.op == Op::mset});
   } else if (line.op == Op::rpm) {
     const AxisValues values = values_of(area, line);
-    for (std::size_t i = 0; i < values.size(); ++i) program.rpm[i] = values[i].value_or(program.rpm[i]);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (sets_speed(values[i], options_)) program.rpm[i] = *values[i];
+    }
   } else if (line.op == Op::absc || line.op == Op::incc) {
     program.targets = line.op == Op::absc ? Targets::absolute : Targets::relative;
   } else if (line.op == Op::chk) {

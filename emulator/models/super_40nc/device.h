@@ -192,6 +192,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool begin_turning(int axis_number, std::int32_t rpm, Mover mover);
   void change_turning(int axis_number, std::int32_t rpm, Mover mover);
   bool end_by_ramp(int axis_number, Mover mover);
+  void stop_by_command(int axis_number);
   void start_home(int axis_number, int order = 0);
   void start_wheel(int axis_number, WheelSource source);
   bool start_jog(int axis_number, int way, bool AxisState::*asked_by);

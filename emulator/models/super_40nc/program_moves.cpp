@@ -151,6 +151,19 @@ bool Super40nc::end_by_ramp(int axis_number, Mover mover) {
   return true;
 }
 
+/// STP, a STOP key, M8x02.
+void Super40nc::stop_by_command(int axis_number) {
+  if (!chose(option("stp_stops", "by_its_ramp")) || (is_on_path(axis_number) && state_.path_is_held)) {
+    return stop_axis(axis_number);
+  }
+  if (!end_by_ramp(axis_number, Mover::hand)) return;
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (number != axis_number && !(is_on_path(axis_number) && is_on_path(number))) continue;
+    axis(number).mover = Mover::hand;
+    axis(number).awaited = axis(number).shows_finish = false;
+  }
+}
+
 // ---- held, and on again
 
 void Super40nc::hold_axis(int axis_number) {
