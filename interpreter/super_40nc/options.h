@@ -85,6 +85,7 @@ struct Options {
   } empty_program = EmptyProgram::ends_silently;
   /// What loads F, plane, speeds and modes anew.
   enum class FreshStart : std::uint8_t { pointer_at_0, every_start } fresh_start = FreshStart::pointer_at_0;
+  bool marks_by_rpm = true;        // MRK, to its target; else by X14 alone
   bool contact_off_stops = false;  // M8x00 OFF, of an axis program; else it pauses
   bool start_begins_anew = false;  // STR, of a program that runs
   bool c3p_is_in_xy = false;       // whatever plane is set

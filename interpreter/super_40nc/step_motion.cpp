@@ -140,7 +140,11 @@ StepPrograms::Slice StepPrograms::move(Area area, const Instruction& line) {
   }
   if (line.op == Op::lin) return begin_motion(area, line, LinearMove{values, program.targets, feed()}, true);
   if (line.op == Op::mrk) {
-    return begin_motion(area, line, MarkSearch{values, program.targets, program.rpm}, true);
+    std::array<std::int32_t, kAxisCount> rpm = program.rpm;
+    for (int axis = 0; axis < kAxisCount && !options_.marks_by_rpm; ++axis) {
+      rpm[static_cast<std::size_t>(axis)] = machine_.rpm_at_power_up(axis);
+    }
+    return begin_motion(area, line, MarkSearch{values, program.targets, rpm}, true);
   }
   if (line.op == Op::hom) return begin_motion(area, line, HomeSearch{chosen_axes(values)}, true);
   if (line.op == Op::mpg) return begin_motion(area, line, WheelRatios{values}, false);

@@ -129,6 +129,7 @@ language::Options Super40nc::chosen_options() const {
   set(option("rpm_not_positive", "keeps_the_speed"), made.rpm_0_keeps_speed, true);
   set(option("axis_contact_off", "stops_the_program"), made.contact_off_stops, true);
   set(option("str_running", "begins_anew"), made.start_begins_anew, true);
+  set(option("mrk_speed", "by_x14_alone"), made.marks_by_rpm, false);
   set(option("mset", "refused_at_load"), made.knows_mset, false);
   return made;
 }

@@ -210,6 +210,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool is_stopped_by_emergency() const;
   /// Begins the signal Y0 + `signal`, or begins it anew.
   void show_finished(std::size_t signal);
+  /// Whether a line does so whose axes are there already.
+  bool finishes_without_motion() const { return !chose(option("fsh_without_motion", "do_not_come")); }
 
   /// A LIN or an arc, in the machine's coordinate.
   struct PathPlan {

@@ -55,7 +55,7 @@ bool Super40nc::begin_drive(int axis_number, std::int64_t target_lu, std::int32_
   if (distance == 0) {
     let_go(axis_number);
     state.has_ended = state.stands_on_target = true;
-    show_finished(static_cast<std::size_t>(axis_number));
+    if (finishes_without_motion()) show_finished(static_cast<std::size_t>(axis_number));
     return true;
   }
   state.shows_finish = true;

@@ -62,7 +62,7 @@ Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
                                  .feed_lu_per_s = feed,
                                  .mode = mode};
   if (plan.path.length_u <= 0) {
-    device_.show_finished(kPathSignal);
+    if (device_.finishes_without_motion()) device_.show_finished(kPathSignal);
     return Begun::done;
   }
   if (joins) {
