@@ -102,6 +102,47 @@ TEST(Super40ncPins, ErcComesBehindASuddenStop) {
   }
 }
 
+/// An alarm stops as D9x03 says, CEMG always at once; D9x04 is for both.
+TEST(Super40ncPins, ErcComesBehindAlarmsAndCemg) {
+  for (const char* const input : {"ALM_X", "CEMG"}) {
+    const bool is_alarm = input[0] == 'A';
+    for (const Value automatic : {0, 1}) {
+      for (const Value by_ramp : {0, 1}) {
+        OneSuper40nc one(with_pins({{"D9104", automatic}, {"D9103", by_ramp}, {"D9101", 1 - by_ramp}},
+                                   "AREA X\nRPM K100\nDRV K50000\nEND\n"));
+        one.set("M8100", 1);
+        one.run(100);
+        one.input(input, 1);
+        bool came = false;
+        for (int i = 0; i < 100; ++i) {
+          one.run(1);
+          came = came || one.output("ERC_X");
+        }
+        EXPECT_EQ(came, automatic == 1 && (!is_alarm || by_ramp == 0)) << input << automatic << by_ramp;
+        EXPECT_FALSE(one.output("ERC_Y")) << "Y stood";
+      }
+    }
+  }
+}
+
+/// D9x05: at the end of a home.
+TEST(Super40ncPins, ErcComesWhenHomeIsFound) {
+  for (const Value automatic : {0, 1}) {
+    OneSuper40nc one(with_pins({{"D9105", automatic}, {"D9121", 0}}));
+    one.run(3);
+    one.set("M8105", 1);
+    one.run(50);
+    one.input("X0", 1);
+    bool came = false;
+    for (int i = 0; i < 300; ++i) {
+      one.run(1);
+      came = came || one.output("ERC_X");
+    }
+    EXPECT_TRUE(one.on("M8195"));
+    EXPECT_EQ(came, automatic == 1);
+  }
+}
+
 TEST(Super40ncPins, WithoutThemNothingOfThemActs) {
   OneSuper40nc one({.set = {{"D9109", 2}, {"D9127", 15}, {"D9150", 0}}});
   one.run(3);

@@ -61,6 +61,18 @@ TEST(Super40ncUserTable, RunsItsLinesAndShowsWhich) {
   EXPECT_EQ(one.get("D8094"), 0);
 }
 
+TEST(Super40ncUserTable, CommandsReadTheirOwnDataAlone) {
+  OneSuper40nc one(chosen());
+  one.set("M9", 1);
+  put_line(one, 0, 9, {1001, 1002, 1003, 1004, 1005, 1006});
+  put_line(one, 1, 10, {1002, kUnset, kUnset, 1008, 1009});
+  put_line(one, 2, 7, {5, 7000});
+  one.set("D8020", 100);
+  one.run(20);
+  for (const char* const on : {"M1", "M3", "M4", "M9"}) EXPECT_TRUE(one.on(on)) << on;
+  for (const char* const off : {"M2", "M5", "M6", "M8", "M8000"}) EXPECT_FALSE(one.on(off)) << off;
+}
+
 TEST(Super40ncUserTable, LeavesTheProgramOfCAsItWas) {
   OneSuper40nc one(chosen("AREA C\nSET M7\nEND\n"));
   put_line(one, 0, 9, {1005});
