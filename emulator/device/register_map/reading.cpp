@@ -147,8 +147,9 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
       continue;
     }
     if (source.how == BitSource::How::reader) {
-      const Place its = bank.at(table, static_cast<std::uint16_t>(address), true);
-      put(i++, static_cast<std::uint32_t>(its.row->reader(bank, cell_of(its))));
+      const RegisterRow& row = bank.map().rows()[static_cast<std::size_t>(source.slot)];
+      const Cell cell{.argument = row.argument, .index = source.run, .axis = row.first_axis + source.run};
+      put(i++, static_cast<std::uint32_t>(row.reader(bank, cell)));
       continue;
     }
     Place place = bank.at(table, static_cast<std::uint16_t>(address), true);

@@ -103,7 +103,9 @@ void RegisterMap::find_bit_sources(TableIndex& table) const {
     if (!is_plain) continue;
     BitSource& source = table.bits[address];
     if (row.reader != nullptr) {
-      source.how = How::reader;
+      source = {.how = How::reader,
+                .run = static_cast<std::uint16_t>(entry.index_and_part / 2),
+                .slot = entry.row_number - 1};
     } else if (row.is_view) {
       source = {.how = How::constant, .slot = static_cast<std::int32_t>(row.factory & 1)};
     } else {

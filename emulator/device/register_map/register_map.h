@@ -48,7 +48,7 @@ struct NamedPlace {
 struct BitSource {
   enum class How : std::uint8_t {
     asks,      // by its row, as at() finds it; also where nothing is
-    reader,    // of its row, which every firmware has
+    reader,    // of a row that every firmware has: `slot` is its number, `run` the index in it
     stored,    // in the image
     constant,  // 0 or 1, in `slot`
   } how = How::asks;
