@@ -98,7 +98,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
 
   if (mode.at == At::dog) {
     program.add({.does = Does::go,
-                 .speed = kCreep,
+                 .speed = how.leaves_fast ? kFast : kCreep,
                  .again_while = bit(Signal::home),
                  .distance_pulses = back * std::max<std::int64_t>(how.leave_pulses, 1)});
   }

@@ -20,6 +20,7 @@ struct Super40ncHoming {
   std::int64_t leave_pulses = 5;     // X25, away from a DOG that is on at the start; 0 acts as 1
   std::int64_t offset_pulses = 0;    // X30, signed, whatever `way`
   bool limit_stops_at_once = false;  // modes 6 to 8 and 12: as the chip would with D9x01 = 0
+  bool leaves_fast = false;          // the DOG that is on at the start
   bool offset_creeps = false;        // the way back to the reference, and the offset
   bool plate_may_be_short = false;   // a DOG that is off behind the stop does not matter
 };

@@ -17,6 +17,9 @@
 namespace understudy::interpreter::super_40nc {
 namespace {
 
+/// Of a timer that no scan has seen since RUN.
+constexpr std::int32_t kNotTimedYet = INT32_MIN;
+
 /// The registers of a scan: cells and constants side by side, blocks and branches as shift registers of bits,
 /// whose bit 0 is the top.
 class Scan {
@@ -162,12 +165,13 @@ class Scan {
   }
 
   std::int32_t& timed(const LadderStep& step) {
-    if (plc_.timed.size() <= step.memory) plc_.timed.resize(std::size_t{step.memory} + 1);
+    if (plc_.timed.size() <= step.memory) plc_.timed.resize(std::size_t{step.memory} + 1, kNotTimedYet);
     return plc_.timed[step.memory];
   }
   /// What somebody else has made of its value, where that does not count.
   void take_back(const LadderStep& step) {
-    if (options_.timers_ignore_writes) put(step.c, static_cast<std::uint32_t>(timed(step)), step.flags);
+    if (!options_.timers_ignore_writes || timed(step) == kNotTimedYet) return;
+    put(step.c, static_cast<std::uint32_t>(timed(step)), step.flags);
   }
 
   void count(const LadderStep& step) {
@@ -213,10 +217,7 @@ void run(PlcState& plc, const Ladder& ladder, Machine& machine) {
     const bool is_edge = step.act >= Act::load_edge && step.act <= Act::parallel_edge;
     if (is_edge) plc.memories[step.memory] = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
     // A timer goes on if it is still ON.
-    if (step.act != Act::timer) continue;
-    plc.memories[step.memory] = machine.cells()[step.c] != 0 ? 1 : 0;
-    plc.timed.resize(ladder.memory_count());
-    plc.timed[step.memory] = static_cast<std::int32_t>(machine.cells()[step.c]);
+    if (step.act == Act::timer) plc.memories[step.memory] = machine.cells()[step.c] != 0 ? 1 : 0;
   }
   plc.targets = machine.parameter_in_force(named::kTargetsOfC) == 0 ? Targets::absolute : Targets::relative;
   for (int axis = 0; axis < kAxisCount; ++axis) {
@@ -260,7 +261,8 @@ void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t s
       cells[timer.c] = static_cast<std::uint32_t>(present + scan);
       if (is_kept) machine.kept_cell_written(timer.c);
     }
-    if (timer.memory < plc.timed.size()) plc.timed[timer.memory] = static_cast<std::int32_t>(cells[timer.c]);
+    if (options.timers_ignore_writes && timer.memory < plc.timed.size())
+      plc.timed[timer.memory] = static_cast<std::int32_t>(cells[timer.c]);
   }
 }
 

@@ -37,7 +37,9 @@ StepPrograms::Slice StepPrograms::set_mode(Area area, const Instruction& line) {
     if (!is_empty(values)) machine_.set_positions({values, line.op == Op::mset});
   } else if (line.op == Op::rpm) {
     const AxisValues values = values_of(area, line);
-    for (std::size_t i = 0; i < values.size(); ++i) program.rpm[i] = values[i].value_or(program.rpm[i]);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (sets_speed(values[i], options_)) program.rpm[i] = *values[i];
+    }
   } else if (line.op == Op::absc || line.op == Op::incc) {
     program.targets = line.op == Op::absc ? Targets::absolute : Targets::relative;
   } else if (line.op == Op::chk) {
@@ -138,7 +140,11 @@ StepPrograms::Slice StepPrograms::move(Area area, const Instruction& line) {
   }
   if (line.op == Op::lin) return begin_motion(area, line, LinearMove{values, program.targets, feed()}, true);
   if (line.op == Op::mrk) {
-    return begin_motion(area, line, MarkSearch{values, program.targets, program.rpm}, true);
+    std::array<std::int32_t, kAxisCount> rpm = program.rpm;
+    for (int axis = 0; axis < kAxisCount && !options_.marks_by_rpm; ++axis) {
+      rpm[static_cast<std::size_t>(axis)] = machine_.rpm_at_power_up(axis);
+    }
+    return begin_motion(area, line, MarkSearch{values, program.targets, rpm}, true);
   }
   if (line.op == Op::hom) return begin_motion(area, line, HomeSearch{chosen_axes(values)}, true);
   if (line.op == Op::mpg) return begin_motion(area, line, WheelRatios{values}, false);

@@ -65,6 +65,13 @@ void StepPrograms::take(Event event, Area area) {
   }
 }
 
+/// STR.
+void StepPrograms::start(Area area) {
+  const bool runs_on = reaction_of(Event::start, state(area).phase) == Reaction::nothing;
+  if (runs_on && options_.start_begins_anew && !machine_.is_held_in_reset(area)) take(Event::stop, area);
+  take(Event::start, area);
+}
+
 /// Starts, or goes on.
 void StepPrograms::begin(Area area, Reaction how) {
   StepState& program = state(area);
@@ -201,6 +208,8 @@ void StepPrograms::run_slice(Area area) {
   const bool rests =
       program.phase == Phase::idle || program.phase == Phase::paused || program.phase == Phase::held;
   if (rests && contact_is_on(area)) take(Event::start, area);
+  const bool is_off = !rests && area != Area::c && !contact_is_on(area);
+  if (is_off && options_.contact_off_stops) return take(Event::stop, area);
   if (program.phase == Phase::moving || program.phase == Phase::homing) {
     if (machine_.is_running(area)) return;
     end_of_motion(area);

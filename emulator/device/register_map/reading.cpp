@@ -127,8 +127,31 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
                             std::span<std::uint8_t> packed) {
   if (first + count > 65536) return objection(Refusal::no_register, Cause::no_register, first);
   std::fill(packed.begin(), packed.end(), std::uint8_t{0});
+  const auto sources = bank.map().bit_sources(table);
+  const auto image = bank.image();
+  const auto put = [&](std::size_t i, std::uint32_t bit) {
+    packed[i / 8] |= static_cast<std::uint8_t>((bit & 1U) << i % 8);
+  };
   for (std::size_t i = 0; i < count;) {
     const std::size_t address = first + i;
+    const BitSource source = address < sources.size() ? sources[address] : BitSource{};
+    if (source.how == BitSource::How::stored) {
+      const std::size_t run = std::min<std::size_t>(source.run, count - i);
+      const auto slot = static_cast<std::size_t>(source.slot);
+      run == 1 ? put(i, image[slot]) : pack(image.subspan(slot, run), i, packed);
+      i += run;
+      continue;
+    }
+    if (source.how == BitSource::How::constant) {
+      put(i++, static_cast<std::uint32_t>(source.slot));
+      continue;
+    }
+    if (source.how == BitSource::How::reader) {
+      const RegisterRow& row = bank.map().rows()[static_cast<std::size_t>(source.slot)];
+      const Cell cell{.argument = row.argument, .index = source.run, .axis = row.first_axis + source.run};
+      put(i++, static_cast<std::uint32_t>(row.reader(bank, cell)));
+      continue;
+    }
     Place place = bank.at(table, static_cast<std::uint16_t>(address), true);
     if (const Objection refused = readable(bank, table, address, place)) return refused;
     if (!place) {
@@ -136,13 +159,7 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
       continue;
     }
     mention_if_missed(bank, place);
-    if (const std::size_t rest = std::min(stored_neighbours(place), count - i); rest > 0) {
-      pack(bank.image().subspan(static_cast<std::size_t>(place.slot), rest), i, packed);
-      i += rest;
-      continue;
-    }
-    packed[i / 8] |= static_cast<std::uint8_t>((present_bits(bank, place) & 1U) << i % 8);
-    ++i;
+    put(i++, present_bits(bank, place));
   }
   return admission(bank, {.table = table, .first = first, .count = count}, Checked::everything);
 }

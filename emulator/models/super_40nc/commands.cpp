@@ -103,7 +103,12 @@ void Super40nc::meet(int axis, ManualMotion motion, ManualEvent event, Code code
       release_jog(axis,
                   motion == ManualMotion::plc_jog ? &AxisState::asked_by_plc : &AxisState::asked_by_contact);
       break;
-    case ManualAnswer::ends: stop_axis(axis, code); break;
+    case ManualAnswer::ends: {
+      const bool is_stopped =
+          event == ManualEvent::stop || event == ManualEvent::stop_of_c || event == ManualEvent::main_stop;
+      is_stopped ? stop_by_command(axis) : stop_axis(axis, code);
+      break;
+    }
   }
 }
 

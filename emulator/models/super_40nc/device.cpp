@@ -124,6 +124,12 @@ language::Options Super40nc::chosen_options() const {
   set(option("timer_write", "ignored"), made.timers_ignore_writes, true);
   set(option("label_scope", "the_first_area_has_it"), made.labels_are_common, true);
   set(option("c3p_plane", "always_xy"), made.c3p_is_in_xy, true);
+  set(option("sum_size", "saturates"), made.sums_saturate, true);
+  set(option("division_rounding", "downwards"), made.quotient, Options::Quotient::downwards);
+  set(option("rpm_not_positive", "keeps_the_speed"), made.rpm_0_keeps_speed, true);
+  set(option("axis_contact_off", "stops_the_program"), made.contact_off_stops, true);
+  set(option("str_running", "begins_anew"), made.start_begins_anew, true);
+  set(option("mrk_speed", "by_x14_alone"), made.marks_by_rpm, false);
   set(option("mset", "refused_at_load"), made.knows_mset, false);
   return made;
 }

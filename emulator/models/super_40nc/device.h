@@ -192,6 +192,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool begin_turning(int axis_number, std::int32_t rpm, Mover mover);
   void change_turning(int axis_number, std::int32_t rpm, Mover mover);
   bool end_by_ramp(int axis_number, Mover mover);
+  void stop_by_command(int axis_number);
   void start_home(int axis_number, int order = 0);
   void start_wheel(int axis_number, WheelSource source);
   bool start_jog(int axis_number, int way, bool AxisState::*asked_by);
@@ -209,6 +210,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool is_stopped_by_emergency() const;
   /// Begins the signal Y0 + `signal`, or begins it anew.
   void show_finished(std::size_t signal);
+  /// Whether a line does so whose axes are there already.
+  bool finishes_without_motion() const { return !chose(option("fsh_without_motion", "do_not_come")); }
 
   /// A LIN or an arc, in the machine's coordinate.
   struct PathPlan {

@@ -112,6 +112,10 @@ bool ProgramMachine::is_held_in_reset(Area area) const {
 void ProgramMachine::program_starts(Area) { device_.error_is_over(); }
 
 void ProgramMachine::program_ended(Area area) {
+  for (int axis = 0; axis < kAxisCount && device_.chose(option("end_and_vdrv", "ends_by_its_ramp")); ++axis) {
+    const AxisState& state = device_.axis(axis);
+    if (state.holder == Holder::vdrv && state.mover == mover_of(area)) device_.end_by_ramp(axis, Mover::hand);
+  }
   device_.show_finished(
       area == Area::c ? kEndOfCSignal : kFirstEndSignal + static_cast<std::size_t>(language::axis_of(area)));
 }
@@ -290,7 +294,7 @@ language::Areas ProgramMachine::stop(Area area) {
     const bool is_others =
         mover < Mover::plc && mover != mover_of(area) && state.awaited &&
         (device_.is_on_path(axis) || !device_.chose(option("axis_stop_in_c", "stops_the_axis_alone")));
-    device_.stop_axis(axis);
+    device_.stop_by_command(axis);
     if (!is_others) continue;
     lost = static_cast<language::Areas>(lost | language::one(static_cast<Area>(mover)));
     device_.stop_all_of(mover);

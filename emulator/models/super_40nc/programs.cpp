@@ -217,7 +217,8 @@ void Super40nc::program_broken(Mover mover, int axis, bool is_awaited, motion::C
   const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus;
   const bool is_soft = why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;
   const bool pauses = (is_limit && chose(option("el_resets", "pauses_at_the_line"))) ||
-                      (is_soft && chose(option("soft_limit_resets", "pauses_at_the_line")));
+                      (is_soft && chose(option("soft_limit_resets", "pauses_at_the_line"))) ||
+                      (why == motion::Cause::alarm && chose(option("alm_resets", "pauses_at_the_line")));
   if (pauses && !runs_on) return tell(language::Event::limit_pauses, area);
   if (pauses) return;
   tell(runs_on ? language::Event::stop : language::Event::broken, area);

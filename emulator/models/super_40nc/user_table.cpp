@@ -12,11 +12,13 @@
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"  // IWYU pragma: keep (namespace language)
 #include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/settings.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/instruction_row.h"
 #include "interpreter/super_40nc/operand.h"
 #include "interpreter/super_40nc/step_code.h"
+#include "interpreter/super_40nc/step_programs.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -121,7 +123,19 @@ void Super40nc::take_user_command(std::int32_t number) {
   state_.table = {.runs = is_table ? UserTable::Runs::table : UserTable::Runs::command,
                   .words = std::move(words)};
   put_table_in_place();
+  const language::StepState before = state_.steps.programs[0];
+  const Settings its = registers();
+  const std::int32_t feed = its.raw(kept_d(8006));
+  const std::int32_t plane = its.raw(kept_d(8007));
   tell(language::Event::start, language::Area::c);
+  if (!is_table && before.has_modes) {  // F and RPM are for the commands behind them
+    language::StepState& program = state_.steps.programs[0];
+    program.targets = before.targets;
+    program.rpm = before.rpm;
+    program.waits_for_drive = before.waits_for_drive;
+    put(kept_d(8006), feed);
+    put(kept_d(8007), plane);
+  }
   state_.touched = true;
   leave_table();  // if it did not start
 }
