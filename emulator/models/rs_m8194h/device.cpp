@@ -44,6 +44,12 @@ constexpr std::string_view kPulseFormats[] = {"CW/CCW rising",      "CW/CCW fall
                                               "PULSE rising/DIR -", "PULSE falling/DIR -",
                                               "PULSE rising/DIR +", "PULSE falling/DIR +"};
 
+/// Of EXP+ and EXP-, as they are: a line is low while it conducts, which is after each odd edge.
+void set_external_levels(AxisUnit& unit) {
+  unit.external.plus_high = (unit.external_seen[0] & 1U) == 0;
+  unit.external.minus_high = (unit.external_seen[1] & 1U) == 0;
+}
+
 std::uint16_t word_of(std::span<const std::uint16_t> words, int number) {
   return words[static_cast<std::size_t>(number)];
 }
@@ -79,6 +85,7 @@ void RsM8194h::blank_module() {
     blank.pins = unit.pins;
     blank.emergency = unit.emergency;
     blank.external_seen = unit.external_seen;
+    set_external_levels(blank);
     blank.out.pulses = unit.out.pulses;
     blank.logic.range = blank.absolute.range = blank.encoder.range = motion::Counter::Range::bits32;
     set_logic_position(blank, motor, 0);
@@ -142,6 +149,7 @@ void RsM8194h::power_up() {
       const Pin pin = i == 0 ? Pin::external_plus : Pin::external_minus;
       unit.external_seen[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(input(terminal(a, pin)));
     }
+    set_external_levels(unit);
   }
   pass_pins(now());
   for (AxisUnit& unit : state_.units) {

@@ -181,6 +181,14 @@ void RsM8194h::watch_external(std::size_t axis) {
     const auto count = static_cast<std::uint32_t>(input(terminal(axis, pin)));
     std::uint32_t edges = count - unit.external_seen[i];
     unit.external_seen[i] = count;
+    if (filter_ticks(unit, static_cast<int>(pin), machine_) > 0) {
+      // Through its filter: what is too short is lost, the rest comes late.
+      const bool was_high = i == 0 ? unit.external.plus_high : unit.external.minus_high;
+      const bool is_high = (unit.pins.passed & bit_of(pin)) == 0;
+      edges = was_high != is_high ? 1 : 0;
+      // What it holds back is an edge to come, should it be taken off.
+      if (((count & 1U) == 0) != is_high) --unit.external_seen[i];
+    }
     // While off nothing but the level at the end matters.
     if (unit.external.mode == motion::ExternalDrive::Mode::off && edges > 1) edges = 2 - (edges & 1U);
     for (; edges > 0; --edges) {
