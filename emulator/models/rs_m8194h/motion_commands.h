@@ -110,7 +110,8 @@ inline Took set_pulse(RsM8194h& it, const Command& command) {
     const std::int64_t given = command.signed_value(1);
     const bool is_against = given != 0 && (given < 0) != (motor.drive.direction < 0);
     if (is_against && it.chose(option("set_pulse_sign", "is_ignored"))) return;
-    motor.change_distance(is_against ? 0 : std::abs(given), true, it.now());
+    const bool counts = !is_against || it.chose(option("set_pulse_sign", "counts_all_the_same"));
+    motor.change_distance(counts ? std::abs(given) : 0, true, it.now());
   });
   return Took::done;
 }

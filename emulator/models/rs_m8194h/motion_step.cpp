@@ -38,10 +38,14 @@ constexpr std::array<motion::Event, kIsrFactors> kFactorEvents{motion::Event::pu
 /// Triggers nearer than 10 us to the last one are left out: 100 of them fit into a tick (7.4.12).
 constexpr std::int64_t kMostTriggersOfATick = 100;
 
+bool is_endless(motion::SyncAction::Drive drive) {
+  using Action = motion::SyncAction::Drive;
+  return drive == Action::endless_plus || drive == Action::endless_minus;
+}
+
 bool starts_something(motion::SyncAction::Drive drive) {
   using Action = motion::SyncAction::Drive;
-  return drive == Action::fixed_plus || drive == Action::fixed_minus || drive == Action::endless_plus ||
-         drive == Action::endless_minus;
+  return drive == Action::fixed_plus || drive == Action::fixed_minus || is_endless(drive);
 }
 
 }  // namespace
@@ -190,7 +194,8 @@ void RsM8194h::act_together(Tick tick) {
     const auto preset = static_cast<std::int32_t>(action.preset_value);
     if (has(outcome.presets_command, a)) unit.logic.set(preset, latch.travel_pulses);
     if (has(outcome.presets_encoder, a)) unit.encoder.set(preset, encoder);
-    if (action.preset == motion::SyncAction::Preset::speed && preset > 0) {
+    // Of an endless drive it is void (7.3.1).
+    if (action.preset == motion::SyncAction::Preset::speed && preset > 0 && !is_endless(action.drive)) {
       unit.speed.drive_pps = static_cast<std::uint32_t>(preset);
       if (!starts_something(action.drive)) change_speed(a);
     }
