@@ -156,7 +156,10 @@ void RsM8194h::power_up() {
     unit.pins.passed = unit.pins.raw;
     unit.emergency = state_.emergency_input;
   }
+  state_.holds_back = false;
+  state_.unscanned = true;
   scan_frnet();
+  state_.unscanned = false;
   heed_triggers(state_.inputs, true);
   for (std::size_t a = 0; a < kAxes; ++a) {
     look_again(a);
@@ -223,9 +226,7 @@ pty::SimTime RsM8194h::end_silence(pty::SimTime usual) const {
 void RsM8194h::sample_inputs(Tick tick) {
   const bool changed = take_inputs_changed();
   state_.unscanned = state_.unscanned || changed;
-  const bool waits = std::any_of(state_.units.begin(), state_.units.end(),
-                                 [this](const AxisUnit& unit) { return is_filtering(unit); });
-  if (changed || waits) {
+  if (changed || state_.holds_back) {
     pass_pins(tick);
     for (std::size_t a = 0; a < kAxes; ++a) {
       look_round(a);

@@ -131,6 +131,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   Start may_start(std::size_t axis, Starter who, bool on_path = false) const;
   /// Sets the error bits of what keeps axes from starting.
   void note_obstacles(AxisMask axes);
+  /// Of LINE_SCAN_START: the flag of done scans is off until all of them stand.
+  void begin_scans(AxisMask axes);
   bool waits_behind_held(AxisMask axes) const;
 
   void halt(AxisMask axes, const StopRow& row);

@@ -105,6 +105,8 @@ void RsM8194h::pass_pins(Tick tick) {
     const Tick delay = filter_ticks(unit, static_cast<int>(Pin::limit_plus), machine_);
     if (tick - state_.emergency_since >= delay) unit.emergency = is_emergency;
   }
+  state_.holds_back = std::any_of(state_.units.begin(), state_.units.end(),
+                                  [this](const AxisUnit& unit) { return is_filtering(unit); });
 }
 
 /// What the motor meets: where an input changes with the place, zones; else its level.
@@ -234,6 +236,7 @@ Tick RsM8194h::next_scan(Tick after) const {
 
 void RsM8194h::scan_frnet() {
   state_.sent = state_.outputs;
+  if (!state_.unscanned) return;  // the inputs are those of the last scan
   for (int group = 0; group < kFrnetGroups; ++group) {
     std::uint16_t word = 0;
     for (int channel = 0; channel < kFrnetChannels; ++channel) {

@@ -165,8 +165,12 @@ inline Took line_scan_start(RsM8194h& it, const Command& command) {
   if (it.drive(axes, {.what = Drive::What::scan, .value = command.signed_value(2)}) == Took::waits) {
     return Took::waits;
   }
-  it.state().rint &= static_cast<std::uint8_t>(~bit_of(Rint::line_scan));
-  it.state().scanning = axes;
+  // What is held begins later.
+  AxisMask begun = 0;
+  for_each_axis(axes, [&](std::size_t a) {
+    if (it.state().units[a].held_drive.what != Drive::What::scan) begun |= mask_of(a);
+  });
+  it.begin_scans(begun);
   return Took::done;
 }
 

@@ -275,7 +275,14 @@ void RsM8194h::end_scan(std::size_t axis) {
   look_again(axis);
 }
 
+void RsM8194h::begin_scans(AxisMask axes) {
+  if (axes == 0) return;
+  state_.rint &= static_cast<std::uint8_t>(~bit_of(Rint::line_scan));
+  state_.scanning |= axes;
+}
+
 void RsM8194h::step_scans(Tick tick) {
+  if (state_.scanning == 0) return;
   for (std::size_t a = 0; a < kAxes; ++a) {
     LineScan& scan = state_.scans[a];
     if (!scan.running) continue;
@@ -289,7 +296,7 @@ void RsM8194h::step_scans(Tick tick) {
     }
     if (!is_driving(a)) end_scan(a);
   }
-  if (state_.scanning != 0 && (driving() & state_.scanning) == 0) {
+  if ((driving() & state_.scanning) == 0) {
     state_.scanning = 0;
     state_.rint |= bit_of(Rint::line_scan);
   }

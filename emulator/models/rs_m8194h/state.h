@@ -134,6 +134,7 @@ struct State {
   Tick powered_at = 0;
   bool at_init = false;       // the switch, as power-up found it
   bool unscanned = false;     // inputs have changed since the last FRnet scan
+  bool holds_back = false;    // a filter holds a level of an input back
   std::uint8_t finished = 0;  // of the states that are passed, the last one,
   Tick finished_at = 0;       // and when
   Tick resetting_until = 0;   // RESET_CARD

@@ -184,6 +184,32 @@ TEST(RsM8194hEvents, LineScansTriggerAtTheirPitch) {
   EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
 }
 
+TEST(RsM8194hEvents, AHeldLineScanBeginsWhenItIsReleased) {
+  SteadyRsm rsm;
+  rsm.send({"RSM_DRV_HOLD X", "RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN_START X 0 1000"});
+  rsm.run(50);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "it has not begun";
+  rsm.send("RSM_DRV_START X");
+  rsm.run(100);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0);
+  rsm.run(500);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+}
+
+TEST(RsM8194hEvents, LineScansThatBeginApartAreBothGiven) {
+  SteadyRsm rsm;
+  rsm.send({"RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN Y 0 0 0 4", "RSM_LINE_SCAN_START X 0 2000"});
+  rsm.run(100);
+  rsm.send("RSM_LINE_SCAN_START Y 0 500");
+  rsm.run(400);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "X is on its way";
+  rsm.run(600);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 200);
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut + 1), 100);
+}
+
 TEST(RsM8194hEvents, ActionsGivePulsesAtXAndYOnly) {
   SteadyRsm rsm;
   rsm.send({"RSM_SYNC_ACTION Z XYZU 32 0 0 0 1 0 0 0 0 0", "RSM_FIXED_MOVE Z 10"});
