@@ -127,8 +127,10 @@ void RsM8194h::blank() {
   made.image.resize(kSlotCount);
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {
-    for (int i = 0; i < row.count && !row.is_view; ++i, ++next) {
-      made.image[next] = keeps(row) && next < made.eeprom.kept().size()
+    if (row.is_view) continue;
+    const bool is_kept = keeps(row);
+    for (int i = 0; i < row.count; ++i, ++next) {
+      made.image[next] = is_kept && next < made.eeprom.kept().size()
                              ? made.eeprom.kept()[next]
                              : static_cast<std::uint32_t>(row.factory);
     }
@@ -375,8 +377,10 @@ std::function<void()> RsM8194h::read_own_state(StateReader& reader) {
   restored->eeprom.check_restored(state_.eeprom);
   restored->blocks.check_restored(state_.blocks);
   return [this, restored] {
+    // What was compiled stays so where the macros are the same.
+    const bool is_same = compiled_revision_ == state_.blocks.revision() && state_.blocks == restored->blocks;
     state_ = *restored;
-    compiled_revision_ = UINT64_MAX;
+    if (!is_same) compiled_revision_ = UINT64_MAX;
     // What it cannot have been doing it does not go on with.
     if (!lang::is_sound(state_.execution, *this)) lang::terminate(state_.execution);
   };
