@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/prefetch.h"
 #include "base/simulated_time.h"
 #include "base/state/difference.h"
 #include "base/state/state_bytes.h"
@@ -296,6 +297,22 @@ Tick RsM8194h::next_active_tick(Tick done) const {
     if (unit.out.pulse_until > done) next = std::min(next, unit.out.pulse_until);
   }
   return next;
+}
+
+void RsM8194h::prefetch(Tick tick) const {
+  Device::prefetch(tick);
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    understudy::prefetch(&state_.motors[a], 2 * kCacheLine);  // all that the middle of a move needs
+    prefetch_line(&state_.here[a]);
+    prefetch_line(&state_.units[a].sent_pulses);
+  }
+  prefetch_line(&state_.sync);
+  prefetch_line(&state_.paths.together.engaged);
+  prefetch_line(&state_.fifo);
+  prefetch_line(&state_.execution);
+  prefetch_line(&state_.paused);
+  prefetch_line(&state_.unscanned);
+  prefetch_line(&state_.eeprom);
 }
 
 // --- terminals -------------------------------------------------------------------------------------------

@@ -61,6 +61,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   Tick next_active_tick(Tick done) const override;
   Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
   void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
+  void prefetch(Tick tick) const override;
   bool same_state(const Device& other) const override {
     return state_ == static_cast<const RsM8194h&>(other).state_;
   }
