@@ -162,7 +162,6 @@ void RsM8194h::power_up() {
   state_.holds_back = false;
   state_.unscanned = true;
   scan_frnet();
-  state_.unscanned = false;
   heed_triggers(state_.inputs, true);
   for (std::size_t a = 0; a < kAxes; ++a) {
     look_again(a);
@@ -228,7 +227,7 @@ pty::SimTime RsM8194h::end_silence(pty::SimTime usual) const {
 
 void RsM8194h::sample_inputs(Tick tick) {
   const bool changed = take_inputs_changed();
-  state_.unscanned = state_.unscanned || changed;
+  if (changed) state_.unscanned = frnet_inputs() != state_.inputs;
   if (changed || state_.holds_back) {
     pass_pins(tick);
     for (std::size_t a = 0; a < kAxes; ++a) {
@@ -239,7 +238,6 @@ void RsM8194h::sample_inputs(Tick tick) {
   if (scans_frnet_at(tick)) {
     const auto before = state_.inputs;
     scan_frnet();
-    state_.unscanned = false;
     if (state_.inputs != before) heed_triggers(before, false);
   }
 }

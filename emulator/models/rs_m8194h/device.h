@@ -193,6 +193,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void pass_pins(Tick tick);
   /// A level of one of its inputs is still held back.
   bool is_filtering(const AxisUnit& unit) const;
+  /// As they are now; those of the last scan are state.
+  std::array<std::uint16_t, kFrnetGroups> frnet_inputs() const;
   void scan_frnet();
   bool scans_frnet_at(Tick tick) const;
   Tick next_scan(Tick after) const;

@@ -234,17 +234,23 @@ Tick RsM8194h::next_scan(Tick after) const {
   }
 }
 
-void RsM8194h::scan_frnet() {
-  state_.sent = state_.outputs;
-  if (!state_.unscanned) return;  // the inputs are those of the last scan
+std::array<std::uint16_t, kFrnetGroups> RsM8194h::frnet_inputs() const {
+  std::array<std::uint16_t, kFrnetGroups> words{};
   for (int group = 0; group < kFrnetGroups; ++group) {
     std::uint16_t word = 0;
     for (int channel = 0; channel < kFrnetChannels; ++channel) {
       const bool is_on = input(kFirstDi + group * kFrnetChannels + channel) != 0;
       if (is_on) word |= static_cast<std::uint16_t>(1U << channel);
     }
-    state_.inputs[static_cast<std::size_t>(group)] = word;
+    words[static_cast<std::size_t>(group)] = word;
   }
+  return words;
+}
+
+void RsM8194h::scan_frnet() {
+  state_.sent = state_.outputs;
+  if (state_.unscanned) state_.inputs = frnet_inputs();
+  state_.unscanned = false;
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

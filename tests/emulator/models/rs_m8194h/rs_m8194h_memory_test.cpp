@@ -3,6 +3,7 @@
 
 #include "base/state/state_error.h"
 #include "emulator/device/memory/kept_memory.h"
+#include "emulator/world/snapshot.h"
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
 namespace understudy::emulator::models::rs_m8194h {
@@ -139,6 +140,23 @@ TEST(RsM8194hMemory, AStateGoesOnAsIfNothingHadHappened) {
     ASSERT_TRUE(twin.device().same_state(rsm.device()));
     ASSERT_EQ(twin.device().save_state(), saved);
     ASSERT_EQ(twin.device().state_difference(saved, twin.device().save_state()), "");
+  }
+}
+
+TEST(RsM8194hMemory, WhatIsRestoredIsTheSameAtEachTickBehind) {
+  OneRsm plain;
+  OneRsm restored;
+  for (OneRsm* const one : {&plain, &restored}) {
+    one->send({"RSM_SET_SV X 1000", "RSM_FIXED_MOVE X 5000"});
+    one->run(40);
+  }
+  world::restore(restored.world(), world::save(restored.world()));
+  for (int tick = 0; tick < 10; ++tick) {
+    ASSERT_EQ(plain.device().state_difference(plain.device().save_state(), restored.device().save_state()),
+              "")
+        << tick;
+    plain.run(1);
+    restored.run(1);
   }
 }
 
