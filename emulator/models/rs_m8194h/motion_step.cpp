@@ -283,6 +283,7 @@ void RsM8194h::begin_scans(AxisMask axes) {
 
 void RsM8194h::step_scans(Tick tick) {
   if (state_.scanning == 0) return;
+  bool runs = false;
   for (std::size_t a = 0; a < kAxes; ++a) {
     LineScan& scan = state_.scans[a];
     if (!scan.running) continue;
@@ -294,9 +295,13 @@ void RsM8194h::step_scans(Tick tick) {
       give_pulse(a, tick, given);
       scan.triggered = passed;
     }
-    if (!is_driving(a)) end_scan(a);
+    // An encoder tells of the last pulses a tick later.
+    const AxisUnit& unit = state_.units[a];
+    const bool lags = scan.type >= 2 && unit.has_encoder && unit.sent_pulses != 0;
+    if (!is_driving(a) && !lags) end_scan(a);
+    runs = runs || scan.running;
   }
-  if ((driving() & state_.scanning) == 0) {
+  if (!runs && (driving() & state_.scanning) == 0) {
     state_.scanning = 0;
     state_.rint |= bit_of(Rint::line_scan);
   }

@@ -197,6 +197,21 @@ TEST(RsM8194hEvents, AHeldLineScanBeginsWhenItIsReleased) {
   EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
 }
 
+TEST(RsM8194hEvents, ALineScanByAnEncoderHasItsLastTriggerToo) {
+  world::PlantSetup plant;
+  plant.encoder_counts_per_revolution = 4000;
+  plant.pulses_per_revolution = 1000;
+  for (const int way : {+1, -1}) {
+    OneRsm rsm({.plant = {{0, plant}}});
+    rsm.send({"RSM_SET_SV X 2000", "RSM_SET_V X 2000", "RSM_LINE_SCAN X 2 0 0 -39"});
+    rsm.send("RSM_LINE_SCAN_START X 2 " + std::to_string(way * 1000));
+    rsm.run(550);
+    EXPECT_EQ(rsm.get("EP_X"), way * 4000);
+    EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+    EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
+  }
+}
+
 TEST(RsM8194hEvents, LineScansThatBeginApartAreBothGiven) {
   SteadyRsm rsm;
   rsm.send({"RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN Y 0 0 0 4", "RSM_LINE_SCAN_START X 0 2000"});
