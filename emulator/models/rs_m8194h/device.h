@@ -61,6 +61,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   Tick next_active_tick(Tick done) const override;
   Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
   void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
+  void prefetch(Tick tick) const override;
   bool same_state(const Device& other) const override {
     return state_ == static_cast<const RsM8194h&>(other).state_;
   }
@@ -131,6 +132,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   Start may_start(std::size_t axis, Starter who, bool on_path = false) const;
   /// Sets the error bits of what keeps axes from starting.
   void note_obstacles(AxisMask axes);
+  /// Of LINE_SCAN_START: the flag of done scans is off until all of them stand.
+  void begin_scans(AxisMask axes);
   bool waits_behind_held(AxisMask axes) const;
 
   void halt(AxisMask axes, const StopRow& row);
@@ -190,6 +193,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void pass_pins(Tick tick);
   /// A level of one of its inputs is still held back.
   bool is_filtering(const AxisUnit& unit) const;
+  /// As they are now; those of the last scan are state.
+  std::array<std::uint16_t, kFrnetGroups> frnet_inputs() const;
   void scan_frnet();
   bool scans_frnet_at(Tick tick) const;
   Tick next_scan(Tick after) const;

@@ -258,6 +258,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   }
   unit.error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
   if (motor.homing.active() && !machine_.axis.homing_heeds_soft_limits) look_again(axis);
+  if (what.what == Drive::What::scan) begin_scans(mask_of(axis));
   if (LineScan& scan = state_.scans[axis]; what.what == Drive::What::scan && scan.set) {
     scan.running = true;
     scan.begin = scan_count(axis);

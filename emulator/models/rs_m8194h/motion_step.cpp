@@ -38,10 +38,14 @@ constexpr std::array<motion::Event, kIsrFactors> kFactorEvents{motion::Event::pu
 /// Triggers nearer than 10 us to the last one are left out: 100 of them fit into a tick (7.4.12).
 constexpr std::int64_t kMostTriggersOfATick = 100;
 
+bool is_endless(motion::SyncAction::Drive drive) {
+  using Action = motion::SyncAction::Drive;
+  return drive == Action::endless_plus || drive == Action::endless_minus;
+}
+
 bool starts_something(motion::SyncAction::Drive drive) {
   using Action = motion::SyncAction::Drive;
-  return drive == Action::fixed_plus || drive == Action::fixed_minus || drive == Action::endless_plus ||
-         drive == Action::endless_minus;
+  return drive == Action::fixed_plus || drive == Action::fixed_minus || is_endless(drive);
 }
 
 }  // namespace
@@ -190,7 +194,8 @@ void RsM8194h::act_together(Tick tick) {
     const auto preset = static_cast<std::int32_t>(action.preset_value);
     if (has(outcome.presets_command, a)) unit.logic.set(preset, latch.travel_pulses);
     if (has(outcome.presets_encoder, a)) unit.encoder.set(preset, encoder);
-    if (action.preset == motion::SyncAction::Preset::speed && preset > 0) {
+    // Of an endless drive it is void (7.3.1).
+    if (action.preset == motion::SyncAction::Preset::speed && preset > 0 && !is_endless(action.drive)) {
       unit.speed.drive_pps = static_cast<std::uint32_t>(preset);
       if (!starts_something(action.drive)) change_speed(a);
     }
@@ -270,7 +275,15 @@ void RsM8194h::end_scan(std::size_t axis) {
   look_again(axis);
 }
 
+void RsM8194h::begin_scans(AxisMask axes) {
+  if (axes == 0) return;
+  state_.rint &= static_cast<std::uint8_t>(~bit_of(Rint::line_scan));
+  state_.scanning |= axes;
+}
+
 void RsM8194h::step_scans(Tick tick) {
+  if (state_.scanning == 0) return;
+  bool runs = false;
   for (std::size_t a = 0; a < kAxes; ++a) {
     LineScan& scan = state_.scans[a];
     if (!scan.running) continue;
@@ -282,9 +295,13 @@ void RsM8194h::step_scans(Tick tick) {
       give_pulse(a, tick, given);
       scan.triggered = passed;
     }
-    if (!is_driving(a)) end_scan(a);
+    // An encoder tells of the last pulses a tick later.
+    const AxisUnit& unit = state_.units[a];
+    const bool lags = scan.type >= 2 && unit.has_encoder && unit.sent_pulses != 0;
+    if (!is_driving(a) && !lags) end_scan(a);
+    runs = runs || scan.running;
   }
-  if (state_.scanning != 0 && (driving() & state_.scanning) == 0) {
+  if (!runs && (driving() & state_.scanning) == 0) {
     state_.scanning = 0;
     state_.rint |= bit_of(Rint::line_scan);
   }

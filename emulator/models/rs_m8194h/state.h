@@ -133,7 +133,8 @@ struct State {
   std::array<std::uint16_t, kFrnetGroups> inputs{};           // as it has found them
   Tick powered_at = 0;
   bool at_init = false;       // the switch, as power-up found it
-  bool unscanned = false;     // inputs have changed since the last FRnet scan
+  bool unscanned = false;     // inputs of FRnet are not as the last scan has found them
+  bool holds_back = false;    // a filter holds a level of an input back
   std::uint8_t finished = 0;  // of the states that are passed, the last one,
   Tick finished_at = 0;       // and when
   Tick resetting_until = 0;   // RESET_CARD

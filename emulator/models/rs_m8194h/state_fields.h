@@ -90,6 +90,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("powered_at", &Value::powered_at),
                                            field("at_init", &Value::at_init),
                                            field("unscanned", &Value::unscanned),
+                                           field("holds_back", &Value::holds_back),
                                            field("finished", &Value::finished),
                                            field("finished_at", &Value::finished_at),
                                            field("resetting_until", &Value::resetting_until),
