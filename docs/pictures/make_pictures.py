@@ -89,8 +89,9 @@ def main():
             ctl('set', 'M8000=1')
             time.sleep(1.6)
             page.picture('axes')
-            ctl('set', 'M8000=1')
             page.show('Program')
+            ctl('set', 'M8000=1')
+            time.sleep(0.7)
             page.picture('program')
         serve = ['serve', str(SCENARIOS / 'quickstart.yaml'), '--links', folder, '--control', control, '--page']
         with Shown(program, serve, folder, 620) as page:
