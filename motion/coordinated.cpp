@@ -62,6 +62,17 @@ double Coordinated::speed_pps(std::size_t axis, Tick now) const {
   return 0;
 }
 
+std::int64_t Coordinated::pulses_to_come(std::size_t axis, std::span<const Axis> axes) const {
+  if (!engaged || !run.running() || slowing_for != Cause::none || axis >= axes.size()) return 0;
+  for (std::size_t i = 0; i < axis_of.size(); ++i) {
+    if (axis_of[i] < 0 || static_cast<std::size_t>(axis_of[i]) != axis) continue;
+    const double end_u = run.path().end[static_cast<Eigen::Index>(i)];
+    const std::int64_t pulses = travel_at(i, end_u) - axes[axis].travel_pulses;
+    return axes[axis].inverted ? -pulses : pulses;
+  }
+  return 0;
+}
+
 Cause Coordinated::begin(const Point& from, std::span<Axis> axes, Tick now) {
   for (const std::int8_t mine : axis_of) {
     const Axis* axis = axis_at(mine, axes);

@@ -54,6 +54,9 @@ struct Coordinated {
   bool takes(std::size_t axis) const;
   /// The signed speed of that axis after tick `now`; 0 if it takes no part.
   double speed_pps(std::size_t axis, Tick now) const;
+  /// Pulses of that axis until the end of the path being run, signed as they come out; 0 if it takes no part,
+  /// or will not get there.
+  std::int64_t pulses_to_come(std::size_t axis, std::span<const Axis> axes) const;
   /// The travel of the axis of coordinate `i` at a place, rounded half away from zero.
   std::int64_t travel_at(std::size_t i, double place_u) const;
 

@@ -357,6 +357,17 @@ double RsM8194h::speed_pps(int axis) const {
   return motor.moving() ? motor.sample(now()).speed_u_s * static_cast<double>(motor.drive.direction) : 0;
 }
 
+std::optional<bool> RsM8194h::servo_on(int axis) const {
+  return powered() && state_.units[static_cast<std::size_t>(axis)].basic.servo;
+}
+
+std::int64_t RsM8194h::pulses_to_come(int axis) const {
+  const auto a = static_cast<std::size_t>(axis);
+  if (!powered()) return 0;
+  return state_.paths.together.takes(a) ? state_.paths.together.pulses_to_come(a, state_.motors)
+                                        : state_.motors[a].pulses_to_come();
+}
+
 void RsM8194h::connect_encoder(int axis, std::int64_t counts) {
   AxisUnit& unit = state_.units[static_cast<std::size_t>(axis)];
   unit.encoder_raw = counts * machine_.edges_per_encoder_count;  // EP counts from here

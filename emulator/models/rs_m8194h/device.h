@@ -72,6 +72,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::int64_t output_pulses(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override;
   double speed_pps(int axis) const override;
+  std::int64_t pulses_to_come(int axis) const override;
+  std::optional<bool> servo_on(int axis) const override;
   void connect_encoder(int axis, std::int64_t counts) override;
   void set_encoder(int axis, std::int64_t counts) override;
   bool meets_edges() const override { return true; }

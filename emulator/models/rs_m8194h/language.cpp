@@ -1,5 +1,6 @@
 #include "emulator/models/rs_m8194h/language.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -102,6 +103,13 @@ class Listing final : public ProgramLanguage, public ProgramCells {
   }
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return mistakes_of(parse(text, settings).errors);
+  }
+  std::span<const ProgramControl> controls() const override {
+    using By = ProgramControl::By;
+    static constexpr std::array<ProgramControl, 2> kControls{
+        {{"call MP {}", By::registers, "CALL_MPn={}", 1, 157},
+         {"end all macros", By::command, "RSM_MP_TERMINATE"}}};
+    return kControls;
   }
   const ProgramCells* cells() const override { return this; }
 

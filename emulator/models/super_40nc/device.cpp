@@ -353,6 +353,13 @@ double Super40nc::speed_pps(int axis_number) const {
   return (chip(axis_number).inverted ? -speed : speed) + 0.0;  // 0 has no sign
 }
 
+std::int64_t Super40nc::pulses_to_come(int axis_number) const {
+  if (axis(axis_number).masked) return 0;
+  return is_on_path(axis_number)
+             ? state_.path.pulses_to_come(static_cast<std::size_t>(axis_number), state_.chips)
+             : chip(axis_number).pulses_to_come();
+}
+
 double Super40nc::commanded_pps(int axis_number) const {
   const motion::Axis& motor = chip(axis_number);
   if (!motor.moving()) return 0;

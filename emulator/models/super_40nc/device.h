@@ -95,6 +95,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::int32_t analog_level(int terminal) const override;
   std::int64_t pulses_this_tick(int axis_number) const override;
   double speed_pps(int axis_number) const override;
+  std::int64_t pulses_to_come(int axis_number) const override;
   void set_encoder(int axis_number, std::int64_t counts) override;
   bool meets_edges() const override { return true; }
   std::int64_t place_pulses(int axis) const override;

@@ -1,15 +1,19 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/simulated_time.h"
 #include "base/version.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
@@ -17,6 +21,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/terminals.h"
+#include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
@@ -80,11 +85,22 @@ Json telling_registers(const Device& device) {
   return values;
 }
 
+bool runs_program(const Device& device) {
+  using State = ProgramPlace::State;
+  if (!device.powered() || device.user_program() == nullptr) return false;
+  const std::vector<ProgramPlace> places = device.user_program()->places();
+  return std::any_of(places.begin(), places.end(), [](const ProgramPlace& place) {
+    return place.state == State::running || place.state == State::waiting;
+  });
+}
+
 Json device_status(const world::World& world, std::size_t number) {
   const Device& device = world.device(number);
   Json status{
       {"name", device.name()}, {"model", device.model().name}, {"firmware", version_text(device.firmware())}};
   status["power"] = device.powered() ? "on" : "off";
+  status["runs"] = runs_program(device);
+  if (device.memory() != nullptr) status["kept_writes"] = device.memory()->kept_revision();
   const Axes* const axes = device.axes();
   if (axes != nullptr && !axes->pulse_format().empty()) status["pulse_format"] = axes->pulse_format();
   if (device.powered()) status["registers"] = telling_registers(device);
