@@ -225,8 +225,9 @@ Json bench_message(Daemon& daemon, const Json& message) {
       stations.push_back(std::move(entry));
     }
     lines.push_back({{"name", line.line.name()},
-                     {"pty", port->terminal().path()},
-                     {"link", port->terminal().link_path()},
+                     {"pty", port->terminal() != nullptr ? port->terminal()->path() : port->place()},
+                     {"link", port->place()},
+                     {"tcp", port->tcp_places()},
                      {"settings", pty::to_string(line.line.options().settings)},
                      {"timing", line.line.options().timing == pty::Timing::wire ? "wire" : "instant"},
                      {"protocol", line.speech.protocol().name},

@@ -42,13 +42,18 @@ double microseconds(WallTime time) { return static_cast<double>(time.count()) / 
 Json line_status(const Daemon& daemon, const Port& port) {
   const world::WorldLine& line = daemon.world().line(port.line_number());
   const pty::LineCounters& counters = line.line.counters();
+  const pty::PseudoTerminal* const terminal = port.terminal();
   Json status{{"name", line.line.name()},
-              {"pty", port.terminal().path()},
-              {"link", port.terminal().link_path()},
+              {"pty", terminal != nullptr ? terminal->path() : port.place()},
+              {"link", port.place()},
+              {"tcp", port.tcp_places()},
               {"settings", pty::to_string(line.line.options().settings)},
               {"timing", line.line.options().timing == pty::Timing::wire ? "wire" : "instant"},
               {"host", port.host_present() ? "open" : "closed"}};
-  if (port.host_present() && port.host_settings()) status["host_baud"] = port.host_settings()->baud;
+  if (const auto host = port.host_settings(); port.host_present() && host) {
+    status["host_baud"] = host->baud;
+    status["host_settings"] = pty::to_string(*host);
+  }
   status["bytes_in"] = counters.bytes_in;
   status["bytes_out"] = counters.bytes_out;
   status["bytes_unheard"] = counters.bytes_unheard;
@@ -164,10 +169,14 @@ Json identify_message(Daemon& daemon, const Json& message) {
   demand_keys(message, {"do"});
   Json lines = Json::array();
   for (const auto& port : daemon.ports()) {
-    const std::string& link = port->terminal().link_path();
+    const pty::PseudoTerminal* const terminal = port->terminal();
+    const std::string link = terminal != nullptr
+                                 ? std::filesystem::absolute(port->place()).lexically_normal().string()
+                                 : port->place();
     lines.push_back({{"name", daemon.world().line(port->line_number()).line.name()},
-                     {"pty", port->terminal().path()},
-                     {"link", std::filesystem::absolute(link).lexically_normal().string()}});
+                     {"pty", terminal != nullptr ? terminal->path() : link},
+                     {"link", link},
+                     {"tcp", port->tcp_places()}});
   }
   return Json{{"ok", true},
               {"daemon",
