@@ -120,8 +120,7 @@ class Structure {
     if (op == Op::if_) {
       ifs_.push_back({line_});
       if (static_cast<int>(ifs_.size()) == options_.if_depth + 1) {
-        fault(Code::pairing, "nests IF too deep",
-              "at most " + std::to_string(options_.if_depth));
+        fault(Code::pairing, "nests IF too deep", "at most " + std::to_string(options_.if_depth));
       }
     } else if (op == Op::else_) {
       if (ifs_.empty()) return fault(Code::pairing, "has no partner", "IF before it");
