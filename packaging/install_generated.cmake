@@ -47,5 +47,6 @@ function(schema what)
 endfunction()
 schema(bench)
 schema(scenario)
+schema(model)
 
 file(REMOVE_RECURSE "${STAGING}")

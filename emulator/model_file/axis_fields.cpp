@@ -142,7 +142,7 @@ AxisBinding read_axis(const YamlFields& fields, const std::string& name, const D
   for (std::size_t i = 0; i < models::imported::kCommands; ++i) {
     read(key_of(static_cast<Command>(i)), [&](const YamlFields& field) {
       const bool is_level = models::imported::is_level(static_cast<Command>(i));
-      axis.commands[i] = is_level ? binder.condition(field) : binder.command(field);
+      axis.commands[i] = is_level ? binder.level(field) : binder.command(field);
     });
   }
   for (std::size_t i = 0; i < models::imported::kViews; ++i) {

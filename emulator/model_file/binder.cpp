@@ -34,6 +34,8 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(' ') + 1 - begin));
 }
 
+constexpr std::string_view kEquals = " == ";  // names may have signs without blanks around them
+
 std::uint32_t mask_of(const Spot& spot) {
   return spot.is_whole() ? ~0U : bits(spot.bit, "", spot.width).mask();
 }
@@ -80,12 +82,12 @@ Spot Binder::shown(const YamlFields& field, const std::string& name, bool is_fla
 
 Condition Binder::condition(const YamlFields& field) const {
   const std::string text = field.text();
-  const std::size_t equals = text.find("==");
+  const std::size_t equals = text.find(kEquals);
   Condition made{.spot = spot(field, trimmed(text.substr(0, equals)))};
   if (made.spot.is_whole() && listed(made.spot).type == Type::f32)
     field.fail(understudy::quoted(text) + " is a real number; expected a bit, or a whole number");
   if (equals == std::string::npos) return made;
-  const std::string number = trimmed(text.substr(equals + 2));
+  const std::string number = trimmed(text.substr(equals + kEquals.size()));
   made.value = parse_integer(number);
   if (!made.value)
     field.fail(understudy::quoted(number) + " is not a number; expected one, as in COMMAND == 2");
@@ -99,14 +101,19 @@ Condition Binder::condition(const YamlFields& field) const {
   return made;
 }
 
-Condition Binder::command(const YamlFields& field) const {
+Condition Binder::level(const YamlFields& field) const {
   const Condition made = condition(field);
-  const ListedRegister& its = listed(made.spot);
-  if (its.access == Access::read)
-    field.fail(understudy::quoted(its.name) + " cannot be written; expected a register that hosts write");
-  if (is_32_bit(its.type))
-    field.fail(understudy::quoted(its.name) +
-               " has 32 bits, which may come in halves; expected 16 bits, or a coil");
+  if (!is_32_bit(listed(made.spot).type)) return made;
+  field.fail(understudy::quoted(listed(made.spot).name) +
+             " has 32 bits, which may come in halves; expected 16 bits, or a coil");
+}
+
+Condition Binder::command(const YamlFields& field) const {
+  const Condition made = level(field);
+  if (listed(made.spot).access == Access::read) {
+    field.fail(understudy::quoted(listed(made.spot).name) +
+               " cannot be written; expected a register that hosts write");
+  }
   return made;
 }
 
@@ -136,13 +143,12 @@ Quantity Binder::time(const YamlFields& field) const {
 
 Comparison Binder::comparison(const YamlFields& field) const {
   using Relation = Comparison::Relation;
-  // The longer ones first.
-  constexpr std::array<std::pair<std::string_view, Relation>, 6> kRelations{{{"<=", Relation::at_most},
-                                                                             {">=", Relation::at_least},
-                                                                             {"==", Relation::equal},
-                                                                             {"!=", Relation::unequal},
-                                                                             {"<", Relation::less},
-                                                                             {">", Relation::greater}}};
+  constexpr std::array<std::pair<std::string_view, Relation>, 6> kRelations{{{" <= ", Relation::at_most},
+                                                                             {" >= ", Relation::at_least},
+                                                                             {" == ", Relation::equal},
+                                                                             {" != ", Relation::unequal},
+                                                                             {" < ", Relation::less},
+                                                                             {" > ", Relation::greater}}};
   const std::string text = field.text();
   for (const auto& [sign, relation] : kRelations) {
     const std::size_t at = text.find(sign);
@@ -153,7 +159,8 @@ Comparison Binder::comparison(const YamlFields& field) const {
     made.right = quantity(field, trimmed(text.substr(at + sign.size())));
     return made;
   }
-  field.fail(understudy::quoted(text) + " is not a relation; expected one such as TEMPERATURE > LIMIT");
+  field.fail(understudy::quoted(text) +
+             " is not a relation; expected one such as TEMPERATURE > LIMIT, with blanks around the sign");
 }
 
 }  // namespace understudy::emulator::model_file

@@ -34,7 +34,8 @@ class Binder {
 
   /// "CONTROL.0", "COMMAND == 2".
   models::imported::Condition condition(const world::YamlFields& field) const;
-  /// Likewise, of a register or a bit that hosts write.
+  /// Likewise, of 16 bits or one; and of what hosts write.
+  models::imported::Condition level(const world::YamlFields& field) const;
   models::imported::Condition command(const world::YamlFields& field) const;
   /// A register, or a number.
   models::imported::Quantity quantity(const world::YamlFields& field, const std::string& text) const;

@@ -138,12 +138,12 @@ std::string name_of(const ListRow& row) {
   const std::string name = row.text(Column::name);
   if (name.empty()) row.fail(Column::name, "is missing; expected one in every row");
   const bool begins_well = !(name[0] >= '0' && name[0] <= '9');
-  const bool is_plain = name.find_first_of(".{}\"'=<>!") == std::string::npos && one_line(name) == name;
+  const bool is_plain = name.find_first_of(".{}\"") == std::string::npos && one_line(name) == name;
   if (!begins_well || !is_plain || table_called(name)) {
     row.fail(Column::name,
              quoted(name) +
                  " cannot be used as a name; expected one that does not begin with a digit, is not "
-                 "a table, and has none of . { } \" ' = < > !");
+                 "a table, and has none of . { } \"");
   }
   return name;
 }

@@ -127,7 +127,7 @@ class ModelReader {
     complaints_.attempt([&] {
       const YamlFields field = root_.at("registers");
       const ReadList list = read_list(field, may_read, files);
-      made_.text = whole_text(root_, list.text);
+      list_ = list.text;
       const std::size_t before = complaints_.count();
       made_.registers = read_register_list(list.text, list.place, complaints_);
       list_is_whole_ = complaints_.count() == before;
@@ -138,6 +138,8 @@ class ModelReader {
     });
     read("line", [&](const YamlFields& field) { read_line(field, made_.line, complaints_); });
     if (list_is_whole_) complaints_.attempt([&] { read_bindings(); });
+    // Only what has been found good: an alias may be inside of what it names.
+    if (complaints_.count() == 0) made_.text = whole_text(root_, list_);
     return std::move(made_);
   }
 
@@ -187,6 +189,7 @@ class ModelReader {
   const YamlFields& root_;
   Complaints& complaints_;
   Description made_;
+  std::string list_;
   bool list_is_whole_ = false;
 };
 

@@ -92,7 +92,7 @@ TEST_F(Installation, BringsCompletionForShells) {
 }
 
 TEST_F(Installation, BringsSchemasForEditors) {
-  for (const auto* const kind : {"bench", "scenario"}) {
+  for (const auto* const kind : {"bench", "scenario", "model"}) {
     const std::string schema = prefix() + "/share/understudy/schemas/" + kind + ".schema.json";
     EXPECT_EQ(contents(schema), understudy({"schema", kind}).output) << kind;
   }

@@ -131,6 +131,7 @@ void obey(AxisState& axis, const AxisBinding& binding, Command command, const Ax
     case begin:
     case join: break;
   }
+  axis.way_is_spent = true;  // what was held is over; it counts again when it is told anew
   if (command == Command::home) return go_home(axis, binding, numbers, now);
   std::int64_t distance = 0;
   if (command == Command::start) {

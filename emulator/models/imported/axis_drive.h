@@ -25,7 +25,7 @@ struct AxisState {
   std::int64_t encoder_counts = 0;
   double run_pps = 0;          // that it runs forward or backward with
   std::int8_t wanted_way = 0;  // that hosts hold: +1 forward, -1 backward, 0 neither or both
-  bool way_is_spent = false;   // it was stopped since: it runs again when it is told anew
+  bool way_is_spent = false;   // something else came since: it runs again when it is told anew
   bool arrived = false;        // the last move has reached its target
   bool homed = false;
 
