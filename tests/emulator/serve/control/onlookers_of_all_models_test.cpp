@@ -118,7 +118,9 @@ TEST(AxisTarget, IsWhereTheMoveEnds) {
       const std::string name = "d." + one.axes[i];
       EXPECT_EQ(bench.value(name + ".pulses"), told[one.axes[i]]) << name;
       EXPECT_EQ(bench.value(name + ".target"), told[one.axes[i]]) << name;
-      if (!one.ends.empty()) EXPECT_EQ(told[one.axes[i]], one.ends[i]) << name;
+      if (!one.ends.empty()) {
+        EXPECT_EQ(told[one.axes[i]], one.ends[i]) << name;
+      }
     }
   }
 }
