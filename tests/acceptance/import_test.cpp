@@ -68,18 +68,18 @@ TEST(ImportExamples, PassByTheWallClockAsWell) {
 
 /// A bench of the examples, with links in the test's folder.
 std::unique_ptr<RunningUnderstudy> serve_example(const std::string& name, int baud) {
-  return RunningUnderstudy::of_bench("understudy: 1\nlines:\n  line:\n    link: port\n    baud: " +
-                                     std::to_string(baud) + "\n    stations:\n      - { name: " + name +
-                                     ", model: " + kExamples + name + ".yaml, address: 1 }\n" +
-                                     (name == "oven" ? "inputs: { oven.ROOM_SENSOR: 200 }\n" : ""));
+  return RunningUnderstudy::of_bench(
+      "understudy: 1\nlines:\n  line:\n    link: port\n    baud: " + std::to_string(baud) +
+      "\n    stations:\n      - { name: " + name + ", model: " + kExamples + name + ".yaml, address: 1 }\n" +
+      (name == "oven" ? "inputs: { oven.ROOM_SENSOR: 200 }\n" : ""));
 }
 
 TEST(ImportedDrive, IsDrivenByMbpoll) {
   if (!has_mbpoll()) GTEST_SKIP() << "mbpoll is not installed";
   const auto daemon = serve_example("drive", 115200);
   const auto mbpoll = [&](const std::string& type, int address, const Words& values) {
-    Words words{"mbpoll", "-m", "rtu", "-b", "115200", "-P", "none", "-0", "-q", "-B", "-t", type, "-r",
-                std::to_string(address)};
+    Words words{"mbpoll", "-m", "rtu", "-b", "115200", "-P", "none",
+                "-0",     "-q", "-B",  "-t", type,     "-r", std::to_string(address)};
     if (values.empty()) words.emplace_back("-1");
     words.push_back(daemon->port());
     if (!values.empty()) words.emplace_back("--");
@@ -89,7 +89,8 @@ TEST(ImportedDrive, IsDrivenByMbpoll) {
   const auto value = [&](const std::string& type, int address) {
     const Finished finished = mbpoll(type, address, {});
     std::smatch found;
-    return std::regex_search(finished.output, found, std::regex("\\]:\\s*(\\S+)")) ? found[1].str() : finished.errors;
+    return std::regex_search(finished.output, found, std::regex("\\]:\\s*(\\S+)")) ? found[1].str()
+                                                                                   : finished.errors;
   };
   EXPECT_EQ(value("4", 0x14), "50");
   EXPECT_EQ(mbpoll("4", 0x14, {"100", "50", "50"}).exit_code, 0);  // SPEED, ACC_TIME, DEC_TIME
@@ -116,8 +117,8 @@ TEST_P(ImportedWithPymodbus, IsWhatItsHostExpects) {
   }
   const auto [name, baud] = GetParam();
   const auto daemon = serve_example(name, baud);
-  const Finished host = run({"/usr/bin/python3", std::string(TEST_FACTS) + "/hosts/imported_host.py", daemon->port(),
-                             std::to_string(baud), name});
+  const Finished host = run({"/usr/bin/python3", std::string(TEST_FACTS) + "/hosts/imported_host.py",
+                             daemon->port(), std::to_string(baud), name});
   EXPECT_EQ(host.exit_code, 0) << host.output << host.errors;
   EXPECT_EQ(daemon->errors(), "");
 }
@@ -152,7 +153,8 @@ TEST(ImportedModels, KeepTheirMemoriesInFiles) {
   EXPECT_NE(contents(memories / "device.json").find("\"ACC_TIME\": 321"), std::string::npos)
       << contents(memories / "device.json");
   const auto daemon = RunningUnderstudy::of_model(model, {"--nv", memories.path()});
-  EXPECT_EQ(daemon->ctl({"get", "device.ACC_TIME", "device.SPEED"}).output, "device.ACC_TIME 321\ndevice.SPEED 50\n");
+  EXPECT_EQ(daemon->ctl({"get", "device.ACC_TIME", "device.SPEED"}).output,
+            "device.ACC_TIME 321\ndevice.SPEED 50\n");
 }
 
 TEST(ImportedModels, AreNotWrittenOver) {
@@ -160,8 +162,8 @@ TEST(ImportedModels, AreNotWrittenOver) {
   fs::copy(kExamples + "drive.csv", folder / "drive.csv");
   fs::copy(kExamples + "drive.yaml", folder / "drive.yaml");
   for (const char* const name : {"drive.csv", "drive.yaml"}) {
-    const Finished refused =
-        understudy({"serve", "--model", folder / "drive.yaml", "--record", folder / name, "--link", folder / "port"});
+    const Finished refused = understudy(
+        {"serve", "--model", folder / "drive.yaml", "--record", folder / name, "--link", folder / "port"});
     EXPECT_EQ(refused.exit_code, 2) << refused.errors;
     EXPECT_NE(refused.errors.find("expected another path"), std::string::npos) << refused.errors;
   }
@@ -180,8 +182,7 @@ TEST(ImportCommand, WritesWhatCanBeServedAndNothingOver) {
   const std::string before = contents(folder / "a-pump.yaml");
   const Finished again = understudy({"import", list});
   EXPECT_EQ(again.exit_code, 2);
-  EXPECT_EQ(again.errors,
-            folder / "a-pump.yaml: file: is there already; expected a folder without it\n");
+  EXPECT_EQ(again.errors, folder / "a-pump.yaml: file: is there already; expected a folder without it\n");
   EXPECT_EQ(contents(folder / "a-pump.yaml"), before);
   // Elsewhere, and under another name.
   fs::create_directory(folder / "models");
@@ -199,8 +200,9 @@ TEST(ImportCommand, RefusesWhatCannotBeOne) {
     return refused.errors;
   };
   EXPECT_EQ(complaint({"import", folder / "q.csv"}),
-            folder / "q.csv: registers: cannot be read (No such file or directory); expected a list of registers "
-                     "(CSV)\n");
+            folder /
+                "q.csv: registers: cannot be read (No such file or directory); expected a list of registers "
+                "(CSV)\n");
   EXPECT_EQ(complaint({"import", list, "--name", "a b"}),
             "understudy: --name: 'a b' is not a name; expected letters, digits, _ and -\n");
   EXPECT_EQ(complaint({"import", list, "--name", "slim"}),

@@ -1,6 +1,6 @@
-// What may stand in a file that describes a model, its list of registers inside: anything. It is refused by an error
-// of one line each, or it is a model: then its description is the same model, and a device of it takes whatever is
-// written to each of its registers, the same by single ticks and after a restore.
+// What may stand in a file that describes a model, its list of registers inside: anything. It is refused by
+// an error of one line each, or it is a model: then its description is the same model, and a device of it
+// takes whatever is written to each of its registers, the same by single ticks and after a restore.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -139,8 +139,8 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"line: { station_in: CONTROL }\n", 1, 21,
        "line.station_in: 'CONTROL' has the default 0; expected one from 1 to 247 (`stations`)"},
       {"map: { holes: none }\n", 1, 15, "map.holes: 'none' is not possible; expected one of refused, zero"},
-      {"bits: { STATE: { A: 0 } }\n", 1, 16,
-       "bits.STATE: 'STATE' is not a register of the list; the nearest is "
+      {"bits: { STATUSS: { A: 0 } }\n", 1, 18,
+       "bits.STATUSS: 'STATUSS' is not a register of the list; the nearest is "
        "'STATUS'"},
       {"bits: { STATUS: { A: 16 } }\n", 1, 22,
        "bits.STATUS.A: '16' is not a bit; expected 0 to 15, or two of them as in 4-7"},
@@ -187,12 +187,13 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
 }
 
 TEST(ModelReader, SaysWhatIsWrongWithTheWhole) {
-  EXPECT_EQ(complaint_about(""), "m.yaml:1:1: model: is empty; expected one") << "as every file";
+  EXPECT_EQ(complaint_about(""),
+            "m.yaml:1:1: model: the file is not a map; expected `understudy: 1`, `model:` and `registers:`");
 }
 
 TEST(ModelReader, TakesAnAxisWithEveryKey) {
   EXPECT_EQ(
-      complaint("inputs: { UP: STATUS.8, DOWN: STATUS.9, HOME: SWITCH, ALARM: - }\n"
+      complaint("inputs: { UP: STATUS.8, DOWN: STATUS.9, HOME: SWITCH, ALARM: nowhere }\n"
                 "axes:\n"
                 "  A:\n"
                 "    target: TARGET\n"
@@ -204,11 +205,11 @@ TEST(ModelReader, TakesAnAxisWithEveryKey) {
                 "    rated_speed: 1000\n"
                 "    home_speed: GAIN\n"
                 "    stop_at_once: CONTROL.MODE == 7\n"
-                "    stop: ORDER == 0\n"
+                "    stop: ORDER == 0\n    start: ORDER == 1\n    start_relative: ORDER == 2\n"
                 "    enable: UP_IS_NO_REGISTER\n"),
-      at(14, 13, "axes.A.enable: no register is called 'UP_IS_NO_REGISTER'; expected one such as 'CONTROL'"));
+      at(16, 13, "axes.A.enable: no register is called 'UP_IS_NO_REGISTER'; expected one such as 'CONTROL'"));
   const std::string all =
-      "inputs: { UP: STATUS.8, DOWN: STATUS.9, HOME: SWITCH, ALARM: -, V: LEVEL }\n"
+      "inputs: { UP: STATUS.8, DOWN: STATUS.9, HOME: SWITCH, ALARM: nowhere, V: LEVEL }\n"
       "outputs: { LAMP: RUN, VALVE: CONTROL.12 }\n"
       "momentary: [ ORDER ]\n"
       "axes:\n"
@@ -324,7 +325,7 @@ TEST_F(ModelFilesInAFolder, AreSaidToBeMissingWhereTheyAreNamed) {
   };
   const std::string model = (folder_ / "m.yaml").string();
   EXPECT_EQ(complaint_about_bench(),
-            bench + ":2:48: lines.a.stations[0].model: " + model +
+            bench + ":2:46: lines.a.stations[0].model: " + model +
                 " cannot be read (No such file or directory); expected a model file");
   write("m.yaml", "understudy: 1\nmodel: one\nregisters: list.csv\n");
   EXPECT_EQ(complaint_about_bench(),

@@ -163,7 +163,8 @@ TEST(RegisterList, InsideOfAModelFileIsSaidToBeThere) {
 
 TEST(Starter, IsAModelThatCanBeReadAndEdited) {
   const std::string list =
-      "address,name,access\n0,CONTROL,R/W\n1,STATUS,R\n2,TARGET_POS,R/W\n3,SPEED,R/W\n4,POS,R\n";
+      "address,name,access\n0,CONTROL,R/W\n1,STATUS,R\n2,TARGET_POS,R/W\n3,SPEED,R/"
+      "W\n4,POS,R\n5,NOW_SPEED,R\n";
   std::string text = starter_model(read_list_file(list, "l.csv"), "mine", "l.csv");
   EXPECT_NE(text.find("#    target: TARGET_POS"), std::string::npos) << text;
   EXPECT_NE(text.find("#    busy: STATUS.0"), std::string::npos) << text;

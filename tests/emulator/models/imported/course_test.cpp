@@ -143,7 +143,7 @@ TEST(DescribedTerminals, AreWhatTheirRegistersSay) {
 /// Whatever is written, nothing but a refusal comes of it.
 TEST(DescribedCourses, OutliveAnyNumbers) {
   std::mt19937_64 random(7);
-  OneDescribed one(axis_model(", pulses_per_count: 2147483647, pps_per_count: 1e9, rated_speed: 2147483647");
+  OneDescribed one(axis_model(", pulses_per_count: 2147483647, pps_per_count: 1e9, rated_speed: 2147483647"));
   for (int i = 0; i < 3000; ++i) {
     const char* kNames[] = {"CONTROL", "COMMAND", "TARGET",   "DISTANCE",
                             "SPEED",   "RAMP",    "POSITION", "SETPOINT"};

@@ -6,8 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include "emulator/device/axes.h"
 #include "emulator/device/device.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/terminals.h"
 #include "emulator/world/world.h"
 #include "tests/emulator/model_file/described.h"
 
@@ -32,7 +34,7 @@ inline const std::string kAxisList =
     "discrete,1,HIGH,R,bit,,,,0,0,\n";
 
 inline const std::string kAxisKeys =
-    "inputs: { UP: -, DOWN: -, HOME: SWITCHES, ALARM: - }\n"
+    "inputs: { UP: nowhere, DOWN: nowhere, HOME: SWITCHES, ALARM: nowhere }\n"
     "outputs: { LAMP: CONTROL.15 }\n"
     "momentary: [ COMMAND ]\n"
     "axes:\n"
