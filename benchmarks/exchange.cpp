@@ -1,14 +1,19 @@
 // Request and reply over a pty: Understudy with `--timing instant` and an axis that moves, beside a bare
-// echo responder and a libmodbus slave. All three live on one processor, the host on the other; they are
-// asked in turn, in blocks, and while one is asked the others are stopped, so that none pays for another.
+// echo responder and a libmodbus slave. A read of a Simple2-R3, and a command through the window of an
+// RS-M8194H. All three live on one processor, the host on the other; they are asked in turn, in blocks, and
+// while one is asked the others are stopped, so that none pays for another.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "benchmarks/figures.h"
 #include "benchmarks/host.h"
@@ -20,9 +25,7 @@ namespace understudy::benchmarks {
 
 namespace {
 
-constexpr int kStation = 1;
-constexpr int kRegister = 0x0E04;  // Cord_A, its low word: it changes with every tick of a move
-constexpr std::size_t kReplySize = 7;
+constexpr std::uint8_t kStation = 1;
 constexpr int kWarmUp = 20;  // exchanges at the beginning of a block that do not count
 constexpr int kExchanges = 300;
 constexpr int kDefaultRounds = 60;
@@ -37,19 +40,50 @@ Frame completed(Frame frame) {
   return frame;
 }
 
-Frame request() { return completed({kStation, 0x03, kRegister >> 8, kRegister & 0xFF, 0x00, 0x01}); }
+/// What is asked, over and over.
+struct Question {
+  const char* name;
+  const char* model;
+  Frame request;
+  Frame reply;  // as a bare responder gives it
+  Responder::Range registers;
+  void (UnderstudyServer::*start_moving)() const;
+};
+
+/// Cord_A of a Simple2-R3, its low word: it changes with every tick of a move.
+Question read_of_a_register() {
+  constexpr std::uint8_t kHigh = 0x0E;
+  constexpr std::uint8_t kLow = 0x04;
+  return {.name = "a register",
+          .model = "simple2-r3",
+          .request = completed({kStation, 0x03, kHigh, kLow, 0x00, 0x01}),
+          .reply = completed({kStation, 0x03, 0x02, 0x00, 0x00}),
+          .registers = {.first = kHigh << 8U | kLow, .count = 1},
+          .start_moving = &UnderstudyServer::start_long_move};
+}
+
+/// RSM_CHANGE_VEL_ON_FLY Y 1000 of an RS-M8194H: it is carried out on receipt, however many come in a tick;
+/// what goes through the FIFO is refused as busy soon.
+Question command_through_the_window() {
+  constexpr unsigned kWindow = 8000;
+  return {.name = "a command",
+          .model = "rs-m8194h",
+          .request = completed(
+              {kStation, 0x10, 0x1F, 0x40, 0x00, 0x04, 0x08, 0x0A, 0x43, 0x00, 0x02, 0x00, 0x00, 0x03, 0xE8}),
+          .reply = completed({kStation, 0x10, 0x1F, 0x40, 0x00, 0x04}),
+          .registers = {.first = kWindow, .count = 4},
+          .start_moving = &UnderstudyServer::start_endless_move};
+}
 
 class Contestant {
  public:
-  Contestant(const Process& process, const std::string& port, const Frame& request)
-      : process_(process), host_(port), request_(request) {
-    std::array<std::uint8_t, kReplySize> reply{};
+  Contestant(const Process& process, const std::string& port, const Question& question)
+      : process_(process), host_(port), request_(question.request), reply_(question.reply.size()) {
     alarm(5);
-    host_.exchange(request_, reply);
+    host_.exchange(request_, reply_);
     alarm(0);
-    if (reply[0] != kStation || reply[1] != 0x03 || reply[2] != 2 || !pty::rtu_crc_ok(reply)) {
-      throw CannotRun("a wrong reply came from " + port);
-    }
+    const bool is_right = std::equal(reply_.begin(), reply_.begin() + 3, question.reply.begin());
+    if (!is_right || !pty::rtu_crc_ok(reply_)) throw CannotRun("a wrong reply came from " + port);
     process_.stop();
   }
   ~Contestant() { process_.carry_on(); }
@@ -58,13 +92,12 @@ class Contestant {
 
   void run_block() {
     process_.carry_on();
-    std::array<std::uint8_t, kReplySize> reply{};
     std::vector<double> times;
     alarm(10);
-    for (int i = 0; i < kWarmUp; ++i) host_.exchange(request_, reply);
+    for (int i = 0; i < kWarmUp; ++i) host_.exchange(request_, reply_);
     const Nanoseconds before = process_.processor_time();
     for (int i = 0; i < kExchanges; ++i) {
-      times.push_back(static_cast<double>(host_.exchange(request_, reply).count()) / 1000);
+      times.push_back(static_cast<double>(host_.exchange(request_, reply_).count()) / 1000);
     }
     const Nanoseconds used = process_.processor_time() - before;
     alarm(0);
@@ -85,6 +118,7 @@ class Contestant {
   const Process& process_;
   Host host_;
   Frame request_;
+  Frame reply_;
 };
 
 /// The median of the ratios of blocks of the same round: levels drift, their ratio does not.
@@ -101,21 +135,16 @@ void let_alarms_interrupt() {
   sigaction(SIGALRM, &action, nullptr);
 }
 
-void run(const std::string& executable, int rounds) {
-  const Processors processors = two_processors();
-  const Frame reply = completed({kStation, 0x03, 0x02, 0x00, 0x00});
-  const Responder bare = Responder::echo(request().size(), reply, processors.server);
-  const Responder peer = Responder::libmodbus(kStation, kRegister, processors.server);
-  const UnderstudyServer ours(executable, "instant", processors.server);
-  ours.start_long_move();
-  let_alarms_interrupt();
-  pin_to(processors.client);
-  prctl(PR_SET_TIMERSLACK, 1UL);
+void run(const Question& question, const Processors& processors, const std::string& executable, int rounds) {
+  const Responder bare = Responder::echo(question.request.size(), question.reply, processors.server);
+  const Responder peer = Responder::libmodbus_tables(kStation, {}, question.registers, processors.server);
+  const UnderstudyServer ours(executable, "instant", processors.server, question.model);
+  (ours.*question.start_moving)();
 
   std::array<std::unique_ptr<Contestant>, kSides> sides;
-  sides[echo] = std::make_unique<Contestant>(bare.process(), bare.port(), request());
-  sides[libmodbus] = std::make_unique<Contestant>(peer.process(), peer.port(), request());
-  sides[understudy] = std::make_unique<Contestant>(ours.process(), ours.port(), request());
+  sides[echo] = std::make_unique<Contestant>(bare.process(), bare.port(), question);
+  sides[libmodbus] = std::make_unique<Contestant>(peer.process(), peer.port(), question);
+  sides[understudy] = std::make_unique<Contestant>(ours.process(), ours.port(), question);
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < kSides; ++i)
       sides[(i + static_cast<std::size_t>(round)) % kSides]->run_block();
@@ -124,7 +153,8 @@ void run(const std::string& executable, int rounds) {
   std::array<double, 1> load{};
   getloadavg(load.data(), 1);
   const Contestant& floor = *sides[echo];
-  std::printf("%d rounds of %d exchanges each; load average %.1f\n", rounds, kExchanges, load[0]);
+  std::printf("%s of %s: %d rounds of %d exchanges each; load average %.1f\n", question.name, question.model,
+              rounds, kExchanges, load[0]);
   std::printf("microseconds, and in brackets the ratio to echo, the median over the rounds\n");
   std::printf("%-12s %18s %18s %18s %12s %12s\n", "", "p50 of a block", "p99 of a block", "processor/request",
               "p50 of all", "p99 of all");
@@ -136,10 +166,23 @@ void run(const std::string& executable, int rounds) {
                 percentile(side.all, 0.99));
   }
   const Contestant& own = *sides[understudy];
-  print_verdict("p50 against echo", ratio(own.p50, floor.p50), 1.10);
-  print_verdict("p99 against echo", ratio(own.p99, floor.p99), 1.25);
-  print_verdict("processor time of a request against libmodbus",
-                ratio(own.processor, sides[libmodbus]->processor), 1.00);
+  const auto judge = [&](const std::string& what, double found, double bar) {
+    print_verdict((question.name + (": " + what)).c_str(), found, bar);
+  };
+  judge("p50 against echo", ratio(own.p50, floor.p50), 1.10);
+  judge("p99 against echo", ratio(own.p99, floor.p99), 1.25);
+  judge("processor time of a request against libmodbus", ratio(own.processor, sides[libmodbus]->processor),
+        1.00);
+}
+
+void run(const std::string& executable, int rounds) {
+  const Processors processors = two_processors();
+  let_alarms_interrupt();
+  pin_to(processors.client);
+  prctl(PR_SET_TIMERSLACK, 1UL);
+  for (const Question& question : {read_of_a_register(), command_through_the_window()}) {
+    run(question, processors, executable, rounds);
+  }
 }
 
 }  // namespace

@@ -57,10 +57,6 @@ Responder Responder::echo(std::size_t request_size, const std::vector<std::uint8
   return {Process::of_function(serve, processor), pty.path};
 }
 
-Responder Responder::libmodbus(int station, int address, int processor) {
-  return libmodbus_tables(station, {}, {.first = static_cast<unsigned>(address), .count = 1}, processor);
-}
-
 Responder Responder::libmodbus_tables(int station, Range coils, Range registers, int processor) {
   const Pty pty;
   const auto serve = [&] {

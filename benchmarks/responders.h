@@ -14,14 +14,12 @@ class Responder {
  public:
   /// Reads as many bytes as `request` has, and writes `reply`, whatever they are.
   static Responder echo(std::size_t request_size, const std::vector<std::uint8_t>& reply, int processor);
-  /// A libmodbus RTU slave with one holding register.
-  static Responder libmodbus(int station, int address, int processor);
 
   struct Range {
     unsigned first = 0;
     unsigned count = 0;
   };
-  /// One with coils and holding registers.
+  /// A libmodbus RTU slave with coils and holding registers.
   static Responder libmodbus_tables(int station, Range coils, Range registers, int processor);
 
   const Process& process() const { return process_; }

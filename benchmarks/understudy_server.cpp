@@ -20,9 +20,10 @@ UnderstudyServer::PrivateFolder::~PrivateFolder() {
 UnderstudyServer::UnderstudyServer(std::string executable, const std::string& timing, int processor,
                                    const std::string& model)
     : executable_(std::move(executable)),
-      process_(Process::of_command({executable_, "serve", "--model", model, "--timing", timing, "--control",
-                                    folder_.path + "/control", "--link", folder_.path + "/port"},
-                                   processor)) {
+      process_(
+          Process::of_command({executable_, "serve", "--model", model, "--baud", "19200", "--timing", timing,
+                               "--control", folder_.path + "/control", "--link", folder_.path + "/port"},
+                              processor)) {
   std::istringstream ready(process_.read_line());  // ready <line> <pty path> <link path>
   std::string word;
   std::string line;
@@ -36,16 +37,17 @@ UnderstudyServer::~UnderstudyServer() {
 }
 
 void UnderstudyServer::start_long_move() const {
-  set("device.Aaxis_SVON=1");
-  set("device.Aaxis_Pulse=2000000000");
-  set("device.Aaxis_Speed=100");
-  set("device.Aaxis_Move_INC=1");
+  control("set", "device.Aaxis_SVON=1");
+  control("set", "device.Aaxis_Pulse=2000000000");
+  control("set", "device.Aaxis_Speed=100");
+  control("set", "device.Aaxis_Move_INC=1");
 }
 
-void UnderstudyServer::set(const std::string& assignment) const {
-  Process ctl =
-      Process::of_command({executable_, "ctl", "--control", folder_.path + "/control", "set", assignment});
-  if (ctl.wait() != 0) throw CannotRun("understudy ctl set " + assignment + " failed");
+void UnderstudyServer::start_endless_move() const { control("command", "RSM_CONTINUE_MOVE Y 1000"); }
+
+void UnderstudyServer::control(const std::string& verb, const std::string& what) const {
+  Process ctl = Process::of_command({executable_, "ctl", "--control", folder_.path + "/control", verb, what});
+  if (ctl.wait() != 0) throw CannotRun("understudy ctl " + verb + " " + what + " failed");
 }
 
 }  // namespace understudy::benchmarks

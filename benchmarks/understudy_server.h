@@ -21,6 +21,8 @@ class UnderstudyServer {
 
   /// Starts axis A on a move that lasts for days, so that every tick has something to do.
   void start_long_move() const;
+  /// Likewise axis Y of an RS-M8194H, for ever.
+  void start_endless_move() const;
 
  private:
   struct PrivateFolder {
@@ -30,7 +32,7 @@ class UnderstudyServer {
     PrivateFolder& operator=(const PrivateFolder&) = delete;
     std::string path;
   };
-  void set(const std::string& assignment) const;
+  void control(const std::string& verb, const std::string& what) const;
 
   std::string executable_;
   PrivateFolder folder_;

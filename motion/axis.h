@@ -233,6 +233,11 @@ struct alignas(64) Axis {
     if (task != Task::move || settling) return 0;
     return in_backlash ? target_pulses : target_pulses - drive.sent_pulses;
   }
+  /// The same, signed as they come out; 0 where it will not get there.
+  std::int64_t pulses_to_come() const {
+    if (slowing && !comes_back) return 0;
+    return remaining_pulses() * drive.direction * (inverted ? -1 : +1);
+  }
 
   // ---- The tick
 

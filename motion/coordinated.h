@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "motion/axis.h"
@@ -40,7 +41,7 @@ struct Coordinated {
   /// to, signed as they come out) go with `axes`. When one is stopped, for whatever reason, all stop where
   /// they are, and the rest is abandoned; when the queue has run empty at rest, they are let go (unless the
   /// owner keeps them with `stays_engaged`). One that is stopped by what it meets within the tick stops the
-  /// others at that place of the path.
+  /// others at that place of the path; one that is to slow down slows all of them from there on.
   void step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
             std::span<std::int64_t> pulses, bool stays_engaged = false);
 
@@ -53,18 +54,33 @@ struct Coordinated {
   bool takes(std::size_t axis) const;
   /// The signed speed of that axis after tick `now`; 0 if it takes no part.
   double speed_pps(std::size_t axis, Tick now) const;
+  /// Pulses of that axis until the end of the path being run, signed as they come out; 0 if it takes no part,
+  /// or will not get there.
+  std::int64_t pulses_to_come(std::size_t axis, std::span<const Axis> axes) const;
   /// The travel of the axis of coordinate `i` at a place, rounded half away from zero.
   std::int64_t travel_at(std::size_t i, double place_u) const;
 
  private:
   struct Stopped;
   using Targets = std::array<std::int64_t, kPathAxes>;  // the travel of each coordinate's axis
-  Stopped first_stopped(const Targets& target, const PathRun::Stretch& gone, Tick tick,
-                        std::span<const Axis> axes, std::span<const Surroundings> here) const;
+  /// Where an axis has turned round within the tick, beyond where it began and where it ends.
+  struct Excursion {
+    std::int64_t travel = 0;
+    double along_u = 0;
+  };
+  using Excursions = std::array<std::optional<Excursion>, kPathAxes>;
+  Excursions excursions(const Targets& target, const PathRun::Stretch& gone, Tick tick,
+                        std::span<const Axis> axes) const;
+  bool comes_back(const Targets& target, const PathRun::Stretch& gone, Tick tick,
+                  std::span<const Axis> axes) const;
+  Stopped first_stopped(const Targets& target, const Excursions& beyond, const PathRun::Stretch& gone,
+                        Tick tick, std::span<const Axis> axes, std::span<const Surroundings> here) const;
   Cause carry(Targets target, const PathRun::Stretch& gone, Tick tick, std::span<Axis> axes,
               std::span<const Surroundings> here, std::span<std::int64_t> pulses);
+  void slow_within(Targets& target, PathRun::Stretch& gone, Tick tick, std::span<const Axis> axes,
+                   std::span<const Surroundings> here);
   double along_where(std::size_t i, std::int64_t travel, std::int64_t from_travel,
-                     const PathRun::Stretch& gone, double from_u) const;
+                     const PathRun::Stretch& gone, double from_u, double to_u) const;
 };
 
 }  // namespace understudy::motion

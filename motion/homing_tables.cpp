@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 
 #include "motion/bad_motion.h"
 #include "motion/homing.h"
+#include "motion/ramp.h"
 #include "motion/surroundings.h"
 
 namespace understudy::motion {
@@ -96,7 +98,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
 
   if (mode.at == At::dog) {
     program.add({.does = Does::go,
-                 .speed = kCreep,
+                 .speed = how.leaves_fast ? kFast : kCreep,
                  .again_while = bit(Signal::home),
                  .distance_pulses = back * std::max<std::int64_t>(how.leave_pulses, 1)});
   }
@@ -148,17 +150,25 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
   const std::int8_t way = how.search_pulses < 0 ? std::int8_t{-1} : std::int8_t{+1};
   const Signal mark = limit_towards(way);
   HomingProgram program{.speeds = {how.fast, how.creep}};
+  const std::int64_t search = std::abs(how.search_pulses);
+  const bool goes_on = how.distance_pulses * way > 0;
+  std::int64_t behind = 0;  // that it takes to slow down there
+  if (how.slows_behind && goes_on && how.fast.top_speed_u_s > how.creep.top_speed_u_s) {
+    const double braking = ramp_distance(how.fast.down, how.creep.top_speed_u_s, how.fast.top_speed_u_s);
+    behind = std::min(static_cast<std::int64_t>(std::ceil(braking)), search - 1);
+  }
   program.add({.does = Does::go,
                .speed = kFast,
                .then = kRunOn,
-               .distance_pulses = how.distance_pulses,
-               .ignores = bit(mark)});
+               .distance_pulses = how.distance_pulses + way * behind,
+               .ignores = how.looks_all_the_way ? Signals{0} : bit(mark),
+               .if_limit = how.looks_all_the_way ? HomingPhase::kRowBelow : kFail});
   program.add({.way = way,
                .speed = kCreep,
                .until = mark,
-               .then = kStop,
+               .then = how.mark_slows ? kSlowDown : kStop,
                .marks = true,
-               .within_pulses = std::abs(how.search_pulses),
+               .within_pulses = search - behind,
                .if_far = HomingPhase::kRowBelow});
   return program;
 }

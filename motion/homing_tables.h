@@ -20,6 +20,7 @@ struct Super40ncHoming {
   std::int64_t leave_pulses = 5;     // X25, away from a DOG that is on at the start; 0 acts as 1
   std::int64_t offset_pulses = 0;    // X30, signed, whatever `way`
   bool limit_stops_at_once = false;  // modes 6 to 8 and 12: as the chip would with D9x01 = 0
+  bool leaves_fast = false;          // the DOG that is on at the start
   bool offset_creeps = false;        // the way back to the reference, and the offset
   bool plate_may_be_short = false;   // a DOG that is off behind the stop does not matter
 };
@@ -37,6 +38,9 @@ struct Super40ncMark {
   std::int64_t search_pulses = 0;  // X16: how far it looks; above 0 for +EL, below for -EL
   SpeedLaw fast;                   // by RPM
   SpeedLaw creep;                  // X22
+  bool slows_behind = false;       // the target, and looks once it creeps
+  bool looks_all_the_way = false;  // a mark before the target ends it as well
+  bool mark_slows = false;         // it stops by its ramp
 };
 /// Throws BadMotion(out_of_range) for a search of 0.
 HomingProgram super40nc_mark(const Super40ncMark& how);

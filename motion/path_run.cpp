@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "motion/bad_motion.h"
+#include "motion/bisection.h"
 #include "motion/move.h"
 #include "motion/path.h"
 #include "motion/profile.h"
@@ -16,6 +17,7 @@ namespace understudy::motion {
 namespace {
 
 double seconds(Tick ticks) { return static_cast<double>(ticks) / kTicksPerSecond; }
+constexpr double kTick_s = 1 / kTicksPerSecond;
 
 bool is_smooth(const Path& first, const Path& next, Joint joint) {
   switch (joint.rule) {
@@ -172,11 +174,13 @@ void PathRun::abandon() {
   running_ = paused_ = open_ = false;
 }
 
+double PathRun::elapsed_s(Tick now) const { return seconds(now - begin_tick_) - begin_after_s_; }
+
 Sample PathRun::sample(Tick now) const {
   if (chain_count_ == 0) return {.position_u = chain_end_u_};
   // Not begun yet: a start speed is not yet there.
-  if (now < begin_tick_) return {.position_u = profile_.sample(0).position_u};
-  Sample here = profile_.sample(seconds(now - begin_tick_));
+  if (elapsed_s(now) < 0) return {.position_u = profile_.sample(0).position_u};
+  Sample here = profile_.sample(elapsed_s(now));
   // A path has no way back, but the last digits of an S-curve's end may go below 0.
   here.speed_u_s = std::max(0.0, here.speed_u_s);
   return here;
@@ -224,6 +228,7 @@ void PathRun::lay_out_chain(Tick begin_at) {
     ++chain_count_;
   }
   begin_tick_ = begin_at;
+  begin_after_s_ = 0;
   ran_dry_ = false;
   if (held() || chain_end_u_ == 0) {
     profile_ = Profile{};
@@ -249,7 +254,7 @@ void PathRun::replan(Tick now) {
   if (here.position_u >= chain_end_u_) return;
   // From standstill a motion is at its beginning in the next tick, as everywhere; one that is at its
   // beginning already stays there, or commands in every tick would keep it from ever setting out.
-  const bool stands = seconds(from - begin_tick_) >= profile_.duration_s;
+  const bool stands = elapsed_s(from) >= profile_.duration_s;
   if (here.speed_u_s == 0 && stands) from = std::max(from, now + 1);
   if (held()) {
     profile_ = slow_to_stop(here, law_);
@@ -269,6 +274,30 @@ void PathRun::replan(Tick now) {
     }
   }
   begin_tick_ = from;
+  begin_after_s_ = 0;
+}
+
+bool PathRun::pause_within(Tick tick, double along_u, Stretch& gone) {
+  if (paused_ || gone.chain_is_over || chain_count_ == 0 || along_u < piece(0).begin_u) return false;
+  const double before_s = elapsed_s(tick - 1);
+  const double from_u = sample(tick - 1).position_u;
+  const auto is_there = [&](double after_s) {
+    return profile_.sample(before_s + after_s).position_u >= along_u;
+  };
+  double after_s = 0;
+  if (before_s < 0) return false;
+  if (!is_there(0)) after_s = is_there(kTick_s) ? turnover(0, kTick_s, is_there).after : kTick_s;
+  Sample here = profile_.sample(before_s + after_s);
+  here.speed_u_s = std::max(0.0, here.speed_u_s);
+  paused_ = true;
+  profile_ = slow_to_stop(here, law_);
+  profile_.cut_at(chain_end_u_);
+  begin_tick_ = tick - 1;
+  begin_after_s_ = after_s;
+  gone = {.to_u = sample(tick).position_u, .began_is_told = true, .from_u = from_u};
+  go_to(gone.to_u);
+  gone.last_piece = head_;
+  return true;
 }
 
 std::size_t PathRun::queued_after(Tick tick) const {
@@ -299,6 +328,7 @@ void PathRun::check_queue() const {
   fits = fits && chain_end_u_ >= 0 && std::isfinite(chain_end_u_) && override_ >= 0 && override_ <= 10;
   constexpr Tick kFarthest = Tick{1} << 56;
   fits = fits && begin_tick_ >= -kFarthest && begin_tick_ <= kFarthest && !profile_.endless();
+  fits = fits && begin_after_s_ >= 0 && begin_after_s_ <= kTick_s;
   for (const Piece& each : pieces_) fits = fits && std::isfinite(each.begin_u);
   if (!fits) {
     throw BadMotion(Refusal::out_of_range, "path run", "the queue's numbers contradict each other");
@@ -307,7 +337,7 @@ void PathRun::check_queue() const {
 }
 
 double PathRun::began_at(const Stretch& gone, Tick tick) const {
-  return gone.chain_is_over ? gone.from_u : sample(tick - 1).position_u;
+  return gone.began_is_told ? gone.from_u : sample(tick - 1).position_u;
 }
 
 Point PathRun::place_on(const Stretch& gone, double along_u) const {
@@ -322,9 +352,9 @@ Point PathRun::place_on(const Stretch& gone, double along_u) const {
 const Point& PathRun::step(Tick tick, Stretch* gone) {
   completed_ = 0;
   if (chain_count_ == 0) return last_place_;
-  const double elapsed_s = seconds(tick - begin_tick_);
-  const bool over = elapsed_s * kTicksPerSecond >= profile_.duration_s * kTicksPerSecond - kTickTolerance;
-  const double along_u = over ? profile_.end_position_u : profile_.sample(elapsed_s).position_u;
+  const double since_s = elapsed_s(tick);
+  const bool over = since_s * kTicksPerSecond >= profile_.duration_s * kTicksPerSecond - kTickTolerance;
+  const double along_u = over ? profile_.end_position_u : profile_.sample(since_s).position_u;
   if (!over || along_u < chain_end_u_) {
     go_to(along_u);
     if (gone != nullptr) {
@@ -336,8 +366,9 @@ const Point& PathRun::step(Tick tick, Stretch* gone) {
   if (gone != nullptr) {
     *gone = {.to_u = chain_end_u_,
              .last_piece = (head_ + chain_count_ - 1) % kMaxPaths,
-             .chain_is_over = true,
-             .from_u = sample(tick - 1).position_u};
+             .began_is_told = true,
+             .from_u = sample(tick - 1).position_u,
+             .chain_is_over = true};
   }
   ran_dry_ = keeps_speed_at_end();
   while (chain_count_ > 0) drop_front();

@@ -102,9 +102,10 @@ class PathRun {
   struct Stretch {
     double to_u = 0;
     std::size_t last_piece = 0;  // where in the ring the path is on which it ends
-    // Where the chain ended in the tick; else the profile still knows.
-    bool chain_is_over = false;
+    // Where the chain ended in the tick, or slowed down from within it; else the profile still knows.
+    bool began_is_told = false;
     double from_u = 0;
+    bool chain_is_over = false;
   };
   /// One tick, in order. The place after it, until the next one; where nothing runs, where the last path
   /// ended.
@@ -113,6 +114,11 @@ class PathRun {
   /// a length along the chain between there and `to_u`.
   double began_at(const Stretch& gone, Tick tick) const;
   Point place_on(const Stretch& gone, double along_u) const;
+  /// Whether it may have turned round in a coordinate: on an arc.
+  bool bends(const Stretch& gone) const { return pieces_[gone.last_piece].path.kind != Path::Kind::line; }
+  /// Pauses from a length along the chain on that lies within the tick just stepped, which ends accordingly.
+  /// False, and nothing has changed, where that is paused already, or has come into another path since.
+  bool pause_within(Tick tick, double along_u, Stretch& gone);
   /// Paths that were completed in the last tick.
   int completed() const { return completed_; }
   /// The path being run; of the queue's front.
@@ -141,6 +147,7 @@ class PathRun {
   void lay_out_chain(Tick begin_at);
   Profile cut_at_end(Profile profile) const;
   void replan(Tick now);
+  double elapsed_s(Tick now) const;
   void drop_front();
   void go_to(double along_u);
 
@@ -151,6 +158,7 @@ class PathRun {
   double chain_end_u_ = 0;
   Profile profile_;
   Tick begin_tick_ = 0;
+  double begin_after_s_ = 0;  // of the profile, after that tick
   SpeedLaw law_;
   double override_ = 1;
   LateJoint late_joint_ = LateJoint::speed_up_again;

@@ -10,18 +10,6 @@
 
 namespace understudy::motion {
 
-Sample sample_segment(const Segment& segment, double t_s) {
-  const double half_jerk = 0.5 * segment.jerk_u_s3;
-  return {
-      .position_u = segment.position_u +
-                    t_s * (segment.speed_u_s +
-                           t_s * (0.5 * segment.acceleration_u_s2 + t_s * (segment.jerk_u_s3 * (1.0 / 6.0)))),
-      .speed_u_s = segment.speed_u_s + t_s * (segment.acceleration_u_s2 + t_s * half_jerk),
-      .acceleration_u_s2 = segment.acceleration_u_s2 + t_s * segment.jerk_u_s3,
-      .jerk_u_s3 = segment.jerk_u_s3,
-  };
-}
-
 Profile Profile::from(double position_u) {
   Profile profile;
   profile.end_position_u = position_u;
@@ -71,14 +59,6 @@ void Profile::cut_at(double position_u) {
 }
 
 bool Profile::endless() const { return std::isinf(duration_s); }
-
-Sample Profile::sample(double t_s) const {
-  if (segment_count == 0 || t_s >= duration_s) return {.position_u = end_position_u};
-  if (t_s <= 0) return sample_segment(segments[0], 0);
-  auto i = static_cast<std::size_t>(segment_count - 1);
-  while (i > 0 && t_s < segments[i].begin_s) --i;
-  return sample_segment(segments[i], t_s - segments[i].begin_s);
-}
 
 double time_of(const Profile& profile, double position_u, double from_s, double to_s) {
   const bool upwards = profile.sample(to_s).position_u >= profile.sample(from_s).position_u;

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace understudy::motion {
@@ -43,7 +44,17 @@ constexpr double pulse_tolerance(double distance_u) {
 }
 
 /// Where `segment` is `t_s` after its own beginning.
-Sample sample_segment(const Segment& segment, double t_s);
+inline Sample sample_segment(const Segment& segment, double t_s) {
+  const double half_jerk = 0.5 * segment.jerk_u_s3;
+  return {
+      .position_u = segment.position_u +
+                    t_s * (segment.speed_u_s +
+                           t_s * (0.5 * segment.acceleration_u_s2 + t_s * (segment.jerk_u_s3 * (1.0 / 6.0)))),
+      .speed_u_s = segment.speed_u_s + t_s * (segment.acceleration_u_s2 + t_s * half_jerk),
+      .acceleration_u_s2 = segment.acceleration_u_s2 + t_s * segment.jerk_u_s3,
+      .jerk_u_s3 = segment.jerk_u_s3,
+  };
+}
 
 /// A default-made profile is a move of no distance and no duration.
 struct Profile {
@@ -77,6 +88,15 @@ struct Profile {
 
   bool endless() const;
 };
+
+// Here, so that whoever needs the place alone, as each tick of a path does, does not pay for the rest.
+inline Sample Profile::sample(double t_s) const {
+  if (segment_count == 0 || t_s >= duration_s) return {.position_u = end_position_u};
+  if (t_s <= 0) return sample_segment(segments[0], 0);
+  auto i = static_cast<std::size_t>(segment_count - 1);
+  while (i > 0 && t_s < segments[i].begin_s) --i;
+  return sample_segment(segments[i], t_s - segments[i].begin_s);
+}
 
 /// The moment in [from_s, to_s] at which the profile first is at or beyond `position_u`, to the last bit;
 /// to_s where it is not reached. Moments before 0 count as 0. The profile must not turn round between the

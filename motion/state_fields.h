@@ -352,6 +352,7 @@ struct StateOf<motion::PathRun> {
                                            field("chain_end_u", &motion::PathRun::chain_end_u_),
                                            field("profile", &motion::PathRun::profile_),
                                            field("begin_tick", &motion::PathRun::begin_tick_),
+                                           field("begin_after_s", &motion::PathRun::begin_after_s_),
                                            field("law", &motion::PathRun::law_),
                                            field("override", &motion::PathRun::override_),
                                            field("late_joint", &motion::PathRun::late_joint_),
@@ -361,10 +362,11 @@ struct StateOf<motion::PathRun> {
                                            field("ran_dry", &motion::PathRun::ran_dry_),
                                            field("completed", &motion::PathRun::completed_),
                                            field("last_place", &motion::PathRun::last_place_)};
-  static constexpr std::size_t members = 16;
+  static constexpr std::size_t members = 17;
   static void name_all(motion::PathRun& run) {  // does not compile if there are others
-    [[maybe_unused]] auto& [pieces, head, count, chain_count, chain_end_u, profile, begin_tick, law, override,
-                            late_joint, running, paused, open, ran_dry, completed, last_place] = run;
+    [[maybe_unused]] auto& [pieces, head, count, chain_count, chain_end_u, profile, begin_tick, begin_after,
+                            law, override, late_joint, running, paused, open, ran_dry, completed,
+                            last_place] = run;
   }
   static void check(const motion::PathRun& value) { motion::check_restored(value); }
 };

@@ -1,5 +1,7 @@
 # Run at the installation (cmake/packaging.cmake sets what is used here): writes what names the prefix or
 # comes from the program itself, and installs it.
+string(RANDOM LENGTH 12 own)  # installations may run side by side
+set(STAGING "${STAGING}/${own}")
 file(MAKE_DIRECTORY "${STAGING}")
 
 # zip(FILE FOLDER): installs it compressed, without time or name, so that equal input gives equal bytes.
@@ -12,6 +14,16 @@ execute_process(COMMAND sh "${PACKAGING}/manual.sh" "${PROGRAM}" "${PACKAGING}/u
                 OUTPUT_FILE "${STAGING}/understudy.1.in" COMMAND_ERROR_IS_FATAL ANY)
 configure_file("${STAGING}/understudy.1.in" "${STAGING}/understudy.1" @ONLY)
 zip("${STAGING}/understudy.1" "${MANUALS}")
+execute_process(COMMAND sh "${PACKAGING}/manual.sh" "${PROGRAM}" --list
+                OUTPUT_VARIABLE commands OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE "\n" ";" commands "${commands}")
+foreach(command IN LISTS commands)
+  set(page "${STAGING}/understudy-${command}.1")
+  execute_process(COMMAND sh "${PACKAGING}/manual.sh" "${PROGRAM}" --of ${command}
+                  OUTPUT_FILE "${page}.in" COMMAND_ERROR_IS_FATAL ANY)
+  configure_file("${page}.in" "${page}" @ONLY)
+  zip("${page}" "${MANUALS}")
+endforeach()
 
 configure_file("${PACKAGING}/changelog.in" "${STAGING}/changelog.Debian" @ONLY)
 zip("${STAGING}/changelog.Debian" "${DOCUMENTATION}")
@@ -36,3 +48,5 @@ endfunction()
 schema(bench)
 schema(scenario)
 schema(model)
+
+file(REMOVE_RECURSE "${STAGING}")

@@ -1,5 +1,7 @@
 #!/bin/sh
 # manual.sh UNDERSTUDY TEMPLATE: writes the man page to standard output.
+# manual.sh UNDERSTUDY --of COMMAND: a page of one command, which `man understudy COMMAND` finds.
+# manual.sh UNDERSTUDY --list: the names of the commands.
 # The commands and flags are what `UNDERSTUDY --help` and each command's --help say, so they cannot drift
 # apart; they take the place of @COMMANDS@ in the template.
 set -eu
@@ -78,10 +80,36 @@ page_of() {
     }
     { print "manual.sh: " command ": this line of help has no known form: " $0 > "/dev/stderr"; exit 1 }
     END { flush() }'
-  for name in $(printf '%s\n' "$help" | sed -n '/^Subcommands:$/,$s/^  \([a-z][a-z-]*\) .*/\1/p'); do
+  for name in $(printf '%s\n' "$help" | names_in); do
     page_of "$@" "$name"
   done
 }
+
+# The names of commands in a help.
+names_in() {
+  sed -n '/^Subcommands:$/,$s/^  \([a-z][a-z-]*\) .*/\1/p'
+}
+
+if [ "$template" = --list ]; then
+  "$understudy" --help | names_in
+  exit
+fi
+if [ "$template" = --of ]; then
+  name=$3
+  headline=$("$understudy" "$name" --help | sed -n '1{s/\.$//;s/[\\`]//g;s/-/\\-/g;p}')
+  cat <<END
+.\" Made of --help when the page is installed: see packaging/manual.sh.
+.TH UNDERSTUDY\-$(printf %s "$name" | tr a-z- A-Z_ | sed 's/_/\\-/g') 1 "" "understudy @VERSION@" "User Commands"
+.SH NAME
+understudy\-$(printf %s "$name" | sed 's/-/\\-/g') \- $headline
+.SH COMMAND
+What stands in square brackets at the end of a description is the value without the flag.
+$(page_of "$name")
+.SH SEE ALSO
+.BR understudy (1)
+END
+  exit
+fi
 
 commands=$(mktemp)
 trap 'rm -f "$commands"' EXIT

@@ -100,6 +100,17 @@ void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_depart
   if (was_idle && !bytes.empty()) begin_character(state_.input.front().start);
 }
 
+void Line::host_purged() {
+  due_changed();
+  for (LineObserver* observer : observers_) observer->on_host_purged();
+  if (state_.input.empty()) return;
+  // The first one is on the wire; those of a host before are not this one's.
+  const std::uint64_t first = std::max(state_.input.front().number, state_.last_departed);
+  state_.input.remove_if([&](const TimedByte& character) { return character.number > first; });
+  const SimTime end = state_.input.back().end;
+  if (!is_instant()) state_.arriving = {end, 0, end};
+}
+
 void Line::nothing_more(SimTime now) {
   due_changed();
   if (!state_.input.empty()) return;  // the rest is still on the wire
@@ -235,8 +246,7 @@ void Line::begin_character(SimTime at) {
     member.is_deaf = false;
     if (is_speed_known) {
       const LineSettings expected = stations_[i]->settings();
-      member.is_deaf = !is_within(settings->baud, expected.baud, options_.baud_tolerance_ppm) ||
-                       expected.stop_bits != settings->stop_bits;
+      member.is_deaf = !hears(expected, *settings, options_.baud_tolerance_ppm);
       if (member.is_deaf) warn_deaf(i, *settings, expected);
     }
     if (member.is_deaf) {
@@ -371,10 +381,8 @@ void Line::warn_deaf(std::size_t index, const HostSettings& settings, const Line
   if (state_.warned.of_deafness) return;
   const std::string which =
       stations_.size() == 1 ? "the station" : "station " + std::to_string(index + 1) + " of the line";
-  const std::string stop_bits = settings.stop_bits == 1 ? "1 stop bit" : "2 stop bits";
-  warn_once(state_.warned.of_deafness, "the host set " + std::to_string(settings.baud) + " baud, " +
-                                           stop_bits + "; " + which + " expects " + to_string(expected) +
-                                           ": it hears nothing");
+  warn_once(state_.warned.of_deafness, "the host set " + to_string(settings) + "; " + which + " expects " +
+                                           to_string(expected) + ": it hears nothing");
 }
 
 }  // namespace understudy::pty

@@ -77,6 +77,9 @@ class Line {
   /// Likewise, for bytes of a host that has closed since.
   void receive_departed(std::span<const std::uint8_t> bytes, SimTime now);
 
+  /// The host takes back what it has written: what is not on the wire yet never will be.
+  void host_purged();
+
   /// The clock stands, and no byte has come for as long as a frame is waited for: see Station. Nothing
   /// happens while characters are on their way.
   void nothing_more(SimTime now);

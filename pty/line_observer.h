@@ -49,6 +49,7 @@ class LineObserver {
   virtual void on_receive(std::span<const std::uint8_t> /*bytes*/, bool /*is_departed*/) {}
   virtual void on_host_opened() {}
   virtual void on_host_closed() {}
+  virtual void on_host_purged() {}
   virtual void on_host_settings(const std::optional<HostSettings>& /*settings*/) {}
 
   /// A station has begun to talk.

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace understudy::pty {
@@ -20,7 +21,8 @@ constexpr bool is_within(int host_baud, int baud, std::int64_t tolerance_ppm) {
   return off * 1'000'000 <= tolerance_ppm * baud;
 }
 
-enum class Parity : std::uint8_t { none, odd, even };
+/// Mark and space are what hosts may set; no device has them.
+enum class Parity : std::uint8_t { none, odd, even, mark, space };
 
 struct LineSettings {
   int baud = 19200;  // bits a second
@@ -43,12 +45,21 @@ struct LineSettings {
 /// "19200 8E1".
 std::string to_string(const LineSettings& settings);
 
-/// What can be seen of a host's settings through a Linux pty: it drops parity and forces 8 data bits.
+/// What is known of a host's settings. A Linux pty drops parity and forces 8 data bits: then these two are
+/// unknown, and taken to be right. RFC 2217 tells them.
 struct HostSettings {
   int baud = 0;
   int stop_bits = 1;
+  std::optional<int> data_bits{};
+  std::optional<Parity> parity{};
 
   bool operator==(const HostSettings&) const = default;
 };
+
+/// Whether a receiver with these settings hears the host.
+bool hears(const LineSettings& receiver, const HostSettings& host, std::int64_t baud_tolerance_ppm);
+
+/// "9600 8N1", or "9600 baud, 1 stop bit" where parity and data bits are unknown.
+std::string to_string(const HostSettings& settings);
 
 }  // namespace understudy::pty

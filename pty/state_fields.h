@@ -13,7 +13,7 @@ namespace understudy {
 
 template <>
 struct StateOf<pty::Parity> {
-  static constexpr auto last = pty::Parity::even;
+  static constexpr auto last = pty::Parity::space;
 };
 
 template <>
@@ -33,7 +33,8 @@ template <>
 struct StateOf<pty::HostSettings> {
   using Value = pty::HostSettings;
   static constexpr auto fields =
-      FieldList{field("baud", &Value::baud), field("stop_bits", &Value::stop_bits)};
+      FieldList{field("baud", &Value::baud), field("stop_bits", &Value::stop_bits),
+                field("data_bits", &Value::data_bits), field("parity", &Value::parity)};
 };
 
 template <>

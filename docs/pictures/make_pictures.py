@@ -89,8 +89,9 @@ def main():
             ctl('set', 'M8000=1')
             time.sleep(1.6)
             page.picture('axes')
-            ctl('set', 'M8000=1')
             page.show('Program')
+            ctl('set', 'M8000=1')
+            time.sleep(0.7)
             page.picture('program')
         serve = ['serve', str(SCENARIOS / 'quickstart.yaml'), '--links', folder, '--control', control, '--page']
         with Shown(program, serve, folder, 620) as page:
@@ -102,6 +103,11 @@ def main():
             subprocess.run([*host, 'Aaxis_Speed=60000'], check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             page.show('Bus')
             page.picture('bus')
+            page.show('Registers')
+            page.find('.check input')[0].click()
+            subprocess.run([*host, 'Aaxis_Move_INC=1'], check=True, stdout=subprocess.DEVNULL)
+            time.sleep(0.4)
+            page.picture('registers')
         pathlib.Path(folder, 'fails.yaml').write_text(FAILING)
         subprocess.run([program, 'run', 'fails.yaml', '--record', folder], cwd=folder, check=False, stdout=subprocess.DEVNULL)
         with Shown(program, ['replay', 'the_axis_arrives.jsonl', '--page'], folder, 640) as page:

@@ -58,6 +58,7 @@ struct ServeArguments {
   std::vector<std::string> trace_also;
   bool lint = false;
   std::vector<std::string> listen;  // addresses at which lines can be reached by TCP
+  bool no_pty = false;              // those lines have nothing else
   std::optional<int> page;          // the port of a live page beside it; 0: any
   std::string version;              // of this program
 };

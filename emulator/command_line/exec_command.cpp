@@ -96,7 +96,9 @@ void demand_variables(const world::Bench& bench) {
 /// What nobody gave a place is in a folder that nobody else has.
 void use_private_places(Serving& serving, const ExecArguments& arguments, serve::PrivateFolder& folder) {
   if (arguments.serve.links.empty() && arguments.serve.link.empty()) {
-    for (world::LineSetup& line : serving.bench.lines) line.link = folder.path() + "/" + line.name + ".port";
+    for (world::LineSetup& line : serving.bench.lines) {
+      if (line.has_pty) line.link = folder.path() + "/" + line.name + ".port";
+    }
   }
   if (arguments.serve.control.empty()) serving.options.door = serve::control_door(folder.path() + "/control");
   if (serving.options.record_path.empty()) serving.options.record_path = folder.path() + "/recording";
@@ -106,7 +108,7 @@ serve::ChildCommand command_for(const ExecArguments& arguments, const serve::Dae
   serve::ChildCommand command{.words = arguments.command, .environment = {}};
   auto& environment = command.environment;
   for (const auto& port : daemon.ports()) {
-    const std::string& path = port->terminal().link_path();
+    const std::string path = port->place();
     if (port == daemon.ports().front()) environment.emplace_back("UNDERSTUDY_PORT", path);
     environment.emplace_back(variable_of(daemon.world().line(port->line_number()).line.name()), path);
   }
@@ -149,7 +151,8 @@ int play(const ExecArguments& arguments, const Serving& serving,
   const auto timeout = timeout_of(arguments);
   serve::Daemon daemon(serving.bench, serving.options, log_line);
   for (const auto& port : daemon.ports()) {
-    if (serving.group) serve::share_port(port->terminal().path(), *serving.group);
+    if (serving.group && port->terminal() != nullptr)
+      serve::share_port(port->terminal()->path(), *serving.group);
   }
   std::optional<play::Lint> lint;
   if (arguments.serve.lint) lint.emplace(daemon.world());

@@ -93,13 +93,6 @@ struct CommandLine {
   void add_serve() {
     CLI::App* command = app.add_subcommand("serve", "Stand in for the devices of a bench, in the foreground");
     add_serving_flags(*command, serve);
-    command
-        ->add_option(
-            "--listen", serve.listen,
-            "Let one TCP client at a time use a line: rtu://[HOST]:PORT (its raw bytes) or "
-            "modbus-tcp://[HOST]:PORT, after LINE= where there are several lines; without HOST on this "
-            "machine only")
-        ->check(kNotEmpty);
     command->add_option("--page", serve.page, "Show the bench in a browser as well, at this port [any]")
         ->expected(0, 1)
         ->default_str("0");

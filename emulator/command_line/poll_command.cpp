@@ -314,6 +314,13 @@ void demand_fitting(const Item& item) {
   }
 }
 
+/// Some controllers have 0 for a number like any other.
+bool answers_at_0(ModelList models, const PollArguments& arguments) {
+  if (arguments.model.empty()) return false;
+  const auto& numbers = demand_model(models, arguments.model).line.station_numbers;
+  return numbers && numbers->lowest == 0;
+}
+
 /// Of everything that is polled: `low_word_first` as above.
 std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
                            std::optional<bool> low_word_first) {
@@ -324,7 +331,7 @@ std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
   for (const std::string& text : arguments.items) {
     items.push_back(parse_item(models, text, arguments, low_word_first));
     demand_fitting(items.back());
-    if (arguments.station == 0 && !items.back().write) {
+    if (arguments.station == 0 && !items.back().write && !answers_at_0(models, arguments)) {
       throw UsageError(
           "--station: 0 is a broadcast, which nobody answers; expected writes only, or 1 to 247");
     }
@@ -397,7 +404,8 @@ int poll_port(ModelList models, const PollArguments& arguments) {
     for (const Item& item : items) {
       keep_silent(polled);
       const bool good = item.write ? write_item(context.get(), item) : read_item(context.get(), item);
-      const bool is_broadcast = polled.station == 0 && errno == ETIMEDOUT;  // nobody answers that
+      // Nobody answers that.
+      const bool is_broadcast = polled.station == 0 && item.write && errno == ETIMEDOUT;
       if (good || is_broadcast) continue;
       std::fprintf(stderr, "understudy: poll: %s: %s\n", item.label.c_str(), modbus_strerror(errno));
       return kExitFailed;

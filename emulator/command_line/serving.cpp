@@ -23,8 +23,10 @@
 #include "emulator/serve/loop/pacer.h"
 #include "emulator/serve/ports/port_group.h"
 #include "emulator/world/bench/bench.h"
+#include "emulator/world/bench/listening.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/names/names.h"
+#include "emulator/world/speech/line_speech.h"
 #include "emulator/world/trace/trace.h"
 #include "pty/line.h"
 #include "pty/line_settings.h"
@@ -83,6 +85,47 @@ world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
   return bench;
 }
 
+/// [LINE=]rtu://[HOST]:PORT: the line that it names, or the only one, listens there as well.
+void listen_as_wished(world::Bench& bench, const std::string& wish) {
+  const std::size_t equals = wish.substr(0, wish.find("://")).rfind('=');
+  const bool names_line = equals != std::string::npos;
+  const auto address = world::parse_tcp_address(wish.substr(names_line ? equals + 1 : 0));
+  if (equals == 0 || !address) {
+    throw UsageError("--listen: " + understudy::quoted(wish) + " is not a place to listen; " +
+                     std::string(world::kListeningExpected) + ", after LINE= where there are several lines");
+  }
+  const std::string name = names_line ? wish.substr(0, equals) : "";
+  std::string lines;
+  for (world::LineSetup& line : bench.lines) {
+    lines += (lines.empty() ? "" : ", ") + line.name;
+    if (names_line ? line.name != name : bench.lines.size() > 1) continue;
+    const Model& model = *bench.devices[line.stations.front().device].model;
+    if (address->protocol == world::TcpProtocol::modbus_tcp && world::speech_of(model).carries_text()) {
+      throw UsageError("--listen: " + understudy::quoted(wish) + ": the line " + line.name +
+                       " speaks lines of text, not Modbus; expected rtu:// or rfc2217://, which carry any "
+                       "bytes");
+    }
+    line.tcp.push_back(*address);
+    return;
+  }
+  throw UsageError("--listen: " +
+                   (names_line ? understudy::quoted(name) + " is not a line" : std::string("names no line")) +
+                   "; expected LINE=... with one of " + lines);
+}
+
+void demand_no_pty(world::Bench& bench, const ServeArguments& arguments) {
+  if (!arguments.link.empty())
+    throw UsageError("--no-pty: --link is of a pseudo-terminal; expected one of the two");
+  bool listens = false;
+  for (world::LineSetup& line : bench.lines) {
+    if (line.tcp.empty()) continue;
+    listens = true;
+    line.has_pty = false;
+    line.link.clear();
+  }
+  if (!listens) throw UsageError("--no-pty: no line listens on TCP; expected --listen beside it");
+}
+
 world::Bench make_bench(ModelList models, const ServeArguments& arguments, const std::string& command) {
   if (arguments.bench.empty() == arguments.model.empty()) {
     throw UsageError(command + ": expected either a bench file or --model MODEL");
@@ -97,7 +140,7 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
   world::Bench bench = arguments.bench.empty() ? bench_of_flags(models, arguments)
                                                : world::load_bench(models, arguments.bench, arguments.links);
   for (world::LineSetup& line : bench.lines) {
-    if (!arguments.links.empty() && line.link.empty())
+    if (!arguments.links.empty() && line.link.empty() && line.has_pty)
       line.link = arguments.links + "/" + line.name + ".port";
   }
   if (!arguments.timing.empty()) {
@@ -111,6 +154,8 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
     }
     for (world::LineSetup& line : bench.lines) line.baud_tolerance_ppm = *ppm;
   }
+  for (const std::string& wish : arguments.listen) listen_as_wished(bench, wish);
+  if (arguments.no_pty) demand_no_pty(bench, arguments);
   return bench;
 }
 
@@ -189,7 +234,7 @@ void say_how_to_have_parity(const serve::Daemon& daemon) {
   if (isatty(STDERR_FILENO) == 0) return;
   for (const auto& port : daemon.ports()) {
     const pty::Line& line = daemon.world().line(port->line_number()).line;
-    if (line.options().settings.parity == pty::Parity::none) continue;
+    if (line.options().settings.parity == pty::Parity::none || port->terminal() == nullptr) continue;
     log_line("line " + line.name() + " is " + pty::to_string(line.options().settings) +
              ", and a pseudo-terminal has no parity: pyserial, minimalmodbus and pymodbus hosts that get "
              "\"Invalid "
@@ -203,8 +248,10 @@ void say_how_to_have_parity(const serve::Daemon& daemon) {
 void say_ready(const serve::Daemon& daemon) {
   say_how_to_have_parity(daemon);
   for (const auto& port : daemon.ports()) {
+    const std::string place = port->place();
     std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),
-                port->terminal().path().c_str(), port->terminal().link_path().c_str());
+                port->terminal() != nullptr ? port->terminal()->path().c_str() : place.c_str(),
+                place.c_str());
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw pty::PortError("standard output cannot be written; expected to say there which ports are ready");

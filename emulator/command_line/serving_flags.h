@@ -36,6 +36,13 @@ inline void add_serving_flags(CLI::App& command, ServeArguments& serving) {
       ->check(kNotEmpty);
   command.add_option("--links", serving.links, "Folder for links that are relative, or that nobody named")
       ->check(kNotEmpty);
+  command
+      .add_option("--listen", serving.listen,
+                  "Let one TCP client at a time use a line: rtu://[HOST]:PORT (its raw bytes), "
+                  "rfc2217://[HOST]:PORT (its settings as well) or modbus-tcp://[HOST]:PORT, after LINE= "
+                  "where there are several lines; without HOST on this machine only")
+      ->check(kNotEmpty);
+  command.add_flag("--no-pty", serving.no_pty, "Lines that listen on TCP have no pseudo-terminal");
   command.add_option("--group", serving.group, "Group that may open the ports, such as dialout [none]")
       ->check(kNotEmpty);
   command

@@ -20,6 +20,11 @@ class Axes {
   virtual std::int64_t pulses_this_tick(int axis) const = 0;
   /// The planned speed behind them: a real number, while the pulses of a tick are whole.
   virtual double speed_pps(int axis) const = 0;
+  /// Pulses that are still to come until its move, or the path that it is on, is at its end: in the motor's
+  /// sense. 0 at rest, and where no end is known (a velocity, a search for home, following).
+  virtual std::int64_t pulses_to_come(int /*axis*/) const { return 0; }
+  /// Whether the device has the axis's servo on, whatever its outputs do with that; nothing if it knows none.
+  virtual std::optional<bool> servo_on(int /*axis*/) const { return std::nullopt; }
   /// The form in which they leave, as the manual calls it; empty if there is only one.
   virtual std::string_view pulse_format() const { return {}; }
   /// All forms that it knows, and which of them is in use.

@@ -3,6 +3,7 @@
 // here is what can be said without a device.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -33,6 +34,21 @@ struct InstructionRow {
   std::string_view meaning{};
 };
 
+/// What a host does to start a program or to stop it: for onlookers' buttons.
+struct ProgramControl {
+  enum class By : std::uint8_t {
+    registers,  // "M8596=0 M8596=1": one write after the other
+    command,    // "RSM_MP_CALL {}": by its name (Model::window)
+    text,       // "G": a line of text
+  };
+  std::string_view word;  // "start"
+  By by = By::registers;
+  std::string_view what;
+  // Where `what` has a {}: a number, within these.
+  int lowest = 0;
+  int highest = 0;
+};
+
 class ProgramLanguage {
  public:
   /// What a text in it is called: "Simple2-R3 listing".
@@ -47,6 +63,7 @@ class ProgramLanguage {
   /// Everything that is wrong with a text, in its order: what loading it into a device made of `settings`
   /// would say. They are checked already, and name a firmware.
   virtual std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const = 0;
+  virtual std::span<const ProgramControl> controls() const { return {}; }
   virtual const ProgramCells* cells() const { return nullptr; }
 
  protected:

@@ -85,6 +85,7 @@ class World final : public WorldView {
   void receive_departed(std::size_t line, std::span<const std::uint8_t> bytes) {
     lines_[line]->line.receive_departed(bytes, now_);
   }
+  void host_purged(std::size_t line) { lines_[line]->line.host_purged(); }
   /// The clock stands, and nothing more has come for as long as a frame is waited for.
   void nothing_more(std::size_t line) { lines_[line]->line.nothing_more(now_); }
   /// The host has taken this many bytes of the line's output.

@@ -80,7 +80,7 @@ class ListingReader {
     if (is_word(word.text, "MP") || is_word(word.text, "ISR")) return begin_macro(tokens);
     if (is_word(word.text, "TRIGGER")) return read_trigger(tokens);
     if (is_word(word.text, "END")) {
-      if (tokens.size() > 1) fail(tokens[1], quoted(tokens[1].text) + " stands behind END; expected nothing");
+      if (tokens.size() > 1) fail(tokens[1], quoted(tokens[1].text) + " follows END; expected nothing");
       if (!download_) fail(word, "END without a macro; expected MP or ISR before it");
       return end_macro();
     }

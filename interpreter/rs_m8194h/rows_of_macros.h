@@ -106,7 +106,7 @@ inline constexpr auto kMacros = std::to_array<CommandRow>({
      1,
      {axes("axis")},
      "9.9",
-     "waits until axes stand"},
+     "waits until the axes have stopped"},
     {Verb::exit_macro, "", "RSM_MACRO_EXIT_MACRO", kMacro, 1, {}, "9.10", "leaves this macro"},
     {Verb::mp_terminate,
      "RSM_MP_TERMINATE",

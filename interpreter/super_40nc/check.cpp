@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -101,6 +102,7 @@ class Checker {
       text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
     end_area();
+    if (options_.labels_are_common) look_at_common_labels();
     const auto in_order = [](const Complaint& a, const Complaint& b) {
       return std::pair(a.line, a.column) < std::pair(b.line, b.column);
     };
@@ -194,7 +196,7 @@ class Checker {
     const Token& token = tokens[at];
     if (!is_in_area_) {
       if (!std::exchange(is_lost_, true)) {
-        fail(token, Code::unknown, quoted(token.text) + " stands in no area", "AREA before it");
+        fail(token, Code::unknown, quoted(token.text) + " is outside any area", "AREA before it");
       }
       return;
     }
@@ -209,7 +211,7 @@ class Checker {
     Instruction instruction{row->op};
     const std::size_t errors = checked_.errors.size();
     if (tokens.size() - at - 1 > instruction.fields.size()) {
-      fail(tokens[at + 5], Code::unknown, "is a field too many", "at most 4");
+      fail(tokens[at + 5], Code::unknown, "is one field too many", "at most 4");
     }
     for (std::size_t i = 0; i < instruction.fields.size() && at + 1 + i < tokens.size(); ++i) {
       instruction.fields[i] = read_operand(tokens[at + 1 + i]);
@@ -349,6 +351,30 @@ class Checker {
       program_.files.emplace(file_, std::move(current_));
     } else {
       program_.areas[index_of(area_)] = std::move(current_);
+      places_of_areas_[index_of(area_)] = places_;
+    }
+  }
+
+  /// A label that an area before has as well.
+  void look_at_common_labels() {
+    std::map<std::int32_t, std::pair<std::size_t, int>> first;  // area, step
+    for (const AreaRow& row : kAreas) {
+      const auto& area = program_.areas[index_of(row.area)];
+      if (!area) continue;
+      int step = base_of(row.area, options_);
+      for (std::size_t i = 0; i < area->lines.size(); step += steps_of(area->lines[i++])) {
+        if (area->lines[i].op != Op::lab) continue;
+        const std::int32_t label = area->lines[i].fields[0].number;
+        const auto [other, is_new] = first.emplace(label, std::pair(index_of(row.area), step));
+        if (is_new || other->second.first == index_of(row.area)) continue;
+        const Token& token = places_of_areas_[index_of(row.area)][i];
+        const bool is_warning = options_.double_labels == Options::DoubleLabels::load;
+        (is_warning ? checked_.warnings : checked_.errors)
+            .push_back({token.line, token.column,
+                        "label K" + std::to_string(label) + " is one of area " +
+                            std::string(kAreas[other->second.first].name) + " as well",
+                        "one", Code::label_twice, step, other->second.second});
+      }
     }
   }
 
@@ -361,7 +387,8 @@ class Checker {
   Area area_ = Area::c;
   AreaProgram current_;
   std::vector<Token> places_;  // of its lines
-  int step_ = 0;               // of the next line, within the area
+  std::array<std::vector<Token>, kAreaCount> places_of_areas_;
+  int step_ = 0;  // of the next line, within the area
 };
 
 }  // namespace

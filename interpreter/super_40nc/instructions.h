@@ -103,7 +103,8 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
       data(Op::mov, "MOV", 2, kMove, InPlc::every_scan, "Copies the value to the register", "MOV 指令"),
       data(Op::zrst, "ZRST", 2, kRange, InPlc::every_scan, "Clears all devices from the first to the second",
            "ZRST 指令"),
-      data(Op::fmv, "FMV", 3, kFill, InPlc::every_scan, "Copies the value to so many registers", "FMV 指令"),
+      data(Op::fmv, "FMV", 3, kFill, InPlc::every_scan, "Copies the value to the given number of registers",
+           "FMV 指令"),
       data(Op::add, "ADD", 3, kSum, InPlc::every_scan, "Adds", "ADD , SUB , MUL , DIV 指令"),
       data(Op::sub, "SUB", 3, kSum, InPlc::every_scan, "Subtracts", "ADD , SUB , MUL , DIV 指令"),
       data(Op::mul, "MUL", 3, kSum, InPlc::every_scan, "Multiplies; low 32 bits",
@@ -175,8 +176,8 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
                "Where IF goes on without its condition; met from above: jumps to ENDI",
                "IF , ELSE , ENDI 指令"),
       sequence(Op::endi, "ENDI", 1, kNoField, Waits::no, "Ends an IF", "IF , ELSE , ENDI 指令"),
-      sequence(Op::cal, "CAL", 3, kCall, Waits::no, "Runs the subroutine at the label, so often",
-               "CAL , RET 指令")
+      sequence(Op::cal, "CAL", 3, kCall, Waits::no,
+               "Calls the subroutine at the label the given number of times", "CAL , RET 指令")
           .without("once"),
       sequence(Op::ret, "RET", 1, kNoField, Waits::no, "Ends a pass of a subroutine", "CAL , RET 指令"),
       sequence(Op::jmp, "JMP", 2, kLabel, Waits::no, "Jumps to the label", "JMP 指令"),
@@ -187,7 +188,8 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
       sequence(Op::wat, "WAT", 1, kContact, Waits::for_on, "Waits until the device is ON", "WAT , WTN 指令"),
       sequence(Op::wtn, "WTN", 1, kContact, Waits::for_off, "Waits until the device is OFF",
                "WAT , WTN 指令"),
-      sequence(Op::tmr, "TMR", 1, kNeeded, Waits::for_time, "Waits so many milliseconds", "TMR 指令"),
+      sequence(Op::tmr, "TMR", 1, kNeeded, Waits::for_time, "Waits the given number of milliseconds",
+               "TMR 指令"),
       // Motion
       motion(Op::f, "F", kC, 1, kNeeded, InPlc::nothing, "Feed rate of lines and arcs, in 0.001 mm/s",
              "F 指令"),
@@ -241,7 +243,7 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
           .is_motion()
           .without("the axis is left alone"),
       motion(Op::mpg, "MPG", kSteps, 4, kFourAmounts, InPlc::nothing,
-             "Lets axes follow the hand-wheel, so far a count", "MPG 指令")
+             "Lets axes follow the hand-wheel, this far for each count", "MPG 指令")
           .without("the axis keeps its ratio"),
       motion(Op::mrk, "MRK", kSteps, 4, kFourAmounts, InPlc::nothing,
              "Moves axes, then searches a mark at creep speed", "MRK 指令")

@@ -154,6 +154,7 @@ class LadderMaker {
   }
 
   void make_sum(const Instruction& line, Act act, std::size_t target, LadderStep& step) {
+    if (act != Act::move && options_.sums_saturate) return;
     for (std::size_t i = 0; i <= target; ++i) {
       if (!is_plain(line.fields[i])) return;
     }

@@ -50,6 +50,8 @@ class Machine {
   /// D8000 to D8599, D9000 to D9499: the same.
   virtual std::int32_t special_register(int number) const = 0;
   virtual bool set_special_register(int number, std::int32_t value) = 0;
+  /// A parameter as it acts: it may have been written, and not act yet.
+  virtual std::int32_t parameter_in_force(int number) const { return special_register(number); }
   /// X14 as it was at power-up: what an axis turns at until the first RPM.
   virtual std::int32_t rpm_at_power_up(int axis) const = 0;
 

@@ -40,8 +40,13 @@ Calculated divide(const Instruction& line, Access& access, const Options& option
   }
   Calculated result;
   if (divisor == 0) result.code = Code::division_by_zero;
-  const std::int64_t quotient = divisor == 0 ? 0 : dividend / divisor;  // to 0
-  const std::int64_t remainder = divisor == 0 ? 0 : dividend % divisor;
+  std::int64_t quotient = divisor == 0 ? 0 : dividend / divisor;  // to 0
+  std::int64_t remainder = divisor == 0 ? 0 : dividend % divisor;
+  const bool is_above = remainder != 0 && (remainder < 0) != (divisor < 0);
+  if (is_above && options.quotient == Options::Quotient::downwards) {
+    --quotient;
+    remainder += divisor;
+  }
   result.has_changed = access.write(line.fields[2], wrapped(quotient));
   if (const Operand behind = next_to(line.fields[2]); behind.is_set()) {
     result.has_changed |= access.write(behind, wrapped(remainder));
@@ -81,6 +86,10 @@ std::int32_t product(std::int64_t first, std::int64_t second, const Options& opt
              : static_cast<std::int32_t>(std::clamp(whole, kLeast, kMost));
 }
 
+std::int64_t sum(std::int64_t whole, const Options& options) {
+  return options.sums_saturate ? std::clamp(whole, kLeast, kMost) : whole;
+}
+
 Calculated gives(const Instruction& line, std::size_t field, std::int64_t result, Access& access) {
   return {access.write(line.fields[field], wrapped(result))};
 }
@@ -95,12 +104,12 @@ constexpr HandlerRow<Op, Calculation> kCalculationRows[] = {
     {Op::zrst, [](const auto& line, auto& access, const auto&) { return clear(line, access); }},
     {Op::fmv, fill},
     {Op::add,
-     [](const auto& line, auto& access, const auto&) {
-       return gives(line, 2, value(line, 0, access) + value(line, 1, access), access);
+     [](const auto& line, auto& access, const auto& options) {
+       return gives(line, 2, sum(value(line, 0, access) + value(line, 1, access), options), access);
      }},
     {Op::sub,
-     [](const auto& line, auto& access, const auto&) {
-       return gives(line, 2, value(line, 0, access) - value(line, 1, access), access);
+     [](const auto& line, auto& access, const auto& options) {
+       return gives(line, 2, sum(value(line, 0, access) - value(line, 1, access), options), access);
      }},
     {Op::mul,
      [](const auto& line, auto& access, const auto& options) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "interpreter/super_40nc/areas.h"
 
@@ -24,6 +25,10 @@ struct Options {
   enum class DoubleCoils : std::uint8_t { last_wins, are_refused } double_coils = DoubleCoils::last_wins;
   /// A label twice in one area: the first is taken, and reported.
   enum class DoubleLabels : std::uint8_t { load, are_refused } double_labels = DoubleLabels::load;
+  /// An output leaves its result alone of all blocks, or leaves them all.
+  bool outputs_clear_blocks = false;
+  /// A label that two areas have is the first one's alone, or each area has its own.
+  bool labels_are_common = false;
   /// RST and ZRST of T and C.
   bool timers_can_be_reset = true;
   /// Lines that the manual calls void in their area.
@@ -38,10 +43,17 @@ struct Options {
     gives_zero
   } division_by_zero = DivisionByZero::changes_nothing;
   enum class Product : std::uint8_t { wraps, saturates } product = Product::wraps;
+  bool sums_saturate = false;  // of ADD and SUB; else they wrap
+  /// A quotient that is not whole, and the remainder with it.
+  enum class Quotient : std::uint8_t { towards_0, downwards } quotient = Quotient::towards_0;
+  /// RPM of 0 or less leaves an axis its speed; else it is the least there is.
+  bool rpm_0_keeps_speed = false;
 
   // --- the PLC --------------------------------------------------------------------------------------
   int scan_ms = 1;  // how often the machine calls
   int timer_unit_ms = 1;
+  /// The value of a timer that runs cannot be written.
+  bool timers_ignore_writes = false;
   /// A counter stops at its preset, or counts on.
   bool counts_beyond_preset = false;
   /// Its contact is what value and preset say at each scan, or is closed by the last count and opened by RST
@@ -73,12 +85,21 @@ struct Options {
   } empty_program = EmptyProgram::ends_silently;
   /// What loads F, plane, speeds and modes anew.
   enum class FreshStart : std::uint8_t { pointer_at_0, every_start } fresh_start = FreshStart::pointer_at_0;
-  bool joins_paths = false;       // with D9005 ON, LIN and arcs that follow each other
-  bool rotation_0_waits = true;   // VDRV 0 until its axes stand
-  bool continuous_by_key = true;  // M8600 as M8007
+  bool marks_by_rpm = true;        // MRK, to its target; else by X14 alone
+  bool contact_off_stops = false;  // M8x00 OFF, of an axis program; else it pauses
+  bool start_begins_anew = false;  // STR, of a program that runs
+  bool c3p_is_in_xy = false;       // whatever plane is set
+  bool joins_paths = false;        // with D9005 ON, LIN and arcs that follow each other
+  bool rotation_0_waits = true;    // VDRV 0 until its axes stand
+  bool continuous_by_key = true;   // M8600 as M8007
 
   bool operator==(const Options&) const = default;
 };
+
+/// Whether a field of RPM changes the speed of its axis.
+constexpr bool sets_speed(const std::optional<std::int32_t>& rpm, const Options& options) {
+  return rpm && (*rpm > 0 || !options.rpm_0_keeps_speed);
+}
 
 /// The number of an area's first step, as D8095 and D8096 count.
 constexpr int base_of(Area area, const Options& options) {

@@ -9,7 +9,7 @@ namespace understudy::interpreter::super_40nc {
 
 /// The first so many axes are C's.
 inline int axes_of_c(const Machine& machine) {
-  return std::clamp(machine.special_register(named::kOwnedAxes), 0, kAxisCount);
+  return std::clamp(machine.parameter_in_force(named::kOwnedAxes), 0, kAxisCount);
 }
 
 /// C moves its own ones, an axis program its own one if it is not C's, and the PLC C's only while C does not

@@ -17,6 +17,9 @@
 namespace understudy::interpreter::super_40nc {
 namespace {
 
+/// Of a timer that no scan has seen since RUN.
+constexpr std::int32_t kNotTimedYet = INT32_MIN;
+
 /// The registers of a scan: cells and constants side by side, blocks and branches as shift registers of bits,
 /// whose bit 0 is the top.
 class Scan {
@@ -142,6 +145,7 @@ class Scan {
     const bool was_on = remember(step.memory, is_on);
     if (!is_on || !was_on) put(step.c, 0, step.flags);
     if (!is_on) return put(step.a, 0, step.flags);
+    if (was_on) take_back(step);
     const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
     auto present = static_cast<std::int32_t>(cells_[step.c]);
     if (was_on && present < preset && a_unit_is_over_) {
@@ -151,12 +155,23 @@ class Scan {
       if ((step.flags & kValueIsRead) == 0 && present < preset) has_changed_ = had_changed;
     }
     put(step.a, present >= preset ? 1 : 0, step.flags);
+    if (options_.timers_ignore_writes) timed(step) = present;
     if (present < preset) {
       timers_run_ |= was_on;
       const std::int64_t left = std::int64_t{preset} - present - 1;
       quiet_scans_ = std::min(quiet_scans_, options_.timer_unit_ms <= 1 && options_.scan_ms == 1 ? left : 0);
       if ((step.flags & kValueIsRead) != 0) quiet_scans_ = 0;
     }
+  }
+
+  std::int32_t& timed(const LadderStep& step) {
+    if (plc_.timed.size() <= step.memory) plc_.timed.resize(std::size_t{step.memory} + 1, kNotTimedYet);
+    return plc_.timed[step.memory];
+  }
+  /// What somebody else has made of its value, where that does not count.
+  void take_back(const LadderStep& step) {
+    if (!options_.timers_ignore_writes || timed(step) == kNotTimedYet) return;
+    put(step.c, static_cast<std::uint32_t>(timed(step)), step.flags);
   }
 
   void count(const LadderStep& step) {
@@ -197,13 +212,14 @@ void run(PlcState& plc, const Ladder& ladder, Machine& machine) {
   plc.runs = true;
   plc.is_first_scan = true;
   plc.memories.assign(ladder.memory_count(), 0);
+  plc.timed.clear();
   for (const LadderStep& step : ladder.steps()) {
     const bool is_edge = step.act >= Act::load_edge && step.act <= Act::parallel_edge;
     if (is_edge) plc.memories[step.memory] = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
     // A timer goes on if it is still ON.
     if (step.act == Act::timer) plc.memories[step.memory] = machine.cells()[step.c] != 0 ? 1 : 0;
   }
-  plc.targets = machine.special_register(named::kTargetsOfC) == 0 ? Targets::absolute : Targets::relative;
+  plc.targets = machine.parameter_in_force(named::kTargetsOfC) == 0 ? Targets::absolute : Targets::relative;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     plc.rpm[static_cast<std::size_t>(axis)] = machine.rpm_at_power_up(axis);
   }
@@ -245,6 +261,8 @@ void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t s
       cells[timer.c] = static_cast<std::uint32_t>(present + scan);
       if (is_kept) machine.kept_cell_written(timer.c);
     }
+    if (options.timers_ignore_writes && timer.memory < plc.timed.size())
+      plc.timed[timer.memory] = static_cast<std::int32_t>(cells[timer.c]);
   }
 }
 

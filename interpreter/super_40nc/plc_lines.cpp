@@ -70,7 +70,8 @@ bool PlcLines::set_modes(const Instruction& line) {
   if (line.op == Op::rpm) {
     bool has_changed = false;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (values[i]) has_changed |= std::exchange(plc_.rpm[i], *values[i]) != *values[i];
+      if (!sets_speed(values[i], options_)) continue;
+      has_changed |= std::exchange(plc_.rpm[i], *values[i]) != *values[i];
     }
     return has_changed;
   }

@@ -32,7 +32,7 @@ struct StateOf<interpreter::super_40nc::PlcState> {
       FieldList{field("runs", &Value::runs),         field("is_first_scan", &Value::is_first_scan),
                 field("memories", &Value::memories), field("targets", &Value::targets),
                 field("rpm", &Value::rpm),           field("jogs", &Value::jogs),
-                field("unit_ms", &Value::unit_ms)};
+                field("unit_ms", &Value::unit_ms),   field("timed", &Value::timed)};
   static void check(const Value& state) { demand_reach(state.unit_ms); }
 };
 

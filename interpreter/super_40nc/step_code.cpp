@@ -3,27 +3,29 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 #include "interpreter/super_40nc/instruction_row.h"
 #include "interpreter/super_40nc/program.h"
 
 namespace understudy::interpreter::super_40nc {
 
-StepCode::StepCode(const AreaProgram& program) : program_(program) {
+StepCode::StepCode(const AreaProgram& program, const std::set<std::int32_t>& others) : program_(program) {
   for (const Instruction& line : program_.lines) {
     steps_.push_back(static_cast<int>(lines_.size()));
     lines_.push_back(static_cast<int>(steps_.size()) - 1);
     lines_.resize(lines_.size() + static_cast<std::size_t>(steps_of(line)) - 1, -1);
   }
   targets_.assign(program_.lines.size(), -1);
-  find_labels();
+  find_labels(others);
   find_blocks();
 }
 
-void StepCode::find_labels() {
+void StepCode::find_labels(const std::set<std::int32_t>& others) {
   std::map<std::int32_t, int> labels;
   for (std::size_t i = 0; i < program_.lines.size(); ++i) {
-    if (program_.lines[i].op == Op::lab) labels.emplace(program_.lines[i].fields[0].number, steps_[i]);
+    const std::int32_t number = program_.lines[i].fields[0].number;
+    if (program_.lines[i].op == Op::lab && !others.contains(number)) labels.emplace(number, steps_[i]);
   }
   for (std::size_t i = 0; i < program_.lines.size(); ++i) {
     const Instruction& line = program_.lines[i];

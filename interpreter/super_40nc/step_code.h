@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <set>
 #include <vector>
 
 #include "interpreter/super_40nc/program.h"
@@ -11,7 +13,8 @@ namespace understudy::interpreter::super_40nc {
 class StepCode {
  public:
   StepCode() = default;
-  explicit StepCode(const AreaProgram& program);
+  /// Labels of `others` are not its own: jumps to them find none.
+  explicit StepCode(const AreaProgram& program, const std::set<std::int32_t>& others = {});
 
   bool is_empty() const { return program_.lines.empty(); }
   const Instruction& line(int number) const { return program_.lines[static_cast<std::size_t>(number)]; }
@@ -26,7 +29,7 @@ class StepCode {
   int target_of(int line) const { return targets_[static_cast<std::size_t>(line)]; }
 
  private:
-  void find_labels();
+  void find_labels(const std::set<std::int32_t>& others);
   void find_blocks();
 
   AreaProgram program_;

@@ -37,7 +37,9 @@ StepPrograms::Slice StepPrograms::set_mode(Area area, const Instruction& line) {
     if (!is_empty(values)) machine_.set_positions({values, line.op == Op::mset});
   } else if (line.op == Op::rpm) {
     const AxisValues values = values_of(area, line);
-    for (std::size_t i = 0; i < values.size(); ++i) program.rpm[i] = values[i].value_or(program.rpm[i]);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (sets_speed(values[i], options_)) program.rpm[i] = *values[i];
+    }
   } else if (line.op == Op::absc || line.op == Op::incc) {
     program.targets = line.op == Op::absc ? Targets::absolute : Targets::relative;
   } else if (line.op == Op::chk) {
@@ -83,7 +85,7 @@ bool StepPrograms::drop_what_it_may_not_move(Area area, AxisValues& values) {
 bool StepPrograms::goes_on_by_path(Area area, const Instruction& line) const {
   const auto is_path = [](Op op) { return op >= Op::lin && op <= Op::ccwr; };
   if (!options_.joins_paths || !is_path(line.op) || is_single_step(area)) return false;
-  if (machine_.special_register(named::kContinuousPath) == 0) return false;
+  if (machine_.parameter_in_force(named::kContinuousPath) == 0) return false;
   const int next = code(area).line_at(state(area).step + steps_of(line));
   return next >= 0 && is_path(code(area).line(next).op);
 }
@@ -138,7 +140,11 @@ StepPrograms::Slice StepPrograms::move(Area area, const Instruction& line) {
   }
   if (line.op == Op::lin) return begin_motion(area, line, LinearMove{values, program.targets, feed()}, true);
   if (line.op == Op::mrk) {
-    return begin_motion(area, line, MarkSearch{values, program.targets, program.rpm}, true);
+    std::array<std::int32_t, kAxisCount> rpm = program.rpm;
+    for (int axis = 0; axis < kAxisCount && !options_.marks_by_rpm; ++axis) {
+      rpm[static_cast<std::size_t>(axis)] = machine_.rpm_at_power_up(axis);
+    }
+    return begin_motion(area, line, MarkSearch{values, program.targets, rpm}, true);
   }
   if (line.op == Op::hom) return begin_motion(area, line, HomeSearch{chosen_axes(values)}, true);
   if (line.op == Op::mpg) return begin_motion(area, line, WheelRatios{values}, false);
@@ -159,7 +165,8 @@ StepPrograms::Slice StepPrograms::begin_arc(Area area, const Instruction& line) 
       !line.fields[3].is_set()) {
     return advance(area, line);
   }
-  const std::array<int, 2> axes = axes_of(plane());
+  const Plane where = line.op == Op::c3p && options_.c3p_is_in_xy ? Plane::xy : plane();
+  const std::array<int, 2> axes = axes_of(where);
   AxisValues moved;
   for (const int axis : axes) moved[static_cast<std::size_t>(axis)] = 0;
   const AxisValues all = moved;
@@ -173,14 +180,14 @@ StepPrograms::Slice StepPrograms::begin_arc(Area area, const Instruction& line) 
   const PlanePoint second{field(2), field(3)};
   const Turn turn = line.op == Op::cw || line.op == Op::cwr ? Turn::clockwise : Turn::counter_clockwise;
   if (line.op == Op::c3p) {
-    return begin_motion(area, line, PointArc{plane(), first, second, program.targets, feed()}, true);
+    return begin_motion(area, line, PointArc{where, first, second, program.targets, feed()}, true);
   }
   if (line.op == Op::cw || line.op == Op::ccw) {
     const std::array<std::int32_t, 2> centre{second[0].value_or(0), second[1].value_or(0)};
-    return begin_motion(area, line, CentreArc{plane(), turn, first, centre, program.targets, feed()}, true);
+    return begin_motion(area, line, CentreArc{where, turn, first, centre, program.targets, feed()}, true);
   }
   const std::int32_t radius = second[0].value_or(0);  // is set, or the line would not have been loaded
-  return begin_motion(area, line, RadiusArc{plane(), turn, first, radius, program.targets, feed()}, true);
+  return begin_motion(area, line, RadiusArc{where, turn, first, radius, program.targets, feed()}, true);
 }
 
 }  // namespace understudy::interpreter::super_40nc

@@ -65,6 +65,13 @@ void StepPrograms::take(Event event, Area area) {
   }
 }
 
+/// STR.
+void StepPrograms::start(Area area) {
+  const bool runs_on = reaction_of(Event::start, state(area).phase) == Reaction::nothing;
+  if (runs_on && options_.start_begins_anew && !machine_.is_held_in_reset(area)) take(Event::stop, area);
+  take(Event::start, area);
+}
+
 /// Starts, or goes on.
 void StepPrograms::begin(Area area, Reaction how) {
   StepState& program = state(area);
@@ -99,15 +106,15 @@ void StepPrograms::load_modes(Area area) {
   StepState& program = state(area);
   const int axis = axis_of(area);
   const int where = axis < 0 ? named::kTargetsOfC : named::kTargetsOfX + 100 * axis;
-  program.targets = machine_.special_register(where) == 0 ? Targets::absolute : Targets::relative;
+  program.targets = machine_.parameter_in_force(where) == 0 ? Targets::absolute : Targets::relative;
   program.waits_for_drive = true;
   program.has_modes = true;
   for (int i = 0; i < kAxisCount; ++i) {
     program.rpm[static_cast<std::size_t>(i)] = machine_.rpm_at_power_up(i);
   }
   if (area != Area::c) return;
-  machine_.set_special_register(named::kFeed, machine_.special_register(named::kDefaultFeed));
-  machine_.set_special_register(named::kPlane, machine_.special_register(named::kDefaultPlane));
+  machine_.set_special_register(named::kFeed, machine_.parameter_in_force(named::kDefaultFeed));
+  machine_.set_special_register(named::kPlane, machine_.parameter_in_force(named::kDefaultPlane));
 }
 
 /// As at power-up, but for its modes and speeds.
@@ -201,6 +208,8 @@ void StepPrograms::run_slice(Area area) {
   const bool rests =
       program.phase == Phase::idle || program.phase == Phase::paused || program.phase == Phase::held;
   if (rests && contact_is_on(area)) take(Event::start, area);
+  const bool is_off = !rests && area != Area::c && !contact_is_on(area);
+  if (is_off && options_.contact_off_stops) return take(Event::stop, area);
   if (program.phase == Phase::moving || program.phase == Phase::homing) {
     if (machine_.is_running(area)) return;
     end_of_motion(area);

@@ -59,7 +59,7 @@ class StepPrograms : public StepControl {
   /// From outside: start, contact_off, hold, stop, broken, file_changed (C), plc_stop, plc_run; reset and
   /// emergency in each tick in which they hold, before the slices.
   void take(Event event, Area area);
-  void start(Area area) override { take(Event::start, area); }
+  void start(Area area) override;
   void stop(Area area) override { take(Event::stop, area); }
 
   /// The slice of a tick of one program; of all, in the order of the areas. Their contacts (M8000, M8x00) are

@@ -74,13 +74,14 @@ class Structure {
         fault(Code::logic, "begins one branch too many", "at most " + std::to_string(options_.stack_depth));
       }
     } else if (op == Op::mrd || op == Op::mpp) {
-      if (branches_ == 0) fault(Code::logic, "goes on with a branch that was not begun", "MPS before it");
+      if (branches_ == 0) fault(Code::logic, "continues a branch that was not begun", "MPS before it");
       if (op == Op::mpp) branches_ = std::max(0, branches_ - 1);
     } else if (op == Op::inv) {
       demand_block();
     } else if (is_plc ? op != Op::end : reads_group(op)) {
       demand_block();
       pending_ = 0;
+      if (options_.outputs_clear_blocks) blocks_ = std::min(blocks_, 1);
     }
   }
 
@@ -97,7 +98,7 @@ class Structure {
     const bool goes_on = is_contact(before_) || joins_blocks(before_) || reads_group(before_);
     const bool is_part = is_contact(op) || joins_blocks(op);
     if (is_part && !begins_block(op) && !goes_on) {
-      fault(Code::logic, "has nothing to go on from", "a block before it");
+      fault(Code::logic, "has no block to continue", "a block before it");
     }
     const bool follows_jump = before_ == Op::cj || before_ == Op::cjn;
     if (reads_group(op) && !is_contact(before_) && !joins_blocks(before_) && !follows_jump) {
@@ -119,13 +120,12 @@ class Structure {
     if (op == Op::if_) {
       ifs_.push_back({line_});
       if (static_cast<int>(ifs_.size()) == options_.if_depth + 1) {
-        fault(Code::pairing, "is one IF too many inside another",
-              "at most " + std::to_string(options_.if_depth));
+        fault(Code::pairing, "nests IF too deep", "at most " + std::to_string(options_.if_depth));
       }
     } else if (op == Op::else_) {
       if (ifs_.empty()) return fault(Code::pairing, "has no partner", "IF before it");
       if (std::exchange(ifs_.back().has_else, true)) {
-        fault(Code::pairing, "is the second ELSE of an IF", "one at most");
+        fault(Code::pairing, "is a second ELSE in the same IF", "one at most");
       }
     } else if (op == Op::endi) {
       if (ifs_.empty()) return fault(Code::pairing, "has no partner", "IF before it");

@@ -3,10 +3,10 @@ import importlib.util
 import os
 import pathlib
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
-import time
 
 import pytest
 
@@ -47,22 +47,25 @@ def test_the_component_of_gitlab(tmp_path):
     run_as_ci(command, tmp_path)
 
 
-def test_labgrid_opens_the_port():
+@pytest.mark.parametrize("file, flag", [("env.yaml", "--link=./feeder.port"), ("network.yaml", "--listen=rtu://:PORT")])
+def test_labgrid_opens_the_port(file, flag):
     if importlib.util.find_spec("labgrid") is None:
         pytest.skip("python3-labgrid is not installed")
     folder = pathlib.Path(tempfile.mkdtemp(prefix="labgrid-"))
-    served = subprocess.Popen([PROGRAM, "serve", "--model", "simple2-r3", "--link", "./feeder.port"], cwd=folder,
-                              stdout=subprocess.DEVNULL)
+    with socket.socket() as held:
+        held.bind(("127.0.0.1", 0))
+        port = str(held.getsockname()[1])
+    served = subprocess.Popen([PROGRAM, "serve", "--model", "simple2-r3", flag.replace("PORT", port)], cwd=folder,
+                              stdout=subprocess.PIPE, text=True)
     try:
-        for name in ("env.yaml", "read_code.py"):
-            shutil.copy(PROJECT / "examples/labgrid" / name, folder)
-        end = time.monotonic() + 10
-        while not (folder / "feeder.port").exists() and time.monotonic() < end:
-            time.sleep(0.01)
+        text = (PROJECT / "examples/labgrid" / file).read_text()
+        (folder / "env.yaml").write_text(text.replace("5020", port))
+        shutil.copy(PROJECT / "examples/labgrid/read_code.py", folder)
+        assert served.stdout.readline().startswith("ready ")
         done = subprocess.run([sys.executable, folder / "read_code.py"], cwd=folder, capture_output=True, text=True,
                               timeout=30)
         assert done.stdout == "01 03 02 c0 01 29 84\n", done.stderr  # HW_Code is 0xC001, then its CRC
     finally:
         served.terminate()
-        served.wait()
+        served.communicate()
         shutil.rmtree(folder)

@@ -108,6 +108,13 @@ TEST(ModbusTcpLine, ForgetsTheRequestsOfAClientThatHasGone) {
   EXPECT_EQ(modbus_read_registers(host.get(), 1, 1, &value), 1) << modbus_strerror(errno);
 }
 
+// The request and the end of its client come at once.
+TEST(ModbusTcpLine, ServesTheRequestOfAClientThatHasGone) {
+  const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
+  TcpClient(listened_port(served)).write(pty::hex("00 01 00 00 00 06 00 06 10 02 00 C8"));
+  EXPECT_TRUE(eventually([&] { return served.ctl({"get", "Aaxis_Speed"}).output == "Aaxis_Speed 200\n"; }));
+}
+
 TEST(ModbusTcpLine, ReplaysWhatCameByIt) {
   const PrivateFolder folder;
   {

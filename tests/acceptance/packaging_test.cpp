@@ -137,6 +137,20 @@ TEST_F(Installation, HasAManPageThatIsSetWithoutWarnings) {
   EXPECT_NE(set.output.find("understudy serve [OPTIONS] [BENCH]"), std::string::npos) << set.output;
 }
 
+TEST_F(Installation, HasAManPageForEachCommand) {
+  if (!is_here("man")) GTEST_SKIP() << "man is not installed";
+  std::vector<Words> commands;
+  collect_commands({}, commands);
+  for (const Words& command : commands) {
+    if (command.size() != 1) continue;
+    const std::string its = prefix() + "/share/man/man1/understudy-" + command[0] + ".1.gz";
+    const Finished set = run({"man", "--warnings", "-l", its}, {{"LC_ALL", "C.UTF-8"}, {"MANPAGER", "cat"}});
+    EXPECT_EQ(set.exit_code, 0) << its;
+    EXPECT_EQ(set.errors, "") << its;
+    EXPECT_NE(set.output.find("understudy " + command[0] + " [OPTIONS]"), std::string::npos) << set.output;
+  }
+}
+
 /// A relative link and none at all: the folder of the bench may be one that a user cannot write to.
 TEST_F(Installation, ServesAShippedBenchWithItsLinksElsewhere) {
   fs::create_directory(folder() / "links");

@@ -1,5 +1,5 @@
-// The live page in a real browser, with mbpoll as the host beside it. Chromium is heavy to install, so this
-// runs where UNDERSTUDY_HEAVY_HOSTS=1 is set (./test then installs it).
+// The live page in real browsers, with mbpoll as the host beside it. Browsers are heavy to install, so this
+// runs where UNDERSTUDY_HEAVY_HOSTS=1 is set (./test then installs them).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ class PageInABrowser : public testing::TestWithParam<const char*> {};
 TEST_P(PageInABrowser, ShowsAndDoesWhatItShould) {
   const char* wanted = getenv("UNDERSTUDY_HEAVY_HOSTS");
   if (wanted == nullptr || std::string(wanted) != "1") {
-    GTEST_SKIP()
-        << "UNDERSTUDY_HEAVY_HOSTS=1 is not set (it needs chromium, chromium-driver and python3-selenium)";
+    GTEST_SKIP() << "UNDERSTUDY_HEAVY_HOSTS=1 is not set (it needs chromium, chromium-driver, firefox-esr "
+                    "and python3-selenium)";
   }
   Process visit({"/usr/bin/python3", std::string(TEST_FACTS) + "/hosts/browser/live.py", UNDERSTUDY_BINARY,
                  "--only", GetParam()});
@@ -25,7 +25,9 @@ TEST_P(PageInABrowser, ShowsAndDoesWhatItShould) {
 
 INSTANTIATE_TEST_SUITE_P(Parts, PageInABrowser,
                          testing::Values("panels_simple2-r3", "panels_slim", "panels_rs-m8194h",
-                                         "panels_super-40nc", "host", "restart", "recording", "crowd"),
+                                         "panels_super-40nc", "does_axes", "does_signals", "does_plot",
+                                         "does_registers", "does_bus", "does_program", "does_faults",
+                                         "does_keyboard", "host", "restart", "recording", "crowd", "firefox"),
                          [](const testing::TestParamInfo<const char*>& part) {
                            std::string name = part.param;
                            std::replace(name.begin(), name.end(), '-', '_');

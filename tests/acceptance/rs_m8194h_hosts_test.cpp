@@ -129,6 +129,15 @@ TEST(RsM8194hHosts, ToEverybodyIsObeyedInSilence) {
   EXPECT_EQ(number_in(host.read(kVar0, 2)), 1234);
 }
 
+TEST(RsM8194hHosts, CtlSetFollowsTheOrderThatItSets) {
+  const auto daemon = serve();
+  ModbusHost host(daemon->port(), kAsItComes);
+  for (const std::uint16_t order : {1, 0}) {
+    EXPECT_EQ(daemon->ctl({"set", "WORD_ORDER=" + std::to_string(order), "VAR0=10000"}).exit_code, 0);
+    EXPECT_EQ(host.read(kVar0, 2), order == 1 ? (Registers{10000, 0}) : (Registers{0, 10000}));
+  }
+}
+
 class RsM8194hMbpoll : public testing::Test {
  protected:
   void SetUp() override {

@@ -115,6 +115,22 @@ TEST(Super40ncHosts, ToEverybodyIsObeyedInSilence) {
   EXPECT_EQ(host.read_long(kD53), 1234);
 }
 
+TEST(Super40ncHosts, UnderstudyPollReadsAndWritesAtStation0) {
+  const auto daemon = serve(0);
+  const auto poll = [&](const Words& words) {
+    Words all{"poll", panel_port(*daemon), "--model", "super-40nc", "--station", "0"};
+    all.insert(all.end(), words.begin(), words.end());
+    return understudy(all);
+  };
+  EXPECT_EQ(poll({"D53=-7", "M5=1"}).exit_code, 0);
+  const Finished read = poll({"D53", "M5", "D9000"});
+  EXPECT_EQ(read.exit_code, 0) << read.errors;
+  EXPECT_EQ(read.output, "D53 -7\nM5 1\nD9000 0\n");
+  // Nobody answers there while the number is another one.
+  EXPECT_EQ(poll({"D9000=3"}).exit_code, 0);
+  EXPECT_EQ(poll({"--timeout", "200ms", "D53"}).exit_code, 1);
+}
+
 class Super40ncMbpoll : public testing::Test {
  protected:
   void SetUp() override {

@@ -20,9 +20,22 @@ namespace understudy::acceptance {
 inline int listened_port(const RunningUnderstudy& served) {
   std::smatch found;
   const std::string errors = served.errors();
-  return std::regex_search(errors, found, std::regex("listens at [a-z-]+://127\\.0\\.0\\.1:(\\d+)"))
+  return std::regex_search(errors, found, std::regex("listens at [a-z0-9-]+://127\\.0\\.0\\.1:(\\d+)"))
              ? std::stoi(found[1])
              : 0;
+}
+
+/// A port of this machine at which nobody listens, now.
+inline int free_port() {
+  const Descriptor held(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_in where{};
+  where.sin_family = AF_INET;
+  where.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof where;
+  auto* const raw = reinterpret_cast<sockaddr*>(&where);
+  EXPECT_EQ(bind(held.get(), raw, size), 0);
+  EXPECT_EQ(getsockname(held.get(), raw, &size), 0);
+  return ntohs(where.sin_port);
 }
 
 /// A TCP client of this machine.

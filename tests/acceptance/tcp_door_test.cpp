@@ -1,5 +1,8 @@
 // Hosts that are elsewhere: a line that is reached by TCP, with raw sockets and python3-serial.
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "tests/acceptance/raw_host.h"
 #include "tests/acceptance/running_understudy.h"
@@ -50,6 +53,21 @@ TEST(TcpDoor, IsOpenToPythonSerial) {
       "', timeout=5); s.write(bytes.fromhex('010300010001D5CA')); print(s.read(7).hex())";
   const Finished host = run({"/usr/bin/python3", "-c", script});
   EXPECT_EQ(host.output, "010302c0012984\n") << host.errors;
+}
+
+// socat makes a port of the address where the host is.
+TEST(TcpDoor, IsAPortElsewhereBySocat) {
+  if (access("/usr/bin/socat", X_OK) != 0) GTEST_SKIP() << "socat is not installed";
+  const RunningUnderstudy served({"--listen", "rtu://:0"});
+  const std::string port = served.folder() / "elsewhere";
+  const Process socat({"socat", "pty,raw,echo=0,link=" + port,
+                       "tcp:127.0.0.1:" + std::to_string(listened_port(served)) + ",nodelay"});
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(port); })) << socat.errors();
+  for (int i = 0; i < 3; ++i) {
+    const Finished host = run({"mbpoll", "-q", "-m", "rtu", "-b", "19200", "-P", "none", "-a", "1", "-0",
+                               "-t", "4:hex", "-r", "1", "-1", port});
+    EXPECT_NE(host.output.find("0xC001"), std::string::npos) << host.output << host.errors;
+  }
 }
 
 TEST(TcpDoor, SaysWhyItCannotListen) {

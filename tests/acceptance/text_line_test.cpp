@@ -36,7 +36,7 @@ struct Served {
     made.watch_signals = false;
     return made;
   }
-  std::string path() { return thread.daemon().ports()[0]->terminal().path(); }
+  std::string path() { return thread.daemon().ports()[0]->terminal()->path(); }
   emulator::serve::DaemonThread thread;
 };
 

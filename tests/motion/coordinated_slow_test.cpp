@@ -51,9 +51,32 @@ TEST(CoordinatedSlow, ALimitThatSlowsDownSlowsThePathAndKeepsItsShape) {
   }
   EXPECT_EQ(group.group.cause, Cause::limit_plus);
   EXPECT_EQ(group.axes[0].cause, Cause::limit_plus);
-  // 5000 units of path on, so 3000 of X, from the end of the tick in which the edge was met (60 of X).
-  EXPECT_NEAR(static_cast<double>(group.axes[0].travel_pulses), 15'030, 32);
+  // 5000 units of path on, so 3000 of X, from the pulse of the edge.
+  EXPECT_NEAR(static_cast<double>(group.axes[0].travel_pulses), 15'000, 1);
   EXPECT_EQ(group.group.run.queued(), 0U);
+}
+
+/// A circle whose top only just reaches the limit: between two ticks, whatever the speed.
+TEST(CoordinatedSlow, WhatLiesAtTheTurnOfAnArcIsMetWithinATick) {
+  for (const Reaction reaction : {Reaction::stop_at_once, Reaction::slow_down}) {
+    for (double speed_u_s = 80e3; speed_u_s < 120e3; speed_u_s += 3777) {
+      AxisSettings settings;
+      settings.at_limit_plus = reaction;
+      Group group(settings);
+      group.group.run = {};
+      group.group.run.set_speed(
+          {.top_speed_u_s = speed_u_s, .up = RampLaw::by_slope(1e9), .down = RampLaw::by_slope(1e9)}, 0);
+      group.group.run.append(arc_by_centre(Point::Zero(), Point(1000, 0, 0, 0), Point::Zero(),
+                                           Turn::clockwise, {.plane = {0, 1}}),
+                             {}, 0);
+      group.here[1].add(Signal::limit_plus, 1000, 5000);
+      ASSERT_EQ(group.group.begin(Point::Zero(), group.axes, group.now), Cause::none);
+      group.to_the_end();
+      EXPECT_EQ(group.group.cause, Cause::limit_plus) << speed_u_s;
+      EXPECT_NEAR(static_cast<double>(group.axes[0].travel_pulses), 1000, 45) << "the top of it";
+      EXPECT_NEAR(static_cast<double>(group.axes[1].travel_pulses), 1000, 1);
+    }
+  }
 }
 
 TEST(CoordinatedSlow, ACommandSlowsThePathDown) {

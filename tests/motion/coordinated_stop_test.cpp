@@ -44,7 +44,7 @@ TEST(CoordinatedStop, AnAxisThatMeetsSomethingStopsThemAllAtItsPulse) {
          b.here[0].add(Signal::limit_plus, 5003, 9000);
          settings(b, 0, [](AxisSettings& s) { s.at_limit_plus = Reaction::slow_down; });
        },
-       1, Cause::limit_plus, 0, 5020},  // the path slows down, from the end of the tick in which 5003 was met
+       1, Cause::limit_plus, 0, 5003},  // the path slows down, and needs a quarter of a unit
       {"soft limit + of Y",
        [&](Bench& b) { settings(b, 1, [](AxisSettings& s) { s.soft_limit_plus = 1234; }); }, 1,
        Cause::soft_limit_plus, 1, 1235},  // the pulse beyond it triggers

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/state/difference.h"
+#include "base/state/state_error.h"
+#include "motion/state_fields.h"
 #include "tests/motion/state_samples.h"
 
 namespace understudy::motion {
@@ -128,6 +131,52 @@ TEST(PathRunState, ThatStandsByAnOverrideOfNothingIsTakenBack) {
   PathRun restored;
   restore(restored, save(run));
   EXPECT_EQ(hash(restored), hash(run));
+}
+
+/// Of a run that waits with one path.
+std::vector<std::byte> saved_run() {
+  PathRun run;
+  run.append(line(Point::Zero(), Point(1000, 0, 0, 0)), {}, 0);
+  return save(run);
+}
+
+/// The first byte of a field in that.
+std::size_t place_of(const std::string& field) {
+  const std::vector<std::byte> bytes = saved_run();
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    std::vector<std::byte> changed = bytes;
+    changed[i] ^= std::byte{1};
+    StateReader before(bytes);
+    StateReader after(changed);
+    try {
+      if (difference_of_saved<PathRun>(before, after).starts_with(field + ":")) return i;
+    } catch (const StateError&) {
+    }
+  }
+  throw std::logic_error("no field is called " + field);
+}
+
+TEST(PathRunState, WhoseNumbersContradictEachOtherIsRefused) {
+  const struct {
+    const char* field;
+    std::int64_t value;
+    bool is_good;
+  } cases[] = {{"head", PathRun::kMaxPaths - 1, true},
+               {"head", PathRun::kMaxPaths, false},
+               {"count", PathRun::kMaxPaths, true},
+               {"count", PathRun::kMaxPaths + 1, false},
+               {"chain_count", 1, true},
+               {"chain_count", 2, false},
+               {"begin_tick", Tick{1} << 56, true},
+               {"begin_tick", (Tick{1} << 56) + 1, false},
+               {"begin_tick", -(Tick{1} << 56), true},
+               {"begin_tick", -(Tick{1} << 56) - 1, false}};
+  for (const auto& [field, value, is_good] : cases) {
+    std::vector<std::byte> bytes = saved_run();
+    const std::size_t place = place_of(field);
+    for (std::size_t i = 0; i < sizeof value; ++i) bytes[place + i] = static_cast<std::byte>(value >> 8 * i);
+    EXPECT_NE(refuses(PathRun{}, bytes), is_good) << field << " " << value;
+  }
 }
 
 TEST(StateBytes, AreTheSameOnEveryMachine) {

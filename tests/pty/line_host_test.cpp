@@ -32,6 +32,21 @@ TEST(LineHost, AStationIsDeafToOtherSettings) {
       {{.baud = 19200, .stop_bits = 2},
        false,
        "line rs485: the host set 19200 baud, 2 stop bits; the station expects 19200 8E1: it hears nothing"},
+      // What a pseudo-terminal hides.
+      {{.baud = 19200, .data_bits = 8, .parity = Parity::even}, true, ""},
+      {{.baud = 19200, .data_bits = 8}, true, ""},
+      {{.baud = 19200, .data_bits = 8, .parity = Parity::none},
+       false,
+       "line rs485: the host set 19200 8N1; the station expects 19200 8E1: it hears nothing"},
+      {{.baud = 19200, .data_bits = 8, .parity = Parity::odd},
+       false,
+       "line rs485: the host set 19200 8O1; the station expects 19200 8E1: it hears nothing"},
+      {{.baud = 19200, .data_bits = 7, .parity = Parity::even},
+       false,
+       "line rs485: the host set 19200 7E1; the station expects 19200 8E1: it hears nothing"},
+      {{.baud = 19200, .data_bits = 8, .parity = Parity::mark},
+       false,
+       "line rs485: the host set 19200 8M1; the station expects 19200 8E1: it hears nothing"},
   };
   for (const Case& host : cases) {
     LineRig rig(kEnforcing);
@@ -103,6 +118,47 @@ TEST(LineHost, JudgesEachCharacterOnceAtItsStartBit) {
     EXPECT_EQ(start_bits.count, static_cast<int>(kRequest.size()));
     rig.line.remove_observer(start_bits);
   }
+}
+
+Bytes values_of(const std::vector<TimedByte>& heard) {
+  Bytes values;
+  for (const TimedByte& byte : heard) values.push_back(byte.value);
+  return values;
+}
+
+// A character of 19200 8E1 takes 573 us: at 2 ms the fourth is on the wire, and stays there.
+TEST(LineHost, TakesBackWhatIsNotOnTheWire) {
+  LineRig rig(kEnforcing);
+  FakeSlave slave(1, kReply);
+  rig.line.attach(slave);
+  rig.send(kRequest, 0s);
+  rig.run(2ms);
+  rig.line.host_purged();
+  rig.line.host_purged();
+  EXPECT_EQ(rig.line.room(), Line::kInputCapacity - 1);
+  rig.send({0x55}, 2ms);
+  rig.run(1s);
+  Bytes heard(kRequest.begin(), kRequest.begin() + 4);
+  heard.push_back(0x55);
+  EXPECT_EQ(values_of(slave.heard), heard);
+  rig.line.host_purged();  // nothing is there
+  rig.send(kRequest, 1s);
+  rig.run(2s);
+  EXPECT_EQ(rig.out, kReply);
+}
+
+// What the host before has left is not the next one's to take back.
+TEST(LineHost, TakesBackNothingOfTheHostBefore) {
+  LineRig rig(kEnforcing);
+  FakeSlave slave(1, kReply);
+  rig.line.attach(slave);
+  rig.send(kRequest, 0s);
+  rig.line.host_closed();
+  rig.line.host_opened();
+  rig.send({0x55}, 0s);
+  rig.line.host_purged();
+  rig.run(1s);
+  EXPECT_EQ(values_of(slave.heard), kRequest);
 }
 
 // 0x41 is of a length that only silence tells.

@@ -66,7 +66,7 @@ struct Rig {
 
 struct Event {
   SimTime at{0};
-  enum class What { bytes, departed, opened, closed, settings, nothing_more } what = What::bytes;
+  enum class What { bytes, departed, opened, closed, settings, purged, nothing_more } what = What::bytes;
   Bytes bytes;
   HostSettings host;
 };
@@ -78,6 +78,7 @@ void apply(Line& line, const Event& event) {
     case Event::What::opened: return line.host_opened();
     case Event::What::closed: return line.host_closed();
     case Event::What::settings: return line.host_settings(event.host);
+    case Event::What::purged: return line.host_purged();
     case Event::What::nothing_more: return line.nothing_more(event.at);
   }
 }
@@ -118,8 +119,10 @@ std::vector<Event> random_events(std::mt19937_64& random) {
       case 3:
         event.what = Event::What::settings;
         event.host = {.baud = random() % 3 == 0 ? 9600 : 19200};
+        if (random() % 3 == 0) event.host.parity = random() % 2 == 0 ? Parity::none : Parity::even;
         break;
       case 4: event.what = Event::What::nothing_more; break;
+      case 5: event.what = Event::What::purged; break;
       default: break;
     }
     events.push_back(event);
@@ -159,7 +162,7 @@ TEST(LineState, WhatIsRestoredGoesOnAsItDid) {
   int ready = 0;
   int collided = 0;
   std::size_t said = 0;
-  for (std::uint64_t seed = 1; seed <= 240; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 360; ++seed) {
     std::mt19937_64 random(seed);
     const Timing timing = seed % 3 == 0 ? Timing::instant : Timing::wire;
     const bool strict = seed % 4 == 0;

@@ -13,6 +13,7 @@
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "base/text/utf8.h"
+#include "emulator/device/memory/block_error.h"
 #include "emulator/device/memory/nv_image.h"
 
 namespace understudy::emulator {
@@ -86,26 +87,28 @@ bool TextBlocks::erase(std::string_view kind, std::string_view name) {
 }
 
 void TextBlocks::check(const NamedBlocks& blocks, const BlockLines& lines) const {
-  const auto refuse = [&](const std::string& kind_name, const std::string& name, const std::string& why) {
+  const auto refuse = [&](const std::string& kind_name, const std::string& name, const std::string& whose,
+                          const std::string& why) {
     const auto line = lines.find({kind_name, name});
-    throw NvError((line == lines.end() ? "" : "line " + std::to_string(line->second) + ": ") +
-                  "blocks: " + why);
+    throw BlockError(kind_name, name, why,
+                     (line == lines.end() ? "" : "line " + std::to_string(line->second) + ": ") +
+                         "blocks: " + whose + why);
   };
   for (const auto& [kind_name, entries] : blocks) {
     const BlockKind* const of = kind(kind_name);
     if (of == nullptr) {
       std::vector<std::string> known;
       for (const BlockKind& one : kinds_) known.emplace_back(one.name);
-      refuse(kind_name, {}, quoted(kind_name) + " is not a kind of block" + suggestion(kind_name, known));
+      refuse(kind_name, {}, "", quoted(kind_name) + " is not a kind of block" + suggestion(kind_name, known));
     }
     if (entries.size() > of->most) {
-      refuse(kind_name, {},
-             kind_name + ": has " + std::to_string(entries.size()) + " entries; expected at most " +
-                 std::to_string(of->most));
+      refuse(
+          kind_name, {}, kind_name + ": ",
+          "has " + std::to_string(entries.size()) + " entries; expected at most " + std::to_string(of->most));
     }
     for (const auto& [name, text] : entries) {
       const std::string why = why_not(*of, name, text);
-      if (!why.empty()) refuse(kind_name, name, kind_name + ": " + quoted(name) + ": " + why);
+      if (!why.empty()) refuse(kind_name, name, kind_name + ": " + quoted(name) + ": ", why);
     }
   }
 }

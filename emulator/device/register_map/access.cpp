@@ -91,9 +91,17 @@ auto with_room_for(std::size_t words, Act act) {
   return act(changes);
 }
 
+/// The low half alone, where that means the whole.
+void extend_sign(Change& change) {
+  if (!is_32_bit(change.place.row->type) || !change.low || change.high) return;
+  change.bits = static_cast<std::uint32_t>(static_cast<std::int16_t>(change.bits & 0xFFFF));
+  change.high = true;
+}
+
 /// Whether a register may be written what a request makes of it; what the policy lets in is brought into
 /// range.
 Objection judge(Change& change, const MapPolicy& policy) {
+  if (policy.halves == MapPolicy::Halves::low_gives_the_sign) extend_sign(change);
   // Half a value cannot be judged.
   if (!complete(change) && policy.halves == MapPolicy::Halves::may_be_written_alone) return {};
   if (policy.out_of_range == MapPolicy::OutOfRange::stored || in_range(change)) return {};

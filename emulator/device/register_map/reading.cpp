@@ -48,6 +48,31 @@ std::size_t stored_neighbours(const Place& place) {
   return static_cast<std::size_t>(row.stride == 1 ? row.count - place.index : 1);
 }
 
+/// Of a 32-bit register whose first word a place is: how many of its row stand one behind the other, if they
+/// are simply what the image holds; else 1.
+std::size_t stored_pairs(const Place& place) {
+  const RegisterRow& row = *place.row;
+  const bool is_plain = !row.is_view && row.reader == nullptr && row.fields.empty() && row.stride == 2;
+  return is_plain ? static_cast<std::size_t>(row.count - place.index) : 1;
+}
+
+/// Whole 32-bit registers from the word that a place is; returns how many words. None if it is a second word,
+/// or the request ends with it.
+std::size_t read_pairs(const RegisterBank& bank, const Place& place, bool low_first,
+                       std::span<std::uint16_t> words) {
+  if (place.part == Place::Part::whole || place.is_second_word(low_first)) return 0;
+  const std::size_t count = std::min(stored_pairs(place), words.size() / 2);
+  const auto put = [&](std::size_t i, std::uint32_t bits) {
+    words[2 * i + (low_first ? 0 : 1)] = static_cast<std::uint16_t>(bits);
+    words[2 * i + (low_first ? 1 : 0)] = static_cast<std::uint16_t>(bits >> 16);
+  };
+  if (count == 1) put(0, present_bits(bank, place));
+  if (count <= 1) return 2 * count;
+  const auto stored = bank.image().subspan(static_cast<std::size_t>(place.slot), count);
+  for (std::size_t i = 0; i < count; ++i) put(i, stored[i]);
+  return 2 * count;
+}
+
 /// The lowest bit of each, from bit number `at` on; whole bytes at once.
 void pack(std::span<const std::uint32_t> bits, std::size_t at, std::span<std::uint8_t> packed) {
   std::size_t i = 0;
@@ -80,6 +105,10 @@ Objection read_request(const RegisterBank& bank, Table table, std::uint16_t firs
       return objection(Refusal::no_register, Cause::cut_pair, address);
     }
     mention_if_missed(bank, place);
+    if (const std::size_t read = read_pairs(bank, place, low_first, words.subspan(i)); read > 0) {
+      i += read - 1;
+      continue;
+    }
     const std::size_t rest = stored_neighbours(place);
     if (rest > 1) {  // the rest of its row follows
       const std::size_t count = std::min(rest, words.size() - i);
@@ -98,8 +127,31 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
                             std::span<std::uint8_t> packed) {
   if (first + count > 65536) return objection(Refusal::no_register, Cause::no_register, first);
   std::fill(packed.begin(), packed.end(), std::uint8_t{0});
+  const auto sources = bank.map().bit_sources(table);
+  const auto image = bank.image();
+  const auto put = [&](std::size_t i, std::uint32_t bit) {
+    packed[i / 8] |= static_cast<std::uint8_t>((bit & 1U) << i % 8);
+  };
   for (std::size_t i = 0; i < count;) {
     const std::size_t address = first + i;
+    const BitSource source = address < sources.size() ? sources[address] : BitSource{};
+    if (source.how == BitSource::How::stored) {
+      const std::size_t run = std::min<std::size_t>(source.run, count - i);
+      const auto slot = static_cast<std::size_t>(source.slot);
+      run == 1 ? put(i, image[slot]) : pack(image.subspan(slot, run), i, packed);
+      i += run;
+      continue;
+    }
+    if (source.how == BitSource::How::constant) {
+      put(i++, static_cast<std::uint32_t>(source.slot));
+      continue;
+    }
+    if (source.how == BitSource::How::reader) {
+      const RegisterRow& row = bank.map().rows()[static_cast<std::size_t>(source.slot)];
+      const Cell cell{.argument = row.argument, .index = source.run, .axis = row.first_axis + source.run};
+      put(i++, static_cast<std::uint32_t>(row.reader(bank, cell)));
+      continue;
+    }
     Place place = bank.at(table, static_cast<std::uint16_t>(address), true);
     if (const Objection refused = readable(bank, table, address, place)) return refused;
     if (!place) {
@@ -107,13 +159,7 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
       continue;
     }
     mention_if_missed(bank, place);
-    if (const std::size_t rest = std::min(stored_neighbours(place), count - i); rest > 0) {
-      pack(bank.image().subspan(static_cast<std::size_t>(place.slot), rest), i, packed);
-      i += rest;
-      continue;
-    }
-    packed[i / 8] |= static_cast<std::uint8_t>((present_bits(bank, place) & 1U) << i % 8);
-    ++i;
+    put(i++, present_bits(bank, place));
   }
   return admission(bank, {.table = table, .first = first, .count = count}, Checked::everything);
 }

@@ -61,6 +61,8 @@ RegisterMap::RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy)
     name_places(row, first_slot);
     if (!row.is_view) slot_count_ += row.count;
   }
+  for (const Table bits : {Table::coil, Table::discrete})
+    find_bit_sources(tables_[static_cast<std::size_t>(bits)]);
   if (policy.word_order_in.empty()) return;
   const auto& holding = tables_[static_cast<std::size_t>(Table::holding)].names;
   if (!holding.contains(std::string(policy.word_order_in))) {
@@ -84,6 +86,33 @@ void RegisterMap::place_words(const RegisterRow& row, int row_number) {
       }
       entry = {static_cast<std::uint16_t>(row_number), static_cast<std::uint16_t>(index * 2 + word)};
       table.end = std::max(table.end, address + 1);
+    }
+  }
+}
+
+/// Backwards, so that each knows how many follow it.
+void RegisterMap::find_bit_sources(TableIndex& table) const {
+  using How = BitSource::How;
+  table.bits.resize(static_cast<std::size_t>(table.end));
+  for (std::size_t address = table.bits.size(); address-- > 0;) {
+    const Entry entry = table.entries[address];
+    if (entry.row_number == 0) continue;
+    const RegisterRow& row = rows_[entry.row_number - 1U];
+    const bool is_plain = row.since == 0 && row.unmodelled.empty() && row.fields.empty() &&
+                          row.access != Access::write && row.message == nullptr;
+    if (!is_plain) continue;
+    BitSource& source = table.bits[address];
+    if (row.reader != nullptr) {
+      source = {.how = How::reader,
+                .run = static_cast<std::uint16_t>(entry.index_and_part / 2),
+                .slot = entry.row_number - 1};
+    } else if (row.is_view) {
+      source = {.how = How::constant, .slot = static_cast<std::int32_t>(row.factory & 1)};
+    } else {
+      source = {.how = How::stored, .slot = first_slots_[entry.row_number - 1U] + entry.index_and_part / 2};
+      const bool goes_on = address + 1 < table.bits.size() && table.bits[address + 1].how == How::stored &&
+                           table.bits[address + 1].slot == source.slot + 1;
+      if (goes_on) source.run = static_cast<std::uint16_t>(table.bits[address + 1].run + 1);
     }
   }
 }

@@ -44,6 +44,18 @@ struct NamedPlace {
   bool is_real() const { return bit < 0 && place.part == Place::Part::whole && place.row->type == Type::f32; }
 };
 
+/// How a bit is read, worked out once: hosts read hundreds in a request.
+struct BitSource {
+  enum class How : std::uint8_t {
+    asks,      // by its row, as at() finds it; also where nothing is
+    reader,    // of a row that every firmware has: `slot` is its number, `run` the index in it
+    stored,    // in the image
+    constant,  // 0 or 1, in `slot`
+  } how = How::asks;
+  std::uint16_t run = 1;  // of stored bits: so many, in neighbouring slots, begin here
+  std::int32_t slot = 0;
+};
+
 class RegisterMap {
  public:
   /// Throws std::logic_error if two rows of a table claim one address or one name, or a row does not make
@@ -60,6 +72,11 @@ class RegisterMap {
   /// The register at an address; `part` says which word of it (the order of words may change while a
   /// device runs). Empty if nothing is there, for this firmware.
   Place at(Table table, std::uint16_t address, Firmware firmware, bool low_word_first) const;
+
+  /// By address, up to the last bit of a table of bits; empty for the others.
+  std::span<const BitSource> bit_sources(Table table) const {
+    return tables_[static_cast<std::size_t>(table)].bits;
+  }
 
   bool has(Table table) const { return !tables_[static_cast<std::size_t>(table)].entries.empty(); }
   /// Behind the last address of a table.
@@ -95,7 +112,9 @@ class RegisterMap {
     std::vector<Entry> entries;  // 65,536, or none if the model has no such table
     int end = 0;
     std::unordered_map<std::string, Place> names{};  // looked up, never iterated
+    std::vector<BitSource> bits{};                   // by address
   };
+  void find_bit_sources(TableIndex& table) const;
 
   std::vector<RegisterRow> rows_;
   std::vector<int> first_slots_;

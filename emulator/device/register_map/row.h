@@ -342,11 +342,12 @@ struct MapPolicy {
   enum class WriteOnly : std::uint8_t { reads_zero, refused } write_only = WriteOnly::reads_zero;
   enum class ReadOnly : std::uint8_t { refused, ignores_writes } read_only = ReadOnly::refused;
   /// Half of a 32-bit register alone: taken whatever the whole becomes, judged with the other half as it is,
-  /// or never taken.
+  /// never taken, or (of the low half) taken as the whole, with its sign.
   enum class Halves : std::uint8_t {
     may_be_written_alone,
     judged_with_the_other,
-    come_whole
+    come_whole,
+    low_gives_the_sign
   } halves = Halves::may_be_written_alone;
   enum class ReadHalves : std::uint8_t {
     may_be_read_alone,

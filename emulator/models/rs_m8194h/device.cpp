@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/prefetch.h"
 #include "base/simulated_time.h"
 #include "base/state/difference.h"
 #include "base/state/state_bytes.h"
@@ -43,6 +44,12 @@ namespace {
 constexpr std::string_view kPulseFormats[] = {"CW/CCW rising",      "CW/CCW falling",
                                               "PULSE rising/DIR -", "PULSE falling/DIR -",
                                               "PULSE rising/DIR +", "PULSE falling/DIR +"};
+
+/// Of EXP+ and EXP-, as they are: a line is low while it conducts, which is after each odd edge.
+void set_external_levels(AxisUnit& unit) {
+  unit.external.plus_high = (unit.external_seen[0] & 1U) == 0;
+  unit.external.minus_high = (unit.external_seen[1] & 1U) == 0;
+}
 
 std::uint16_t word_of(std::span<const std::uint16_t> words, int number) {
   return words[static_cast<std::size_t>(number)];
@@ -79,6 +86,7 @@ void RsM8194h::blank_module() {
     blank.pins = unit.pins;
     blank.emergency = unit.emergency;
     blank.external_seen = unit.external_seen;
+    set_external_levels(blank);
     blank.out.pulses = unit.out.pulses;
     blank.logic.range = blank.absolute.range = blank.encoder.range = motion::Counter::Range::bits32;
     set_logic_position(blank, motor, 0);
@@ -120,8 +128,10 @@ void RsM8194h::blank() {
   made.image.resize(kSlotCount);
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {
-    for (int i = 0; i < row.count && !row.is_view; ++i, ++next) {
-      made.image[next] = keeps(row) && next < made.eeprom.kept().size()
+    if (row.is_view) continue;
+    const bool is_kept = keeps(row);
+    for (int i = 0; i < row.count; ++i, ++next) {
+      made.image[next] = is_kept && next < made.eeprom.kept().size()
                              ? made.eeprom.kept()[next]
                              : static_cast<std::uint32_t>(row.factory);
     }
@@ -142,12 +152,15 @@ void RsM8194h::power_up() {
       const Pin pin = i == 0 ? Pin::external_plus : Pin::external_minus;
       unit.external_seen[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(input(terminal(a, pin)));
     }
+    set_external_levels(unit);
   }
   pass_pins(now());
   for (AxisUnit& unit : state_.units) {
     unit.pins.passed = unit.pins.raw;
     unit.emergency = state_.emergency_input;
   }
+  state_.holds_back = false;
+  state_.unscanned = true;
   scan_frnet();
   heed_triggers(state_.inputs, true);
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -214,10 +227,8 @@ pty::SimTime RsM8194h::end_silence(pty::SimTime usual) const {
 
 void RsM8194h::sample_inputs(Tick tick) {
   const bool changed = take_inputs_changed();
-  state_.unscanned = state_.unscanned || changed;
-  const bool waits = std::any_of(state_.units.begin(), state_.units.end(),
-                                 [this](const AxisUnit& unit) { return is_filtering(unit); });
-  if (changed || waits) {
+  if (changed) state_.unscanned = frnet_inputs() != state_.inputs;
+  if (changed || state_.holds_back) {
     pass_pins(tick);
     for (std::size_t a = 0; a < kAxes; ++a) {
       look_round(a);
@@ -227,7 +238,6 @@ void RsM8194h::sample_inputs(Tick tick) {
   if (scans_frnet_at(tick)) {
     const auto before = state_.inputs;
     scan_frnet();
-    state_.unscanned = false;
     if (state_.inputs != before) heed_triggers(before, false);
   }
 }
@@ -235,6 +245,7 @@ void RsM8194h::sample_inputs(Tick tick) {
 void RsM8194h::step_motion(Tick tick) {
   const bool was_full = state_.paths.together.engaged && state_.paths.together.run.queued() > 1;
   step_axes(tick);
+  heed_path_speed(tick);
   heed_ends();
   heed_path_end(was_full);
   act_on_events(tick);
@@ -286,6 +297,22 @@ Tick RsM8194h::next_active_tick(Tick done) const {
   return next;
 }
 
+void RsM8194h::prefetch(Tick tick) const {
+  Device::prefetch(tick);
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    understudy::prefetch(&state_.motors[a], 2 * kCacheLine);  // all that the middle of a move needs
+    prefetch_line(&state_.here[a]);
+    prefetch_line(&state_.units[a].sent_pulses);
+  }
+  prefetch_line(&state_.sync);
+  prefetch_line(&state_.paths.together.engaged);
+  prefetch_line(&state_.fifo);
+  prefetch_line(&state_.execution);
+  prefetch_line(&state_.paused);
+  prefetch_line(&state_.unscanned);
+  prefetch_line(&state_.eeprom);
+}
+
 // --- terminals -------------------------------------------------------------------------------------------
 
 bool RsM8194h::output(int terminal) const {
@@ -330,6 +357,17 @@ double RsM8194h::speed_pps(int axis) const {
   return motor.moving() ? motor.sample(now()).speed_u_s * static_cast<double>(motor.drive.direction) : 0;
 }
 
+std::optional<bool> RsM8194h::servo_on(int axis) const {
+  return powered() && state_.units[static_cast<std::size_t>(axis)].basic.servo;
+}
+
+std::int64_t RsM8194h::pulses_to_come(int axis) const {
+  const auto a = static_cast<std::size_t>(axis);
+  if (!powered()) return 0;
+  return state_.paths.together.takes(a) ? state_.paths.together.pulses_to_come(a, state_.motors)
+                                        : state_.motors[a].pulses_to_come();
+}
+
 void RsM8194h::connect_encoder(int axis, std::int64_t counts) {
   AxisUnit& unit = state_.units[static_cast<std::size_t>(axis)];
   unit.encoder_raw = counts * machine_.edges_per_encoder_count;  // EP counts from here
@@ -365,8 +403,10 @@ std::function<void()> RsM8194h::read_own_state(StateReader& reader) {
   restored->eeprom.check_restored(state_.eeprom);
   restored->blocks.check_restored(state_.blocks);
   return [this, restored] {
-    state_ = std::move(*restored);
-    compiled_revision_ = UINT64_MAX;
+    // What was compiled stays so where the macros are the same.
+    const bool is_same = compiled_revision_ == state_.blocks.revision() && state_.blocks == restored->blocks;
+    state_ = *restored;
+    if (!is_same) compiled_revision_ = UINT64_MAX;
     // What it cannot have been doing it does not go on with.
     if (!lang::is_sound(state_.execution, *this)) lang::terminate(state_.execution);
   };

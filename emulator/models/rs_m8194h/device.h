@@ -61,6 +61,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   Tick next_active_tick(Tick done) const override;
   Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
   void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
+  void prefetch(Tick tick) const override;
   bool same_state(const Device& other) const override {
     return state_ == static_cast<const RsM8194h&>(other).state_;
   }
@@ -71,6 +72,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::int64_t output_pulses(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override;
   double speed_pps(int axis) const override;
+  std::int64_t pulses_to_come(int axis) const override;
+  std::optional<bool> servo_on(int axis) const override;
   void connect_encoder(int axis, std::int64_t counts) override;
   void set_encoder(int axis, std::int64_t counts) override;
   bool meets_edges() const override { return true; }
@@ -131,6 +134,9 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   Start may_start(std::size_t axis, Starter who, bool on_path = false) const;
   /// Sets the error bits of what keeps axes from starting.
   void note_obstacles(AxisMask axes);
+  /// Of LINE_SCAN_START: the flag of done scans is off until all of them stand.
+  void begin_scans(AxisMask axes);
+  bool waits_behind_held(AxisMask axes) const;
 
   void halt(AxisMask axes, const StopRow& row);
   void clear_stop(AxisMask axes);
@@ -189,6 +195,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void pass_pins(Tick tick);
   /// A level of one of its inputs is still held back.
   bool is_filtering(const AxisUnit& unit) const;
+  /// As they are now; those of the last scan are state.
+  std::array<std::uint16_t, kFrnetGroups> frnet_inputs() const;
   void scan_frnet();
   bool scans_frnet_at(Tick tick) const;
   Tick next_scan(Tick after) const;
@@ -196,6 +204,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void step_axes(Tick tick);
   void heed_ends();
   void heed_home(std::size_t axis);
+  void heed_path_speed(Tick tick);
   void heed_path_end(bool was_full);
   void act_on_events(Tick tick);
   void act_together(Tick tick);

@@ -177,10 +177,21 @@ void RsM8194h::note_obstacles(AxisMask axes) {
   }
 }
 
+/// By choice, of a drive that would be held: another one of its axes is held already.
+bool RsM8194h::waits_behind_held(AxisMask axes) const {
+  if (!chose(option("second_held_drive", "waits"))) return false;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (has(axes, a) && state_.units[a].held_drive.what != Drive::What::none) return true;
+  }
+  return !state_.held_paths.empty() && (axes_of_path(state_.held_paths.front()) & axes) != 0;
+}
+
 Took RsM8194h::drive(AxisMask axes, const Drive& what) {
   const bool is_first_kept = chose(option("second_held_drive", "is_void"));
   for (std::size_t a = 0; a < kAxes; ++a) {
-    if (has(axes, a) && may_start(a, Starter::command) == Start::waits) return Took::waits;
+    if (!has(axes, a)) continue;
+    const Start mine = may_start(a, Starter::command);
+    if (mine == Start::waits || (mine == Start::is_held && waits_behind_held(mask_of(a)))) return Took::waits;
   }
   if (chose(option("mask_drive", "is_void_if_one_is"))) {
     for (std::size_t a = 0; a < kAxes; ++a) {
@@ -247,6 +258,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   }
   unit.error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
   if (motor.homing.active() && !machine_.axis.homing_heeds_soft_limits) look_again(axis);
+  if (what.what == Drive::What::scan) begin_scans(mask_of(axis));
   if (LineScan& scan = state_.scans[axis]; what.what == Drive::What::scan && scan.set) {
     scan.running = true;
     scan.begin = scan_count(axis);

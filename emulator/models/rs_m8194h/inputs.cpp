@@ -105,6 +105,8 @@ void RsM8194h::pass_pins(Tick tick) {
     const Tick delay = filter_ticks(unit, static_cast<int>(Pin::limit_plus), machine_);
     if (tick - state_.emergency_since >= delay) unit.emergency = is_emergency;
   }
+  state_.holds_back = std::any_of(state_.units.begin(), state_.units.end(),
+                                  [this](const AxisUnit& unit) { return is_filtering(unit); });
 }
 
 /// What the motor meets: where an input changes with the place, zones; else its level.
@@ -154,7 +156,8 @@ void RsM8194h::look_again(std::size_t axis) {
                                                   motion::Event::constant_started,
                                                   motion::Event::ended};
   for (std::size_t i = 0; i < kIsrFactors; ++i) {
-    if ((unit.factors >> i & 1) != 0) asked.events |= motion::bit(kEvents[i]);
+    const bool is_asked = machine_.all_factors_are_noted || (unit.factors >> i & 1) != 0;
+    if (is_asked) asked.events |= motion::bit(kEvents[i]);
   }
   // Its own stop is met at the pulse of the comparison.
   if (has(state_.sync.triggers[axis].activates, axis)) {
@@ -180,6 +183,14 @@ void RsM8194h::watch_external(std::size_t axis) {
     const auto count = static_cast<std::uint32_t>(input(terminal(axis, pin)));
     std::uint32_t edges = count - unit.external_seen[i];
     unit.external_seen[i] = count;
+    if (filter_ticks(unit, static_cast<int>(pin), machine_) > 0) {
+      // Through its filter: what is too short is lost, the rest comes late.
+      const bool was_high = i == 0 ? unit.external.plus_high : unit.external.minus_high;
+      const bool is_high = (unit.pins.passed & bit_of(pin)) == 0;
+      edges = was_high != is_high ? 1 : 0;
+      // What it holds back is an edge to come, should it be taken off.
+      if (((count & 1U) == 0) != is_high) --unit.external_seen[i];
+    }
     // While off nothing but the level at the end matters.
     if (unit.external.mode == motion::ExternalDrive::Mode::off && edges > 1) edges = 2 - (edges & 1U);
     for (; edges > 0; --edges) {
@@ -223,16 +234,23 @@ Tick RsM8194h::next_scan(Tick after) const {
   }
 }
 
-void RsM8194h::scan_frnet() {
-  state_.sent = state_.outputs;
+std::array<std::uint16_t, kFrnetGroups> RsM8194h::frnet_inputs() const {
+  std::array<std::uint16_t, kFrnetGroups> words{};
   for (int group = 0; group < kFrnetGroups; ++group) {
     std::uint16_t word = 0;
     for (int channel = 0; channel < kFrnetChannels; ++channel) {
       const bool is_on = input(kFirstDi + group * kFrnetChannels + channel) != 0;
       if (is_on) word |= static_cast<std::uint16_t>(1U << channel);
     }
-    state_.inputs[static_cast<std::size_t>(group)] = word;
+    words[static_cast<std::size_t>(group)] = word;
   }
+  return words;
+}
+
+void RsM8194h::scan_frnet() {
+  state_.sent = state_.outputs;
+  if (state_.unscanned) state_.inputs = frnet_inputs();
+  state_.unscanned = false;
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

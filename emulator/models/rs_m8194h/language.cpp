@@ -1,5 +1,6 @@
 #include "emulator/models/rs_m8194h/language.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -103,6 +104,13 @@ class Listing final : public ProgramLanguage, public ProgramCells {
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return mistakes_of(parse(text, settings).errors);
   }
+  std::span<const ProgramControl> controls() const override {
+    using By = ProgramControl::By;
+    static constexpr std::array<ProgramControl, 2> kControls{
+        {{"call MP {}", By::registers, "CALL_MPn={}", 1, 157},
+         {"end all macros", By::command, "RSM_MP_TERMINATE"}}};
+    return kControls;
+  }
   const ProgramCells* cells() const override { return this; }
 
   CellForm cell_form() const override {
@@ -134,7 +142,7 @@ class Listing final : public ProgramLanguage, public ProgramCells {
     const LanguageOptions options = language_options(settings);
     for (const CellRow& row : rows) text += line_of(row, state, options.command);
     if (state != lang::State::ready) {
-      throw ProgramError(rows.back().line, 0, "ends within a macro; expected its CLOSE");
+      throw ProgramError(rows.back().line, 0, "ends inside a macro; expected its CLOSE");
     }
     const lang::ParsedListing parsed = parse(text, settings);
     if (!parsed.errors.empty()) throw ProgramError(mistakes_of(parsed.errors));

@@ -41,7 +41,7 @@ std::string why_not_number(const std::string& name, int most) {
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   const bool is_number = error == std::errc{} && end == name.data() + name.size() && number >= 1 &&
                          number <= most && std::to_string(number) == name;
-  return is_number ? "" : "is not a number of a macro; expected 1 to " + std::to_string(most);
+  return is_number ? "" : "is not a macro number; expected 1 to " + std::to_string(most);
 }
 std::string why_not_mp(const std::string& name) { return why_not_number(name, lang::kMpCount); }
 std::string why_not_isr(const std::string& name) { return why_not_number(name, lang::kIsrCount); }

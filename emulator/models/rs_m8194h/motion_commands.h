@@ -110,7 +110,8 @@ inline Took set_pulse(RsM8194h& it, const Command& command) {
     const std::int64_t given = command.signed_value(1);
     const bool is_against = given != 0 && (given < 0) != (motor.drive.direction < 0);
     if (is_against && it.chose(option("set_pulse_sign", "is_ignored"))) return;
-    motor.change_distance(is_against ? 0 : std::abs(given), true, it.now());
+    const bool counts = !is_against || it.chose(option("set_pulse_sign", "counts_all_the_same"));
+    motor.change_distance(counts ? std::abs(given) : 0, true, it.now());
   });
   return Took::done;
 }
@@ -144,8 +145,14 @@ Took initial(RsM8194h& it, const Command& command) {
 /// 7.4.12: the setting is used up by the next scan. It takes C+, so the soft limits end.
 inline Took line_scan(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    it.state().scans[a] = {.set = true, .type = byte_at(command, 1), .pitch = command.signed_value(4)};
     AxisUnit& unit = it.state().units[a];
+    LineScan& scan = it.state().scans[a];
+    const bool is_anew = !scan.set;
+    scan = {.set = true,
+            .type = byte_at(command, 1),
+            .pitch = command.signed_value(4),
+            .level_before = is_anew ? unit.out.level : scan.level_before,
+            .width_before = is_anew ? unit.out.width_code : scan.width_before};
     unit.out.level = byte_at(command, 2);
     unit.out.width_code = byte_at(command, 3);
     unit.basic.soft_limits = false;
@@ -158,8 +165,12 @@ inline Took line_scan_start(RsM8194h& it, const Command& command) {
   if (it.drive(axes, {.what = Drive::What::scan, .value = command.signed_value(2)}) == Took::waits) {
     return Took::waits;
   }
-  it.state().rint &= static_cast<std::uint8_t>(~bit_of(Rint::line_scan));
-  it.state().scanning = axes;
+  // What is held begins later.
+  AxisMask begun = 0;
+  for_each_axis(axes, [&](std::size_t a) {
+    if (it.state().units[a].held_drive.what != Drive::What::scan) begun |= mask_of(a);
+  });
+  it.begin_scans(begun);
   return Took::done;
 }
 

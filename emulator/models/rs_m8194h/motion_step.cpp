@@ -38,10 +38,14 @@ constexpr std::array<motion::Event, kIsrFactors> kFactorEvents{motion::Event::pu
 /// Triggers nearer than 10 us to the last one are left out: 100 of them fit into a tick (7.4.12).
 constexpr std::int64_t kMostTriggersOfATick = 100;
 
+bool is_endless(motion::SyncAction::Drive drive) {
+  using Action = motion::SyncAction::Drive;
+  return drive == Action::endless_plus || drive == Action::endless_minus;
+}
+
 bool starts_something(motion::SyncAction::Drive drive) {
   using Action = motion::SyncAction::Drive;
-  return drive == Action::fixed_plus || drive == Action::fixed_minus || drive == Action::endless_plus ||
-         drive == Action::endless_minus;
+  return drive == Action::fixed_plus || drive == Action::fixed_minus || is_endless(drive);
 }
 
 }  // namespace
@@ -90,6 +94,25 @@ void RsM8194h::heed_path_end(bool was_full) {
   paths.runs = Paths::Runs::nothing;
 }
 
+/// C-STA and C-END of a path, for its axis1.
+void RsM8194h::heed_path_speed(Tick tick) {
+  if (!machine_.paths_have_c_sta) return;
+  Paths& paths = state_.paths;
+  const motion::Sample along = paths.together.engaged ? paths.together.run.sample(tick) : motion::Sample{};
+  const bool is_constant = along.speed_u_s > 0 && along.acceleration_u_s2 == 0;
+  if (is_constant == (paths.constant_axis >= 0)) return;
+  const auto tell = [&](motion::Event event) {
+    state_.motors[static_cast<std::size_t>(paths.constant_axis)].events |= motion::bit(event);
+  };
+  if (is_constant) {
+    paths.constant_axis = paths.together.axis_of[0];
+    tell(motion::Event::constant_started);
+  } else {
+    tell(motion::Event::constant_ended);
+    paths.constant_axis = motion::Coordinated::kNone;
+  }
+}
+
 void RsM8194h::note_factor(std::size_t axis, Factor factor) {
   state_.factor_axes[static_cast<std::size_t>(factor)] |= mask_of(axis);
 }
@@ -112,10 +135,14 @@ void RsM8194h::heed_factors(std::size_t axis, Tick tick) {
   const bool is_noted_always = chose(option("factors_noted", "enabled_ones"));
   for (std::size_t i = 0; i < kIsrFactors; ++i) {
     const bool is_asked = (unit.factors >> i & 1) != 0;
-    if (!is_asked || (state_.motors[axis].events & motion::bit(kFactorEvents[i])) == 0) continue;
-    if (!is_noted_always && !state_.interrupts) continue;
-    note_factor(axis, static_cast<Factor>(i));
-    if (state_.interrupts) mark_isr(axis, static_cast<std::uint8_t>(i), tick);
+    if ((state_.motors[axis].events & motion::bit(kFactorEvents[i])) == 0) continue;
+    if (is_asked && (is_noted_always || state_.interrupts)) note_factor(axis, static_cast<Factor>(i));
+    if (machine_.all_factors_are_noted) note_factor(axis, static_cast<Factor>(i));
+    if (!is_asked || !state_.interrupts) continue;
+    constexpr std::int64_t kMost = kMostMarks;
+    const bool is_counted = machine_.each_pulse_is_an_event && kFactorEvents[i] == motion::Event::pulse;
+    const std::int64_t times = is_counted ? std::min(std::abs(unit.sent_pulses), kMost) : 1;
+    for (std::int64_t k = 0; k < times; ++k) mark_isr(axis, static_cast<std::uint8_t>(i), tick);
   }
 }
 
@@ -167,7 +194,8 @@ void RsM8194h::act_together(Tick tick) {
     const auto preset = static_cast<std::int32_t>(action.preset_value);
     if (has(outcome.presets_command, a)) unit.logic.set(preset, latch.travel_pulses);
     if (has(outcome.presets_encoder, a)) unit.encoder.set(preset, encoder);
-    if (action.preset == motion::SyncAction::Preset::speed && preset > 0) {
+    // Of an endless drive it is void (7.3.1).
+    if (action.preset == motion::SyncAction::Preset::speed && preset > 0 && !is_endless(action.drive)) {
       unit.speed.drive_pps = static_cast<std::uint32_t>(preset);
       if (!starts_something(action.drive)) change_speed(a);
     }
@@ -234,11 +262,28 @@ void RsM8194h::end_scan(std::size_t axis) {
                                      .source = static_cast<std::uint8_t>(scan.type >= 2 ? 1 : 0)};
   }
   const bool lasts = chose(option("scan_setting_lasts", "until_the_next_setting"));
-  scan = lasts ? LineScan{.set = true, .type = scan.type, .pitch = scan.pitch} : LineScan{};
+  if (!lasts && chose(option("scan_output", "that_of_set_out_which_comes_back"))) {
+    state_.units[axis].out.level = scan.level_before;
+    state_.units[axis].out.width_code = scan.width_before;
+  }
+  scan = lasts ? LineScan{.set = true,
+                          .type = scan.type,
+                          .pitch = scan.pitch,
+                          .level_before = scan.level_before,
+                          .width_before = scan.width_before}
+               : LineScan{};
   look_again(axis);
 }
 
+void RsM8194h::begin_scans(AxisMask axes) {
+  if (axes == 0) return;
+  state_.rint &= static_cast<std::uint8_t>(~bit_of(Rint::line_scan));
+  state_.scanning |= axes;
+}
+
 void RsM8194h::step_scans(Tick tick) {
+  if (state_.scanning == 0) return;
+  bool runs = false;
   for (std::size_t a = 0; a < kAxes; ++a) {
     LineScan& scan = state_.scans[a];
     if (!scan.running) continue;
@@ -250,9 +295,13 @@ void RsM8194h::step_scans(Tick tick) {
       give_pulse(a, tick, given);
       scan.triggered = passed;
     }
-    if (!is_driving(a)) end_scan(a);
+    // An encoder tells of the last pulses a tick later.
+    const AxisUnit& unit = state_.units[a];
+    const bool lags = scan.type >= 2 && unit.has_encoder && unit.sent_pulses != 0;
+    if (!is_driving(a) && !lags) end_scan(a);
+    runs = runs || scan.running;
   }
-  if (state_.scanning != 0 && (driving() & state_.scanning) == 0) {
+  if (!runs && (driving() & state_.scanning) == 0) {
     state_.scanning = 0;
     state_.rint |= bit_of(Rint::line_scan);
   }

@@ -52,6 +52,7 @@ LanguageOptions language_options(const DeviceSettings& settings) {
                  .for_runs_once_at_least = chose(option("for_below_1", "one_pass"))};
   if (chose(option("steps_a_tick", "1"))) options.steps_a_tick = 1;
   if (chose(option("steps_a_tick", "32"))) options.steps_a_tick = 32;
+  if (chose(option("steps_a_tick", "1000"))) options.steps_a_tick = 1000;
   if (chose(option("isr_delay", "same_tick"))) options.isr_delay_ticks = 0;
   options.isrs_go_by_factor = chose(option("isr_order", "by_factor"));
   options.isr_requests_are_counted = chose(option("isr_requests", "counted"));
@@ -85,6 +86,10 @@ MachineOptions machine_options(const DeviceSettings& settings) {
   if (chose(option("least_jerk", "0.119211"))) options.speed.least_jerk_part *= 10;
   options.fifo_goes_on_beside_macros = chose(option("fifo_while_macro", "goes_on"));
   options.pause_holds_fifo = !chose(option("trigger_pause", "holds_macros"));
+  options.pause_slows_axes = chose(option("trigger_pause", "and_slows_all_axes"));
+  options.paths_have_c_sta = chose(option("c_sta_in_interpolation", "for_axis1"));
+  options.each_pulse_is_an_event = chose(option("pulse_factor", "each_pulse"));
+  options.all_factors_are_noted = chose(option("factors_noted", "all_that_come_about"));
   options.helix_is_macro = chose(option("helix_is_macro", "is_a_running_macro"));
   options.d_end_after_stops = !chose(option("d_end_after_stops", "no"));
   options.constant_drives_have_c_sta = !chose(option("constant_drive_c_sta", "none"));

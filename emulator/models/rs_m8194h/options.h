@@ -43,9 +43,13 @@ struct MachineOptions {
   bool pitch_is_distance = false;
   bool fifo_goes_on_beside_macros = false;
   bool pause_holds_fifo = true;
+  bool pause_slows_axes = false;
   bool helix_is_macro = false;
   bool d_end_after_stops = true;
   bool constant_drives_have_c_sta = true;
+  bool paths_have_c_sta = false;  // for axis1
+  bool each_pulse_is_an_event = false;
+  bool all_factors_are_noted = false;
   bool a_segment_may_come_sets_rint = false;
   bool all_scan_triggers_are_given = false;
   bool last_ramp_is_in_last_segment = false;

@@ -249,6 +249,7 @@ Took RsM8194h::follow_path(const lang::Command& command) {
     }
     // There is one path at a time, whatever its axes.
     if (outcome == Start::waits || paths.together.engaged) return Took::waits;
+    if (outcome == Start::is_held && waits_behind_held(axes)) return Took::waits;
     if (outcome == Start::is_held) {
       for (std::size_t a = 0; a < kAxes; ++a) {
         if (has(axes, a)) state_.units[a].held_drive = {};

@@ -41,7 +41,8 @@ struct Paths {
   std::array<std::uint8_t, 3> assigned{};  // AXIS_ASSIGN
   SpeedSettings vector{};                  // of VECTOR_SPEED and VSV to VAO
   std::array<StreamSettings, kStreams> streams{};
-  std::array<double, 4> end{};  // of what is queued, in pulses from where it began
+  std::array<double, 4> end{};                             // of what is queued, in pulses from where it began
+  std::int8_t constant_axis = motion::Coordinated::kNone;  // axis1 of what goes at constant speed, by choice
 
   bool operator==(const Paths&) const = default;
 
@@ -83,12 +84,20 @@ struct StateOf<emulator::models::rs_m8194h::StreamSettings> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::Paths> {
   using Value = emulator::models::rs_m8194h::Paths;
-  static constexpr auto fields =
-      FieldList{field("together", &Value::together), field("runs", &Value::runs),
-                field("stream", &Value::stream),     field("open", &Value::open),
-                field("axes", &Value::axes),         field("let_go", &Value::let_go),
-                field("assigned", &Value::assigned), field("vector", &Value::vector),
-                field("streams", &Value::streams),   field("end", &Value::end)};
+  static constexpr auto fields = FieldList{field("together", &Value::together),
+                                           field("runs", &Value::runs),
+                                           field("stream", &Value::stream),
+                                           field("open", &Value::open),
+                                           field("axes", &Value::axes),
+                                           field("let_go", &Value::let_go),
+                                           field("assigned", &Value::assigned),
+                                           field("vector", &Value::vector),
+                                           field("streams", &Value::streams),
+                                           field("end", &Value::end),
+                                           field("constant_axis", &Value::constant_axis)};
+  static void check(const Value& paths) {
+    demand_state(paths.constant_axis >= -1 && paths.constant_axis < 4, "a path has no such axis");
+  }
 };
 
 }  // namespace understudy

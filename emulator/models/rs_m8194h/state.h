@@ -29,7 +29,6 @@ namespace understudy::emulator::models::rs_m8194h {
 namespace lang = interpreter::rs_m8194h;
 
 inline constexpr int kFifoBlocks = 30;
-/// What the module carries out in a tick, macro lines and commands together.
 
 /// Commands that wait for their turn, and the STOP_WAIT that has begun and left it.
 struct Fifo {
@@ -50,6 +49,9 @@ struct LineScan {
   bool running = false;
   std::int64_t begin = 0;      // count where it began
   std::int64_t triggered = 0;  // places passed
+  // What SET_OUT had said of its pin.
+  std::uint8_t level_before = 0;
+  std::uint8_t width_before = 0;
 
   bool operator==(const LineScan&) const = default;
 };
@@ -131,7 +133,8 @@ struct State {
   std::array<std::uint16_t, kFrnetGroups> inputs{};           // as it has found them
   Tick powered_at = 0;
   bool at_init = false;       // the switch, as power-up found it
-  bool unscanned = false;     // inputs have changed since the last FRnet scan
+  bool unscanned = false;     // inputs of FRnet are not as the last scan has found them
+  bool holds_back = false;    // a filter holds a level of an input back
   std::uint8_t finished = 0;  // of the states that are passed, the last one,
   Tick finished_at = 0;       // and when
   Tick resetting_until = 0;   // RESET_CARD

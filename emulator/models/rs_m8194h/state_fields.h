@@ -34,10 +34,14 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::LineScan> {
   using Value = emulator::models::rs_m8194h::LineScan;
-  static constexpr auto fields =
-      FieldList{field("set", &Value::set),     field("type", &Value::type),
-                field("pitch", &Value::pitch), field("running", &Value::running),
-                field("begin", &Value::begin), field("triggered", &Value::triggered)};
+  static constexpr auto fields = FieldList{field("set", &Value::set),
+                                           field("type", &Value::type),
+                                           field("pitch", &Value::pitch),
+                                           field("running", &Value::running),
+                                           field("begin", &Value::begin),
+                                           field("triggered", &Value::triggered),
+                                           field("level_before", &Value::level_before),
+                                           field("width_before", &Value::width_before)};
 };
 
 template <>
@@ -86,6 +90,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("powered_at", &Value::powered_at),
                                            field("at_init", &Value::at_init),
                                            field("unscanned", &Value::unscanned),
+                                           field("holds_back", &Value::holds_back),
                                            field("finished", &Value::finished),
                                            field("finished_at", &Value::finished_at),
                                            field("resetting_until", &Value::resetting_until),

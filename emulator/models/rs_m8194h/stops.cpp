@@ -14,6 +14,15 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
+namespace {
+
+/// What clears a stop leaves the codes.
+bool clears_the_lock_alone(const RsM8194h& device) {
+  return device.chose(option("clear_stop_codes", "lock"));
+}
+
+}  // namespace
+
 void RsM8194h::halt(AxisMask axes, const StopRow& row) {
   Paths& paths = state_.paths;
   const bool locks_whole_path = chose(option("stop_one_of_path", "all_end_and_are_locked"));
@@ -63,7 +72,7 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
 }
 
 void RsM8194h::clear_stop(AxisMask axes) {
-  const bool keeps_code = chose(option("clear_stop_codes", "lock"));
+  const bool keeps_code = clears_the_lock_alone(*this);
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     AxisUnit& unit = state_.units[a];
@@ -78,7 +87,7 @@ void RsM8194h::clear_stop(AxisMask axes) {
 }
 
 void RsM8194h::clear_path_stop() {
-  const bool keeps_code = chose(option("clear_stop_codes", "lock"));
+  const bool keeps_code = clears_the_lock_alone(*this);
   const bool takes_all = chose(option("clear_stop_codes", "vstop_the_codes_of_all_axes"));
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = state_.units[a];

@@ -128,6 +128,7 @@ void RsM8194h::pause(int channel) {
       state_.paused && state_.paused_by == number && chose(option("pause_ends", "its_second_firing_too"));
   state_.paused = !ends;
   state_.paused_by = number;
+  if (state_.paused && machine_.pause_slows_axes) slow_down(kAllAxes);
 }
 
 /// A level that is still there calls its macro again.

@@ -55,6 +55,14 @@ constexpr std::uint16_t kFirstQueued = 82;
 constexpr std::uint16_t kLastQueued = 105;
 constexpr std::uint16_t kCallMp = 8;
 
+/// Of the Ethernet box (12.2.3).
+constexpr Addresses kIpSettings{Table::holding, 20, 30};
+
+bool touches(const RegisterRequest& request, const Addresses& some) {
+  return request.table == some.table && request.first <= some.last &&
+         request.first + request.count > some.first;
+}
+
 bool is_own(Table table, std::size_t address) {
   for (const Addresses& own : kOwn) {
     if (own.table == table && address >= own.first && address <= own.last) return true;
@@ -117,6 +125,9 @@ DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) c
       if (!at(request.table, static_cast<std::uint16_t>(request.first + i)))
         return answer_of(lang::Fault::address);
     }
+  }
+  if (touches(request, kIpSettings) && chose(option("ip_settings", "exception_2"))) {
+    return answer_of(lang::Fault::address);
   }
   if (module_is_absent()) {
     const bool is_mute = chose(option("absent_module", "nothing"));

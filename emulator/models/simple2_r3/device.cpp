@@ -374,6 +374,16 @@ double Simple2R3::speed_pps(int axis) const {
   return (reversed ? -speed : speed) + 0.0;  // 0 has no sign
 }
 
+std::optional<bool> Simple2R3::servo_on(int axis) const {
+  return powered() && state_.axes[static_cast<std::size_t>(axis)].motor.servo_on;
+}
+
+std::int64_t Simple2R3::pulses_to_come(int axis) const {
+  const auto number = static_cast<std::size_t>(axis);
+  const std::int64_t pulses = state_.axes[number].motor.pulses_to_come();
+  return state_.image[kAxisSlots[number].direction_polarity] != 0 ? -pulses : pulses;
+}
+
 std::span<const std::string_view> Simple2R3::pulse_formats() const {
   static constexpr std::array<std::string_view, 2> kFormats{"CW/CCW", "PLS/DIR"};  // by DIP2
   return kFormats;

@@ -164,6 +164,8 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   bool output(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override;
   double speed_pps(int axis) const override;
+  std::int64_t pulses_to_come(int axis) const override;
+  std::optional<bool> servo_on(int axis) const override;
   /// What velocity mode uses: the value now, or what its last command found.
   std::uint32_t resolution_in_velocity(int axis) const;
   double speed_of_pulses(int axis_number) const;

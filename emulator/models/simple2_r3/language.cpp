@@ -52,6 +52,13 @@ class Listing final : public ProgramLanguage, public ProgramCells {
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings&) const override {
     return mistakes_of(lang::assemble(text));
   }
+  std::span<const ProgramControl> controls() const override {
+    using By = ProgramControl::By;
+    static constexpr std::array<ProgramControl, 2> kControls{
+        {{"start at line {}", By::registers, "PROG_MAIN_RunTime_START={}", 0, 255},
+         {"stop", By::registers, "PROG_MAIN_RunTime_END=1"}}};
+    return kControls;
+  }
   const ProgramCells* cells() const override { return this; }
 
   CellForm cell_form() const override {

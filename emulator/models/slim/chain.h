@@ -175,6 +175,7 @@ class Chain {
   double coordinate(int module) const;
   std::int64_t travel(int module) const { return axes_[at(module)].travel_pulses; }
   double speed_pps(int module) const;  // signed
+  std::int64_t pulses_to_come(int module) const;
   std::int32_t thrust_of(int module) const { return modules_[at(module)].thrust; }
   bool output(int module, int number) const;  // its level after the last tick
   const Output& output_state(int module, int number) const;

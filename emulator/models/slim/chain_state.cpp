@@ -232,6 +232,13 @@ double Chain::speed_pps(int module) const {
   return axis.sample(now_).speed_u_s * static_cast<double>(axis.drive.direction);
 }
 
+std::int64_t Chain::pulses_to_come(int module) const {
+  if (modules_[at(module)].activity != Activity::group) return axes_[at(module)].pulses_to_come();
+  std::int64_t pulses = 0;
+  for (const Group& group : groups_) pulses += group.motion.pulses_to_come(at(module), axes_);
+  return pulses;
+}
+
 Error Chain::take_late_error(int module) {
   return std::exchange(modules_[at(module)].late_error, Error::none);
 }

@@ -122,6 +122,8 @@ class Slim final : public DeviceOf<Slim>,
   bool output(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override { return state_.chain.pulses(axis); }
   double speed_pps(int axis) const override { return state_.chain.speed_pps(axis); }
+  std::optional<bool> servo_on(int axis) const override { return powered() && state_.chain.servo_on(axis); }
+  std::int64_t pulses_to_come(int axis) const override { return state_.chain.pulses_to_come(axis); }
   void set_encoder(int axis, std::int64_t counts) override;
 
   const State& state() const { return state_; }

@@ -1,5 +1,7 @@
 #include "emulator/models/slim/language.h"
 
+#include <array>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +21,12 @@ class ProgramText final : public ProgramLanguage {
   /// Much of what a line may be is a choice.
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return Slim(settings).mistakes_in(text);
+  }
+  std::span<const ProgramControl> controls() const override {
+    using By = ProgramControl::By;
+    static constexpr std::array<ProgramControl, 2> kControls{
+        {{"start", By::text, "G"}, {"leave", By::text, "EXIT"}}};
+    return kControls;
   }
 };
 

@@ -110,6 +110,7 @@ void Super40nc::error_is_over() {
 
 void Super40nc::fail(int axis_number, Code code) {
   axis(axis_number).has_error = true;
+  give_erc_behind(axis_number, code);
   report(code, line_step(axis(axis_number).mover));
 }
 
@@ -131,6 +132,7 @@ motion::AxisSettings Super40nc::motor_settings(int axis) const {
   made.at_limit_plus = made.at_limit_minus = reaction(kept_x(1));
   made.at_alarm = reaction(kept_x(3));
   made.soft_limit_plus = made.soft_limit_minus = std::nullopt;
+  if (chip(axis).homing.active() && chose(option("home_soft_limits", "ignored"))) return made;
   const std::int64_t counter_lead = machine_pulses(axis) - chip(axis).travel_pulses;
   constexpr Value kSoftLimit = 6;
   constexpr Value kRamp = 2;
@@ -167,6 +169,10 @@ void Super40nc::prepare(int axis_number) {
   const Value correction = its.of(kept_x(57), axis_number);
   settings.backlash_pulses = correction != 0 ? its.of(kept_x(56), axis_number) : 0;
   settings.slips = correction == kSlip;
+  const bool is_first = chip(axis_number).last_direction == 0;
+  if (is_first && chose(option("backlash_first_move", "as_behind_a_positive_one"))) {
+    chip(axis_number).last_direction = +1;
+  }
   settings.waits_for_in_position = chose(option("inp_wait", "single_axes_wait"));
   const auto creep_rpm = static_cast<double>(its.of(kept_x(80), axis_number));
   settings.backlash_speed_pps = std::min(its.pps(axis_number, creep_rpm), its.top_pps(axis_number));
@@ -206,6 +212,8 @@ void Super40nc::begun(int axis_number, motion::Cause why_not, Holder holder) {
   state.holder = holder;
   state.has_ended = state.has_error = false;
   state.stands_on_target = false;
+  Tick& erc = state_.erc_until[static_cast<std::size_t>(axis_number)];
+  if (erc == kNever) erc = 0;  // a level, until the next start
 }
 
 motion::SpeedLaw Super40nc::jog_law(int axis) const {

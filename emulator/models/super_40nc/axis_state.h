@@ -7,6 +7,7 @@
 
 #include "emulator/models/super_40nc/ownership.h"
 #include "motion/counter.h"
+#include "motion/unit_scale.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -47,9 +48,12 @@ struct AxisState {
   std::uint8_t compares_by_tick = 0;                  // comparators that the chip's do not do
   std::array<std::int64_t, kComparators> compared{};  // what those have seen last
   std::int64_t offset_lu = 0;                         // of the work coordinate against the machine's
+  motion::UnitScale scale_seen{};                     // CMX and CDV as they were taken last
   std::int64_t encoder_counts = 0;
   std::int64_t backlash_seen = 0;  // of the motor's
   std::int64_t path_backlash = 0;  // that comes before its path begins, signed by the way it goes
+  std::int64_t arc_backlash = 0;   // that still comes on its path, where it has turned round
+  double arc_backlash_part = 0;    // of a pulse, from the ticks before
 
   Holder holder = Holder::nobody;
   bool asked_by_contact = false;  // the jog, by M8x03 or M8x04

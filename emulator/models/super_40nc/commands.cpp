@@ -39,7 +39,7 @@ constexpr WheelSource kWheelSources[] = {WheelSource::contact_1, WheelSource::co
 
 /// All that a scan looks at.
 constexpr auto kCommandContacts = [] {
-  constexpr int kGeneral[] = {8000, 8001, 8002, 8004, 8005, 8006, 8008, 8501};
+  constexpr int kGeneral[] = {8000, 8001, 8002, 8004, 8005, 8006, 8008, 8500, 8501, 8507};
   constexpr int kOfEachAxis = 11;
   std::array<int, std::size(kGeneral) + kAxisCount * kOfEachAxis + kKeys.size()> all{};
   std::size_t next = 0;
@@ -103,7 +103,12 @@ void Super40nc::meet(int axis, ManualMotion motion, ManualEvent event, Code code
       release_jog(axis,
                   motion == ManualMotion::plc_jog ? &AxisState::asked_by_plc : &AxisState::asked_by_contact);
       break;
-    case ManualAnswer::ends: stop_axis(axis, code); break;
+    case ManualAnswer::ends: {
+      const bool is_stopped =
+          event == ManualEvent::stop || event == ManualEvent::stop_of_c || event == ManualEvent::main_stop;
+      is_stopped ? stop_by_command(axis) : stop_axis(axis, code);
+      break;
+    }
   }
 }
 
@@ -127,6 +132,7 @@ void Super40nc::obey_stops() {
       if (axis(number).holder == Holder::nobody) continue;
       manual_motion(number) ? meet(number, ManualEvent::emergency, code) : stop_axis(number, code);
       if (code == Code::emergency_input) axis(number).has_error = true;
+      give_erc_behind(number, code);
     }
     state_.homing_by_key = state_.zeroing_by_key = {};
     for (const language::AreaRow& row : language::kAreas) {
@@ -148,10 +154,39 @@ void Super40nc::obey_stops() {
     tell(Event::stop, Area::c);
     set_contact(8000, false);
   }
-  if (rises(8006)) tell(Event::hold, Area::c);
-  for (int number = 0; number < kAxisCount; ++number) {
-    if (is_pressed(KeyDoes::pause, number)) tell(Event::hold, language::area_of_axis(number));
+  if (rises(8006)) {
+    tell(Event::hold, Area::c);
+    const bool ends = chose(option("manual_motion_events", "end_by_a_ramp"));
+    for (int number = 0; number < kAxisCount && ends; ++number) slow_by_hand(number);
   }
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (!is_pressed(KeyDoes::pause, number)) continue;
+    tell(Event::hold, language::area_of_axis(number));
+    const Holder holder = axis(number).holder;
+    const bool is_manual = holder == Holder::jog || holder == Holder::home || holder == Holder::zero;
+    if (is_manual && chose(option("pause_manual", "ends_it_by_a_ramp"))) slow_by_hand(number);
+  }
+}
+
+/// PAUSE and M8006, where they end what is moved by hand.
+void Super40nc::slow_by_hand(int axis_number) {
+  if (manual_motion(axis_number)) end_by_ramp(axis_number, Mover::hand);
+}
+
+/// What the panel triggers when it turns its pages.
+void Super40nc::obey_pages() {
+  if (rises(8500)) {
+    const bool renews_all = chose(option("parameter_moment", "when_m8500_rises"));
+    if (renews_all) {
+      take_parameters();
+      heed_all();
+    }
+    if (renews_all || chose(option("page_contacts", "m8500_renews_x14_and_c0"))) take_power_up_parameters();
+  }
+  const bool stops = chose(option("page_contacts", "m8507_stops_the_plc"));
+  if (rises(8507) && stops && state_.plc.runs) plc_to_stop();
+  const bool runs = !chose(option("m8501_runs_plc", "nothing"));
+  if (rises(8501) && runs && state_.run_switch && !state_.plc.runs) plc_to_run();
 }
 
 /// A level that has stayed ON behind a stop, if that is chosen to act.
@@ -193,7 +228,7 @@ void Super40nc::obey_wheel() {
 
 void Super40nc::obey_contacts() {
   obey_stops();
-  if (rises(8501) && state_.run_switch && !state_.plc.runs) plc_to_run();
+  obey_pages();
   const bool needs_rest = chose(option("m8008_running", "void"));
   if (rises(8008) && !(needs_rest && programs_are_busy())) reset_parameters();
   for (int number = 0; number < kAxisCount; ++number) {

@@ -83,11 +83,11 @@ inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU
     axis_relay(8146, R).always(0),  // SSTP
     axis_relay(8147, R).shows<read_status>(SEMG),
     axis_relay(8148, R).always(0),  // SPCS
-    axis_relay(8149, R).always(0),  // SERC
+    axis_relay(8149, R).shows<read_status>(SERC),
     axis_relay(8150, R).shows<read_status>(SEZ),
     axis_relay(8151, R).always(0),  // SDRP
-    axis_relay(8152, R).always(0),  // SCLR
-    axis_relay(8153, R).always(0),  // SLTC
+    axis_relay(8152, R).shows<read_status>(SCLR),
+    axis_relay(8153, R).shows<read_status>(SLTC),
     axis_relay(8154, R).always(0),  // SDIN
     axis_relay(8155, R).shows<read_status>(SINP),
     axis_relay(8156, R).always(0),  // PFC0
@@ -104,10 +104,10 @@ inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU
 });
 
 inline constexpr auto kPanelContactRows = section("M85x 人機對應接點", {
-    relay(8500),
-    relay(8501).does<write_command>(8501),
+    relays(8500, 8501).does<write_command>(8500),
     relay(8502),
-    relays(8503, 8507),
+    relays(8503, 8506),
+    relay(8507).does<write_command>(8507),
     relays(8508, 8510).does<write_command>(8508),
     relays(8511, 8512),
     relays(8513, 8514).does<write_command>(8513),

@@ -54,7 +54,7 @@ Tick Super40nc::next_active_tick(Tick done) const {
 
 Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
   if (state_.touched || inputs_changed() || programs_are_busy() || has_errors_for_a_scan() ||
-      state_.path.engaged || input(kWheelTerminal) != state_.wheel_edges) {
+      state_.path.engaged || input(kWheelTerminal) != state_.wheel_edges || has_chip_pins()) {
     return done + 1;
   }
   const bool moves = std::any_of(state_.chips.begin(), state_.chips.end(),

@@ -28,8 +28,8 @@ inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用
     data(8007).range(0, 2),       // plane in force
     data(8008),
     data(8009, 8018),
-    data(8019).always(0).does<write_nothing>(),  // line of the user table, which is off
-    data(8020).range(0, 4).does<select_wheel>(),
+    data(8019).shows<read_table_line>().does<write_nothing>(),  // line of the user table
+    data(8020).range(0, 4).does<select_wheel_or_command>(),
     data(8021).range(0, 2).does<select_wheel>(),
     data(8022).range(0, 2).does<select_jog_speed>(),
     data(8023, 8029),

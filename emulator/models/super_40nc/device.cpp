@@ -61,7 +61,9 @@ Super40nc::Super40nc(const DeviceSettings& given)
   options_ = chosen_options();
   map_policy_ = chosen_map_policy();
   lines_wait_ = chose(option("axis_conflicts", "programs_always_wait"));
-  multiplies_by_x12_ = chose(option("multiplier", "from_x12"));
+  readings_ = {.multiplies_by_x12 = chose(option("multiplier", "from_x12")),
+               .limits_deceleration = chose(option("long_deceleration", "limited_to_2_x2"))};
+  parameters_wait_ = !chose(option("parameter_moment", "by_kind"));
   state_.eeprom = factory_memory();
   state_.blocks = TextBlocks(block_kinds());
   set_input(kRunSwitch, 1);
@@ -71,6 +73,9 @@ MapPolicy Super40nc::chosen_map_policy() const {
   MapPolicy policy = map().policy();
   if (chose(option("holes", "read_0_swallow_writes"))) policy.unmapped = MapPolicy::Unmapped::reads_zero;
   if (chose(option("read_only_write", "exception_2"))) policy.read_only = MapPolicy::ReadOnly::refused;
+  if (chose(option("half_write", "the_sign_fills_the_other_half"))) {
+    policy.halves = MapPolicy::Halves::low_gives_the_sign;
+  }
   if (chose(option("range_checks", "exception_3"))) policy.out_of_range = MapPolicy::OutOfRange::refused;
   if (chose(option("range_checks", "nearest_one"))) policy.out_of_range = MapPolicy::OutOfRange::clamped;
   return policy;
@@ -115,6 +120,16 @@ language::Options Super40nc::chosen_options() const {
       Options::LooseGroups::take_last_result);
   set(option("if_depth", "1"), made.if_depth, 1);
   set(option("continuous_path", "corners_are_run_through"), made.joins_paths, true);
+  set(option("block_stack", "each_output_leaves_the_result_alone"), made.outputs_clear_blocks, true);
+  set(option("timer_write", "ignored"), made.timers_ignore_writes, true);
+  set(option("label_scope", "the_first_area_has_it"), made.labels_are_common, true);
+  set(option("c3p_plane", "always_xy"), made.c3p_is_in_xy, true);
+  set(option("sum_size", "saturates"), made.sums_saturate, true);
+  set(option("division_rounding", "downwards"), made.quotient, Options::Quotient::downwards);
+  set(option("rpm_not_positive", "keeps_the_speed"), made.rpm_0_keeps_speed, true);
+  set(option("axis_contact_off", "stops_the_program"), made.contact_off_stops, true);
+  set(option("str_running", "begins_anew"), made.start_begins_anew, true);
+  set(option("mrk_speed", "by_x14_alone"), made.marks_by_rpm, false);
   set(option("mset", "refused_at_load"), made.knows_mset, false);
   return made;
 }
@@ -158,10 +173,11 @@ void Super40nc::look_at_inputs() {
         static_cast<std::uint32_t>(input(i));
   }
   for (int i = 0; i < kAnalogInCount; ++i) {
-    state_.analog[static_cast<std::size_t>(i)] = input(kFirstAnalogIn + i);
+    state_.analog[static_cast<std::size_t>(i)] = analog_counts(i);
   }
   state_.emergency = input(kEmergencyTerminal) != 0;
   for (int number = 0; number < kAxisCount; ++number) look_round(number);
+  see_pins();
   see_first_signals();
   const bool runs = input(kRunSwitch) != 0;
   if (runs != state_.run_switch) {
@@ -186,13 +202,16 @@ void Super40nc::sample_inputs(Tick) {
 /// PLC, keys, contacts, step programs: later writers win.
 void Super40nc::run_interpreters(Tick tick) {
   if (options_.scan_ms > 1 && tick % options_.scan_ms != 0) return;
+  if (tick < state_.flash_until) return;
   const bool contacts_first = chose(option("scan_order", "contacts_before_the_plc"));
   if (contacts_first) look_at_contacts();
   run_plc();
   if (!contacts_first) look_at_contacts();
-  if (!programs_are_busy()) return;
-  ProgramMachine machine(*this);
-  language::StepPrograms(state_.steps, codes_, machine, options_).run_slices();
+  if (programs_are_busy()) {
+    ProgramMachine machine(*this);
+    language::StepPrograms(state_.steps, codes_, machine, options_).run_slices();
+  }
+  leave_table();
 }
 
 void Super40nc::run_plc() {
@@ -274,6 +293,7 @@ void Super40nc::update_outputs(Tick tick) {
     if (axis(number).clears != 0) clear_counters(number);
     compare_counters(number);
   }
+  hold_cleared();
   for (std::size_t i = 0; i < kSignalCount; ++i) {
     const FinishSignal& signal = kSignals[i];
     if (registers().of(signal.time, signal.axis) == 0) continue;
@@ -288,6 +308,9 @@ void Super40nc::update_outputs(Tick tick) {
 
 Tick Super40nc::next_timed_tick(Tick done) const {
   Tick next = std::max(done + 1, state_.logo_at);
+  for (const Tick until : state_.erc_until) {
+    if (until > done) next = std::min(next, until);
+  }
   for (std::size_t i = 0; i < kSignalCount; ++i) {
     const bool is_on = state_.image[kSignals[i].output.slot] != 0;
     const bool is_system = registers().of(kSignals[i].time, kSignals[i].axis) != 0;
@@ -304,6 +327,11 @@ bool Super40nc::same_state(const Device& other) const {
 // ---- terminals and axes
 
 bool Super40nc::output(int terminal) const {
+  if (terminal >= kFirstServoTerminal) {
+    if (!powered() || !has_terminal(terminal)) return false;
+    if (terminal < kFirstChipPin) return !is_stopped_by_emergency();
+    return gives_erc((terminal - kFirstChipPin) / kChipPinsOfAxis);
+  }
   const int number = terminal - kFirstOutput;
   return powered() && number >= 0 && number < kOutputCount &&
          state_.image[kept_y(0).slot + static_cast<std::size_t>(number)] != 0;
@@ -323,6 +351,13 @@ double Super40nc::speed_pps(int axis_number) const {
   if (its.masked) return 0;
   const double speed = commanded_pps(axis_number);
   return (chip(axis_number).inverted ? -speed : speed) + 0.0;  // 0 has no sign
+}
+
+std::int64_t Super40nc::pulses_to_come(int axis_number) const {
+  if (axis(axis_number).masked) return 0;
+  return is_on_path(axis_number)
+             ? state_.path.pulses_to_come(static_cast<std::size_t>(axis_number), state_.chips)
+             : chip(axis_number).pulses_to_come();
 }
 
 double Super40nc::commanded_pps(int axis_number) const {

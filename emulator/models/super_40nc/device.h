@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
@@ -23,9 +24,12 @@
 #include "emulator/models/super_40nc/contacts.h"
 #include "emulator/models/super_40nc/keys.h"
 #include "emulator/models/super_40nc/manual_motions.h"
+#include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/settings.h"
+#include "emulator/models/super_40nc/state.h"  // IWYU pragma: export
 #include "emulator/models/super_40nc/terminals.h"
+#include "emulator/models/super_40nc/user_table.h"
 #include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/ladder.h"
 #include "interpreter/super_40nc/plc.h"
@@ -36,79 +40,8 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-using interpreter::super_40nc::Code;
-
-/// D8094 to D8096.
-struct ErrorReport {
-  Code code = Code::none;
-  std::int32_t step = 0;
-  std::int32_t other_step = 0;
-  Tick tick = -1;  // of the first of several in one tick, which stays
-
-  bool operator==(const ErrorReport&) const = default;
-};
-
 /// What D8094 shows of it.
 Code code_of(motion::Cause why);
-
-/// Outputs that show for a time that something is finished (《X45.》, 《X46.》, 《C4.》, 《C5.》).
-inline constexpr std::size_t kSignalCount = 10;
-inline constexpr std::size_t kFirstEndSignal = 4;
-inline constexpr std::size_t kPathSignal = 8;
-inline constexpr std::size_t kEndOfCSignal = 9;
-
-/// The panel's HOME or ZERO key at work: axes by their order.
-struct OrderKey {
-  bool runs = false;
-  std::int8_t order = 0;  // of the axes under way
-  bool has_failed = false;
-
-  bool operator==(const OrderKey&) const = default;
-};
-
-struct State {
-  bool touched = true;      // something was written since the last scan
-  bool run_switch = false;  // PLC_RUN, as looked at in this tick
-  bool emergency = false;   // CEMG
-  bool has_ticked = false;  // since power-up
-  bool emergency_obeyed = false;
-  std::array<bool, kAxisCount> were_held{};  // in reset, in the last scan
-  bool was_inhibited = false;                // by M8004
-  bool wheel_selected = false;               // D8020 or D8021 was written since the last scan
-  std::array<std::int32_t, 3> analog{};
-  std::int32_t wheel_edges = 0;  // MPG, as looked at
-  std::array<motion::Axis, kAxisCount> chips{};
-  std::array<motion::Surroundings, kAxisCount> here{};
-  std::array<AxisState, kAxisCount> axes{};
-  motion::Coordinated path;  // LIN and arcs of C
-  bool path_is_held = false;
-  Tick path_backlash_ticks = 0;     // for which backlash has come before the path
-  std::int32_t path_feed_lu_s = 0;  // F as it was when the path began
-  double path_limit_lu_s = 1;       // where an axis comes to its highest speed
-  interpreter::super_40nc::PlcState plc;
-  Tick plc_quiet_scans = 0;  // that would do nothing but count, if nothing that they read changes
-  interpreter::super_40nc::StepStates steps;
-  Contacts contacts;
-  ErrorReport error;
-  std::array<Tick, kSignalCount> signal_until{};
-  std::array<std::uint32_t, 2> receive_errors{};  // by port
-  OrderKey homing_by_key;
-  OrderKey zeroing_by_key;
-  Tick logo_at = kNever;  // when M8502 comes on
-  bool logo_over = false;
-  bool file_changed = false;  // M8023 is ON for the next scan
-  bool shows_file_changed = false;
-  std::int32_t file = 0;                                   // in memory, as D9001 has it
-  std::int32_t recipe = 0;                                 // as D9002 has it
-  std::array<std::int32_t, kAxisCount> rpm_at_power_up{};  // X14
-  std::int32_t logo_ms = 0;                                // C0, as it was at power-up
-  std::int32_t station = 0;                                // D9000, as it was at power-up
-  Eeprom eeprom;
-  TextBlocks blocks;
-  Image image{};
-
-  bool operator==(const State&) const = default;
-};
 
 class Super40nc final : public DeviceOf<Super40nc>,
                         public RegisterBankOf<Super40nc>,
@@ -157,10 +90,12 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool same_state(const Device& other) const override;
 
   // --- terminals and axes --------------------------------------------------------------------------
+  bool has_terminal(int terminal) const override;
   bool output(int terminal) const override;
   std::int32_t analog_level(int terminal) const override;
   std::int64_t pulses_this_tick(int axis_number) const override;
   double speed_pps(int axis_number) const override;
+  std::int64_t pulses_to_come(int axis_number) const override;
   void set_encoder(int axis_number, std::int64_t counts) override;
   bool meets_edges() const override { return true; }
   std::int64_t place_pulses(int axis) const override;
@@ -182,7 +117,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool has_signal(int number, motion::Signal signal) const {
     return (chip(number).signals & motion::bit(signal)) != 0;
   }
-  Settings registers() const { return Settings(state_.image, multiplies_by_x12_); }
+  Settings registers() const { return Settings(state_.image, readings_, state_.parameters_in_force); }
   /// As the device writes it: without its effect.
   void put(Kept kept, std::int32_t value, int of_axis = 0);
   /// The memory keeps what the image has there, if it is of that kind.
@@ -212,6 +147,16 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void change_recipe(std::int32_t number);
   /// D8022 was written.
   void change_jog_speed();
+  /// D8020 was written: the wheel's axis, or a command.
+  void take_user_command(std::int32_t number);
+  /// D8019.
+  std::int32_t table_line() const;
+  /// M8x49, M8x52, M8x53.
+  bool gives_erc(int axis) const { return now() < state_.erc_until[static_cast<std::size_t>(axis)]; }
+  bool has_chip_pins() const { return chose(option("pins_fitted", "also_clr_ltc_and_erc")); }
+  /// VR1 to VR3 in counts.
+  std::int32_t analog_counts(int number) const;
+  void flash_written();
   int first_of_recipe() const;
   /// M8022.
   bool is_pausing() const;
@@ -248,6 +193,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool begin_turning(int axis_number, std::int32_t rpm, Mover mover);
   void change_turning(int axis_number, std::int32_t rpm, Mover mover);
   bool end_by_ramp(int axis_number, Mover mover);
+  void stop_by_command(int axis_number);
   void start_home(int axis_number, int order = 0);
   void start_wheel(int axis_number, WheelSource source);
   bool start_jog(int axis_number, int way, bool AxisState::*asked_by);
@@ -265,6 +211,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool is_stopped_by_emergency() const;
   /// Begins the signal Y0 + `signal`, or begins it anew.
   void show_finished(std::size_t signal);
+  /// Whether a line does so whose axes are there already.
+  bool finishes_without_motion() const { return !chose(option("fsh_without_motion", "do_not_come")); }
 
   /// A LIN or an arc, in the machine's coordinate.
   struct PathPlan {
@@ -311,6 +259,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   interpreter::super_40nc::Options chosen_options() const;
   MapPolicy chosen_map_policy() const;
   void reset_parameters();
+  void take_parameters();
+  void take_power_up_parameters();
 
   // --- commands.cpp, keys.cpp: the scan's step of contacts
   bool is_on(int contact_number) const;
@@ -330,6 +280,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void obey_wheel();
   bool is_wheel_locked(int axis) const;
   void hold_while_inhibited();
+  void slow_by_hand(int axis);
+  void obey_pages();
   bool is_level_again(int axis, int contact) const;
   void see_contacts();
 
@@ -370,6 +322,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void begin_path_backlash(const motion::Path& path);
   void end_path_backlash();
   void step_path_backlash(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
+  void step_arc_backlash(const std::array<std::int8_t, kAxisCount>& ways_before,
+                         std::array<std::int64_t, kAxisCount>& sent);
   double path_feed() const;
 
   void run_plc();
@@ -403,16 +357,31 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void see_first_signals();
   void look_round(int axis_number);
 
+  // --- pins.cpp: those of the chip that are fitted by choice
+  void see_pins();
+  void hold_cleared();
+  void clear_by_pin(int axis);
+  void give_erc(int axis);
+  void give_erc_behind(int axis, Code code);
+  void keep_display(int axis);
+  void take_latch(int axis, std::int64_t travel);
+
+  // --- user_table.cpp
+  void put_table_in_place();
+  void leave_table();
+
   State state_;
   // Made from the listings that the memory has: not state.
   interpreter::super_40nc::StepCodes codes_;
   interpreter::super_40nc::Ladder ladder_;
   std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
   NamedBlocks::mapped_type ready_texts_;        // that those two are made of
+  std::vector<int> table_lines_;                // of the user table, while it runs
   interpreter::super_40nc::Options options_;
   MapPolicy map_policy_;
   bool lines_wait_ = false;                       // a choice that is asked for often
-  bool multiplies_by_x12_ = false;                // likewise
+  Readings readings_;                             // likewise
+  bool parameters_wait_ = false;                  // likewise: those written act later, all at once
   int plc_step_ = 0;                              // not state: 0 outside of a line
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: they are told again
 };

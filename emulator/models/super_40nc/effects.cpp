@@ -62,6 +62,7 @@ Value read_pointer(const Super40nc& device, Cell cell) {
   const bool is_absolute = device.chose(option("step_numbers_relative", "absolute"));
   return device.state().steps.programs[program].step + (is_absolute ? device.base_of_program(program) : 0);
 }
+Value read_table_line(const Super40nc& device, Cell) { return device.table_line(); }
 Value read_pausing(const Super40nc& device, Cell) { return device.is_pausing() ? 1 : 0; }
 Value read_file_changed(const Super40nc& device, Cell) { return device.state().shows_file_changed ? 1 : 0; }
 
@@ -104,6 +105,11 @@ void limit_voltage(Super40nc& device, Cell cell, Value thousandths) {
 void change_override(Super40nc& device, Cell, Value) { device.heed_override(); }
 
 void select_wheel(Super40nc& device, Cell, Value) { device.state().wheel_selected = true; }
+
+void select_wheel_or_command(Super40nc& device, Cell, Value number) {
+  device.state().wheel_selected = true;
+  device.take_user_command(static_cast<std::int32_t>(number));
+}
 
 void select_jog_speed(Super40nc& device, Cell, Value) { device.change_jog_speed(); }
 

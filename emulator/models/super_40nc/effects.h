@@ -29,7 +29,10 @@ enum AxisStatus : int {
   SORG,
   SDIR,
   SEMG,
+  SERC,
   SEZ,
+  SCLR,
+  SLTC,
   SINP,
   SRDY,
   HOME_DONE,
@@ -54,6 +57,7 @@ Value read_index_count(const Super40nc& device, Cell cell);
 Value read_braking_distance(const Super40nc& device, Cell cell);
 
 Value read_pointer(const Super40nc& device, Cell cell);  // argument: 0 of C, 1 of an axis
+Value read_table_line(const Super40nc& device, Cell);
 Value read_pausing(const Super40nc& device, Cell);
 Value read_file_changed(const Super40nc& device, Cell);
 
@@ -69,6 +73,7 @@ void lay_out_files(Super40nc& device, Cell, Value lines);
 void limit_voltage(Super40nc& device, Cell cell, Value thousandths);  // argument: Vout1, Vout2
 void change_override(Super40nc& device, Cell, Value percent);
 void select_wheel(Super40nc& device, Cell, Value);
+void select_wheel_or_command(Super40nc& device, Cell, Value number);
 void select_jog_speed(Super40nc& device, Cell, Value);
 void change_axis(Super40nc& device, Cell cell, Value);  // argument: of D9x00 + that; 0: of a D8x
 void set_work_position(Super40nc& device, Cell cell, Value position);

@@ -178,7 +178,7 @@ void Super40nc::change_recipe(std::int32_t number) {
     put({.slot = slot + i}, static_cast<std::int32_t>(fresh[i]));
   }
   state_.recipe = number;
-  state_.file_changed = state_.touched = true;
+  flash_written();
 }
 
 void Super40nc::show_capacities() {

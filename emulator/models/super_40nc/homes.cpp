@@ -1,5 +1,6 @@
 // HOME and ZERO of a SUPER-40NC: how they begin, and what they leave (《X20.》 to 《X32.》, 《X26.》).
 #include <cstdint>
+#include <optional>
 
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
@@ -44,6 +45,11 @@ void Super40nc::start_home(int axis_number, int order) {
     return;
   }
   prepare(axis_number);
+  if (chose(option("home_soft_limits", "ignored"))) {
+    motion::AxisSettings without = chip(axis_number).settings;
+    without.soft_limit_plus = without.soft_limit_minus = std::nullopt;
+    chip(axis_number).set(without);
+  }
   const bool limit_stops_at_once =
       chose(option("home_el_stop", "by_d9x01")) && !its.is_on(kept_x(1), axis_number);
   const motion::SpeedLaw fast = its.law(axis_number, rpm(kept_x(79)));
@@ -56,6 +62,7 @@ void Super40nc::start_home(int axis_number, int order) {
        .leave_pulses = its.of(kept_x(93), axis_number),
        .offset_pulses = home_pulses(its.scale(axis_number), its.of(kept_x(83), axis_number)),
        .limit_stops_at_once = limit_stops_at_once,
+       .leaves_fast = chose(option("home_leave_speed", "home_speed")),
        .offset_creeps = chose(option("home_offset_speed", "creep")),
        .plate_may_be_short = chose(option("home_short_plate", "goes_on_all_the_same"))});
   if (chip(axis_number).home(program, before_motion()) != motion::Cause::none) {
@@ -109,6 +116,7 @@ void Super40nc::home_ended(int axis_number, bool found, Code code) {
     return;
   }
   state.homed = true;
+  if (its.is_on(kept_x(5), axis_number)) give_erc(axis_number);
   const std::int32_t cleared = its.raw(kept_x(28), axis_number);
   const std::int64_t home_lu = its.of(kept_x(82), axis_number);
   const motion::UnitScale scale = its.scale(axis_number);

@@ -30,6 +30,9 @@ bool has_digit(std::int32_t mask, int digits, int digit) {
 /// M8x03 or M8x04.
 int jog_contact(int axis, int way) { return 8100 + 100 * axis + (way > 0 ? 3 : 4); }
 
+/// Of the two meanings of M8514.
+bool is_origin_the_home_key(const Super40nc& device) { return device.chose(option("m8514_meaning", "home")); }
+
 }  // namespace
 
 /// The wheel key of an axis' page has no contact; what it selects is D8020.
@@ -88,7 +91,7 @@ void Super40nc::read_keys() {
       case KeyDoes::start_c: press(8000); break;
       case KeyDoes::pause_c: press(8006); break;
       case KeyDoes::set_zero:
-        if (key.contact == kOriginKey && chose(option("m8514_meaning", "home"))) break;
+        if (key.contact == kOriginKey && is_origin_the_home_key(*this)) break;
         for (int number = 0; number < kAxisCount; ++number) {
           if (registers().raw(kept_x(74), number) == enabled) press(8107 + 100 * number);
         }
@@ -135,7 +138,7 @@ void Super40nc::obey_order_keys() {
   press(state_.homing_by_key, KeyDoes::home_by_order);
   // As a HOME key it obeys that one's digit.
   constexpr int kHomeDigit = 1;
-  const bool is_home_key = chose(option("m8514_meaning", "home")) && rises(kOriginKey);
+  const bool is_home_key = is_origin_the_home_key(*this) && rises(kOriginKey);
   const Key as_home{.contact = kOriginKey, .does = KeyDoes::home_by_order, .lock = kHomeDigit};
   if (is_home_key && !state_.homing_by_key.runs && !is_locked(as_home)) state_.homing_by_key = {.runs = true};
   press(state_.zeroing_by_key, KeyDoes::zero_by_order);

@@ -84,6 +84,22 @@ class ProgramListing final : public ProgramLanguage {
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return Super40nc(settings).mistakes_in(text);
   }
+  /// A key acts when it goes on: it is let go before.
+  std::span<const ProgramControl> controls() const override {
+    using By = ProgramControl::By;
+    static constexpr std::array<ProgramControl, 11> kControls{{{"start C", By::registers, "M8000=1"},
+                                                               {"pause C", By::registers, "M8597=0 M8597=1"},
+                                                               {"stop C", By::registers, "M8596=0 M8596=1"},
+                                                               {"start X", By::registers, "M8100=1"},
+                                                               {"stop X", By::registers, "M8584=0 M8584=1"},
+                                                               {"start Y", By::registers, "M8200=1"},
+                                                               {"stop Y", By::registers, "M8585=0 M8585=1"},
+                                                               {"start Z", By::registers, "M8300=1"},
+                                                               {"stop Z", By::registers, "M8586=0 M8586=1"},
+                                                               {"start U", By::registers, "M8400=1"},
+                                                               {"stop U", By::registers, "M8587=0 M8587=1"}}};
+    return kControls;
+  }
 };
 
 }  // namespace

@@ -76,6 +76,26 @@ void Super40nc::put(Kept kept, std::int32_t value, int of_axis) {
   const std::size_t slot = kept.slot + static_cast<std::size_t>(of_axis);
   state_.image[slot] = static_cast<std::uint32_t>(value);
   keep_slot(slot);
+  if (slot >= kFirstParameterSlot && !state_.parameters_in_force.empty()) {
+    state_.parameters_in_force[slot - kFirstParameterSlot] = static_cast<std::uint32_t>(value);
+  }
+}
+
+/// Those that have been written act from now on, where they had to wait.
+void Super40nc::take_parameters() {
+  if (!parameters_wait_) return;
+  state_.parameters_in_force.assign(state_.image.begin() + static_cast<std::ptrdiff_t>(kFirstParameterSlot),
+                                    state_.image.end());
+}
+
+/// X14 and C0 act as they are at power-up.
+void Super40nc::take_power_up_parameters() {
+  const Settings its = registers();
+  state_.logo_ms = static_cast<std::int32_t>(its.of(kept_d(9007)));
+  for (int number = 0; number < kAxisCount; ++number) {
+    state_.rpm_at_power_up[static_cast<std::size_t>(number)] =
+        static_cast<std::int32_t>(its.of(kept_x(78), number));
+  }
 }
 
 void Super40nc::set_contact(int number, bool on) {
@@ -84,6 +104,10 @@ void Super40nc::set_contact(int number, bool on) {
 }
 
 void Super40nc::register_written(const RegisterRow& row, std::size_t slot) {
+  if (kIsUnlisted[slot] && chose(option("unlisted_contacts", "read_0"))) {
+    state_.image[slot] = 0;
+    return;
+  }
   if (row.persistent) state_.eeprom.write(slot, state_.image[slot], 0, now());
 }
 
@@ -122,6 +146,7 @@ void Super40nc::power_up() {
     state_.image[slot] =
         row.persistent ? state_.eeprom.kept()[slot] : static_cast<std::uint32_t>(row.factory);
   });
+  take_parameters();
   const Settings its = registers();
   put(kept_d(8006), its.raw(kept_d(9004)));
   put(kept_d(8007), its.raw(kept_d(9016)));
@@ -129,12 +154,8 @@ void Super40nc::power_up() {
   if (chose(option("version_number", "0"))) put(kept_d(8099), 0);
   state_.file = its.raw(kept_d(9001));
   state_.recipe = its.raw(kept_d(9002));
-  state_.logo_ms = static_cast<std::int32_t>(its.of(kept_d(9007)));
   state_.wheel_edges = input(kWheelTerminal);
-  for (int number = 0; number < kAxisCount; ++number) {
-    state_.rpm_at_power_up[static_cast<std::size_t>(number)] =
-        static_cast<std::int32_t>(its.of(kept_x(78), number));
-  }
+  take_power_up_parameters();
   heed_all();
   make_programs_ready();
   look_at_inputs();

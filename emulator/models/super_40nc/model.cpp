@@ -25,16 +25,15 @@ namespace {
 
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
-constexpr std::array<std::string_view, 5> kGaps{
+constexpr std::array<std::string_view, 4> kGaps{
     "Comparators meet COUNTER1 to the pulse by methods 1, 4, 5 and as soft limits, four of them at once; by "
     "other "
     "numbers, and by methods 2 and 3, they stop an axis when the tick is over.",
-    "What stops by a ramp slows a LIN or an arc from the end of the tick in which it is met.",
-    "An axis that goes out and back within one tick, at the turn of an arc or behind the hand-wheel, does "
-    "not "
-    "see an edge beyond.",
-    "The chip's ERC, CSTA, CSTP, PCS, CLR, LTC, SD and DR are not brought out.",
-    "The user table and the direct command of D8020, which the manual leaves unfinished, are plain storage.",
+    "Behind the hand-wheel an axis goes by what it has turned in a tick: out and back within one is nothing.",
+    "The chip's CSTA, CSTP, PCS, SD and DR are not brought out, nor are, but for the choice `pins_fitted`, "
+    "its ERC, CLR and LTC.",
+    "The user table and the direct command of D8020, which the manual leaves unfinished, are plain storage "
+    "but for the choice `user_table`.",
 };
 
 constexpr std::array<int, 1> kBauds{19200};

@@ -1,6 +1,6 @@
 // Backlash before a LIN or an arc: every axis of it that turns round, or each one if it slips (D9x57 = 2),
 // first goes its X1 pulses at X22, all at once; the path begins when the last is done. Within an arc nothing
-// is corrected, as on the chip. (Manual, X1., X22.)
+// is corrected, as on the chip, unless that is chosen. (Manual, X1., X22.)
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +10,9 @@
 #include "base/simulated_time.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
 #include "motion/axis.h"
 #include "motion/path.h"
 #include "motion/path_run.h"
@@ -91,6 +93,35 @@ void Super40nc::step_path_backlash(Tick tick, std::array<std::int64_t, kAxisCoun
   if (awaits_path()) return;
   end_path_backlash();
   if (state_.path.slowing_for == motion::Cause::none) state_.path.run.resume(tick);
+}
+
+/// Where that is chosen: an axis that turns round on its path goes X1 at X22 beside it. If it turns again
+/// before, what has come so far is gone back.
+void Super40nc::step_arc_backlash(const std::array<std::int8_t, kAxisCount>& ways_before,
+                                  std::array<std::int64_t, kAxisCount>& sent) {
+  const Settings its = registers();
+  constexpr Value kBacklash = 1;
+  for (int number = 0; number < kAxisCount; ++number) {
+    const auto n = static_cast<std::size_t>(number);
+    AxisState& state = axis(number);
+    motion::Axis& motor = chip(number);
+    const std::int8_t way = motor.last_direction;
+    const bool turns = is_on_path(number) && ways_before[n] != 0 && way != ways_before[n];
+    if (turns && its.of(kept_x(57), number) == kBacklash) {
+      state.arc_backlash = way * (its.of(kept_x(56), number) - std::abs(state.arc_backlash));
+      state.arc_backlash_part = 0;
+    }
+    if (state.arc_backlash == 0) continue;
+    state.arc_backlash_part += motor.settings.backlash_speed_pps / motion::kTicksPerSecond;
+    const auto come =
+        std::min(static_cast<std::int64_t>(state.arc_backlash_part), std::abs(state.arc_backlash));
+    state.arc_backlash_part -= static_cast<double>(come);
+    const std::int64_t now_come = state.arc_backlash < 0 ? -come : come;
+    state.arc_backlash -= now_come;
+    if (state.arc_backlash == 0) state.arc_backlash_part = 0;
+    motor.backlash_sent += now_come;
+    sent[n] += motor.inverted ? -now_come : now_come;
+  }
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -104,7 +104,8 @@ bool Super40nc::begin_path(const PathPlan& plan) {
   const double step_lu_s = multiplier_of(std::max(fastest_pps, 1.0)) / fastest_ppu;
   const auto number_of = [&](Kept kept) { return static_cast<double>(its.of(kept)); };
   const motion::SpeedLaw law =
-      law_by(0, top, target_lu_s, number_of(kept_d(9014)), number_of(kept_d(9015)),
+      law_by(0, top, target_lu_s, number_of(kept_d(9014)),
+             its.down_ms(number_of(kept_d(9015)), number_of(kept_d(9014))),
              number_of(kept_d(9012)) * step_lu_s, number_of(kept_d(9013)) * step_lu_s);
   path.run.append(plan.path, {}, before_motion());
   path.run.set_speed(law, before_motion());
@@ -212,7 +213,7 @@ void Super40nc::stop_path() {
   state_.path.stop(state_.chips, motion::Cause::stopped);
   state_.path = {};
   state_.path_is_held = false;
-  for (AxisState& its : state_.axes) its.path_backlash = 0;
+  for (AxisState& its : state_.axes) its.path_backlash = its.arc_backlash = 0;
   for (int number = 0; number < kAxisCount; ++number) {
     if (!took[static_cast<std::size_t>(number)]) continue;
     forget_end(number);
@@ -223,7 +224,10 @@ void Super40nc::stop_path() {
 
 void Super40nc::step_path(Tick tick, std::array<std::int64_t, kAxisCount>& sent) {
   step_path_backlash(tick, sent);
+  std::array<std::int8_t, kAxisCount> ways{};
+  for (std::size_t n = 0; n < kAxisCount; ++n) ways[n] = state_.chips[n].last_direction;
   state_.path.step(tick, state_.chips, state_.here, sent);
+  if (chose(option("backlash_scope", "also_where_an_arc_turns_round"))) step_arc_backlash(ways, sent);
   if (!state_.path.engaged || !state_.path_is_held || !state_.path.run.at_rest(tick)) return;
   for (int number = 0; number < kAxisCount; ++number) {
     if (is_on_path(number)) axis(number).holder = Holder::rest;
@@ -237,7 +241,7 @@ void Super40nc::path_ended() {
   const Code code = code_of(why);
   for (int number = 0; number < kAxisCount; ++number) {
     AxisState& state = axis(number);
-    state.path_backlash = 0;
+    state.path_backlash = state.arc_backlash = 0;
     if (state.rest.kind != RestKind::path) continue;
     forget_end(number);
     state.has_ended = true;

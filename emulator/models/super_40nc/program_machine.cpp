@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_map.h"
@@ -63,6 +64,7 @@ bool ProgramMachine::special_contact(int number) const {
 bool ProgramMachine::set_special_contact(int number, bool on) {
   const std::size_t slot = relay_slot(number);
   if (slot == kNotKept || special_contact(number) == on) return false;
+  if (kIsUnlisted[slot] && device_.chose(option("unlisted_contacts", "read_0"))) return false;
   device_.set_contact(number, on);
   device_.state().contacts.overwrite(number);
   device_.keep_slot(slot);
@@ -85,6 +87,13 @@ bool ProgramMachine::set_special_register(int number, std::int32_t value) {
   return special_register(number) != before;
 }
 
+std::int32_t ProgramMachine::parameter_in_force(int number) const {
+  const std::vector<std::uint32_t>& in_force = device_.state().parameters_in_force;
+  if (in_force.empty()) return special_register(number);
+  const Place place = device_.at(Table::holding, data_address(number));
+  return static_cast<std::int32_t>(in_force[static_cast<std::size_t>(place.slot) - kFirstParameterSlot]);
+}
+
 std::int32_t ProgramMachine::rpm_at_power_up(int axis) const {
   return device_.state().rpm_at_power_up[static_cast<std::size_t>(axis)];
 }
@@ -103,6 +112,10 @@ bool ProgramMachine::is_held_in_reset(Area area) const {
 void ProgramMachine::program_starts(Area) { device_.error_is_over(); }
 
 void ProgramMachine::program_ended(Area area) {
+  for (int axis = 0; axis < kAxisCount && device_.chose(option("end_and_vdrv", "ends_by_its_ramp")); ++axis) {
+    const AxisState& state = device_.axis(axis);
+    if (state.holder == Holder::vdrv && state.mover == mover_of(area)) device_.end_by_ramp(axis, Mover::hand);
+  }
   device_.show_finished(
       area == Area::c ? kEndOfCSignal : kFirstEndSignal + static_cast<std::size_t>(language::axis_of(area)));
 }
@@ -179,6 +192,12 @@ Begun ProgramMachine::begin(Area by, const language::HomeSearch& search) {
 Begun ProgramMachine::begin(Area by, const language::Rotation& rotation) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const bool turns = is_set(rotation.rpm, axis) && value_of_axis(rotation.rpm, axis) != 0;
+    const Holder holder = device_.axis(axis).holder;
+    const bool is_others = holder != Holder::nobody && holder != Holder::vdrv && holder != Holder::wheel;
+    if (is_set(rotation.rpm, axis) && !turns && is_others &&
+        device_.chose(option("vdrv_zero_others", "waits"))) {
+      return Begun::taken;
+    }
     if (turns && device_.granted(device_.axis(axis).holder, Request::vdrv) == Grant::waits)
       return Begun::taken;
   }
@@ -275,7 +294,7 @@ language::Areas ProgramMachine::stop(Area area) {
     const bool is_others =
         mover < Mover::plc && mover != mover_of(area) && state.awaited &&
         (device_.is_on_path(axis) || !device_.chose(option("axis_stop_in_c", "stops_the_axis_alone")));
-    device_.stop_axis(axis);
+    device_.stop_by_command(axis);
     if (!is_others) continue;
     lost = static_cast<language::Areas>(lost | language::one(static_cast<Area>(mover)));
     device_.stop_all_of(mover);

@@ -23,6 +23,7 @@ class ProgramMachine final : public language::Machine {
   bool set_special_contact(int number, bool on) override;
   std::int32_t special_register(int number) const override;
   bool set_special_register(int number, std::int32_t value) override;
+  std::int32_t parameter_in_force(int number) const override;
   std::int32_t rpm_at_power_up(int axis) const override;
   void report(language::Code code, int step, int other_step) override;
 

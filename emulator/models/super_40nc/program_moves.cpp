@@ -55,7 +55,7 @@ bool Super40nc::begin_drive(int axis_number, std::int64_t target_lu, std::int32_
   if (distance == 0) {
     let_go(axis_number);
     state.has_ended = state.stands_on_target = true;
-    show_finished(static_cast<std::size_t>(axis_number));
+    if (finishes_without_motion()) show_finished(static_cast<std::size_t>(axis_number));
     return true;
   }
   state.shows_finish = true;
@@ -94,7 +94,10 @@ bool Super40nc::begin_mark(int axis_number, std::int64_t distance, std::int64_t 
       {.distance_pulses = distance,
        .search_pulses = search,
        .fast = fast,
-       .creep = its.law(axis_number, static_cast<double>(its.of(kept_x(80), axis_number)))});
+       .creep = its.law(axis_number, static_cast<double>(its.of(kept_x(80), axis_number))),
+       .slows_behind = chose(option("mrk_course", "slows_behind_the_target")),
+       .looks_all_the_way = chose(option("mrk_course", "signal_before_it_counts")),
+       .mark_slows = chose(option("mrk_course", "stops_by_a_ramp"))});
   begun(axis_number, chip(axis_number).home(program, before_motion()), Holder::move);
   if (state.holder != Holder::move) {
     let_go(axis_number);
@@ -146,6 +149,19 @@ bool Super40nc::end_by_ramp(int axis_number, Mover mover) {
   state.is_held = false;
   state.stop_awaited_by = mover;
   return true;
+}
+
+/// STP, a STOP key, M8x02.
+void Super40nc::stop_by_command(int axis_number) {
+  if (!chose(option("stp_stops", "by_its_ramp")) || (is_on_path(axis_number) && state_.path_is_held)) {
+    return stop_axis(axis_number);
+  }
+  if (!end_by_ramp(axis_number, Mover::hand)) return;
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (number != axis_number && !(is_on_path(axis_number) && is_on_path(number))) continue;
+    axis(number).mover = Mover::hand;
+    axis(number).awaited = axis(number).shows_finish = false;
+  }
 }
 
 // ---- held, and on again

@@ -62,7 +62,7 @@ Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
                                  .feed_lu_per_s = feed,
                                  .mode = mode};
   if (plan.path.length_u <= 0) {
-    device_.show_finished(kPathSignal);
+    if (device_.finishes_without_motion()) device_.show_finished(kPathSignal);
     return Begun::done;
   }
   if (joins) {
@@ -168,12 +168,13 @@ Begun ProgramMachine::begin(Area, const language::CentreArc& arc) {
 }
 
 Begun ProgramMachine::begin(Area, const language::PointArc& arc) {
-  const ArcFrame frame = frame_of(arc.plane, arc.targets, arc.end_lu);
+  const bool is_absolute = device_.chose(option("c3p_points", "absolute"));
+  const language::Targets targets = is_absolute ? language::Targets::absolute : arc.targets;
+  const ArcFrame frame = frame_of(arc.plane, targets, arc.end_lu);
   std::array<double, 2> through{};
   for (std::size_t i = 0; i < 2; ++i) {
     const auto n = static_cast<std::size_t>(frame.axes[i]);
-    through[i] =
-        static_cast<double>(target_of(frame, i, arc.targets, arc.through_lu[i]) - frame.offset_lu[n]);
+    through[i] = static_cast<double>(target_of(frame, i, targets, arc.through_lu[i]) - frame.offset_lu[n]);
   }
   return begin_arc(frame, arc.feed_lu_per_s, kModeCounterClockwise, false,
                    [&](const motion::Point& from, const motion::Point& to) {

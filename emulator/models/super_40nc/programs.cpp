@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,15 +58,20 @@ void Super40nc::make_programs_ready() {
   const auto texts = state_.blocks.all().find(kPrograms);
   ready_texts_ = texts == state_.blocks.all().end() ? NamedBlocks::mapped_type{} : texts->second;
   ProgramMachine machine(*this);
+  std::set<std::int32_t> labels;  // of areas before, where those are theirs alone
   for (const language::AreaRow& row : language::kAreas) {
     const auto stored = stored_area(state_.blocks, kPrograms, row.name, row.area, options_);
     const language::AreaProgram program = stored.value_or(language::AreaProgram{.base = row.base});
     if (row.area == language::Area::plc) {
       ladder_ = language::Ladder(program, machine.layout(), options_);
     } else {
-      codes_[language::index_of(row.area)] = language::StepCode(program);
+      codes_[language::index_of(row.area)] = language::StepCode(program, labels);
+    }
+    for (const language::Instruction& line : program.lines) {
+      if (options_.labels_are_common && line.op == language::Op::lab) labels.insert(line.fields[0].number);
     }
   }
+  if (state_.table.runs != UserTable::Runs::nothing) put_table_in_place();
 }
 
 /// D9042 is the room of C and of each file.
@@ -92,6 +98,9 @@ std::vector<ProgramMistake> Super40nc::mistakes_in(std::string_view text) const 
 }
 
 void Super40nc::load_program(std::string_view text) {
+  if (powered() && registers().is_on(kept_d(9021)) && chose(option("edit_lock", "d9021_refuses_programs"))) {
+    throw ProgramError(0, 0, "D9021 (C15) locks programs; expected 0 there");
+  }
   const language::Checked checked = language::check(text, options_with_room());
   if (!checked.program) {
     const language::Complaint& first = checked.errors.front();
@@ -115,8 +124,12 @@ void Super40nc::load_program(std::string_view text) {
   make_programs_ready();
   const bool has_plc = checked.program->area(language::Area::plc).has_value();
   if (has_plc && runs) plc_to_run();
-  if (!checked.warnings.empty()) {
-    const language::Complaint& first = checked.warnings.front();
+  // Labels may be those of areas that the text does not name.
+  const language::Checked all =
+      options_.labels_are_common ? language::check(program_text(), options_with_room()) : language::Checked{};
+  const auto& warnings = all.warnings.empty() ? checked.warnings : all.warnings;
+  if (!warnings.empty()) {
+    const language::Complaint& first = warnings.front();
     report(first.code, first.step, first.other_step);
   }
   state_.touched = true;
@@ -204,10 +217,17 @@ void Super40nc::program_broken(Mover mover, int axis, bool is_awaited, motion::C
   const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus;
   const bool is_soft = why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;
   const bool pauses = (is_limit && chose(option("el_resets", "pauses_at_the_line"))) ||
-                      (is_soft && chose(option("soft_limit_resets", "pauses_at_the_line")));
+                      (is_soft && chose(option("soft_limit_resets", "pauses_at_the_line"))) ||
+                      (why == motion::Cause::alarm && chose(option("alm_resets", "pauses_at_the_line")));
   if (pauses && !runs_on) return tell(language::Event::limit_pauses, area);
   if (pauses) return;
   tell(runs_on ? language::Event::stop : language::Event::broken, area);
+}
+
+void Super40nc::flash_written() {
+  constexpr Tick kFlashTicks = 100;
+  state_.file_changed = state_.touched = true;
+  if (chose(option("flash_time", "100_ms_without_a_scan"))) state_.flash_until = now() + 1 + kFlashTicks;
 }
 
 /// Saves the C program that is in memory, and takes the one of another file.
@@ -254,7 +274,7 @@ void Super40nc::change_file(std::int32_t number) {
   state_.file = number;
   make_programs_ready();
   tell(language::Event::file_changed, language::Area::c);
-  state_.file_changed = state_.touched = true;
+  flash_written();
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -84,6 +84,40 @@ constexpr std::size_t relay_slot(int special) {
   return kSpecialContactSlots[static_cast<std::size_t>(special - kFirstSpecialContact)];
 }
 
+/// Contacts and registers that no table of the manual names.
+inline constexpr auto kIsUnlisted = [] {
+  struct Range {
+    Table table;
+    int first, last, each;  // of X, and how far the next axis is; 0: of all
+  };
+  constexpr Range kRanges[] = {
+      {Table::coil, 8012, 8019, 0},    {Table::coil, 8027, 8099, 0},    {Table::coil, 8159, 8191, 100},
+      {Table::holding, 8009, 8018, 0}, {Table::holding, 8030, 8089, 0}, {Table::holding, 8180, 8183, 100},
+      {Table::holding, 8500, 8599, 0}, {Table::holding, 9020, 9020, 0}, {Table::holding, 9022, 9024, 0},
+      {Table::holding, 9027, 9027, 0}, {Table::holding, 9030, 9034, 0}, {Table::holding, 9046, 9099, 0}};
+  const auto names = [&](Table table, int number) {
+    for (const Range& range : kRanges) {
+      if (table != range.table) continue;
+      for (int axis = 0; axis < (range.each == 0 ? 1 : kAxisCount); ++axis) {
+        const int beyond = axis * range.each;
+        if (number >= range.first + beyond && number <= range.last + beyond) return true;
+      }
+    }
+    return false;
+  };
+  std::array<bool, kSlotCount> unlisted{};
+  std::size_t next = 0;
+  for (const RegisterRow& row : kRegisters) {
+    if (row.is_view) continue;
+    const bool is_special =
+        (row.table == Table::coil || row.table == Table::holding) && row.first_number >= 8000;
+    for (int i = 0; i < row.count; ++i, ++next) {
+      unlisted[next] = is_special && names(row.table, row.first_number + i * row.number_step);
+    }
+  }
+  return unlisted;
+}();
+
 /// By number; a compile error where there is none.
 consteval Kept kept_d(int number) { return kept_at(Table::holding, data_address(number)); }
 consteval Kept kept_m(int number) { return kept_at(Table::coil, relay_address(number)); }

@@ -38,7 +38,7 @@ motion::SpeedLaw law_by(double start_u_s, double top_u_s, double target_u_s, dou
 }
 
 double Settings::multiplier(int axis, double pps) const {
-  return multiplier_of(multiplies_by_x12_ ? top_pps(axis) : pps);
+  return multiplier_of(readings_.multiplies_by_x12 ? top_pps(axis) : pps);
 }
 
 motion::SpeedLaw Settings::law(int axis, double rpm) const {
@@ -46,7 +46,8 @@ motion::SpeedLaw Settings::law(int axis, double rpm) const {
   const double step = multiplier(axis, top);
   const auto number = [&](Kept kept) { return static_cast<double>(of(kept, axis)); };
   return law_by(pps(axis, number(kept_x(76))), top, pps(axis, static_cast<double>(of(kept_d(9011)))),
-                number(kept_x(66)), number(kept_x(67)), number(kept_x(68)) * step, number(kept_x(69)) * step);
+                number(kept_x(66)), down_ms(number(kept_x(67)), number(kept_x(66))),
+                number(kept_x(68)) * step, number(kept_x(69)) * step);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "emulator/models/super_40nc/registers.h"
 #include "motion/move.h"
@@ -17,14 +19,30 @@ inline constexpr double kFastestPps = 6'553'500;
 
 using Image = std::array<std::uint32_t, kSlotCount>;
 
+/// D9000 on are the last of the image.
+inline constexpr std::size_t kFirstParameterSlot = kept_d(9000).slot;
+inline constexpr std::size_t kParameterCount = kSlotCount - kFirstParameterSlot;
+
+/// Choices that numbers depend on.
+struct Readings {
+  bool multiplies_by_x12 = false;
+  bool limits_deceleration = false;  // to twice the acceleration
+};
+
 class Settings {
  public:
-  explicit Settings(const Image& image, bool multiplies_by_x12 = false)
-      : image_(image), multiplies_by_x12_(multiplies_by_x12) {}
+  /// `parameters`: D9 as they act; none: as they are stored.
+  explicit Settings(const Image& image, Readings readings = {},
+                    std::span<const std::uint32_t> parameters = {})
+      : image_(image),
+        parameters_(parameters.empty() ? std::span(image).subspan(kFirstParameterSlot) : parameters),
+        readings_(readings) {}
 
-  /// As it is stored.
+  /// As it is stored; of parameters what acts.
   std::int32_t raw(Kept kept, int axis = 0) const {
-    return static_cast<std::int32_t>(image_[kept.slot + static_cast<std::size_t>(axis)]);
+    const std::size_t slot = kept.slot + static_cast<std::size_t>(axis);
+    return static_cast<std::int32_t>(slot < kFirstParameterSlot ? image_[slot]
+                                                                : parameters_[slot - kFirstParameterSlot]);
   }
   /// Limited as it is used.
   Value of(Kept kept, int axis = 0) const { return std::clamp<Value>(raw(kept, axis), kept.min, kept.max); }
@@ -42,10 +60,14 @@ class Settings {
   double multiplier(int axis, double pps) const;
   /// Of DRV, homing and all that is moved by hand. Below 1 rpm it is 1.
   motion::SpeedLaw law(int axis, double rpm) const;
+  double down_ms(double down_ms, double up_ms) const {
+    return readings_.limits_deceleration ? std::min(down_ms, 2 * up_ms) : down_ms;
+  }
 
  private:
   const Image& image_;
-  bool multiplies_by_x12_;
+  std::span<const std::uint32_t> parameters_;
+  Readings readings_;
 };
 
 /// The chip counts a speed in steps of so many pps, the finest that reach up to it.

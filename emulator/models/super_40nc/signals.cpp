@@ -8,6 +8,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
 #include "emulator/models/super_40nc/settings.h"
@@ -39,11 +40,13 @@ void Super40nc::look_round(int axis_number) {
     return is_mark ? std::optional(true) : limit_of_line(logic);
   };
   const bool dog_level = !its.is_on(kept_x(2), axis_number);
+  const int dog =
+      chose(option("dog_inputs", "x0_x3_x6_x9")) ? dog_input(axis_number) : kFirstDogTerminal + axis_number;
   const Function functions[] = {
       {limit_plus_input(axis_number), motion::Signal::limit_plus, limit_or_mark(kept_d(8118), true)},
       {limit_minus_input(axis_number), motion::Signal::limit_minus, limit_or_mark(kept_d(8119), false)},
-      {dog_input(axis_number), motion::Signal::home, dog_level},
-      {dog_input(axis_number), motion::Signal::mark, dog_level},  // for latches
+      {dog, motion::Signal::home, dog_level},
+      {dog, motion::Signal::mark, dog_level},  // for latches
       {pin_of(axis_number, kIndexPin), motion::Signal::index, true},
       {pin_of(axis_number, kAlarmPin), motion::Signal::alarm, true},
       {pin_of(axis_number, kInPositionPin), motion::Signal::in_position, true}};
@@ -110,7 +113,10 @@ void Super40nc::heed_axis(int axis_number, int number) {
     case 86:
       if (number != 86) put(kept_d(8144), limit_pulses(kept_x(85)), axis_number);
       if (number != 85) put(kept_d(8145), limit_pulses(kept_x(86)), axis_number);
-      if (number <= 72) axis(axis_number).stands_on_target = false;
+      if (number <= 72) {
+        axis(axis_number).stands_on_target = false;
+        keep_display(axis_number);
+      }
       break;
     default: break;
   }

@@ -1,4 +1,5 @@
 // SUPER-40NC's state as bytes, and back.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -51,10 +52,11 @@ void StateOf<Rest>::check(const Rest& rest) {
 void StateOf<AxisState>::check(const AxisState& axis) {
   for (const std::int64_t number :
        {axis.sent_pulses, axis.followed_pulses, axis.offset_lu, axis.encoder_counts, axis.backlash_seen,
-        axis.path_backlash, axis.target_lu}) {
+        axis.path_backlash, axis.arc_backlash, axis.target_lu}) {
     demand_within(number, -kFar, kFar);
   }
   demand_within(axis.order, 0, 4);
+  demand_state(std::abs(axis.arc_backlash_part) <= 1, "more than a pulse");
   demand_state(axis.step_pps >= 300.0 / 4096 && axis.step_pps <= 100, "no step of the chip's speeds");
 }
 
@@ -63,6 +65,13 @@ void StateOf<State>::check(const State& state) {
   demand_within(state.plc_quiet_scans, 0, kNever);
   demand_within(state.path_backlash_ticks, 0, kNever);
   demand_within(state.logo_ms, 0, 10'000);
+  demand_within(state.flash_until, 0, kNever);
+  for (const Tick tick : state.erc_until) demand_within(tick, 0, kNever);
+  const std::size_t parameters = state.parameters_in_force.size();
+  demand_state(parameters == 0 || parameters == kParameterCount, "not as many parameters as there are");
+  const std::size_t words = state.table.words.size();
+  demand_state(words % kWordsOfATableLine == 0 && words <= std::size_t{kTableLines} * kWordsOfATableLine,
+               "no lines of the user table");
   demand_within(state.file, 0, 30'000);
   demand_within(state.recipe, 0, kRecipeCount - 1);
   demand_within(state.homing_by_key.order, 0, 4);
@@ -86,7 +95,8 @@ std::function<void()> Super40nc::read_own_state(StateReader& reader) {
     const auto texts = state_.blocks.all().find(kPrograms);
     const bool has_texts = texts != state_.blocks.all().end();
     const bool are_ready = has_texts ? texts->second == ready_texts_ : ready_texts_.empty();
-    if (!are_ready) make_programs_ready();
+    const bool has_table = state_.table.runs != UserTable::Runs::nothing || !table_lines_.empty();
+    if (!are_ready || has_table) make_programs_ready();
   };
 }
 

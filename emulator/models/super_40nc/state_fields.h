@@ -88,9 +88,12 @@ struct StateOf<emulator::models::super_40nc::AxisState> {
                                            field("compares_by_tick", &Value::compares_by_tick),
                                            field("compared", &Value::compared),
                                            field("offset_lu", &Value::offset_lu),
+                                           field("scale_seen", &Value::scale_seen),
                                            field("encoder_counts", &Value::encoder_counts),
                                            field("backlash_seen", &Value::backlash_seen),
                                            field("path_backlash", &Value::path_backlash),
+                                           field("arc_backlash", &Value::arc_backlash),
+                                           field("arc_backlash_part", &Value::arc_backlash_part),
                                            field("holder", &Value::holder),
                                            field("asked_by_contact", &Value::asked_by_contact),
                                            field("mover", &Value::mover),
@@ -114,6 +117,17 @@ struct StateOf<emulator::models::super_40nc::AxisState> {
                                            field("wheel_lu", &Value::wheel_lu),
                                            field("wheel_edges", &Value::wheel_edges)};
   static void check(const Value& axis);
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::UserTable::Runs> {
+  static constexpr auto last = emulator::models::super_40nc::UserTable::Runs::table;
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::UserTable> {
+  using Value = emulator::models::super_40nc::UserTable;
+  static constexpr auto fields = FieldList{field("runs", &Value::runs), field("words", &Value::words)};
 };
 
 template <>
@@ -157,6 +171,12 @@ struct StateOf<emulator::models::super_40nc::State> {
                 field("rpm_at_power_up", &Value::rpm_at_power_up),
                 field("logo_ms", &Value::logo_ms),
                 field("station", &Value::station),
+                field("parameters_in_force", &Value::parameters_in_force),
+                field("flash_until", &Value::flash_until),
+                field("erc_until", &Value::erc_until),
+                field("clears_seen", &Value::clears_seen),
+                field("latches_seen", &Value::latches_seen),
+                field("table", &Value::table),
                 field("eeprom", &Value::eeprom),
                 field("blocks", &Value::blocks)};
   static void check(const Value& state);

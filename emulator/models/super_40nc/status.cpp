@@ -52,10 +52,12 @@ std::int32_t wrapped(std::int64_t number) {
 bool Super40nc::status(int axis_number, AxisStatus what) const {
   const AxisState& its = axis(axis_number);
   const motion::Axis& motor = chip(axis_number);
-  const std::int32_t operation = operation_of(axis_number);
   switch (what) {
     case SSCM: return its.holder != Holder::nobody;
-    case SRUN: return operation == kByWheel ? its.followed_pulses != 0 : operation != kStopped;
+    case SRUN: {
+      const std::int32_t operation = operation_of(axis_number);
+      return operation == kByWheel ? its.followed_pulses != 0 : operation != kStopped;
+    }
     case SENI:
       return !chose(option("seni_flag", "always_0")) && its.has_ended && its.holder == Holder::nobody;
     case SEND: return its.holder == Holder::nobody;
@@ -65,15 +67,21 @@ bool Super40nc::status(int axis_number, AxisStatus what) const {
     case SCP3: return comparator_holds(axis_number, 2);
     case SCP4: return comparator_holds(axis_number, 3);
     case SCP5: return comparator_holds(axis_number, 4);
-    case SFU: return operation == kSpeedingUp;
-    case SFD: return operation == kSlowingDown;
-    case SFC: return operation == kAtFa || operation == kAtFl || operation == kAtFh || operation == kBacklash;
+    case SFU: return operation_of(axis_number) == kSpeedingUp;
+    case SFD: return operation_of(axis_number) == kSlowingDown;
+    case SFC: {
+      const std::int32_t operation = operation_of(axis_number);
+      return operation == kAtFa || operation == kAtFl || operation == kAtFh || operation == kBacklash;
+    }
     case SALM: return has_signal(axis_number, motion::Signal::alarm);
     case SPEL: return has_signal(axis_number, motion::Signal::limit_plus);
     case SMEL: return has_signal(axis_number, motion::Signal::limit_minus);
     case SORG: return has_signal(axis_number, motion::Signal::home);
     case SDIR: return motor.last_direction < 0;
     case SEMG: return state_.emergency;
+    case SERC: return gives_erc(axis_number);
+    case SCLR: return has_chip_pins() && input(chip_pin_of(axis_number, kClearPin)) != 0;
+    case SLTC: return has_chip_pins() && input(chip_pin_of(axis_number, kLatchPin)) != 0;
     case SEZ: return has_signal(axis_number, motion::Signal::index);
     case SINP: return input(pin_of(axis_number, kInPositionPin)) != 0;
     case SRDY: return input(pin_of(axis_number, kReadyPin)) != 0;
@@ -214,10 +222,16 @@ void Super40nc::latch(int axis_number) {
   const bool has_dog = (chip(axis_number).events & motion::bit(motion::Event::mark_on)) != 0;
   const bool comes = by == 1 ? has_dog : is_on && !state.latch_was_on;
   state.latch_was_on = is_on;
-  if (!comes || its.is_on(kept_x(52), axis_number)) return;
+  if (!comes) return;
   const auto edge = static_cast<std::size_t>(motion::Event::mark_on);
-  const std::int64_t travel = by == 1 ? chip(axis_number).travel_at(chip(axis_number).event_at[edge])
-                                      : chip(axis_number).travel_pulses;
+  take_latch(axis_number, by == 1 ? chip(axis_number).travel_at(chip(axis_number).event_at[edge])
+                                  : chip(axis_number).travel_pulses);
+}
+
+void Super40nc::take_latch(int axis_number, std::int64_t travel) {
+  AxisState& state = axis(axis_number);
+  const Settings its = registers();
+  if (its.is_on(kept_x(52), axis_number)) return;
   state.latched[0] = wrapped(state.command.at(travel));
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
     state.latched[static_cast<std::size_t>(which)] = counter(axis_number, which);

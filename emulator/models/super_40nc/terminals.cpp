@@ -40,6 +40,16 @@ MadeTerminals make_terminals() {
     add(Kind::analog_out, "Vout" + std::to_string(i), kMostMillivolts);
   }
   add(Kind::dip_switch, "PLC_RUN");
+  for (const std::string_view axis : kAxisNames) add(Kind::digital_in, "DOG_" + std::string(axis));
+  for (int i = 1; i <= kAnalogInCount; ++i) {
+    add(Kind::analog_in, "Vin" + std::to_string(i), kMostMillivoltsIn);
+  }
+  for (const std::string_view axis : kAxisNames) add(Kind::digital_out, "SVON_" + std::string(axis));
+  for (const std::string_view axis : kAxisNames) {
+    add(Kind::digital_in, "CLR_" + std::string(axis));
+    add(Kind::digital_in, "LTC_" + std::string(axis));
+    add(Kind::digital_out, "ERC_" + std::string(axis));
+  }
   return made;
 }
 

@@ -25,7 +25,15 @@ inline constexpr int kAnalogInCount = 3;
 inline constexpr int kFirstAnalogOut = kFirstAnalogIn + kAnalogInCount;  // Vout1, Vout2
 inline constexpr int kAnalogOutCount = 2;
 inline constexpr int kRunSwitch = kFirstAnalogOut + kAnalogOutCount;  // PLC_RUN
-inline constexpr int kTerminalCount = kRunSwitch + 1;
+// What is there by choice alone: DOG_X on (dog_inputs), Vin1 on (analog_counts), SVON_X on (servo_on), CLR_X
+// on and so forth (pins_fitted).
+inline constexpr int kFirstDogTerminal = kRunSwitch + 1;
+inline constexpr int kFirstVoltageIn = kFirstDogTerminal + kAxisCount;
+inline constexpr int kFirstServoTerminal = kFirstVoltageIn + kAnalogInCount;
+inline constexpr int kFirstChipPin = kFirstServoTerminal + kAxisCount;
+enum ChipPin : int { kClearPin, kLatchPin, kErcPin, kChipPinsOfAxis };
+constexpr int chip_pin_of(int axis, ChipPin pin) { return kFirstChipPin + axis * kChipPinsOfAxis + pin; }
+inline constexpr int kTerminalCount = kFirstChipPin + kAxisCount * kChipPinsOfAxis;
 
 // 《X33./X34.》; DOG is where their list leaves a gap.
 constexpr int dog_input(int axis) { return 3 * axis; }
@@ -35,6 +43,7 @@ constexpr int limit_minus_input(int axis) { return 3 * axis + 2; }
 inline constexpr std::int32_t kMostAnalogCount = 1023;
 inline constexpr std::int32_t kVoltageSteps = 1000;
 inline constexpr std::int32_t kMostMillivolts = 3300;
+inline constexpr std::int32_t kMostMillivoltsIn = 5000;
 
 inline constexpr std::array<std::string_view, kAxisCount> kAxisNames{"X", "Y", "Z", "U"};
 inline constexpr int kFactoryPulsesPerRevolution = 4000;

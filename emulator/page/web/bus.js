@@ -1,19 +1,16 @@
 // The bus: what goes over the lines, in words; send by hand; drop the next like this; keep as a capture.
 import { html, useState } from './preact.js';
 import { ask, isReadOnly, store } from './store.js';
-import { Button, Choice, Field, save, seconds } from './small.js';
+import { Button, Choice, Field, grouped, save, seconds } from './small.js';
 import { pcapng } from './pcapng.js';
 
 const kShown = 200;
 
-function deviceOn(lineName) {
-  return store.bench?.lines.find((line) => line.name === lineName)?.stations ?? [];
-}
+const lineNamed = (name) => store.bench?.lines.find((line) => line.name === name);
 
 function dropNext(frame) {
   const fault = { drop: frame.line, nth: 1, times: 1 };
-  const isText = store.bench?.lines.find((line) => line.name === frame.line)?.text;
-  if (!isText && frame.bytes?.length >= 4) {
+  if (!lineNamed(frame.line)?.text && frame.bytes?.length >= 4) {
     fault.function = parseInt(frame.bytes.slice(2, 4), 16) & 0x7f;
     fault.station = parseInt(frame.bytes.slice(0, 2), 16);
     if (fault.station === 0) delete fault.station;
@@ -24,12 +21,13 @@ function dropNext(frame) {
 function Frame({ frame }) {
   const kind = frame.exception ? 'bad' : frame.remark ? 'odd' : '';
   const latency = frame.latency_ns !== undefined ? `${(frame.latency_ns / 1e6).toFixed(2)} ms` : '';
+  const isRequest = frame.way === 'in';
   return html`<tr class=${`${frame.way} ${kind}`} title=${frame.bytes}>
-    <td class="figure">${seconds(frame.time_ns)}</td><td>${frame.line}</td>
-    <td aria-label=${frame.way === 'in' ? 'from the host' : 'to the host'}>${frame.way === 'in' ? '→' : '←'}</td>
+    <td class="figure">${seconds(frame.time_ns)}</td><td class="line">${frame.line}</td>
+    <td class="way" aria-label=${isRequest ? 'from the host' : 'to the host'}>${isRequest ? '→' : '←'}</td>
     <td class="words">${frame.text} ${frame.remark && html`<em>${frame.remark}</em>`}</td>
     <td class="figure">${latency}</td>
-    <td>${frame.way === 'in' && html`<${Button} kind="small" title="drop the next request like this" disabled=${isReadOnly()}
+    <td>${isRequest && html`<${Button} kind="small faint" title="drop the next request like this" disabled=${isReadOnly()}
       does=${() => dropNext(frame)}>drop next<//>`}</td></tr>`;
 }
 
@@ -41,11 +39,21 @@ function ByHand() {
   const send = async (text) => (await ask(chosen.text
     ? { do: 'send', line: chosen.name, text }
     : { do: 'send', line: chosen.name, bytes: text, checksum: true })).ok;
+  const stations = chosen.stations.map((it) => `${it.device}${it.address !== undefined ? ` ${it.address}` : ''}`);
+  const some = stations.length > 6 ? [...stations.slice(0, 6), `${stations.length - 6} more`] : stations;
   return html`<div class="bar"><span>Send by hand:</span>
     <${Choice} label="line" value=${chosen.name} options=${lines.map((it) => it.name)} takes=${setLine} />
-    <${Field} label=${chosen.text ? 'a line of text' : 'bytes of a request, without its checksum'} size="40"
+    <${Field} label=${chosen.text ? 'a line of text' : 'bytes of a request, without its checksum'} size="28"
       placeholder=${chosen.text ? 'text' : '01 03 00 00 00 01'} disabled=${isReadOnly()} takes=${send} />
-    <small>while no host has the line open (${deviceOn(chosen.name).map((it) => `${it.device}${it.address !== undefined ? ` ${it.address}` : ''}`).join(', ')})</small></div>`;
+    <small>while no host has the line open; on it: ${some.join(', ')}</small></div>`;
+}
+
+/// Drops that wait for a request, with what became of them.
+function Drops() {
+  const drops = (store.status?.faults ?? []).filter(({ fault }) => fault.startsWith('drop '));
+  if (drops.length === 0) return null;
+  return html`<div class="bar">${drops.map(({ number, fault, hits }) => html`<span class="bad bar" key=${number}>${fault}${hits ? `: ${hits} dropped` : ''}
+    <${Button} kind="small" title=${`clear fault ${number}`} disabled=${isReadOnly()} does=${() => ask({ do: 'clear', number })}>clear<//></span>`)}</div>`;
 }
 
 export function Bus() {
@@ -58,14 +66,16 @@ export function Bus() {
   const shown = frames.filter(fits);
   return html`<div class="bar">
       <input type="search" aria-label="find in frames" placeholder="find" value=${filter} onInput=${(event) => setFilter(event.target.value)} />
-      <${Choice} label="which frames" value=${what} takes=${setWhat} options=${[['all', 'all'], ['in', 'requests'], ['out', 'replies'],
+      <${Choice} label="which frames" value=${what} takes=${setWhat} options=${[['all', 'all frames'], ['in', 'requests'], ['out', 'replies'],
         ['exceptions', 'exceptions'], ['dropped', 'dropped or remarked']]} />
       <${Button} title="hold the list still" pressed=${held !== null} does=${() => hold(held ? null : [...store.frames])}>pause<//>
       <${Button} title="save these frames as a capture" does=${() => save('bus.pcapng', [pcapng(shown, store.bench?.lines ?? [])],
         'application/x-pcapng')}>pcapng<//>
-      <small class="figure">${shown.length} of ${frames.length}${store.framesLost ? `, ${store.framesLost} not kept` : ''}</small>
+      <small class="figure count">${grouped(shown.length)} of ${grouped(frames.length)}${store.framesLost ? `, ${grouped(store.framesLost)} not kept` : ''}</small>
     </div>
-    <${ByHand} />
-    <div class="scroll"><table class="frames"><thead><tr><th>time</th><th>line</th><th></th><th>what</th><th>latency</th><th></th></tr></thead>
-      <tbody>${shown.slice(-kShown).reverse().map((frame) => html`<${Frame} key=${frame.number} frame=${frame} />`)}</tbody></table></div>`;
+    <${ByHand} /><${Drops} />
+    ${frames.length === 0 && html`<p>Nothing has gone over the lines yet.</p>`}
+    ${frames.length > 0 && html`<div class="scroll"><table class="frames"><thead><tr><th>time</th><th>line</th><th></th><th>what</th><th>latency</th><th></th></tr></thead>
+      <tbody>${shown.slice(-kShown).reverse().map((frame) => html`<${Frame} key=${frame.number} frame=${frame} />`)}</tbody></table></div>`}
+    ${shown.length > kShown && html`<small>the last ${kShown}; pcapng has all</small>`}`;
 }

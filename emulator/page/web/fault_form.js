@@ -1,7 +1,7 @@
 // A fault, put together from what the program itself says about faults.
 import { html, useState } from './preact.js';
 import { ask, store } from './store.js';
-import { Button, Choice } from './small.js';
+import { Button, Choice, spaced } from './small.js';
 
 /// Where a kind may be, as names.
 function placesFor(place) {
@@ -22,8 +22,8 @@ function placesFor(place) {
 function Line({ field, values, setValues }) {
   const set = (event) => setValues({ ...values, [field.name]: event.target.value });
   const range = field.lowest !== undefined ? ` (${field.lowest} to ${field.highest})` : '';
-  return html`<label title=${field.doc}><span>${field.name}${field.required ? ' *' : ''}</span>
-    <input value=${values[field.name] ?? ''} placeholder=${(field.form ?? '') + range} onInput=${set}
+  return html`<label title=${field.doc}><span>${spaced(field.name)}${field.required ? ' *' : ''}</span>
+    <input value=${values[field.name] ?? ''} placeholder=${(field.form ?? '') + range} onInput=${set} required=${field.required}
       spellcheck="false" autocomplete="off" /></label>`;
 }
 
@@ -48,14 +48,15 @@ export function FaultForm({ places, place, done, given = {} }) {
     if ((await ask({ do: 'inject', fault })).ok) done?.();
   };
   return html`<form class="fault_form" onSubmit=${(event) => { event.preventDefault(); inject(); }}>
-    <${Choice} label="kind of fault" value=${kind.name} options=${kinds.map((it) => it.name)} takes=${setKind} />
+    <div class="bar"><${Choice} label="kind of fault" value=${kind.name} options=${kinds.map((it) => [it.name, spaced(it.name)])} takes=${setKind} />
     ${!place && html`<${Choice} label="where" value=${at} options=${options} takes=${setWhere} />`}
-    <small>${kind.doc}</small>
+    <small>${kind.doc}</small></div>
     <div class="fields">${fields.map((field) => html`<${Line} key=${field.name} field=${field} values=${values}
       setValues=${setValues} />`)}</div>
-    <label class="check"><input type="checkbox" checked=${withTrigger}
+    <div class="bar"><label class="check"><input type="checkbox" checked=${withTrigger}
       onChange=${(event) => setTrigger(event.target.checked)} /> at a moment, a frame or a condition</label>
-    <button type="submit">inject</button>
-    ${done && html`<${Button} title="close" does=${done}>close<//>`}
+    <button type="submit" class="main" disabled=${!at}>inject</button>
+    ${!at && html`<small>There is no place for it on this bench.</small>`}
+    ${done && html`<${Button} title="close" does=${done}>close<//>`}</div>
   </form>`;
 }

@@ -14,40 +14,51 @@ import { Travel } from './travel.js';
 const kPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Registers', Registers], ['Bus', Bus],
                  ['Program', Program], ['Faults', Faults]];
 const kSpeeds = ['0.1', '0.2', '0.5', 'real', '2', '5', '10', 'free', 'manual'];
+const kMostNamed = 3;  // devices in the head
+
+/// Where time runs it is stopped first, as run-until asks for.
+async function runUntil(condition) {
+  const { look } = store;
+  if (!(await ask({ do: 'eval', expression: condition })).ok) return false;
+  if (!look.paused && look.speed !== 'manual' && !(await ask({ do: 'pause' })).ok) return false;
+  return (await ask({ do: 'run-until', condition, within: '60s' })).ok;
+}
 
 function Time() {
   const { look } = store;
   if (!look) return null;
-  if (store.timeline) {
-    return html`<div class="time" role="group" aria-label="time">
-      <output class="clock figure" aria-label="simulated time">${seconds(look.time_ns)}</output>
-      <span class="badge">recording</span></div>`;
-  }
+  const clock = html`<output class="clock figure" aria-label="simulated time">${seconds(look.time_ns)}</output>`;
+  if (store.timeline) return html`<div class="time" role="group" aria-label="time">${clock}<span class="badge">recording</span></div>`;
   const stands = look.paused || look.speed === 'manual';
+  const isRunning = !stands || look.advancing;  // what a pause ends
   const locked = isReadOnly();
   const speeds = kSpeeds.includes(look.speed) ? kSpeeds : [look.speed, ...kSpeeds];
-  const step = (ticks, name) => html`<${Button} kind="small" title=${`on by ${name}`} disabled=${locked || !stands}
+  const step = (ticks, name) => html`<${Button} kind="small" title=${`on by ${name}`} disabled=${locked || isRunning}
     does=${() => ask({ do: 'step', ticks })}>+${name}<//>`;
   return html`<div class="time" role="group" aria-label="time">
-    <output class="clock figure" aria-label="simulated time">${seconds(look.time_ns)}</output>
-    <${Button} title=${look.paused ? 'let time go on' : 'stop time'} pressed=${look.paused} disabled=${locked}
-      does=${() => ask({ do: look.paused ? 'resume' : 'pause' })}>${look.paused ? '▶' : '❚❚'}<//>
-    ${step(1, '1 ms')}${step(10, '10 ms')}${step(1000, '1 s')}
+    ${clock}
+    <${Button} kind="pause" title=${isRunning ? 'stop time' : 'let time go on'} pressed=${look.paused} disabled=${locked}
+      does=${() => ask({ do: isRunning ? 'pause' : 'resume' })}>${isRunning ? '❚❚ pause' : '▶ go on'}<//>
+    <span class="joined">${step(1, '1 ms')}${step(10, '10 ms')}${step(1000, '1 s')}</span>
     <${Choice} label="speed of time" value=${look.speed} options=${speeds.map((to) => [to, /\d/.test(to) ? `× ${to}` : to])}
       disabled=${locked} takes=${(to) => ask({ do: 'speed', to })} />
-    <${Field} label="run until a condition is true, while time stands" placeholder="run until" size="18"
-      disabled=${locked || !stands} takes=${async (condition) => {
-        const reply = await ask({ do: 'run-until', condition, within: '60s' });
-        return reply.ok;
-      }} />
+    ${look.advancing ? html`<span class="badge">runs until then</span>` : html`<${Field} label="run until a condition is true, 60 s at most; time stands then"
+      placeholder="run until ..." size="16" disabled=${locked} takes=${runUntil} />`}
   </div>`;
 }
 
 function Said() {
-  const state = store.states[store.number];
-  const bench = { gone: 'The daemon is gone; the page waits for it.', silent: 'The daemon does not answer.' }[state];
-  const text = store.link || bench || (store.said && performance.now() - store.said.at < 6000 ? store.said.text : '');
-  return html`<div class=${text ? 'said' : 'said nothing'} role="status" aria-live="polite">${text}</div>`;
+  const bench = { gone: 'The daemon is gone; the page waits for it.', silent: 'The daemon does not answer.' }[store.states[store.number]];
+  const lost = store.link || bench;
+  const text = lost || (store.said && performance.now() - store.said.at < 6000 ? store.said.text : '');
+  return html`<div class=${`said ${lost ? 'lost' : ''} ${text ? '' : 'nothing'}`} role="status" aria-live="polite">${text}</div>`;
+}
+
+function Devices() {
+  const devices = store.bench?.devices ?? [];
+  return html`<span class="models">${devices.slice(0, kMostNamed).map((device) => html`<span class="model" key=${device.name}
+      title=${`${device.title}, firmware ${device.firmware}`}><b>${device.name}</b> <small>${device.model} ${device.firmware}</small></span>`)}
+    ${devices.length > kMostNamed && html`<small>and ${devices.length - kMostNamed} more</small>`}</span>`;
 }
 
 function Page() {
@@ -55,31 +66,37 @@ function Page() {
   const benches = store.hello?.benches ?? [];
   const Shown = kPanels.find(([name]) => name === panel)[1];
   const move = (event) => {
-    const way = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (!way) return;
-    const next = kPanels[(kPanels.findIndex(([name]) => name === panel) + way + kPanels.length) % kPanels.length][0];
+    const at = kPanels.findIndex(([name]) => name === panel);
+    const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: kPanels.length - 1 }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    const next = kPanels[(to + kPanels.length) % kPanels.length][0];
     setPanel(next);
     document.getElementById(`tab_${next}`)?.focus();
   };
-  return html`<header class="head">
+  const isLost = store.link !== '' || ['gone', 'silent'].includes(store.states[store.number]);
+  return html`<div class="top"><header class="head">
       <h1>Understudy</h1>
       ${benches.length > 1 && html`<${Choice} label="bench" value=${String(store.number)}
         options=${benches.map((bench, i) => [String(i), bench.socket.split('/').at(-1)])} takes=${(i) => show(Number(i))} />`}
-      ${(store.bench?.devices ?? []).map((device) => html`<span class="model" key=${device.name}>${device.name}
-        <small>${device.title} ${device.firmware}</small></span>`)}
+      <${Devices} />
       ${isReadOnly() && html`<span class="badge">read only</span>`}
       <${Time} />
     </header>
-    <${Said} />
     <${Travel} />
     <nav role="tablist" aria-label="panels" onKeyDown=${move}>${kPanels.map(([name]) => html`<button type="button" role="tab"
       key=${name} id=${`tab_${name}`} aria-selected=${name === panel} aria-controls="panel" tabindex=${name === panel ? 0 : -1}
-      onClick=${() => setPanel(name)}>${name}</button>`)}</nav>
-    <div id="panel" role="tabpanel" aria-labelledby=${`tab_${panel}`}>
+      onClick=${() => setPanel(name)}>${name}</button>`)}</nav></div>
+    <${Said} />
+    <div id="panel" class=${isLost ? 'stale' : ''} role="tabpanel" aria-labelledby=${`tab_${panel}`}>
       ${store.bench ? html`<${Shown} key=${`${store.number}/${panel}`} />` : html`<p>Looking for the bench...</p>`}</div>`;
 }
 
 document.getElementById('page').textContent = '';
-drawBy(() => render(html`<${Page} />`, document.getElementById('page')));
+drawBy(() => {
+  const file = store.bench?.path?.split('/').at(-1);
+  document.title = file ? `${file} - Understudy` : 'Understudy';
+  render(html`<${Page} />`, document.getElementById('page'));
+});
 draw();
 setInterval(draw, 1000);  // flashes end though nothing comes

@@ -26,10 +26,10 @@ export function Plane({ device }) {
   }, [device.name, across, upwards]);
 
   const last = trail.current.at(-1) ?? [0, 0];
-  return html`<figure class="plane">
+  return html`<figure class="plane" aria-label=${`${across} and ${upwards} in a plane`}>
     <canvas ref=${canvas} width="480" height="360" role="img"
       aria-label=${`${across} ${grouped(last[0])}, ${upwards} ${grouped(last[1])}`}></canvas>
-    <figcaption>
+    <figcaption class="bar">
       <${Choice} label="axis to the right" value=${across} options=${names} takes=${(name) => choose([name, upwards])} />
       <${Choice} label="axis upwards" value=${upwards} options=${names} takes=${(name) => choose([across, name])} />
       <${Button} kind="small" title="forget the path" does=${() => { trail.current = []; }}>clear<//>
@@ -59,7 +59,7 @@ function drawTrail(canvas, trail) {
     context.lineTo(toX, toY);
   }
   context.stroke();
-  context.strokeStyle = look.getPropertyValue('--accent');
+  context.strokeStyle = look.getPropertyValue('--c0');
   context.lineWidth = 2;
   context.beginPath();
   trail.forEach((place, i) => (i === 0 ? context.moveTo(x(place[0]), y(place[1])) : context.lineTo(x(place[0]), y(place[1]))));

@@ -1,20 +1,22 @@
 // A plot of any names over time, and an oscilloscope with every tick around a moment.
 import { html, useEffect, useRef, useState } from './preact.js';
-import { ask, askQuietly, isReadOnly, onLook, store, unwant, valueOf, want } from './store.js';
-import { Button, Choice, Field, save } from './small.js';
+import { ask, askQuietly, complain, isReadOnly, onLook, store, unwant, valueOf, want } from './store.js';
+import { Button, Choice, Field, grouped, save } from './small.js';
 
 const kMost_s = 60;
-const kColours = ['#2f7de1', '#d9480f', '#2b8a3e', '#9c36b5', '#c2255c', '#0b7285', '#e8a200', '#5f3dc4'];
+const kMostNames = 8;
+const kHeight = 340;
 
 // Kept while other panels are in view.
 const names = [];
 const times = [];
 const rows = new Map();  // by name: values beside `times`
+let of = null;           // which bench they are of
 
 onLook((look) => {
   if (names.length === 0) return;
   const now = look.time_ns / 1e9;
-  if (times.length > 0 && now < times.at(-1)) forget();  // restored, or another bench
+  if (times.length > 0 && now < times.at(-1)) forget();  // restored, or another daemon
   if (times.at(-1) === now) return;
   times.push(now);
   for (const name of names) rows.get(name).push(numberOf(valueOf(name)));
@@ -32,7 +34,7 @@ function forget() {
   for (const row of rows.values()) row.length = 0;
 }
 function add(name) {
-  if (names.includes(name) || names.length >= kColours.length) return;
+  if (names.includes(name)) return;
   names.push(name);
   rows.set(name, new Array(times.length).fill(null));
   want('plot', [...names]);
@@ -42,47 +44,65 @@ function drop(name) {
   rows.delete(name);
   names.length > 0 ? want('plot', [...names]) : unwant('plot');
 }
+/// Of another bench nothing is left; the first axis is offered.
+function beginWith(bench) {
+  if (of !== bench) {
+    for (const name of [...names]) drop(name);
+    forget();
+    of = bench;
+    const first = suggestions()[0];
+    if (first) add(first);
+  }
+}
 
 /// Names to offer: of axes, terminals and the registers that tell a device's state.
 function suggestions() {
   return Object.values(store.devices).flatMap((device) => [
-    ...device.axes.flatMap((axis) => ['position', 'speed', 'pulses', 'home'].map((it) => `${device.name}.${axis.name}.${it}`)),
+    ...device.axes.flatMap((axis) => ['position', 'speed', 'pulses', 'target', 'home'].map((it) => `${device.name}.${axis.name}.${it}`)),
     ...device.state_registers.map((name) => `${device.name}.${name}`),
     ...device.terminals.map((terminal) => `${device.name}.${terminal.name}`),
   ]);
 }
 
+const dark = matchMedia('(prefers-color-scheme: dark)');
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
 /// A drawing by uPlot of columns that change; it owns the window once somebody has zoomed.
-function Drawing({ columns, labels, window_s, frozen, mark }) {
+function Drawing({ columns, labels, window_s, isShot }) {
   const place = useRef(null);
   const plot = useRef(null);
   const zoomed = useRef(false);
-  const key = labels.join('\n');
+  const [scheme, setScheme] = useState(dark.matches);
+  useEffect(() => {
+    const changed = () => setScheme(dark.matches);
+    dark.addEventListener('change', changed);
+    return () => dark.removeEventListener('change', changed);
+  }, []);
   useEffect(() => {
     const width = () => Math.max(place.current.clientWidth, 200);
-    const ink = getComputedStyle(place.current).getPropertyValue('--ink');
-    const line = getComputedStyle(place.current).getPropertyValue('--line');
+    const [ink, line] = [colour('--ink'), colour('--line')];
     const axis = { stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 } };
+    const size = (_, shown) => 16 + 8 * Math.max(3, ...(shown ?? []).map((text) => String(text).length));
+    zoomed.current = false;
     plot.current = new uPlot({
-      width: width(), height: 340, scales: { x: { time: false } },
-      axes: [{ ...axis, label: 'simulated time, s' }, axis],
+      width: width(), height: kHeight, scales: { x: { time: false } },
+      axes: [{ ...axis, label: isShot ? 's from the moment' : 'simulated time, s' }, { ...axis, size }],
       series: [{ label: 's', value: (_, at) => (at === null ? '–' : at.toFixed(3)) },
-               ...labels.map((label, i) => ({ label, stroke: kColours[i], width: 1.5, spanGaps: false }))],
-      hooks: { setSelect: [() => { zoomed.current = true; }] },
+               ...labels.map((label, i) => ({ label, stroke: colour(`--c${i}`), width: 1.5, spanGaps: false, value: (_, at) => (at === null ? '–' : grouped(at)) }))],
+      hooks: { setSelect: [(self) => { if (self.select.width > 0) zoomed.current = true; }] },
     }, columns, place.current);
     place.current.ondblclick = () => { zoomed.current = false; };
-    const resized = () => plot.current.setSize({ width: width(), height: 340 });
+    const resized = () => plot.current.setSize({ width: width(), height: kHeight });
     addEventListener('resize', resized);
     return () => { removeEventListener('resize', resized); plot.current.destroy(); };
-  }, [key, mark]);
+  }, [labels.join('\n'), isShot, scheme]);
   useEffect(() => {
-    if (frozen) return;
-    const last = columns[0].at(-1) ?? 0;
     plot.current.setData(columns, false);
     if (zoomed.current) return plot.current.redraw();
-    const from = window_s ? last - window_s : columns[0][0] ?? 0;
+    const [first, last] = [columns[0][0] ?? 0, columns[0].at(-1) ?? 0];
+    const from = isShot ? first : last - window_s;
     plot.current.setScale('x', { min: from, max: Math.max(last, from + 1e-3) });
-  });
+  }, [columns, columns[0].length, columns[0].at(-1), window_s, scheme]);
   return html`<div class="drawing" ref=${place}></div>`;
 }
 
@@ -91,66 +111,108 @@ function asCsv(labels, columns) {
   return [['time_s', ...labels].join(','), ...lines, ''].join('\n');
 }
 
-function savePicture() {
-  document.querySelector('.drawing canvas')?.toBlob((picture) => save('plot.png', [picture], 'image/png'));
+/// The drawing on its ground, with what the curves are.
+function savePicture(labels) {
+  const drawn = document.querySelector('.drawing canvas');
+  if (!drawn) return;
+  const scale = drawn.width / drawn.clientWidth;
+  const [picture, row] = [document.createElement('canvas'), 22 * scale];
+  picture.width = drawn.width;
+  picture.height = drawn.height + row * labels.length + row / 2;
+  const context = picture.getContext('2d');
+  context.fillStyle = colour('--card');
+  context.fillRect(0, 0, picture.width, picture.height);
+  context.drawImage(drawn, 0, 0);
+  context.font = `${14 * scale}px sans-serif`;
+  labels.forEach((label, i) => {
+    const y = drawn.height + row * i;
+    context.fillStyle = colour(`--c${i}`);
+    context.fillRect(row, y + row / 4, row, row / 2);
+    context.fillStyle = colour('--ink');
+    context.fillText(label, row * 2.5, y + row * 0.72);
+  });
+  picture.toBlob((bytes) => save('plot.png', [bytes], 'image/png'));
 }
 
-function Scope({ shown, show }) {
+/// All samples of a shot, as columns: seconds from its moment, then each name.
+async function samplesOf(scope) {
+  const columns = [[], ...scope.names.map(() => [])];
+  for (let from = 0; from !== undefined && from < scope.count;) {
+    const reply = await askQuietly({ do: 'scope', from });
+    if (!reply.ok) return null;
+    const samples = scope.names.map((name, i) => (Array.isArray(reply.samples) ? reply.samples[i] : reply.samples[name]));
+    samples[0].forEach((_, i) => columns[0].push((scope.from_ns + (from + i) * scope.step_ns - scope.trigger_ns) / 1e9));
+    samples.forEach((row, i) => columns[i + 1].push(...row.map(numberOf)));
+    from = reply.next;
+  }
+  return columns;
+}
+
+function Scope({ shot, show }) {
   const [condition, setCondition] = useState('');
+  const [side, setSide] = useState('1s');
   const [state, setState] = useState('');
-  const arm = async () => {
-    const wish = { do: 'scope', names: [...names], before: '1s', after: '1s' };
-    if (condition.trim() !== '') wish.condition = condition.trim();
+  const armed = useRef(0);
+  useEffect(() => () => { armed.current = 0; }, []);
+  const arm = async (when = condition) => {
+    const wish = { do: 'scope', names: [...names], before: side, after: side };
+    if (when.trim() !== '') wish.condition = when.trim();
     if (!(await ask(wish)).ok) return;
+    const mine = armed.current = performance.now();
     setState('armed');
     const poll = async () => {
       const { scope } = await askQuietly({ do: 'scope' });
+      if (armed.current !== mine) return;
       if (!scope) return setState('');
       setState(scope.error ?? scope.state);
+      if (scope.error) return;
       if (scope.state !== 'done') return void setTimeout(poll, 200);
-      const columns = [[], ...scope.names.map(() => [])];
-      for (let from = 0; from !== undefined && from < scope.count;) {
-        const reply = await askQuietly({ do: 'scope', from });
-        const samples = scope.names.map((name, i) => (Array.isArray(reply.samples) ? reply.samples[i] : reply.samples[name]));
-        samples[0].forEach((_, i) => columns[0].push((scope.from_ns + (from + i) * scope.step_ns - scope.trigger_ns) / 1e9));
-        samples.forEach((row, i) => columns[i + 1].push(...row.map(numberOf)));
-        from = reply.next;
-      }
-      show({ labels: scope.names, columns, at: scope.trigger_ns });
+      const columns = await samplesOf(scope);
+      if (columns && armed.current === mine) show({ labels: scope.names, columns });
     };
     setTimeout(poll, 200);
   };
+  const disarm = async () => { armed.current = 0; setState(''); await ask({ do: 'scope', off: true }); };
+  const waits = state === 'armed' || state === 'triggered';
   return html`<div class="bar"><span>Every tick around a moment:</span>
-    <input aria-label="condition of the trigger" placeholder="condition, such as device.A.home == 1" size="34"
-      value=${condition} onInput=${(event) => setCondition(event.target.value)} spellcheck="false" />
-    <${Button} title="arm the trigger" does=${arm} disabled=${names.length === 0 || isReadOnly()}>arm<//>
+    <input aria-label="condition of the trigger" placeholder="when, such as device.A.home == 1; now" size="34"
+      value=${condition} onInput=${(event) => setCondition(event.target.value)} spellcheck="false" autocapitalize="off"
+      onKeyDown=${(event) => { if (event.key === 'Enter') arm(event.target.value); }} />
+    <${Choice} label="this long before and after" value=${side} options=${['100ms', '500ms', '1s', '2s', '5s'].map((it) => [it, `± ${it}`])} takes=${setSide} />
+    ${waits ? html`<${Button} title="disarm the trigger" does=${disarm}>disarm<//>`
+            : html`<${Button} title="arm the trigger" does=${() => arm()} disabled=${names.length === 0 || isReadOnly()}>arm<//>`}
     <output>${state}</output>
-    ${shown && html`<${Button} title="back to the running plot" does=${() => show(null)}>back<//>`}</div>`;
+    ${shot && html`<${Button} title="back to the running plot" does=${() => { setState(''); show(null); }}>back<//>`}</div>`;
 }
 
 export function Plot() {
   const [window_s, setWindow] = useState(10);
-  const [frozen, freeze] = useState(false);
+  const [frozen, freeze] = useState(null);
   const [shot, show] = useState(null);
-  if (names.length === 0 && store.bench) {
-    const first = suggestions()[0];
-    if (first) add(first);
-  }
-  const labels = shot?.labels ?? names;
-  const columns = shot?.columns ?? [times, ...names.map((name) => rows.get(name))];
+  if (store.bench) beginWith(store.number);
+  const running = () => ({ labels: [...names], columns: [times, ...names.map((name) => rows.get(name))] });
+  const { labels, columns } = shot ?? frozen ?? running();
+  const take = async (name) => {
+    if (names.length >= kMostNames) { complain(`${kMostNames} curves at most; take one away first`); return false; }
+    if (!(await ask({ do: 'get', names: [name] })).ok) return false;
+    show(null);
+    freeze(null);
+    add(name);
+  };
+  const hold = () => freeze(frozen ? null : { labels: [...names], columns: running().columns.map((column) => [...column]) });
   return html`<div class="bar">
-      <${Field} label="a name to plot" list="names" size="28" takes=${(name) => { add(name); show(null); }} />
+      <${Field} label="a name to plot" list="names" size="28" takes=${take} />
       <datalist id="names">${suggestions().slice(0, 600).map((name) => html`<option value=${name}></option>`)}</datalist>
       <${Choice} label="seconds shown" value=${String(window_s)} options=${['1', '2', '5', '10', '30', '60'].map((s) => [s, `${s} s`])}
         takes=${(s) => setWindow(Number(s))} />
-      <${Button} title="freeze the plot" pressed=${frozen} does=${() => freeze(!frozen)}>freeze<//>
+      <${Button} title="freeze the plot" pressed=${frozen !== null} disabled=${shot !== null} does=${hold}>freeze<//>
       <${Button} title="save as CSV" does=${() => save('plot.csv', [asCsv(labels, columns)], 'text/csv')}>CSV<//>
-      <${Button} title="save as a picture" does=${savePicture}>picture<//>
+      <${Button} title="save as a picture" does=${() => savePicture(labels)}>picture<//>
       <small>Drag to zoom, double click to go back.</small>
     </div>
-    <div class="bar">${names.map((name) => html`<${Button} kind="small" key=${name} title=${`take ${name} away`}
-      does=${() => drop(name)}>${name} ×<//>`)}</div>
-    ${labels.length > 0 && html`<${Drawing} columns=${columns} labels=${labels} window_s=${shot ? 0 : window_s}
-      frozen=${frozen && !shot} mark=${shot?.at} />`}
-    <${Scope} shown=${shot} show=${show} />`;
+    <div class="bar">${names.map((name, i) => html`<span class="joined curve" key=${name}><b class=${`c${i}`}>${name}</b>
+      <output class="figure">${grouped(numberOf(valueOf(name)))}</output>
+      <${Button} kind="small" title=${`take ${name} away`} does=${() => { freeze(null); drop(name); }}>×<//></span>`)}</div>
+    ${labels.length > 0 && html`<${Drawing} columns=${columns} labels=${labels} window_s=${window_s} isShot=${shot !== null} />`}
+    <${Scope} shot=${shot} show=${show} />`;
 }

@@ -1,7 +1,7 @@
-// The program: its listing with the line that runs, what it waits for, values beside it.
-import { html, useEffect, useState } from './preact.js';
-import { ask, askQuietly, isReadOnly, store, unwant, valueOf, want } from './store.js';
-import { Button, Choice, grouped } from './small.js';
+// The program: its listing with the line that runs, what it waits for, values beside it; started, stopped and loaded.
+import { html, useEffect, useRef, useState } from './preact.js';
+import { ask, askQuietly, complain, isReadOnly, store, unwant, valueOf, want } from './store.js';
+import { Button, Choice, Field, grouped } from './small.js';
 
 const kLook_ms = 150;
 const kMostLines = 4000;  // of a listing; more would make the page slow
@@ -21,13 +21,76 @@ function waited_ns(key, program) {
 function Waits({ device, program }) {
   const left_ns = program.until_ns !== undefined && store.look ? program.until_ns - store.look.time_ns : null;
   const waited = waited_ns(`${device}.${program.program}`, program);
-  return html`<li><b>${program.program}</b> ${program.state}
-    ${program.line ? html` at line <output class="figure">${program.line}</output>` : ''}
+  return html`<li><b>${program.program}</b> <span class=${`state ${program.state}`}>${program.state}</span>
+    ${program.line ? html` at line <output class="figure count">${program.line}</output>` : ''}
     ${program.text && html` <code>${program.text}</code>`}
     ${program.waits_for && html` waits for ${program.waits_for}`}
-    ${waited > 0 ? html` since <output class="figure">${(waited / 1e9).toFixed(2)} s</output>` : ''}
-    ${left_ns !== null && left_ns > 0 ? html`, at most another <output class="figure">${(left_ns / 1e9).toFixed(2)} s</output>` : ''}
-    ${program.why && html` <span class="bad">${program.why}</span>`}</li>`;
+    ${waited > 0 ? html` since <output class="figure count">${(waited / 1e9).toFixed(2)} s</output>` : ''}
+    ${left_ns !== null && left_ns > 0 ? html`, at most another <output class="figure count">${(left_ns / 1e9).toFixed(2)} s</output>` : ''}
+    ${program.why && html` <span class=${program.state === 'failed' ? 'bad' : ''}>${program.why}</span>`}</li>`;
+}
+
+/// What a host would do: write registers one after the other, give a command, or say a line of text.
+async function act(device, control, number) {
+  const fill = (text) => text.replace('{}', number);
+  if (control.command) return ask({ do: 'command', device: device.name, text: fill(control.command) });
+  if (control.text) {
+    const line = store.bench.lines.find(({ stations }) => stations.some((station) => station.device === device.name));
+    return line ? ask({ do: 'send', line: line.name, text: fill(control.text) }) : complain('no line leads to it');
+  }
+  for (const pair of fill(control.set).split(' ')) {
+    const [name, value] = pair.split('=');
+    if (!(await ask({ do: 'set', values: { [`${device.name}.${name}`]: Number(value) } })).ok) return;
+  }
+}
+
+function Control({ device, control }) {
+  const [number, setNumber] = useState(String(control.lowest ?? 0));
+  const word = control.word.replace(' {}', '');
+  const does = (which = number) => act(device, control, which);
+  if (control.highest === undefined) return html`<${Button} title=${`${word}: ${control.set ?? control.command ?? control.text}`} disabled=${isReadOnly()} does=${() => does()}>${word}<//>`;
+  return html`<span class="joined"><${Button} title=${`${word} ${number}`} disabled=${isReadOnly()} does=${() => does()}>${word}<//>
+    <input type="number" aria-label=${`${word}: which`} min=${control.lowest} max=${control.highest} value=${number} disabled=${isReadOnly()}
+      onInput=${(event) => setNumber(event.target.value)} onKeyDown=${(event) => { if (event.key === 'Enter') does(event.target.value); }} /></span>`;
+}
+
+function Listing({ lines, running }) {
+  const list = useRef(null);
+  const first = Math.min(...running);
+  useEffect(() => {
+    const box = list.current;
+    const line = box?.children[first - 1];
+    if (!line) return;
+    const isOut = line.offsetTop < box.scrollTop || line.offsetTop + line.offsetHeight > box.scrollTop + box.clientHeight;
+    if (isOut) box.scrollTop = line.offsetTop - box.clientHeight / 3;  // the box alone, never the page
+  }, [first]);
+  return html`<ol class="listing" ref=${list} tabindex="0" aria-label="listing">${lines.map((line, i) => html`<li key=${i}
+    class=${running.has(i + 1) ? 'running' : ''} aria-current=${running.has(i + 1) ? 'step' : undefined}><code>${line || ' '}</code></li>`)}</ol>`;
+}
+
+// Names that somebody wants to see beside the program, by device.
+const watched = new Map();
+
+function Values({ device }) {
+  const [names, setNames] = useState(watched.get(device.name) ?? []);
+  const keep = (next) => { watched.set(device.name, next); setNames(next); };
+  const whole = (name) => (name.startsWith(`${device.name}.`) ? name : `${device.name}.${name}`);
+  useEffect(() => {
+    want('program', [...device.state_registers.map(whole), ...names]);
+    return () => unwant('program');
+  }, [device.name, store.bench, names]);
+  const add = async (text) => {
+    const name = whole(text);
+    if (!(await ask({ do: 'get', names: [name] })).ok) return false;
+    if (!names.includes(name)) keep([...names, name]);
+  };
+  const row = (name, label, extra) => html`<tr key=${name}><th scope="row">${label}</th>
+    <td class="figure">${grouped(valueOf(name))}</td><td>${extra}</td></tr>`;
+  return html`<div class="values"><table><tbody>
+      ${names.map((name) => row(name, name.slice(device.name.length + 1), html`<${Button} kind="small faint" title=${`take ${name} away`}
+        does=${() => keep(names.filter((it) => it !== name))}>×<//>`))}
+      ${device.state_registers.map((name) => row(whole(name), name))}</tbody></table>
+    <${Field} label="another value to see here" placeholder="another value" takes=${add} /></div>`;
 }
 
 export function Program() {
@@ -41,11 +104,13 @@ export function Program() {
 
   const read = async () => {
     const reply = await askQuietly({ do: 'program', device: device.name });
-    setText(reply.ok ? reply.text ?? '' : `(${reply.error})`);
+    setText(reply.ok ? (reply.text ?? '').replace(/\n$/, '') : `(${reply.error})`);
   };
+  // Whoever has loaded another program: it is read again.
+  const loaded = store.events.filter((it) => it.what === 'program' || it.what === 'power').at(-1)?.number ?? 0;
+  useEffect(() => { if (device) read(); }, [device?.name, store.bench, loaded]);
   useEffect(() => {
     if (!device) return;
-    read();
     let over = false;
     const look = async () => {
       const reply = await askQuietly({ do: 'where', device: device.name });
@@ -54,39 +119,45 @@ export function Program() {
       setTimeout(look, kLook_ms);
     };
     look();
-    want('program', device.state_registers.map((name) => `${device.name}.${name}`));
-    return () => { over = true; unwant('program'); };
+    return () => { over = true; };
   }, [device?.name, store.bench]);
 
   if (!device) return html`<p>No device of this bench has a program.</p>`;
-  const load = async () => {
-    const reply = await askQuietly({ do: 'program', device: device.name, text: edited });
+  const load = async (given) => {
+    const reply = await askQuietly({ do: 'program', device: device.name, text: given });
     setMistakes(reply.ok ? [] : reply.mistakes ?? [{ line: 0, column: 0, what: reply.error }]);
-    if (reply.ok) { setEdited(null); read(); }
+    if (reply.ok) { setEdited(null); read(); } else { setEdited(given); }
+  };
+  const loadFile = async (event) => {
+    const [file] = event.target.files;
+    if (file) await load(await file.text());
+    event.target.value = '';
   };
   const lines = text.split('\n');
-  const shown = lines.slice(0, kMostLines);
   const running = new Set(programs.filter((it) => it.line).map((it) => it.line));
   return html`<div class="bar">
       ${devices.length > 1 && html`<${Choice} label="device" value=${device.name} options=${devices.map((it) => it.name)}
-        takes=${(name) => { setDevice(name); setEdited(null); }} />`}
-      <small>${device.program.language}</small>
+        takes=${(name) => { setDevice(name); setEdited(null); setMistakes([]); setPrograms([]); }} />`}
+      ${(device.program.controls ?? []).map((control) => html`<${Control} key=${control.word} device=${device} control=${control} />`)}
+    </div>
+    <div class="bar">
       ${edited === null
         ? html`<${Button} title="change the program" disabled=${isReadOnly()} does=${() => setEdited(text)}>edit<//>
-            <${Button} title="read it again" does=${read}>read<//>`
-        : html`<${Button} title="load this text" does=${load}>load<//>
+            <${Button} title="read it again" does=${read}>read<//>
+            ${!isReadOnly() && html`<label class="file">load a file<input type="file" accept=${`${device.program.file_ending},text/plain`} onChange=${loadFile} /></label>`}`
+        : html`<${Button} kind="main" title="load this text" does=${() => load(edited)}>load<//>
             <${Button} title="give up" does=${() => { setEdited(null); setMistakes([]); }}>give up<//>`}
+      <small>${device.program.language}, ${grouped(text === '' ? 0 : lines.length)} lines</small>
     </div>
     <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${program} />`)}</ul>
     ${mistakes.map((it) => html`<p class="bad" role="alert">${it.line ? `line ${it.line}, column ${it.column}: ` : ''}${it.what}</p>`)}
     ${lines.length > kMostLines && html`<p>The first ${grouped(kMostLines)} of ${grouped(lines.length)} lines; edit shows all.</p>`}
     <div class="with_values">
-      ${edited === null
-        ? html`<ol class="listing">${shown.map((line, i) => html`<li key=${i}
-            class=${running.has(i + 1) ? 'running' : ''}><code>${line || ' '}</code></li>`)}</ol>`
-        : html`<textarea aria-label="program text" rows="24" spellcheck="false" value=${edited}
-            onInput=${(event) => setEdited(event.target.value)}></textarea>`}
-      <table class="values"><tbody>${device.state_registers.map((name) => html`<tr key=${name}><td>${name}</td>
-        <td class="figure">${grouped(valueOf(`${device.name}.${name}`))}</td></tr>`)}</tbody></table>
+      ${edited !== null
+        ? html`<textarea aria-label="program text" rows="24" spellcheck="false" value=${edited}
+            onInput=${(event) => setEdited(event.target.value)}></textarea>`
+        : text === '' ? html`<p class="listing_none">There is no program yet: edit, or load a file.</p>`
+        : html`<${Listing} lines=${lines.slice(0, kMostLines)} running=${running} />`}
+      <${Values} key=${device.name} device=${device} />
     </div>`;
 }

@@ -1,49 +1,68 @@
 // Registers by the manual's sections: values, ranges, bits, who changed them; written with the range check's own words.
 import { html, useEffect, useState } from './preact.js';
-import { ask, askQuietly, flashOf, isReadOnly, store, unwant, valueOf, want } from './store.js';
-import { Button, Choice, Field, save } from './small.js';
+import { ask, askQuietly, complain, flashOf, isReadOnly, store, unwant, valueOf, want } from './store.js';
+import { Button, Choice, Field, grouped, save } from './small.js';
+import { isHeard } from './heard.js';
 
 const kPage = 100;
+const kMostHeard = 400;
 
 function bitsOf(row, value) {
   if (!row.bits || typeof value !== 'number') return null;
   return row.bits.map(({ bit, width, name }) => {
     const part = Math.floor(value / 2 ** bit) % 2 ** width;
-    return html`<span key=${name} class=${part ? 'bit set' : 'bit'} title=${`bit ${bit}`}>${name}${width > 1 ? `=${part}` : ''}</span>`;
+    return html`<span key=${name} class=${part ? 'bit set' : 'bit'} title=${`bit ${bit}: ${part}`}>${name}${width > 1 ? `=${part}` : ''}</span>`;
   });
 }
 
 const rangeOf = (row) => (row.min !== undefined ? `${row.min} to ${row.max}` : '');
 const isPlain = (row) => !row.window && row.access !== 'W';
 
-function Row({ device, row, explain }) {
+async function write(name, text) {
+  const number = Number(text);
+  if (!Number.isFinite(number)) { complain(`${text} is not a number; 0x10 and -5 are`); return false; }
+  return (await ask({ do: 'set', values: { [name]: number } })).ok;
+}
+
+function Row({ device, row, explain, section }) {
   const name = `${device}.${row.name}`;
   const value = valueOf(name);
-  const flash = flashOf(name);
+  const flash = flashOf(name, device, row.access !== 'R');
+  const isOther = row.factory !== undefined && row.access !== 'R' && isPlain(row) && typeof value === 'number' && value !== Number(row.factory);
   const hex = Number.isInteger(value) && row.type !== 'bit' ? `0x${(value < 0 ? value + 2 ** 32 : value).toString(16).toUpperCase()}` : '';
   return html`<tr class=${flash ? `flash ${flash}` : ''}>
-    <td><span class="name">${row.name}</span> <small>${row.number ?? row.address}${row.table && row.table !== 'holding' ? ` ${row.table}` : ''}</small>
-      ${row.meaning && html`<small> ${row.meaning}</small>`}</td>
-    <td class="value" title=${hex}>${isPlain(row) ? value ?? '–' : ''} <small>${row.unit ?? ''}</small></td>
+    <td class="what"><span class="name">${row.name}</span> <small>${row.number ?? row.address}${row.table && row.table !== 'holding' ? ` ${row.table}` : ''}</small>
+      ${row.meaning && html`<small> ${row.meaning}</small>`}${section && html`<small class="section"> ${section}</small>`}</td>
+    <td class="value" title=${hex}>${isPlain(row) ? html`${value ?? '–'} <small>${row.unit ?? ''}</small>` : ''}</td>
     <td class="by">${flash}</td>
-    <td>${row.access !== 'R' && !row.window && html`<${Field} label=${`write ${row.name}`} placeholder="write" size="8"
-      disabled=${isReadOnly()} takes=${async (text) => (await ask({ do: 'set', values: { [name]: Number(text) } })).ok} />`}</td>
-    <td><small>${row.access}${row.kept ? ', kept' : ''}</small></td>
-    <td><small>${rangeOf(row)}${row.factory !== undefined ? ` (${row.factory})` : ''}</small></td>
-    <td>${bitsOf(row, value)}${row.not_modelled && html`<small class="bad" title=${row.not_modelled}>not modelled</small>`}
+    <td class="write">${row.access !== 'R' && !row.window && html`<${Field} label=${`write ${row.name}`} placeholder="write" size="8"
+      disabled=${isReadOnly()} takes=${(text) => write(name, text)} />`}</td>
+    <td class="access"><small>${row.access}${row.kept ? html`, <b>kept</b>` : ''}</small></td>
+    <td class="range"><small>${rangeOf(row)}</small></td>
+    <td class="factory"><small class=${isOther ? 'other' : ''} title=${isOther ? 'the value is another now' : ''}>${row.factory ?? ''}</small></td>
+    <td class="more">${bitsOf(row, value)}${row.not_modelled && html`<small class="bad" title=${row.not_modelled}>not modelled</small> `}
       ${(row.choices ?? []).map((id) => html`<${Button} kind="small" key=${id} title=${`the choice ${id}`}
         does=${() => explain(id)}>${id}<//>`)}</td>
   </tr>`;
 }
 
-async function allChoices(device) {
+async function allOf(message, key) {
   const all = [];
   for (let from = 0; from !== undefined;) {
-    const reply = await askQuietly({ do: 'choices', device, from });
-    all.push(...(reply.choices ?? []));
+    const reply = await askQuietly({ ...message, from });
+    all.push(...(reply[key] ?? []));
     from = reply.next;
   }
   return all;
+}
+
+// Every row of a device's tables, asked for once: of the bench that is shown.
+const tables = new Map();
+function tableOf(device) {
+  if (tables.get(device.name)?.device !== device) {
+    tables.set(device.name, { device, rows: allOf({ do: 'registers', device: device.name, count: 200 }, 'registers') });
+  }
+  return tables.get(device.name).rows;
 }
 
 export function Registers() {
@@ -56,29 +75,24 @@ export function Registers() {
   const [onlyHeard, setHeard] = useState(false);
   const [choice, setChoice] = useState(null);
   const device = devices.find((it) => it.name === deviceName) ?? devices[0];
+  const words = store.heard.get(device?.name);
+  const heardSoFar = onlyHeard ? words?.size ?? 0 : 0;
 
   useEffect(() => {
     if (!device) return;
     let current = true;
-    const wish = { do: 'registers', device: device.name, from, count: kPage };
-    if (find !== '') wish.find = find;
-    else if (!onlyHeard) wish.section = Number(section);
     const load = async () => {
-      let reply = await askQuietly(wish);
-      if (onlyHeard) {
-        const heard = [];
-        for (let next = 0; next !== undefined && heard.length < 200;) {
-          reply = await askQuietly({ ...wish, from: next, count: 200 });
-          heard.push(...(reply.registers ?? []).filter((row) => store.heard.has(`${device.name}.${row.name}`)));
-          next = reply.next;
-        }
-        reply = { ok: true, registers: heard, of: heard.length };
+      if (!onlyHeard) {
+        const where = find !== '' ? { find } : { section: Number(section) };
+        return askQuietly({ do: 'registers', device: device.name, from, count: kPage, ...where });
       }
-      if (current && reply.ok) setPage(reply);
+      const rows = (await tableOf(device)).filter((row) => isHeard(words, row) &&
+        (find === '' || `${row.name} ${row.address ?? row.number}`.toLowerCase().includes(find.toLowerCase())));
+      return { ok: true, registers: rows.slice(0, kMostHeard), of: rows.length };
     };
-    load();
+    load().then((reply) => { if (current && reply.ok) setPage(reply); });
     return () => { current = false; };
-  }, [device?.name, section, find, from, onlyHeard, onlyHeard && store.heard.size, store.bench]);
+  }, [device?.name, section, find, from, onlyHeard, heardSoFar, store.bench]);
 
   useEffect(() => {
     if (device) want('registers', page.registers.filter(isPlain).map((row) => `${device.name}.${row.name}`));
@@ -86,30 +100,37 @@ export function Registers() {
   }, [page, device?.name]);
 
   if (!device) return html`<p>No device of this bench has registers.</p>`;
-  const explain = async (id) => setChoice((await allChoices(device.name)).find((it) => it.id === id));
+  const explain = async (id) => setChoice((await allOf({ do: 'choices', device: device.name }, 'choices')).find((it) => it.id === id));
   const at = device.sections[Number(section)];
+  const isMixed = find !== '' || onlyHeard;
+  const sectionOf = (row) => isMixed && (device.sections[row.section]?.english || device.sections[row.section]?.name);
+  const keptWrites = store.status?.devices.find((it) => it.name === device.name)?.kept_writes;
   return html`<div class="bar">
       ${devices.length > 1 && html`<${Choice} label="device" value=${device.name} options=${devices.map((it) => it.name)}
-        takes=${(name) => { setDevice(name); setSection('0'); setFrom(0); }} />`}
-      <${Choice} label="section of the manual" value=${section} disabled=${find !== '' || onlyHeard}
+        takes=${(name) => { setDevice(name); setSection('0'); setFrom(0); setPage({ registers: [], of: 0 }); }} />`}
+      <${Choice} label="section of the manual" value=${section} disabled=${isMixed}
         options=${device.sections.map((it) => [String(it.number), `${it.english || it.name} (${it.rows})`])}
         takes=${(number) => { setSection(number); setFrom(0); }} />
       <input type="search" aria-label="find a register by name or number" placeholder="find: name or number" value=${find}
         onInput=${(event) => { setFind(event.target.value); setFrom(0); }} />
       <label class="check"><input type="checkbox" checked=${onlyHeard} onChange=${(event) => { setHeard(event.target.checked); setFrom(0); }} />
         only what the host uses</label>
-      <${Button} title="save what is shown as CSV" does=${() => save('registers.csv', [page.registers.map((row) =>
-        `${row.name},${row.address ?? row.number},${valueOf(`${device.name}.${row.name}`) ?? ''}`).join('\n')], 'text/csv')}>CSV<//>
+      <${Button} title="save what is shown as CSV" does=${() => save('registers.csv', ['name,address,value\n', page.registers.map((row) =>
+        `"${row.name}",${row.address ?? row.number},${valueOf(`${device.name}.${row.name}`) ?? ''}`).join('\n'), '\n'], 'text/csv')}>CSV<//>
+      ${keptWrites !== undefined && html`<small>memory that outlives the power: <output class="figure count">${grouped(keptWrites)}</output> writes</small>`}
     </div>
-    ${find === '' && !onlyHeard && html`<p class="section_name">${at?.name} <small>${at?.english}</small></p>`}
-    ${choice && html`<aside class="choice"><strong>${choice.id}</strong> (${choice.section}): ${choice.question}
-      <p>Chosen: <b>${choice.chosen}</b> of ${choice.options.join(', ')}. ${choice.why} <small>${choice.confidence}</small></p>
+    ${!isMixed && html`<p class="section_name">${at?.name} ${at?.english !== at?.name && html`<small>${at?.english}</small>`}</p>`}
+    ${choice && html`<aside class="choice"><strong>${choice.id}</strong> (section ${choice.section}): ${choice.question}
+      <p>Chosen: <b>${spacedChoice(choice.chosen)}</b> of ${choice.options.map(spacedChoice).join('; ')}. ${choice.why} <small>${choice.confidence}</small></p>
       <${Button} title="close" does=${() => setChoice(null)}>close<//></aside>`}
     <div class="scroll"><table class="registers">
-      <thead><tr><th>name</th><th>value</th><th>changed by</th><th>write</th><th>access</th><th>range (factory)</th><th>bits, choices</th></tr></thead>
-      <tbody>${page.registers.map((row) => html`<${Row} key=${row.name} device=${device.name} row=${row} explain=${explain} />`)}</tbody>
+      <thead><tr><th>name</th><th class="value">value</th><th>changed by</th><th>write</th><th>access</th><th>range</th><th>factory</th><th>bits, choices</th></tr></thead>
+      <tbody>${page.registers.map((row) => html`<${Row} key=${row.name} device=${device.name} row=${row} explain=${explain} section=${sectionOf(row)} />`)}</tbody>
     </table></div>
-    <div class="bar"><small>${page.of} in all</small>
+    ${onlyHeard && page.of === 0 && html`<p>No host has asked for any yet, or none that fits.</p>`}
+    <div class="bar"><small>${grouped(from + Math.min(1, page.of))} to ${grouped(from + page.registers.length)} of ${grouped(page.of)}</small>
       ${from > 0 && html`<${Button} title="back" does=${() => setFrom(Math.max(0, from - kPage))}>back<//>`}
       ${page.next !== undefined && html`<${Button} title="further" does=${() => setFrom(page.next)}>further<//>`}</div>`;
 }
+
+const spacedChoice = (text) => String(text).replaceAll('_', ' ');

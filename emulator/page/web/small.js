@@ -1,10 +1,28 @@
 // Small things that several panels are made of.
-import { html, useState } from './preact.js';
+import { html, useRef, useState } from './preact.js';
 
 export const seconds = (ns) => `${(ns / 1e9).toFixed(3)} s`;
 export const grouped = (number) =>
   typeof number === 'number' ? (Number.isInteger(number) ? number.toLocaleString('en') : number.toFixed(1)) : '–';
 export const isOn = (value) => value === 1 || value === true;
+export const spaced = (name) => name.replaceAll('_', ' ');
+
+/// Calls `act` once at a time; of what is wished meanwhile only the last counts, so that dragging makes no queue.
+export function latest(act) {
+  let isUnderWay = false;
+  let wish = null;
+  return async (...given) => {
+    wish = given;
+    if (isUnderWay) return;
+    isUnderWay = true;
+    while (wish) {
+      const next = wish;
+      wish = null;
+      await act(...next);
+    }
+    isUnderWay = false;
+  };
+}
 
 /// A button that is only a picture to sighted people says to others what it does.
 export function Button({ does, title, pressed, disabled, kind = '', children }) {
@@ -15,13 +33,14 @@ export function Button({ does, title, pressed, disabled, kind = '', children }) 
 /// A text field that hands over what was typed at Enter.
 export function Field({ label, placeholder, takes, list, size = 12, disabled, initial = '' }) {
   const [text, setText] = useState(initial);
-  const send = async () => {
-    if (text.trim() !== '' && await takes(text.trim()) !== false) setText('');
+  // What stands there, not what was drawn last: who types fast is ahead of the drawing.
+  const send = async ({ value }) => {
+    if (value.trim() !== '' && await takes(value.trim()) !== false) setText('');
   };
-  return html`<input aria-label=${label} placeholder=${placeholder ?? label} list=${list} size=${size} value=${text}
-    disabled=${disabled} spellcheck="false" autocomplete="off"
+  return html`<input aria-label=${label} title=${label} placeholder=${placeholder ?? label} list=${list} size=${size} value=${text}
+    disabled=${disabled} spellcheck="false" autocomplete="off" autocapitalize="off" enterkeyhint="send"
     onInput=${(event) => setText(event.target.value)}
-    onKeyDown=${(event) => { if (event.key === 'Enter') send(); if (event.key === 'Escape') setText(''); }} />`;
+    onKeyDown=${(event) => { if (event.key === 'Enter') send(event.target); if (event.key === 'Escape') setText(''); }} />`;
 }
 
 export function Choice({ label, value, options, takes, disabled }) {
@@ -31,6 +50,23 @@ export function Choice({ label, value, options, takes, disabled }) {
       const [given, text] = Array.isArray(option) ? option : [option, option];
       return html`<option value=${given} selected=${given === value}>${text}</option>`;
     })}</select>`;
+}
+
+/// Under a hand it shows what the hand says, not what the bench has said last.
+export function Slider({ label, lowest, highest, value, takes, disabled }) {
+  const [dragged, setDragged] = useState(null);
+  const kept = useRef({});
+  const drag = (event) => {
+    const to = Number(event.target.value);
+    setDragged(to);
+    clearTimeout(kept.current.release);
+    kept.current.release = setTimeout(() => setDragged(null), 400);
+    kept.current.take ??= latest((number) => kept.current.takes(number));
+    kept.current.take(to);
+  };
+  kept.current.takes = takes;
+  return html`<input type="range" min=${lowest} max=${highest} value=${dragged ?? value ?? lowest} aria-label=${label}
+    disabled=${disabled} onInput=${drag} />`;
 }
 
 export function Lamp({ on, says }) {

@@ -1,5 +1,6 @@
 // What the page knows of the bench that it shows. Panels read it; nothing but this file writes what the server told.
 import { Wire } from './wire.js';
+import { hear } from './heard.js';
 
 const kMostFrames = 1000;
 const kMostEvents = 500;
@@ -21,7 +22,7 @@ export const store = {
   status: null,
   look: null,       // time_ns, paused, speed, advancing
   changes: {},      // by name: when it changed last, and by whom
-  heard: new Set(), // names that the host has spoken of
+  heard: new Map(), // by device: what its hosts have spoken of (heard.js)
   said: null,       // the last thing that went wrong: { text, at }
   timeline: null,   // of a recording: { begin_ns, end_ns, marks }
 };
@@ -92,14 +93,9 @@ function take(look) {
     store.values[name] = value;
   }
   for (const event of look.events ?? []) {
-    if (event.what === 'write' && event.name) {
-      store.changes[`${event.device}.${event.name}`] = { at: now, by: event.by };
-      if (event.by === 'host') store.heard.add(`${event.device}.${event.name}`);
-    }
+    if (event.what === 'write' && event.name) store.changes[event.name] = { at: now, by: event.by };
   }
-  for (const frame of look.frames ?? []) {
-    for (const name of frame.text.matchAll(/[A-Za-z_][\w-]*\.[A-Za-z_][\w.]*/g)) store.heard.add(name[0]);
-  }
+  for (const frame of look.frames ?? []) hear(store.heard, store.bench, frame);
   store.frames = store.frames.concat(look.frames ?? []).slice(-kMostFrames);
   store.events = store.events.concat(look.events ?? []).slice(-kMostEvents);
   store.framesLost += look.frames_lost ?? 0;
@@ -121,7 +117,7 @@ export function show(number) {
 
 function forget() {
   Object.assign(store, { bench: null, devices: {}, values: {}, frames: [], events: [], status: null, look: null,
-                         changes: {}, framesLost: 0, heard: new Set(), timeline: null });
+                         changes: {}, framesLost: 0, heard: new Map(), timeline: null });
 }
 
 /// A recording has a timeline; a bench that runs refuses the question.
@@ -174,9 +170,12 @@ export const askQuietly = (message) => wire.ask(store.number, message);
 
 export const isReadOnly = () => store.hello?.read_only ?? false;
 export const valueOf = (name) => store.values[name];
-/// 'host', 'page', 'control', 'device' for a moment after a change; '' otherwise.
-export function flashOf(name) {
+/// Whether a device runs a program of its own.
+export const runsProgram = (device) => store.status?.devices.find((it) => it.name === device)?.runs ?? false;
+/// 'host', 'page', 'control', 'program', 'device' for a moment after a change; '' otherwise. What changes without an event
+/// was changed by its device: by its program, if one runs and programs may write it.
+export function flashOf(name, device, isWritable) {
   const change = store.changes[name];
   if (!change || performance.now() - change.at > kFlash_ms) return '';
-  return change.by || 'device';
+  return change.by || (isWritable && runsProgram(device) ? 'program' : 'device');
 }

@@ -152,7 +152,12 @@ void Performance::perform(const WriteStep& step) {
         demand(reply, {}, "read " + targets[entry].name + place.on_line + " to write it");
         present = reply.words;
       }
-      const auto part = words_with(targets[entry], values[entry], low_word_first[entry], present);
+      // The order of words may be what an earlier request of this step has changed.
+      bool is_low_first = low_word_first[entry];
+      stage_->with_world([&](world::World& world) {
+        is_low_first = world.device(targets[entry].device).register_bank()->low_word_first();
+      });
+      const auto part = words_with(targets[entry], values[entry], is_low_first, present);
       brought.insert(brought.end(), part.begin(), part.end());
     }
     if (step.answer.silence) {

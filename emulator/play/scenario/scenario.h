@@ -159,6 +159,7 @@ struct ProgramStep {
   std::string text;
   std::string file;                      // for messages
   std::optional<std::string> refused{};  // it must be; what is said of it has this in it
+  bool asks = true;                      // whether it is taken; else either will do
 };
 
 /// memory: { feeder: after.json }: the device's non-volatile memory must be what the file says; save: writes

@@ -40,7 +40,9 @@ char letter_of(pty::Parity parity) {
   switch (parity) {
     case pty::Parity::odd: return 'O';
     case pty::Parity::even: return 'E';
-    case pty::Parity::none: break;
+    case pty::Parity::none:
+    case pty::Parity::mark:  // these two no device has
+    case pty::Parity::space: break;
   }
   return 'N';
 }

@@ -101,8 +101,9 @@ RealStage::RealStage(serve::Daemon& daemon, RealStageOptions options) : daemon_(
   });
   for (std::size_t i = 0; options_.has_hosts && i < lines_.size(); ++i) {
     const SimTime silence = has_silences[i] ? silence_between_frames(lines_[i].settings) : SimTime{0};
-    hosts_.push_back(std::make_unique<LibmodbusHost>(
-        daemon_.ports()[i]->terminal().path(), lines_[i].settings, options_.timeout, silence + options_.gap));
+    hosts_.push_back(std::make_unique<LibmodbusHost>(daemon_.ports()[i]->terminal()->path(),
+                                                     lines_[i].settings, options_.timeout,
+                                                     silence + options_.gap));
   }
   with_world([this](world::World& world) { writes_ = std::make_unique<WriteClock>(world); });
 }
@@ -279,7 +280,11 @@ SimTime RealStage::time_to_send(std::size_t line, const std::string& text) const
 
 std::unique_ptr<Stage> make_real_stage(const Scenario& scenario) {
   world::Bench bench = scenario.bench;
-  for (world::LineSetup& line : bench.lines) line.link.clear();
+  for (world::LineSetup& line : bench.lines) {
+    line.link.clear();  // other runs may be at it
+    line.tcp.clear();
+    line.has_pty = true;
+  }
   for (world::DeviceSetup& device : bench.devices) device.nv_path.clear();
   serve::DaemonOptions options;
   options.watch_signals = false;

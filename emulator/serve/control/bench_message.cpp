@@ -120,9 +120,9 @@ void add_functions(Json& terminals, const Model& model, const world::World& worl
 Json sections_of(const Model& model) {
   Json sections = Json::array();
   std::string_view last = "\n";
-  const auto count = [&](std::string_view section) {
+  const auto count = [&](std::string_view section, int registers) {
     if (section == last) {
-      sections.back()["rows"] = sections.back()["rows"].get<int>() + 1;
+      sections.back()["rows"] = sections.back()["rows"].get<int>() + registers;
       return;
     }
     last = section;
@@ -130,14 +130,32 @@ Json sections_of(const Model& model) {
     for (const SectionRow& row : model.sections) {
       if (row.name == section) english = row.in_english;
     }
-    sections.push_back({{"number", sections.size()}, {"name", section}, {"english", english}, {"rows", 1}});
+    sections.push_back(
+        {{"number", sections.size()}, {"name", section}, {"english", english}, {"rows", registers}});
   };
-  for (const RegisterRow& row : register_rows(model)) count(row.section);
+  for (const RegisterRow& row : register_rows(model)) count(row.section, row.count);
   if (register_rows(model).empty() && !model.named_parameters.empty()) {
     sections.push_back(
         {{"number", 0}, {"name", ""}, {"english", "parameters"}, {"rows", model.named_parameters.size()}});
   }
   return sections;
+}
+
+Json controls_of(const ProgramLanguage& language) {
+  using By = ProgramControl::By;
+  Json controls = Json::array();
+  for (const ProgramControl& control : language.controls()) {
+    const char* const by = control.by == By::registers ? "set"
+                           : control.by == By::command ? "command"
+                                                       : "text";
+    Json entry{{"word", control.word}, {by, control.what}};
+    if (control.highest != 0) {
+      entry["lowest"] = control.lowest;
+      entry["highest"] = control.highest;
+    }
+    controls.push_back(std::move(entry));
+  }
+  return controls;
 }
 
 Json device_of(const Daemon& daemon, std::size_t number) {
@@ -180,8 +198,9 @@ Json device_of(const Daemon& daemon, std::size_t number) {
                {"commands", !model.commands.empty() || model.window != nullptr}};
   for (const std::string_view name : model.state_registers) details["state_registers"].push_back(name);
   if (model.language != nullptr) {
-    details["program"] =
-        Json{{"language", model.language->name()}, {"file_ending", model.language->file_ending()}};
+    details["program"] = Json{{"language", model.language->name()},
+                              {"file_ending", model.language->file_ending()},
+                              {"controls", controls_of(*model.language)}};
   }
   details["gaps"] = Json::array();
   for (const std::string_view gap : model.gaps) details["gaps"].push_back(gap);
@@ -206,8 +225,9 @@ Json bench_message(Daemon& daemon, const Json& message) {
       stations.push_back(std::move(entry));
     }
     lines.push_back({{"name", line.line.name()},
-                     {"pty", port->terminal().path()},
-                     {"link", port->terminal().link_path()},
+                     {"pty", port->terminal() != nullptr ? port->terminal()->path() : port->place()},
+                     {"link", port->place()},
+                     {"tcp", port->tcp_places()},
                      {"settings", pty::to_string(line.line.options().settings)},
                      {"timing", line.line.options().timing == pty::Timing::wire ? "wire" : "instant"},
                      {"protocol", line.speech.protocol().name},

@@ -81,18 +81,44 @@ bool names_word(std::string_view text, std::string_view word) {
   return false;
 }
 
+/// "X20", of a parameter with a letter; empty if it has none.
+std::string parameter_name(const ParameterRow& parameter, int index) {
+  if (parameter.letter.empty()) return {};
+  return std::string(parameter.letter) +
+         std::to_string(parameter.first + (parameter.of_each_axis ? 0 : index));
+}
+
+/// What choices call it: its name, and its number as a parameter. Where a name is a parameter's as well, the
+/// choices mean that.
+std::vector<std::string> names_in_choices(const Model& model, const RegisterRow& row, int index) {
+  std::vector<std::string> names;
+  bool is_of_parameter = false;
+  const std::string plain = RegisterMap::name_of(row, index);
+  for (const ParameterRow& parameter : model.parameters) {
+    for (int i = 0; i < (parameter.of_each_axis ? 1 : parameter.count); ++i)
+      is_of_parameter = is_of_parameter || parameter_name(parameter, i) == plain;
+    if (parameter.register_name == row.name && !parameter.letter.empty())
+      names.push_back(parameter_name(parameter, index));
+  }
+  if (!is_of_parameter) names.push_back(plain);
+  return names;
+}
+
 /// Those that name it.
-Json choices_about(const Model& model, std::string_view name) {
+Json choices_about(const Model& model, const RegisterRow& register_row, int index) {
+  const std::vector<std::string> names = names_in_choices(model, register_row, index);
   Json ids = Json::array();
   for (const ChoiceRow& row : model.choices) {
-    if (names_word(row.question, name) || names_word(row.why, name)) ids.push_back(row.id);
+    const bool is_named = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return names_word(row.question, name) || names_word(row.why, name);
+    });
+    if (is_named) ids.push_back(row.id);
   }
   return ids;
 }
 
 Json json_of_row(const Device& device, const RegisterRow& row, int index, int section) {
   const RegisterBank& bank = *device.register_bank();
-  const std::string plain = RegisterMap::name_of(row, index);
   Json entry{{"name", bank.map().unique_name(row, index)},
              {"table", to_string(row.table)},
              {"address", hex4(static_cast<unsigned>(row.address + index * row.stride))},
@@ -114,7 +140,8 @@ Json json_of_row(const Device& device, const RegisterRow& row, int index, int se
   }
   if (!row.unmodelled.empty()) entry["not_modelled"] = row.unmodelled;
   if (row.message != nullptr) entry["window"] = true;
-  if (Json about = choices_about(device.model(), plain); !about.empty()) entry["choices"] = std::move(about);
+  if (Json about = choices_about(device.model(), row, index); !about.empty())
+    entry["choices"] = std::move(about);
   return entry;
 }
 

@@ -145,6 +145,7 @@ Json send_message(Daemon& daemon, const Json& message) {
       throw MessageError("text: expected 1 to " + std::to_string(kMostBytes) + " bytes, without \"bytes\"");
     }
     bytes.assign(text.begin(), text.end());
+    if (line.speech.carries_text() && text.back() != '\r' && text.back() != '\n') bytes.push_back('\r');
   } else {
     const auto parsed = bytes_of(demand_text(message, "bytes"));
     if (!parsed) throw MessageError("bytes: expected hexadecimal digits, such as \"01 03 00 00 00 01\"");

@@ -1,15 +1,19 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/simulated_time.h"
 #include "base/version.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
@@ -17,6 +21,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/terminals.h"
+#include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
@@ -37,13 +42,18 @@ double microseconds(WallTime time) { return static_cast<double>(time.count()) / 
 Json line_status(const Daemon& daemon, const Port& port) {
   const world::WorldLine& line = daemon.world().line(port.line_number());
   const pty::LineCounters& counters = line.line.counters();
+  const pty::PseudoTerminal* const terminal = port.terminal();
   Json status{{"name", line.line.name()},
-              {"pty", port.terminal().path()},
-              {"link", port.terminal().link_path()},
+              {"pty", terminal != nullptr ? terminal->path() : port.place()},
+              {"link", port.place()},
+              {"tcp", port.tcp_places()},
               {"settings", pty::to_string(line.line.options().settings)},
               {"timing", line.line.options().timing == pty::Timing::wire ? "wire" : "instant"},
               {"host", port.host_present() ? "open" : "closed"}};
-  if (port.host_present() && port.host_settings()) status["host_baud"] = port.host_settings()->baud;
+  if (const auto host = port.host_settings(); port.host_present() && host) {
+    status["host_baud"] = host->baud;
+    status["host_settings"] = pty::to_string(*host);
+  }
   status["bytes_in"] = counters.bytes_in;
   status["bytes_out"] = counters.bytes_out;
   status["bytes_unheard"] = counters.bytes_unheard;
@@ -80,11 +90,22 @@ Json telling_registers(const Device& device) {
   return values;
 }
 
+bool runs_program(const Device& device) {
+  using State = ProgramPlace::State;
+  if (!device.powered() || device.user_program() == nullptr) return false;
+  const std::vector<ProgramPlace> places = device.user_program()->places();
+  return std::any_of(places.begin(), places.end(), [](const ProgramPlace& place) {
+    return place.state == State::running || place.state == State::waiting;
+  });
+}
+
 Json device_status(const world::World& world, std::size_t number) {
   const Device& device = world.device(number);
   Json status{
       {"name", device.name()}, {"model", device.model().name}, {"firmware", version_text(device.firmware())}};
   status["power"] = device.powered() ? "on" : "off";
+  status["runs"] = runs_program(device);
+  if (device.memory() != nullptr) status["kept_writes"] = device.memory()->kept_revision();
   const Axes* const axes = device.axes();
   if (axes != nullptr && !axes->pulse_format().empty()) status["pulse_format"] = axes->pulse_format();
   if (device.powered()) status["registers"] = telling_registers(device);
@@ -148,10 +169,14 @@ Json identify_message(Daemon& daemon, const Json& message) {
   demand_keys(message, {"do"});
   Json lines = Json::array();
   for (const auto& port : daemon.ports()) {
-    const std::string& link = port->terminal().link_path();
+    const pty::PseudoTerminal* const terminal = port->terminal();
+    const std::string link = terminal != nullptr
+                                 ? std::filesystem::absolute(port->place()).lexically_normal().string()
+                                 : port->place();
     lines.push_back({{"name", daemon.world().line(port->line_number()).line.name()},
-                     {"pty", port->terminal().path()},
-                     {"link", std::filesystem::absolute(link).lexically_normal().string()}});
+                     {"pty", terminal != nullptr ? terminal->path() : link},
+                     {"link", link},
+                     {"tcp", port->tcp_places()}});
   }
   return Json{{"ok", true},
               {"daemon",

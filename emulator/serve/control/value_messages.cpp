@@ -204,6 +204,7 @@ Json set_message(Daemon& daemon, const Json& message) {
   demand_possible(world, values);
   std::vector<world::RegisterName> places;
   std::vector<PreparedWrite> writes(wanted.size());
+  std::vector<bool> low_first;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const std::string& name = wanted[i].name;
     const world::RegisterName place = world::find_register(world.known(), name);
@@ -215,11 +216,18 @@ Json set_message(Daemon& daemon, const Json& message) {
     }
     places.push_back(place);
     demand_power(world.device(place.device));
-    const Refusal refusal = prepare_value(*world.device(place.device).register_bank(), place.place,
-                                          value_for(place, wanted[i]), writes[i]);
+    const RegisterBank& bank = *world.device(place.device).register_bank();
+    low_first.push_back(bank.low_word_first());
+    const Refusal refusal = prepare_value(bank, place.place, value_for(place, wanted[i]), writes[i]);
     demand_accepted(refusal, name, wanted[i].number.dump(), *place.place.place.row);
   }
   for (std::size_t i = 0; i < writes.size(); ++i) {
+    // The order of words may be what has just been written.
+    const RegisterBank& bank = *world.device(places[i].device).register_bank();
+    if (bank.low_word_first() != low_first[i]) {
+      demand_accepted(prepare_value(bank, places[i].place, value_for(places[i], wanted[i]), writes[i]),
+                      wanted[i].name, wanted[i].number.dump(), *places[i].place.place.row);
+    }
     if (world.write(places[i].device, writes[i]) == Refusal::none) continue;
     throw MessageError(wanted[i].name + " was not written: " +
                        (i == 0 ? "the device" : "after what was named before it the device") +

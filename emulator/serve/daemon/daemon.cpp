@@ -30,6 +30,7 @@
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/pacer.h"
 #include "emulator/serve/ports/port.h"
+#include "emulator/serve/ports/tcp_door.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench/bench_text.h"
 #include "emulator/world/recording/recording.h"
@@ -87,6 +88,7 @@ Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
   if (options.watch_signals) watch_signals();
   watch_posts();
   make_ports(bench);
+  make_doors(bench);
   if (options.door) door_ = options.door(*this, log_);
   memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
   // Last: a run that cannot start leaves the files of the one before alone.
@@ -96,6 +98,7 @@ Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
 Daemon::~Daemon() {
   helper_.reset();
   door_.reset();
+  doors_.clear();
   ports_.clear();
   memories_.reset();
   trace_.reset();
@@ -168,6 +171,11 @@ void Daemon::watch_signals() {
 
 void Daemon::make_ports(const world::Bench& bench) {
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
+    if (!bench.lines[i].has_pty) {
+      ports_.push_back(std::make_unique<Port>(
+          loop_, world_, i, Port::Link(), [this] { catch_up_for_bytes(); }, log_));
+      continue;
+    }
     std::string link = bench.lines[i].link;
     if (link.empty()) link = private_folder_.path() + "/" + bench.lines[i].name + ".port";
     try {
@@ -182,12 +190,22 @@ void Daemon::make_ports(const world::Bench& bench) {
   }
 }
 
+void Daemon::make_doors(const world::Bench& bench) {
+  for (std::size_t i = 0; i < bench.lines.size(); ++i) {
+    for (const world::TcpAddress& address : bench.lines[i].tcp) {
+      doors_.push_back(std::make_unique<TcpDoor>(loop_, *ports_[i], address, log_));
+      log_("line " + bench.lines[i].name + " listens at " + ports_[i]->tcp_places().back());
+    }
+  }
+}
+
 FileClaims Daemon::files() const {
   FileClaims files = files_;
   for (const auto& port : ports_) {
+    if (port->terminal() == nullptr) continue;
     const std::string line = "of line " + understudy::quoted(world_.line(port->line_number()).line.name());
-    files.add_place({port->terminal().link_path(), "the link " + line});
-    files.add_place({port->terminal().path(), "the port " + line});
+    files.add_place({port->terminal()->link_path(), "the link " + line});
+    files.add_place({port->terminal()->path(), "the port " + line});
   }
   files.add_place({control_path(), "the control socket"});
   return files;

@@ -18,6 +18,7 @@
 #include "emulator/serve/loop/pacer.h"
 #include "emulator/serve/ports/port.h"
 #include "emulator/serve/ports/private_folder.h"
+#include "emulator/serve/ports/tcp_door.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/frames/frame_log.h"
 #include "emulator/world/recording/recording_spool.h"
@@ -115,6 +116,7 @@ class Daemon {
   void watch_posts();
   void end_posts();
   void make_ports(const world::Bench& bench);
+  void make_doors(const world::Bench& bench);
   void open_files(const world::Bench& bench, const DaemonOptions& options);
   void judge_stall();
   void catch_up(WallTime longest);
@@ -142,6 +144,7 @@ class Daemon {
   Pacer pacer_;
   PrivateFolder private_folder_;  // for links that nobody asked for
   std::vector<std::unique_ptr<Port>> ports_;
+  std::vector<std::unique_ptr<TcpDoor>> doors_;
   std::unique_ptr<Door> door_;
   int signals_ = -1;
   int posted_signal_ = -1;  // an eventfd

@@ -22,7 +22,8 @@ namespace {
 
 std::uint32_t epoll_events(std::uint32_t interest) {
   return ((interest & EventLoop::readable) != 0 ? EPOLLIN : 0U) |
-         ((interest & EventLoop::writable) != 0 ? EPOLLOUT : 0U);
+         ((interest & EventLoop::writable) != 0 ? EPOLLOUT : 0U) |
+         ((interest & EventLoop::departed) != 0 ? EPOLLRDHUP : 0U);
 }
 
 }  // namespace
@@ -125,6 +126,7 @@ void EventLoop::call(int descriptor, std::uint32_t events) {
   std::uint32_t ready = 0;
   if ((events & (EPOLLIN | EPOLLHUP | EPOLLERR)) != 0) ready |= readable;
   if ((events & (EPOLLOUT | EPOLLERR)) != 0) ready |= writable;
+  if ((events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) ready |= departed;
   const auto function = it->second.ready;
   (*function)(ready);
 }

@@ -22,7 +22,8 @@ class EventLoop {
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
 
-  enum Readiness : std::uint32_t { readable = 1, writable = 2 };
+  /// `departed`: the other side of a socket has closed its sending half, or the connection is broken.
+  enum Readiness : std::uint32_t { readable = 1, writable = 2, departed = 4 };
   /// Of everything that is ready, what is `later` is called last, one after the other in turn, and for at
   /// most kLaterSlice: however many there are, the others are looked at again soon.
   enum class Rank : std::uint8_t { first, later };

@@ -18,6 +18,12 @@ constexpr std::size_t kHeader = 6;
 constexpr std::size_t kLeastLength = 2;
 constexpr std::size_t kMostLength = 254;
 
+constexpr std::size_t kLongestFrame = kMostLength + 2;  // with its checksum
+
+// So long a station may take to answer, and a broadcast to be obeyed.
+constexpr int kReplyPatience_ms = 1000;
+constexpr int kAfterBroadcast_ms = 100;
+
 constexpr std::uint8_t kException = 0x80;
 constexpr std::uint8_t kTargetDoesNotRespond = 0x0B;
 constexpr std::size_t kExceptionFrame = 5;  // also the shortest reply
@@ -58,8 +64,13 @@ bool ModbusTcp::hear_client(std::span<const std::uint8_t> bytes) {
   return false;
 }
 
-ModbusTcp::Bytes ModbusTcp::take_for_line() {
-  while (!on_line_ && to_client_.empty() && is_whole(heard_)) {
+std::optional<int> ModbusTcp::patience_ms() const {
+  if (!on_line_) return std::nullopt;
+  return is_broadcast() ? kAfterBroadcast_ms : kReplyPatience_ms;
+}
+
+ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
+  while (room >= kLongestFrame && !on_line_ && to_client_.empty() && is_whole(heard_)) {
     const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(kHeader + word_at(heard_, 4));
     const bool is_modbus = word_at(heard_, 2) == 0;
     Bytes frame(heard_.begin() + kHeader, end);

@@ -7,31 +7,30 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
+
+#include "emulator/serve/ports/tcp_speech.h"
 
 namespace understudy::emulator::serve {
 
-class ModbusTcp {
+class ModbusTcp final : public TcpSpeech {
  public:
-  using Bytes = std::vector<std::uint8_t>;
-
   /// False: they tell of a length that no request has, so where the next begins is not known.
-  [[nodiscard]] bool hear_client(std::span<const std::uint8_t> bytes);
-  void hear_line(std::span<const std::uint8_t> bytes);
+  [[nodiscard]] bool hear_client(std::span<const std::uint8_t> bytes) override;
+  void hear_line(std::span<const std::uint8_t> bytes) override;
+  std::optional<int> patience_ms() const override;
   /// The time for the reply is over: the client is told that the station does not answer, but for a
   /// broadcast.
-  void give_up();
+  void give_up() override;
 
   /// The next request as an RTU frame, with its checksum. Empty if there is none, while another is on the
   /// line, and until the last answer is taken: a client that takes none gets no further requests through.
-  Bytes take_for_line();
-  Bytes take_for_client();
+  Bytes take_for_line(std::size_t room) override;
+  Bytes take_for_client() override;
 
   /// Whether a request is on the line; `is_broadcast`: nobody answers it, but for a station with number 0.
   bool waits() const { return on_line_.has_value(); }
   bool is_broadcast() const { return on_line_ && on_line_->unit == 0; }
-  /// Whether it wants to hear more of the client.
-  bool has_room() const { return heard_.size() < kMostHeard; }
+  bool has_room() const override { return heard_.size() < kMostHeard; }
 
  private:
   static constexpr std::size_t kMostHeard = 4096;

@@ -60,24 +60,25 @@ class Port::Overflow final : public pty::LineObserver {
   Port& port_;
 };
 
-Port::Port(EventLoop& loop, world::World& world, std::size_t line_number, const std::string& link_path,
+Port::Port(EventLoop& loop, world::World& world, std::size_t line_number, const Link& link,
            std::function<void()> catch_up, std::function<void(const std::string&)> log)
     : loop_(loop),
       world_(world),
       line_number_(line_number),
       catch_up_(std::move(catch_up)),
       log_(std::move(log)),
-      terminal_(link_path),
       overflow_(std::make_unique<Overflow>(*this)) {
+  if (!link) return;
+  terminal_.emplace(*link);
   watch();
 }
 
 void Port::watch() {
-  loop_.watch(terminal_.presence_descriptor(), EventLoop::readable, [this](std::uint32_t) {
+  loop_.watch(terminal_->presence_descriptor(), EventLoop::readable, [this](std::uint32_t) {
     on_presence({});
     keep_watch();
   });
-  loop_.watch(terminal_.data_descriptor(), EventLoop::readable, [this](std::uint32_t ready) {
+  loop_.watch(terminal_->data_descriptor(), EventLoop::readable, [this](std::uint32_t ready) {
     on_data(ready);
     keep_watch();
   });
@@ -86,43 +87,45 @@ void Port::watch() {
 
 /// A lost terminal would tell of its hang-up without end.
 void Port::keep_watch() {
-  if (!terminal_.is_lost()) {
+  if (!terminal_->is_lost()) {
     if (!is_watching_) watch();
     return;
   }
   if (is_watching_) {
-    loop_.unwatch(terminal_.data_descriptor());
-    loop_.unwatch(terminal_.presence_descriptor());
+    loop_.unwatch(terminal_->data_descriptor());
+    loop_.unwatch(terminal_->presence_descriptor());
     is_watching_ = false;
   }
-  const std::string path_before = terminal_.path();
-  if (!terminal_.recover()) {
+  const std::string path_before = terminal_->path();
+  if (!terminal_->recover()) {
     next_recovery_ = wall_now() + kRecovery;
     return;
   }
   next_recovery_ = WallTime{0};
   watch();
-  if (terminal_.path() != path_before) {
+  if (terminal_->path() != path_before) {
     log_("line " + line().name() + ": a host that has gone left " + path_before +
-         " claimed (TIOCEXCL), so nobody can open it; the port is " + terminal_.path() + " now");
+         " claimed (TIOCEXCL), so nobody can open it; the port is " + terminal_->path() + " now");
   }
 }
 
 Port::~Port() {
-  loop_.unwatch(terminal_.data_descriptor());
-  loop_.unwatch(terminal_.presence_descriptor());
+  if (!terminal_) return;
+  loop_.unwatch(terminal_->data_descriptor());
+  loop_.unwatch(terminal_->presence_descriptor());
 }
 
 /// Tells the line who came and went; `bytes` were read just before.
 void Port::on_presence(std::span<const std::uint8_t> bytes) {
-  const pty::PseudoTerminal::Presence presence = terminal_.poll_presence();
+  if (guest_ != nullptr) return ignore_terminal();
+  const pty::PseudoTerminal::Presence presence = terminal_->poll_presence();
   if (!presence.opened && !presence.closed) return receive(bytes);
   catch_up_();
   // Both at once: one went and another came, or one came and has gone again.
-  if (presence.closed && terminal_.host_present()) world_.host_closed(line_number_);
+  if (presence.closed && terminal_->host_present()) world_.host_closed(line_number_);
   if (presence.opened) world_.host_opened(line_number_);
-  if (presence.closed && !terminal_.host_present()) {
-    world_.host_settings(line_number_, terminal_.poll_host_settings());
+  if (presence.closed && !terminal_->host_present()) {
+    world_.host_settings(line_number_, terminal_->poll_host_settings());
     world_.host_closed(line_number_);
     leave_behind(bytes);
     keep_what_was_left_behind();
@@ -134,9 +137,9 @@ void Port::on_presence(std::span<const std::uint8_t> bytes) {
 /// What a host has written before it closed is still served, but must not be taken for the next one's.
 void Port::keep_what_was_left_behind() {
   std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
-  while (!terminal_.host_present()) {
-    const std::size_t count = terminal_.read(bytes);
-    if (terminal_.host_present()) {
+  while (!terminal_->host_present()) {
+    const std::size_t count = terminal_->read(bytes);
+    if (terminal_->host_present()) {
       // The next host came while we read: these may be its bytes, and it must get its reply. Where they
       // have to wait behind what was left they are served in their order, without one.
       pass_on_what_was_left_behind();
@@ -167,12 +170,24 @@ void Port::pass_on_what_was_left_behind() {
   }
 }
 
+/// A guest has the line: what others write to the pseudo-terminal goes nowhere.
+void Port::ignore_terminal() {
+  if (terminal_->poll_presence().opened)
+    log_("line " + line().name() + ": a host has opened " + terminal_->path() +
+         ", but a client on TCP has the line; it is not heard until that one goes");
+  std::array<std::uint8_t, pty::Line::kInputCapacity> ignored;
+  constexpr int kMostReadings = 32;  // all that the kernel holds
+  for (int i = 0; i < kMostReadings && terminal_->read(ignored) > 0; ++i) {
+  }
+}
+
 void Port::on_data(std::uint32_t ready) {
-  if (!terminal_.holds_slave()) on_presence({});  // perhaps it is a hang-up that we are told of
+  if (guest_ != nullptr) return ignore_terminal();
+  if (!terminal_->holds_slave()) on_presence({});  // perhaps it is a hang-up that we are told of
   if ((ready & EventLoop::readable) != 0 && left_behind_.empty()) {
     std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
-    const std::size_t count = terminal_.read(std::span(bytes).first(line().room()));
-    if (terminal_.has_presence_news()) {
+    const std::size_t count = terminal_->read(std::span(bytes).first(line().room()));
+    if (terminal_->has_presence_news()) {
       on_presence(std::span(bytes).first(count));
     } else {
       receive(std::span(bytes).first(count));
@@ -184,7 +199,11 @@ void Port::on_data(std::uint32_t ready) {
 void Port::receive(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return;
   catch_up_();
-  if (terminal_.host_present()) world_.host_settings(line_number_, terminal_.poll_host_settings());
+  take_in(bytes, terminal_->poll_host_settings());
+}
+
+void Port::take_in(std::span<const std::uint8_t> bytes, const std::optional<pty::HostSettings>& settings) {
+  if (host_present()) world_.host_settings(line_number_, settings);
   world_.receive(line_number_, bytes);
   world_.advance_to(world_.now());
   last_bytes_ = wall_now();
@@ -192,7 +211,7 @@ void Port::receive(std::span<const std::uint8_t> bytes) {
 
 std::optional<WallTime> Port::next_look(bool clock_stands) {
   if (next_recovery_ > WallTime{0}) return next_recovery_;
-  if (!terminal_.is_in_doubt()) {
+  if (!terminal_ || !terminal_->is_in_doubt()) {
     second_look_ = WallTime{0};
   } else {
     if (second_look_ == WallTime{0}) second_look_ = wall_now() + kSecondLook;
@@ -217,22 +236,25 @@ void Port::look(WallTime now, bool clock_stands) {
 }
 
 void Port::world_restored() {
-  if (line().is_host_open() != terminal_.host_present()) {
-    if (terminal_.host_present()) {
+  if (line().is_host_open() != host_present()) {
+    if (host_present()) {
       world_.host_opened(line_number_);
     } else {
       world_.host_closed(line_number_);
     }
   }
-  world_.host_settings(line_number_, terminal_.poll_host_settings());
+  world_.host_settings(line_number_, host_settings());
   last_bytes_ = wall_now();  // of a frame that is half heard
   flush();
 }
 
 void Port::hand_over() {
   while (!line().output().empty()) {
-    const std::size_t taken = terminal_.write(line().output());
-    if (taken == 0) break;  // nobody reads
+    const std::span<const std::uint8_t> said = line().output();
+    const std::size_t taken = guest_ != nullptr ? guest_->take(said)
+                              : terminal_       ? terminal_->write(said)
+                                                : said.size();  // nobody is there to read it
+    if (taken == 0) break;                                // nobody reads
     world_.take_output(line_number_, taken);
     last_taken_ = wall_now();
   }
@@ -255,10 +277,60 @@ std::optional<SimTime> Port::time_until_full() const {
 void Port::flush() {
   if (!left_behind_.empty()) pass_on_what_was_left_behind();
   hand_over();
-  is_listening_ = line().room() > 0 && left_behind_.empty();
+  is_listening_ = room() > 0;
+  if (guest_ != nullptr) return guest_->follow();
+  if (!terminal_) return;
   const std::uint32_t interest =
       (is_listening_ ? EventLoop::readable : 0U) | (line().output().empty() ? 0U : EventLoop::writable);
-  loop_.change_interest(terminal_.data_descriptor(), interest);
+  loop_.change_interest(terminal_->data_descriptor(), interest);
+}
+
+// --- guests --------------------------------------------------------------------------------------
+
+bool Port::admit(Guest& guest) {
+  if (terminal_ && is_watching_) on_presence({});  // it may have been opened just now
+  if (host_present()) return false;
+  catch_up_();
+  guest_ = &guest;
+  guest_settings_.reset();
+  if (terminal_ && is_watching_) loop_.change_interest(terminal_->data_descriptor(), EventLoop::readable);
+  world_.host_opened(line_number_);
+  return true;
+}
+
+void Port::leave(std::span<const std::uint8_t> last) {
+  if (terminal_ && is_watching_) ignore_terminal();
+  catch_up_();
+  guest_ = nullptr;
+  world_.host_closed(line_number_);
+  leave_behind(last);
+  if (terminal_ && terminal_->host_present()) world_.host_opened(line_number_);
+  flush();
+}
+
+void Port::hear(std::span<const std::uint8_t> bytes, const pty::HostSettings& settings) {
+  catch_up_();
+  guest_settings_ = settings;
+  take_in(bytes, guest_settings_);
+  flush();
+}
+
+void Port::take_back() {
+  catch_up_();
+  world_.host_purged(line_number_);
+}
+
+void Port::throw_away() {
+  catch_up_();
+  world_.take_output(line_number_, line().output().size());
+}
+
+std::optional<pty::HostSettings> Port::host_settings() const {
+  return guest_ != nullptr ? guest_settings_ : terminal_ ? terminal_->poll_host_settings() : std::nullopt;
+}
+
+std::string Port::place() const {
+  return terminal_ ? terminal_->link_path() : tcp_places_.empty() ? "" : tcp_places_.front();
 }
 
 }  // namespace understudy::emulator::serve

@@ -1,9 +1,11 @@
-// A port: one line of the world joined to one pseudo-terminal. Only bytes cross here; what happens at this
-// edge (a slow host, a full buffer) never reaches into the model.
+// A port: one line of the world joined to its host, which has opened a pseudo-terminal or is a guest from
+// elsewhere. Only bytes cross here; what happens at this edge (a slow host, a full buffer) never reaches into
+// the model.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,9 +18,11 @@ namespace understudy::emulator::serve {
 
 class Port {
  public:
+  /// The link to its pseudo-terminal; nothing: it has none, and guests only.
+  using Link = std::optional<std::string>;
   /// `catch_up` brings the world to the present moment; `log` gets what the user should know. Throws
   /// pty::PortError.
-  Port(EventLoop& loop, world::World& world, std::size_t line_number, const std::string& link_path,
+  Port(EventLoop& loop, world::World& world, std::size_t line_number, const Link& link,
        std::function<void()> catch_up, std::function<void(const std::string&)> log);
   ~Port();
   Port(const Port&) = delete;
@@ -40,14 +44,41 @@ class Port {
   /// is dropped.
   void world_restored();
 
-  const pty::PseudoTerminal& terminal() const { return terminal_; }
+  /// A host that comes by another way than the pseudo-terminal. What it sends is hear()d.
+  class Guest {
+   public:
+    virtual ~Guest() = default;
+    /// What the line says next. Returns how much of it was taken.
+    virtual std::size_t take(std::span<const std::uint8_t> bytes) = 0;
+    /// The line may have room again.
+    virtual void follow() = 0;
+  };
+  /// False: the line has a host. Who opens the pseudo-terminal later is not heard until the guest leaves.
+  bool admit(Guest& guest);
+  /// Its last bytes are still served.
+  void leave(std::span<const std::uint8_t> last);
+  /// At most room() bytes.
+  void hear(std::span<const std::uint8_t> bytes, const pty::HostSettings& settings);
+  /// It takes back what is not on the wire yet.
+  void take_back();
+  /// It does not want what it has not taken yet.
+  void throw_away();
+  std::size_t room() const { return left_behind_.empty() ? line().room() : 0; }
+  const pty::Line& line() const { return world_.line(line_number_).line; }
+
+  /// Null: it has none.
+  const pty::PseudoTerminal* terminal() const { return terminal_ ? &*terminal_ : nullptr; }
+  /// What a host opens: the link's path, or where it is reached by TCP if there is no pseudo-terminal.
+  std::string place() const;
   std::size_t line_number() const { return line_number_; }
-  bool host_present() const { return terminal_.host_present(); }
-  std::optional<pty::HostSettings> host_settings() const { return terminal_.poll_host_settings(); }
+  bool host_present() const { return guest_ != nullptr || (terminal_ && terminal_->host_present()); }
+  std::optional<pty::HostSettings> host_settings() const;
+  /// Where it is reached by TCP, as a user writes it.
+  const std::vector<std::string>& tcp_places() const { return tcp_places_; }
+  void add_tcp_place(const std::string& place) { tcp_places_.push_back(place); }
 
  private:
   class Overflow;
-  const pty::Line& line() const { return world_.line(line_number_).line; }
   void hand_over();
   void on_data(std::uint32_t ready);
   void watch();
@@ -57,13 +88,18 @@ class Port {
   void leave_behind(std::span<const std::uint8_t> bytes);
   void pass_on_what_was_left_behind();
   void receive(std::span<const std::uint8_t> bytes);
+  void take_in(std::span<const std::uint8_t> bytes, const std::optional<pty::HostSettings>& settings);
+  void ignore_terminal();
 
   EventLoop& loop_;
   world::World& world_;
   std::size_t line_number_;
   std::function<void()> catch_up_;
   std::function<void(const std::string&)> log_;
-  pty::PseudoTerminal terminal_;
+  std::optional<pty::PseudoTerminal> terminal_;
+  Guest* guest_ = nullptr;  // has the line instead
+  std::optional<pty::HostSettings> guest_settings_;
+  std::vector<std::string> tcp_places_;
   std::vector<std::uint8_t> left_behind_;  // by hosts that have closed; at most kLeftBehindCapacity
   WallTime second_look_{0};                // when to check again whether the host has gone; 0: no need
   bool is_watching_ = false;               // the terminal's descriptors

@@ -11,6 +11,7 @@
 
 #include "base/files/file_claims.h"
 #include "emulator/device/model.h"
+#include "emulator/world/bench/listening.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/plant/plant.h"
 #include "pty/line.h"
@@ -28,8 +29,10 @@ struct StationSetup {
 
 struct LineSetup {
   std::string name;
-  std::string link;  // path of the link to its pty; empty: none
-  int baud = 0;      // 0: the first station's factory speed
+  std::string link;               // path of the link to its pty; empty: none
+  bool has_pty = true;            // else hosts come by TCP only
+  std::vector<TcpAddress> tcp{};  // where it listens as well
+  int baud = 0;                   // 0: the first station's factory speed
   pty::Timing timing = pty::Timing::wire;
   std::int64_t baud_tolerance_ppm = pty::kUsualBaudTolerancePpm;  // of a host's speed
   std::vector<StationSetup> stations;                             // in the order written

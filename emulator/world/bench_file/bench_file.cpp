@@ -120,6 +120,12 @@ class BenchReader {
       if (const auto link = fields.find("link")) line.link = read_link(*link, links_, bench_.lines);
     });
     all_.attempt([&] {
+      if (const auto listen = fields.find("listen")) line.tcp = read_listen(*listen, bench_.lines);
+    });
+    all_.attempt([&] {
+      if (const auto pty = fields.find("pty")) line.has_pty = pty->on_or_off();
+    });
+    all_.attempt([&] {
       if (const auto baud = fields.find("baud")) line.baud = static_cast<int>(baud->integer(kBaudForm));
     });
     all_.attempt([&] {
@@ -136,6 +142,7 @@ class BenchReader {
     for (const YamlFields& station : stations) {
       all_.attempt([&] { read_station(station, line, numbered); });
     }
+    all_.attempt([&] { demand_ports(fields, line, bench_); });
     bench_.lines.push_back(std::move(line));
   }
 

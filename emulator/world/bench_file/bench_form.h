@@ -63,8 +63,15 @@ inline constexpr Form kStationsForm = list_form(kAnyStationForm);
 inline constexpr Form kBaudForm = integer_form(1, 4'000'000);
 inline constexpr std::array<std::string_view, 2> kTimings{"wire", "instant"};
 inline constexpr Form kTimingForm = words_form(kTimings);
+inline constexpr Form kListenListForm = list_form(kText);
+inline constexpr std::array<const Form*, 2> kListenWays{&kText, &kListenListForm};
+inline constexpr Form kListenForm = either_form(kListenWays);
+inline constexpr std::array<std::string_view, 2> kTrueOrFalse{"true", "false"};
+inline constexpr Form kTrueOrFalseForm = words_form(kTrueOrFalse);
 inline constexpr std::array kLineKeys{
     KeyRow{"link", "Where hosts open it; relative to this file.", &kText},
+    KeyRow{"listen", "Where it is reached by TCP, such as rfc2217://127.0.0.1:5020.", &kListenForm},
+    KeyRow{"pty", "Whether it has a pseudo-terminal (true), or is reached by TCP only.", &kTrueOrFalseForm},
     KeyRow{"baud", "The speed that the devices are set to; by default the factory's.", &kBaudForm},
     KeyRow{"baud_tolerance", "How much faster or slower a host may be and still be heard (default: 2%).",
            &kText},
@@ -101,8 +108,6 @@ inline constexpr std::array kIndexKeys{
     KeyRow{"period", "How far one is from the next; by default a revolution of the motor.", &kWidthForm},
     KeyRow{"input", "The input that it is wired to; by default the controller's own.", &kText}};
 inline constexpr Form kIndexForm = keys_form(kIndexKeys);
-inline constexpr std::array<std::string_view, 2> kTrueOrFalse{"true", "false"};
-inline constexpr Form kTrueOrFalseForm = words_form(kTrueOrFalse);
 inline constexpr std::array<std::string_view, 2> kEncoderPlaces{"wheel", "machine"};
 inline constexpr Form kEncoderPlaceForm = words_form(kEncoderPlaces);
 inline constexpr std::array kEncoderKeys{

@@ -17,6 +17,7 @@
 #include "base/text/parse_real.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/device.h"
+#include "emulator/device/memory/block_error.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
@@ -162,6 +163,25 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
   return !std::exchange(settings.bauds, {}).empty();  // switches that say another one
 }
 
+/// The same of a block of its memory, or of all of a kind.
+bool take_away(const BlockError& error, DeviceSettings& settings) {
+  if (!settings.nv) return false;
+  NamedBlocks& blocks = settings.nv->blocks;
+  if (error.name.empty()) return blocks.erase(error.kind) > 0;
+  const auto of_kind = blocks.find(error.kind);
+  return of_kind != blocks.end() && of_kind->second.erase(error.name) > 0;
+}
+
+/// Where the block is; of one without a place of its own, at the memory, as that says it.
+[[noreturn]] void complain(const YamlFields& nv, const BlockError& error) {
+  if (!nv.is_map()) nv.fail(error.what());
+  if (const auto kind = nv.find(error.kind)) {
+    if (error.name.empty()) kind->fail(error.complaint);
+    if (const auto block = kind->find(error.name)) block->fail(error.complaint);
+  }
+  nv.fail(error.what());
+}
+
 /// Where the setting is, or the device; of a line's speed where it stands on that line.
 [[noreturn]] void complain(const DevicePlaces& places, const SettingError& error, const Model& model) {
   const YamlFields& device = places.device;
@@ -251,6 +271,10 @@ void judge_device(const DevicePlaces& places, DeviceSetup& device, Complaints& c
       } catch (const SettingError& error) {
         is_asked = take_away(error, settings, *device.model);
         complain(places, error, *device.model);
+      } catch (const BlockError& error) {
+        is_asked = take_away(error, settings);
+        if (const auto nv = fields.find("nv")) complain(*nv, error);
+        fields.fail(std::string("nv: ") + error.what());
       } catch (const NvError& error) {
         is_asked = std::exchange(settings.nv, std::nullopt).has_value();
         if (const auto nv = fields.find("nv")) nv->fail(error.what());

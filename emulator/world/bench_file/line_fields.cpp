@@ -1,5 +1,6 @@
 #include "emulator/world/bench_file/line_fields.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -10,8 +11,10 @@
 
 #include "base/text/one_line.h"
 #include "emulator/world/bench/bench.h"
+#include "emulator/world/bench/listening.h"
 #include "emulator/world/bench_file/device_fields.h"
 #include "emulator/world/bench_file/yaml_fields.h"
+#include "emulator/world/speech/line_speech.h"
 #include "pty/line.h"
 
 namespace understudy::emulator::world {
@@ -35,13 +38,47 @@ std::int64_t read_baud_tolerance(const YamlFields& tolerance) {
                  std::string(kBaudToleranceExpected));
 }
 
+std::vector<TcpAddress> read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines) {
+  std::vector<TcpAddress> all;
+  for (const YamlFields& place : listen.is_list() ? listen.elements() : std::vector{listen}) {
+    const auto address = parse_tcp_address(place.text());
+    if (!address || !is_numeric(address->host))
+      place.fail(understudy::quoted(place.text()) + " is not an address; " + std::string(kListeningExpected));
+    const auto is_there = [&](const TcpAddress& other) {
+      return address->port != 0 && other.port == address->port && other.host == address->host;
+    };
+    for (const LineSetup& other : lines) {
+      if (std::ranges::any_of(other.tcp, is_there))
+        place.fail("line " + understudy::quoted(other.name) + " listens there; expected another port");
+    }
+    if (std::ranges::any_of(all, is_there)) place.fail("appears twice; expected it once");
+    all.push_back(*address);
+  }
+  if (all.empty()) listen.fail("is empty; " + std::string(kListeningExpected));
+  return all;
+}
+
+void demand_ports(const YamlFields& fields, const LineSetup& line, const Bench& bench) {
+  if (!line.has_pty && line.tcp.empty())
+    fields.at("pty").fail("leaves the line without a port; expected `listen` beside it");
+  if (!line.has_pty && !line.link.empty())
+    fields.at("link").fail("is of a pseudo-terminal, and `pty` is false; expected one of the two");
+  const bool is_text =
+      !line.stations.empty() && speech_of(*bench.devices[line.stations.front().device].model).carries_text();
+  const bool has_modbus_tcp =
+      std::ranges::find(line.tcp, TcpProtocol::modbus_tcp, &TcpAddress::protocol) != line.tcp.end();
+  if (is_text && has_modbus_tcp)
+    fields.at("listen").fail(
+        "the line speaks lines of text, not Modbus; expected rtu:// or rfc2217://, which carry any bytes");
+}
+
 std::string read_link(const YamlFields& link, const std::optional<std::string>& folder,
                       const std::vector<LineSetup>& lines) {
   namespace fs = std::filesystem;
   const std::string written = link.text();
   if (written.find("://") != std::string::npos)
     link.fail(understudy::quoted(written) +
-              " is an address of a network; expected a path, for a serial port");
+              " is an address of a network; expected a path for a pseudo-terminal (`listen` has addresses)");
   std::string path = path_in(folder, link);
   if (one_line(path) != path) link.fail("has a control character; expected a path without one");
   const std::string name = fs::path(path).filename().string();

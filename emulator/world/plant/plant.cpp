@@ -301,6 +301,7 @@ std::uint64_t PlantAxis::Encoder::wide_counts_at(std::int64_t position_pulses) c
 }
 
 std::int64_t PlantAxis::encoder_counts() const {
+  if (!has_encoder()) return 0;  // and it may have no pulses in a revolution
   std::uint64_t counts = encoder_.wide_counts_at(state_.position_pulses);
   if (setup_.has_wheel) {
     counts = static_cast<std::uint64_t>(state_.wheel_counts);

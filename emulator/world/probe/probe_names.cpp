@@ -54,9 +54,11 @@ NamedNumber ProbeNames::resolve(std::string_view name) const {
 }
 
 bool ProbeNames::find_of_axis(std::string_view rest, Probe& probe) const {
-  static constexpr std::array<std::pair<std::string_view, What>, 16> kOfAxis{{
+  static constexpr std::array<std::pair<std::string_view, What>, 18> kOfAxis{{
       {"pulses", What::pulses},
+      {"target", What::target},
       {"speed", What::speed},
+      {"servo", What::servo},
       {"pwm", What::pwm},
       {"greatest_speed", What::greatest_speed},
       {"greatest_acceleration", What::greatest_acceleration},
@@ -83,6 +85,7 @@ bool ProbeNames::find_of_axis(std::string_view rest, Probe& probe) const {
                             (what == What::mark && !machine.mark) || (what == What::index && !machine.index);
     if (is_lacking) continue;
     if (what == What::pwm && !inventory_.device(probe.device).axes()->duty_percent(axis)) continue;
+    if (what == What::servo && !inventory_.device(probe.device).axes()->servo_on(axis)) continue;
     known.emplace_back(word);
     if (word != what_name) continue;
     probe.what = what;

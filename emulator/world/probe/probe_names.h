@@ -10,7 +10,11 @@
 //   mill.CMP.pulses            how many pulses an output has given whose pulses are counted
 //   mill.DI_8                  a group of terminals as one word
 //   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense
+//   feeder.A.target            what .pulses will be at the end of its move, or of the path that it is on;
+//   where
+//                              no end is known, what .pulses is
 //   feeder.A.speed             what it runs at by plan, in pulses a second, real
+//   feeder.A.servo             1 while the device has its servo on; where the model has one
 //   feeder.A.pwm               its duty in percent, 0 outside PWM mode; where the model has one
 //   feeder.A.greatest_speed, .greatest_acceleration    what it has reached by plan, as magnitudes, real; in
 //                              scenarios, since their beginning or the last `reset: peaks`
@@ -45,7 +49,9 @@ class ProbeNames final : public NameResolver {
     output_pulses,
     terminal_group,
     pulses,
+    target,
     speed,
+    servo,
     pwm,
     greatest_speed,
     greatest_acceleration,

@@ -110,7 +110,10 @@ Number Probes::value(std::int32_t handle) const {
     case What::power: return device.powered() ? 1 : 0;
     case What::pulse_format: return static_cast<std::int64_t>(device.axes()->pulse_format_number());
     case What::pulses: return view_.sent_pulses(probe.device, probe.place);
+    case What::target:
+      return view_.sent_pulses(probe.device, probe.place) + device.axes()->pulses_to_come(probe.place);
     case What::speed: return device.axes()->speed_pps(probe.place);
+    case What::servo: return device.axes()->servo_on(probe.place).value_or(false) ? 1 : 0;
     case What::pwm: return device.axes()->duty_percent(probe.place).value_or(0);
     case What::greatest_speed:
     case What::greatest_acceleration: return peak_value(probe);

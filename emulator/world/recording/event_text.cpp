@@ -41,8 +41,7 @@ std::string write_text(const PreparedWrite& write, const RegisterBank& bank) {
 
 std::string settings_text(const std::optional<pty::HostSettings>& settings) {
   if (!settings) return "as the line has it";
-  return std::to_string(settings->baud) + " baud, " + std::to_string(settings->stop_bits) + " stop bit" +
-         (settings->stop_bits == 1 ? "" : "s");
+  return pty::to_string(*settings);
 }
 
 }  // namespace
@@ -53,6 +52,7 @@ std::string text_of(const RecordedEvent& event, const World& world) {
   switch (event.what) {
     case What::opened: return "a host opens " + line();
     case What::closed: return "the host closes " + line();
+    case What::purged: return "the host takes back what is not on " + line() + " yet";
     case What::settings: return "the host sets " + line() + ": " + settings_text(event.host);
     case What::input: {
       const auto& terminals = world.known()[event.where].model->terminals;

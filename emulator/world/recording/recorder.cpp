@@ -48,6 +48,7 @@ class Recorder::LineEar final : public pty::LineObserver {
     note(What::opened);
   }
   void on_host_closed() override { note(What::closed); }
+  void on_host_purged() override { note(What::purged); }
   void on_host_settings(const std::optional<pty::HostSettings>& settings) override {
     // Told again with every lump of bytes.
     if (are_settings_known_ && settings == settings_) return;

@@ -1,5 +1,6 @@
 #include "emulator/world/recording/recording.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -30,12 +31,13 @@ using What = RecordedEvent::What;
 constexpr const char* kRecordingKind = "recording";
 constexpr int kRecordingFormat = 1;
 
-constexpr std::array<std::pair<What, std::string_view>, 16> kEventWords{{
+constexpr std::array<std::pair<What, std::string_view>, 17> kEventWords{{
     {What::opened, "open"},
     {What::closed, "close"},
     {What::settings, "settings"},
     {What::bytes, "in"},
     {What::departed, "left"},
+    {What::purged, "purge"},
     {What::nothing_more, "pause"},
     {What::said, "out"},
     {What::input, "input"},
@@ -55,6 +57,9 @@ constexpr std::string_view word_of(What what) {
   }
   return {};
 }
+
+// In the order of pty::Parity.
+constexpr std::array<std::string_view, 5> kParities{"none", "odd", "even", "mark", "space"};
 
 bool is_of_a_line(What what) { return what <= What::said; }
 bool is_of_a_device(What what) {
@@ -115,6 +120,22 @@ bool truth_at(const Json& object, const char* key) {
   if (!value.is_boolean())
     throw RecordingError(std::string(key) + ": is neither true nor false; expected one of the two");
   return value.get<bool>();
+}
+
+/// Parity and data bits may be unknown.
+pty::HostSettings host_at(const Json& object) {
+  pty::HostSettings host{.baud = static_cast<int>(number_at(object, "baud", 0, INT32_MAX)),
+                         .stop_bits = static_cast<int>(number_at(object, "stop_bits", 1, 2))};
+  if (object.contains("data_bits")) host.data_bits = static_cast<int>(number_at(object, "data_bits", 5, 8));
+  if (object.contains("parity")) {
+    const std::string written = text_at(object, "parity");
+    const auto* const found = std::ranges::find(kParities, written);
+    if (found == kParities.end())
+      throw RecordingError("parity: " + understudy::quoted(written) +
+                           " is not a parity; expected none, odd, even, mark or space");
+    host.parity = static_cast<pty::Parity>(found - kParities.begin());
+  }
+  return host;
 }
 
 std::vector<std::uint8_t> bytes_at(const Json& object, const char* key) {
@@ -212,6 +233,7 @@ class EventLine {
   }
   void number(std::string_view key, std::int64_t value) { raw(key, std::to_string(value)); }
   void truth(std::string_view key, bool value) { raw(key, value ? "true" : "false"); }
+  void word(std::string_view key, std::string_view value) { raw(key, '"' + std::string(value) + '"'); }
   void hexadecimal(std::string_view key, const std::vector<std::uint8_t>& bytes) {
     raw(key, '"' + hex_of(bytes) + '"');
   }
@@ -254,6 +276,8 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
       if (event.host) {
         line.number("baud", event.host->baud);
         line.number("stop_bits", event.host->stop_bits);
+        if (event.host->data_bits) line.number("data_bits", *event.host->data_bits);
+        if (event.host->parity) line.word("parity", kParities[static_cast<std::size_t>(*event.host->parity)]);
       }
       break;
     case What::input:
@@ -289,6 +313,7 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
       break;
     case What::opened:
     case What::closed:
+    case What::purged:
     case What::nothing_more: break;
   }
   return std::move(line).finished();
@@ -319,10 +344,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
     case What::departed:
     case What::said: event.bytes = bytes_at(line, "bytes"); break;
     case What::settings:
-      if (line.contains("baud")) {
-        event.host = pty::HostSettings{.baud = static_cast<int>(number_at(line, "baud", 0, INT32_MAX)),
-                                       .stop_bits = static_cast<int>(number_at(line, "stop_bits", 1, 2))};
-      }
+      if (line.contains("baud")) event.host = host_at(line);
       break;
     case What::input: {
       const auto& terminals = devices[event.where].model->terminals;
@@ -351,6 +373,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
       break;
     case What::opened:
     case What::closed:
+    case What::purged:
     case What::nothing_more: break;
   }
   return event;
@@ -376,6 +399,7 @@ void apply(World& world, const RecordedEvent& event) {
     case What::settings: world.host_settings(event.where, event.host); break;
     case What::bytes: world.receive(event.where, event.bytes); break;
     case What::departed: world.receive_departed(event.where, event.bytes); break;
+    case What::purged: world.host_purged(event.where); break;
     case What::nothing_more: world.nothing_more(event.where); break;
     case What::input:
       world.set_external_input(event.where, event.place, static_cast<std::int32_t>(event.value));

@@ -30,9 +30,10 @@ struct RecordedEvent {
   enum class What : std::uint8_t {
     opened,    // a host opened line `where`
     closed,    // and closed it
-    settings,  // set `baud` and `stop_bits`; no baud: left them as they were
+    settings,  // set `host`; nothing: left them as they were
     bytes,     // wrote `bytes`
     departed,  // likewise, but has closed since
+    purged,    // took back what was not on the wire yet
     nothing_more,
     said,     // `bytes` were said on the line: what a replay is compared with
     input,    // terminal `place` of device `where` was given `value`

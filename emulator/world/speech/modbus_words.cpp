@@ -105,8 +105,6 @@ class WordsText {
   std::span<const std::uint8_t> values_;
 };
 
-using Kind = FunctionRow::Kind;
-
 /// Null for one that is not told in words.
 const FunctionRow* function_of(std::span<const std::uint8_t> frame) {
   for (const FunctionRow& row : kModbusFunctions) {
@@ -146,7 +144,7 @@ struct WrittenValues {
 };
 std::optional<WrittenValues> written(const FunctionRow& function, std::span<const std::uint8_t> request) {
   const bool is_bits = is_table_of_bits(function.table);
-  if (function.kind == Kind::write_one) {
+  if (function.kind == FunctionRow::Kind::write_one) {
     if (request.size() != 8) return std::nullopt;
     constexpr int kOn = 0xFF00;
     const int value = frame_word(request, 4);
@@ -205,7 +203,7 @@ std::string modbus_command_text(const LineStations& stations, std::span<const st
   const Device* const device = device_at(stations, request[0]);
   const FunctionRow* const function = function_of(request);
   const bool may_be_one = device != nullptr && device->model().window != nullptr && function != nullptr &&
-                          function->kind != Kind::read && function->table == Table::holding;
+                          function->kind != FunctionRow::Kind::read && function->table == Table::holding;
   if (!may_be_one || !pty::rtu_crc_ok(request)) return {};
   const auto values = written(*function, request);
   if (!values) return {};
@@ -226,7 +224,7 @@ std::string modbus_request_text(const LineStations& stations, std::span<const st
     return whom + verb + place_text(table, first, count) +
            WordsText(device, table, first, count, values).text();
   };
-  if (function->kind == Kind::read) {
+  if (function->kind == FunctionRow::Kind::read) {
     return request.size() == 8 ? told("read ", frame_word(request, 4), {}) : whom + hex_text(request);
   }
   const auto values = written(*function, request);
@@ -242,7 +240,7 @@ std::string modbus_reply_text(const LineStations& stations, std::span<const std:
   if ((reply[1] & kExceptionBit) != 0 && reply.size() == 5) return "exception " + exception_text(reply[2]);
   const FunctionRow* const function = function_of(reply);
   if (function == nullptr) return hex_text(reply);
-  if (function->kind != Kind::read) return reply.size() == 8 ? "done" : hex_text(reply);
+  if (function->kind != FunctionRow::Kind::read) return reply.size() == 8 ? "done" : hex_text(reply);
   const bool is_asked = request.size() == 8 && request[0] == reply[0] && request[1] == reply[1];
   if (!is_asked) return hex_text(reply);
   const int count = frame_word(request, 4);

@@ -26,7 +26,7 @@ constexpr std::uint16_t kOff = 0x0000;
 
 using Pdu = std::span<const std::uint8_t>;
 
-std::uint16_t word_at(Pdu pdu, std::size_t at) {
+std::uint16_t pdu_word(Pdu pdu, std::size_t at) {
   return static_cast<std::uint16_t>(pdu[at] << 8 | pdu[at + 1]);
 }
 
@@ -59,11 +59,11 @@ ModbusReply exception(Pdu pdu, const FunctionRow* row, const Objection& objectio
   refused.exception = static_cast<int>(code);
   refused.objection = objection;
   if (row == nullptr) return reply;
-  if (pdu.size() >= 3) refused.first = word_at(pdu, 1);
+  if (pdu.size() >= 3) refused.first = pdu_word(pdu, 1);
   if (row->kind == FunctionRow::Kind::write_one) {
     refused.count = 1;
   } else if (pdu.size() >= 5) {
-    refused.count = word_at(pdu, 3);
+    refused.count = pdu_word(pdu, 3);
   }
   return reply;
 }
@@ -92,8 +92,8 @@ ModbusReply echo(Pdu pdu) {
 
 ModbusReply read(const RegisterBank& bank, const Service& service, Pdu pdu) {
   if (pdu.size() != 5) return exception(pdu, &service.row, bad_value(Cause::bad_length));
-  const std::uint16_t first = word_at(pdu, 1);
-  const std::size_t quantity = word_at(pdu, 3);
+  const std::uint16_t first = pdu_word(pdu, 1);
+  const std::size_t quantity = pdu_word(pdu, 3);
   if (quantity < 1 || quantity > service.most)
     return exception(pdu, &service.row, bad_value(Cause::bad_count));
   const std::size_t bytes = service.bytes_for(quantity);
@@ -117,18 +117,18 @@ ModbusReply read(const RegisterBank& bank, const Service& service, Pdu pdu) {
 
 ModbusReply write_one(RegisterBank& bank, const Service& service, Pdu pdu) {
   if (pdu.size() != 5) return exception(pdu, &service.row, bad_value(Cause::bad_length));
-  std::uint16_t word = word_at(pdu, 3);
+  std::uint16_t word = pdu_word(pdu, 3);
   if (service.is_of_bits()) {
     if (word != kOn && word != kOff) return exception(pdu, &service.row, bad_value(Cause::bad_bit));
     word = word == kOn ? 1 : 0;
   }
-  const Objection refused = write_request(bank, service.table, word_at(pdu, 1), std::span(&word, 1));
+  const Objection refused = write_request(bank, service.table, pdu_word(pdu, 1), std::span(&word, 1));
   return refused ? exception(pdu, &service.row, refused) : echo(pdu);
 }
 
 ModbusReply write_several(RegisterBank& bank, const Service& service, Pdu pdu) {
   if (pdu.size() < 6) return exception(pdu, &service.row, bad_value(Cause::bad_length));
-  const std::size_t quantity = word_at(pdu, 3);
+  const std::size_t quantity = pdu_word(pdu, 3);
   if (quantity < 1 || quantity > service.most)
     return exception(pdu, &service.row, bad_value(Cause::bad_count));
   const std::size_t bytes = service.bytes_for(quantity);
@@ -136,10 +136,10 @@ ModbusReply write_several(RegisterBank& bank, const Service& service, Pdu pdu) {
     return exception(pdu, &service.row, bad_value(Cause::bad_length));
   std::array<std::uint16_t, kMostWritten> words;
   for (std::size_t i = 0; i < quantity; ++i) {
-    words[i] = service.is_of_bits() ? pdu[6 + i / 8] >> i % 8 & 1 : word_at(pdu, 6 + 2 * i);
+    words[i] = service.is_of_bits() ? pdu[6 + i / 8] >> i % 8 & 1 : pdu_word(pdu, 6 + 2 * i);
   }
   const Objection refused =
-      write_request(bank, service.table, word_at(pdu, 1), std::span(words).first(quantity));
+      write_request(bank, service.table, pdu_word(pdu, 1), std::span(words).first(quantity));
   return refused ? exception(pdu, &service.row, refused) : echo(pdu);
 }
 

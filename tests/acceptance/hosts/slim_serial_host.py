@@ -53,7 +53,7 @@ def expect(what, actual, expected):
 
 class Robot:
     def __init__(self, path):
-        self.line = serial.Serial(path, 9600, timeout=PATIENCE_S)
+        self.line = serial.serial_for_url(path, 9600, timeout=PATIENCE_S)
 
     def type(self, text):
         self.line.write(text.encode("latin-1") + b"\r")

@@ -97,6 +97,31 @@ TEST(KeptBlocks, AFileThatTheDeviceRefusesIsToldWithItsLine) {
   }
 }
 
+/// All of them, each where it stands.
+TEST(KeptBlocks, ThoseOfABenchAreToldWithTheirLines) {
+  const std::string text =
+      "understudy: 1\nlines:\n  rs485:\n    stations:\n      - name: it\n        model: workbench\n"
+      "        nv:\n          files:\n            \"07\": good\n            \"B\": no number\n"
+      "            \"08\": \"\xFF\"\n          fils:\n            \"01\": a\n          Nix: 1\n";
+  try {
+    world::parse_bench(kWorkbenchModels, text, "bench.yaml", "/tmp");
+    ADD_FAILURE() << "it is taken";
+  } catch (const FileError& error) {
+    std::string told;
+    for (const FileError::Complaint& complaint : error.complaints()) {
+      told += complaint.text + "\n";
+    }
+    EXPECT_EQ(
+        told,
+        "bench.yaml:8:11: lines.rs485.stations[0].nv: registers: no register is called 'Nix'; expected one "
+        "such as 'Speed_X'\n"
+        "bench.yaml:10:18: lines.rs485.stations[0].nv.files.B: is not a number; expected 00 to 99\n"
+        "bench.yaml:11:19: lines.rs485.stations[0].nv.files.08: line 1: is not UTF-8; expected text\n"
+        "bench.yaml:13:13: lines.rs485.stations[0].nv.fils: 'fils' is not a kind of block; the nearest "
+        "is 'files'\n");
+  }
+}
+
 /// Empty if it passes.
 std::string failure_of(const Folder& folder, const std::string& steps, const std::string& nv) {
   const std::string text =

@@ -13,6 +13,7 @@ namespace row_sense_test {
 
 constexpr BitField kEmptyName[] = {bits(0, "")};
 constexpr BitField kNumberName[] = {bits(3, "4")};
+constexpr BitField kOtherNumberName[] = {bits(3, "90")};
 constexpr BitField kDottedName[] = {bits(3, "A.B")};
 constexpr BitField kSameNames[] = {bits(0, "A"), bits(1, "A")};
 constexpr BitField kShared[] = {bits(0, "A", 3), bits(2, "B")};
@@ -84,6 +85,7 @@ const Case kCases[] = {
     {word().with_bits(kShared), "has two fields in one bit"},
     {word().with_bits(kEmptyName), "has a field whose name is not one"},
     {word().with_bits(kNumberName), "has a field whose name is not one"},
+    {word().with_bits(kOtherNumberName), "has a field whose name is not one"},
     {word().with_bits(kDottedName), "has a field whose name is not one"},
     {word().with_bits(kSameNames), "has two fields of one name"},
     {word().reads<last_cause>().with_bits(kReading), "has a reader, and a field with another"},

@@ -184,8 +184,7 @@ TEST(WorldCrossing, RandomCoursesAreTheSameInBulkAndByTicks) {
       by_single_ticks(twin, act.at);
       ASSERT_TRUE(same(plain, twin)) << name << format_duration(act.at);
       for (std::size_t d = 0; d < 2; ++d) {
-        ASSERT_EQ(plain.device(d).save_state(), twin.device(d).save_state())
-            << name << format_duration(act.at);
+        ASSERT_TRUE(saves_the_same(plain.device(d), twin.device(d))) << name << format_duration(act.at);
         for (const int axis : {0, 1})
           ASSERT_EQ(plain.sent_pulses(d, axis), twin.sent_pulses(d, axis)) << name;
       }

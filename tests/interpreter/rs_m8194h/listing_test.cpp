@@ -79,7 +79,7 @@ TEST(RsM8194hListing, ErrorsHaveTheirPlaces) {
       {"MP 1\nEND\nMP 1\nEND", "3:4: MP1 appears twice"},
       {"RSM_MACRO_NEXT", "1:1: 'RSM_MACRO_NEXT' is not in a macro; expected MP, ISR or TRIGGER"},
       {"END", "1:1: END without a macro; expected MP or ISR before it"},
-      {"MP 1\nEND 2", "2:5: '2' stands behind END; expected nothing"},
+      {"MP 1\nEND 2", "2:5: '2' follows END; expected nothing"},
       {"MP 1\n  RSM_FIXED_MOVE X 1\nEND",
        "2:3: RSM_FIXED_MOVE: a real-time command in a macro; expected RSM_MACRO_FIXED_MOVE"},
       {"ISR 1\nRSM_MACRO_TIMER 5\nEND", "2:1: RSM_MACRO_TIMER: not allowed in an ISR"},

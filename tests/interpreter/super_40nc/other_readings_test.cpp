@@ -34,6 +34,134 @@ TEST(Super40ncOtherReadings, OfNumbers) {
   EXPECT_EQ(plc.machine.codes.size(), 2u);
 }
 
+TEST(Super40ncOtherReadings, OfSumsAndQuotients) {
+  for (const bool is_other : {false, true}) {
+    Options options;
+    options.sums_saturate = is_other;
+    options.quotient = is_other ? Options::Quotient::downwards : Options::Quotient::towards_0;
+    Running plc = running(
+        "AREA PLC;LD M8003;ADD K2147483647 D9 D0;SUB K-2147483648 D9 D1;ADD K3 D9 D2;DIV K-17 K5 D3;DIV K17 "
+        "K-5 "
+        "D5;DIV K17 K5 D7;DIV K-15 K5 D10",
+        options);
+    plc.machine.write(d(9), 2);
+    plc.scan();
+    EXPECT_EQ(plc.machine.value(d(0)), is_other ? INT32_MAX : INT32_MIN + 1);
+    EXPECT_EQ(plc.machine.value(d(1)), is_other ? INT32_MIN : INT32_MAX - 1);
+    EXPECT_EQ(plc.machine.value(d(2)), 5);
+    EXPECT_EQ(plc.machine.value(d(3)), is_other ? -4 : -3);
+    EXPECT_EQ(plc.machine.value(d(4)), is_other ? 3 : -2);
+    EXPECT_EQ(plc.machine.value(d(5)), is_other ? -4 : -3);
+    EXPECT_EQ(plc.machine.value(d(6)), is_other ? -3 : 2);
+    EXPECT_EQ(plc.machine.value(d(7)), 3);
+    EXPECT_EQ(plc.machine.value(d(8)), 2);
+    EXPECT_EQ(plc.machine.value(d(10)), -3);
+    EXPECT_EQ(plc.machine.value(d(11)), 0);
+  }
+}
+
+TEST(Super40ncOtherReadings, OfWritesToTimers) {
+  for (const bool is_ignored : {false, true}) {
+    Options options;
+    options.timers_ignore_writes = is_ignored;
+    Running plc = running("AREA PLC;LD X0;OUT T0 K1000", options);
+    const Operand value{Letter::t, 0};
+    const auto write = [&](std::int32_t ms) {
+      plc.machine.cells()[value_cell(plc.machine.layout(), value)] = static_cast<std::uint32_t>(ms);
+    };
+    plc.machine.set(x(0), true);
+    for (int i = 0; i < 11; ++i) plc.scan();
+    write(500);
+    plc.scan();
+    EXPECT_EQ(plc.machine.value(value), is_ignored ? 11 : 501);
+    cross(plc.plc, plc.ladder, plc.machine, 20, plc.options);
+    EXPECT_EQ(plc.machine.value(value), is_ignored ? 31 : 521);
+    write(5);
+    plc.scan();
+    EXPECT_EQ(plc.machine.value(value), is_ignored ? 32 : 6);
+    // From STOP to RUN it goes on, and OFF it is 0.
+    super_40nc::stop(plc.plc, plc.machine);
+    plc.run_plc();
+    plc.scan();
+    EXPECT_EQ(plc.machine.value(value), is_ignored ? 33 : 7);
+    plc.machine.set(x(0), false);
+    plc.scan();
+    plc.machine.set(x(0), true);
+    plc.scan();
+    plc.scan();
+    EXPECT_EQ(plc.machine.value(value), 1);
+  }
+}
+
+TEST(Super40ncOtherReadings, OfContactsThatGoOffAndStr) {
+  for (const bool stops : {false, true}) {
+    Options options;
+    options.contact_off_stops = stops;
+    Running off = running("AREA X;NOP;TMR K100;END;AREA C;NOP;TMR K100", options);
+    off.start(Area::x);
+    off.start(Area::c);
+    off.tick(3);
+    off.machine.set_special_contact(8100, false);
+    off.machine.set_special_contact(8000, false);
+    off.tick();
+    EXPECT_EQ(off.phase(Area::x), stops ? Phase::idle : Phase::paused);
+    EXPECT_EQ(off.state(Area::x).step, stops ? 0 : 1);
+    EXPECT_EQ(off.phase(Area::c), Phase::paused) << "0 is PAUSE there, in print";
+
+    options = {};
+    options.start_begins_anew = stops;
+    Running anew = running("AREA X;INC D0;TMR K100;END;AREA Y;TMR K5;STR K1", options);
+    anew.start(Area::x);
+    anew.start(Area::y);
+    anew.tick(20);
+    EXPECT_EQ(anew.machine.value(d(0)), stops ? 2 : 1);
+    EXPECT_EQ(anew.phase(Area::x), Phase::waiting);
+  }
+}
+
+TEST(Super40ncOtherReadings, OfRpm0) {
+  for (const bool keeps : {false, true}) {
+    Options options;
+    options.rpm_0_keeps_speed = keeps;
+    Running rpm =
+        running("AREA C;RPM K200 K300;RPM K0 K-5 K7;TMR K9;END;AREA PLC;LD M8003;RPM K200;RPM K0", options);
+    rpm.start(Area::c);
+    rpm.tick();
+    rpm.scan();
+    EXPECT_EQ(rpm.state(Area::c).rpm[0], keeps ? 200 : 0);
+    EXPECT_EQ(rpm.state(Area::c).rpm[1], keeps ? 300 : -5);
+    EXPECT_EQ(rpm.state(Area::c).rpm[2], 7);
+    EXPECT_EQ(rpm.plc.rpm[0], keeps ? 200 : 0);
+  }
+}
+
+TEST(Super40ncOtherReadings, OfBlocksBehindAnOutputAndLabelsOfAll) {
+  Options options;
+  options.outputs_clear_blocks = true;
+  const auto codes = [&](const std::string& text) {
+    std::string said;
+    const Checked checked = check(text, options);
+    for (const Complaint& error : checked.errors) said += to_string(error) + ";";
+    for (const Complaint& warning : checked.warnings) said += "(" + to_string(warning) + ")";
+    return said;
+  };
+  EXPECT_EQ(codes("AREA PLC\nLD X0\nLD X1\nOUT Y0\nANB\nOUT Y1\nEND\n"),
+            "5:1: ANB joins blocks that were not begun; expected two blocks before it;");
+  // The idioms of the manual's samples stay.
+  EXPECT_EQ(codes("AREA PLC\nLD X0\nOUT Y0\nAND X1\nOUT Y1\nLD X2\nOR X3\nANB\nOUT Y2\nEND\n"), "");
+  EXPECT_EQ(codes("AREA PLC\nLD X0\nMPS\nAND X1\nOUT Y0\nMRD\nLD X2\nOR X3\nANB\nOUT Y1\nMPP\nOUT Y2\nEND\n"),
+            "");
+
+  options = {};
+  options.labels_are_common = true;
+  const std::string text = "AREA C\nNOP\nLAB K1\nEND\nAREA X\nLAB K2\nLAB K1\nEND\n";
+  EXPECT_EQ(codes(text), "(7:1: label K1 is one of area C as well; expected one)");
+  EXPECT_EQ(check(text, options).warnings.at(0).step, 1501);
+  EXPECT_EQ(check(text, options).warnings.at(0).other_step, 1);
+  options.double_labels = Options::DoubleLabels::are_refused;
+  EXPECT_EQ(codes(text), "7:1: label K1 is one of area C as well; expected one;");
+}
+
 TEST(Super40ncOtherReadings, OfTimersInLargerUnits) {
   Options options;
   options.timer_unit_ms = 10;

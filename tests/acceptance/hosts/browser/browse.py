@@ -11,6 +11,8 @@ from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
+import firefox
+
 PANELS = ['Axes', 'Signals', 'Plot', 'Registers', 'Bus', 'Program', 'Faults']
 PATIENCE_S = 20
 
@@ -32,10 +34,10 @@ def browser(width, height, dark, folder):
 
 
 class Visit:
-    def __init__(self, arguments, width, height, dark):
+    def __init__(self, arguments, width, height, dark, in_firefox=False):
         self.arguments = arguments
         self.folder = tempfile.TemporaryDirectory()
-        self.driver = browser(width, height, dark, self.folder.name)
+        self.driver = firefox.Firefox(width, height, dark) if in_firefox else browser(width, height, dark, self.folder.name)
         self.name = f"{'narrow' if width < 700 else 'wide'}_{'dark' if dark else 'light'}"
         self.driver.get(arguments.address)
         self.until('the bench is there', lambda: self.texts('.axis h3'))

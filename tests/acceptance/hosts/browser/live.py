@@ -18,6 +18,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 import browse
+import doing
 
 MODELS = ['simple2-r3', 'super-40nc', 'rs-m8194h', 'slim']
 BROWSERS = 16
@@ -88,17 +89,20 @@ class Stage:
                 self.address = line.split()[1]
                 return
 
-    def visit(self, width=1400, height=900, dark=False, prefix=''):
+    def visit(self, width=1400, height=900, dark=False, prefix='', in_firefox=False):
         return browse.Visit(types.SimpleNamespace(address=self.address, control=self.control, prefix=prefix,
-                            understudy=self.options.understudy, pictures=self.options.pictures), width, height, dark)
+                            understudy=self.options.understudy, pictures=self.options.pictures), width, height, dark, in_firefox)
 
     def value(self, name):
         return browse.control(types.SimpleNamespace(understudy=self.options.understudy, control=self.control),
                               'get', name)['values'][name]
 
     def host_writes(self, register, *values):
+        self.host_tries(register, *values, check=True)
+
+    def host_tries(self, register, *values, check=False):
         subprocess.run(['mbpoll', '-m', 'rtu', '-a', '1', '-b', '19200', '-P', 'even', '-0', '-q', '-t', '4', '-r',
-                        str(register), self.port, *map(str, values)], check=True, stdout=subprocess.DEVNULL)
+                        str(register), self.port, *map(str, values)], check=check, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def panels(options, model):
@@ -242,7 +246,36 @@ def crowd(options):
         visit.close()
 
 
-PARTS = {**{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'restart': restart, 'recording': recording, 'crowd': crowd}
+def firefox(options):
+    """Another browser: every panel, wide and narrow, light and dark; and what is done in some of them."""
+    with Stage(options, 'bench.yaml') as stage:
+        (stage.folder / 'bench.yaml').write_text(doing.BENCH, encoding='utf-8')
+        stage.start_daemon()
+        stage.start_page()
+        for width, height, dark in [(1400, 900, False), (500, 844, True)]:
+            visit = stage.visit(width, height, dark, 'firefox_', in_firefox=True)
+            browse.look_at_panels(visit)
+            if not dark:
+                browse.time_stands_and_goes(visit)
+                browse.a_signal_is_held(visit)
+                browse.a_fault_comes_and_goes(visit)
+                doing.axes(visit, stage)
+                doing.registers(visit, stage)
+            visit.close()
+
+
+def does(options, part):
+    """One panel, with all that can be done in it."""
+    with Stage(options, 'bench.yaml') as stage:
+        (stage.folder / 'bench.yaml').write_text(doing.BENCH, encoding='utf-8')
+        stage.start_daemon()
+        stage.start_page()
+        visit = stage.visit(prefix=f'does_{part}_')
+        doing.PARTS[part](visit, stage)
+        visit.close()
+
+
+PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'restart': restart, 'recording': recording, 'crowd': crowd, 'firefox': firefox}
 
 
 def main():

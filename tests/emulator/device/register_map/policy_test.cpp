@@ -92,6 +92,25 @@ TEST(Policy, WhereNothingIsMayReadAsZeroAndSwallowWrites) {
   EXPECT_EQ(world::answer(toy.device, world::write_request(0xFFFF, world::Words{1, 2})), "90 02");
 }
 
+TEST(Policy, TheLastAddressIsOneLikeOthers) {
+  const RegisterRow rows[] = {reg(0xFFFE, "W{}", Type::u16, Access::read_write).times(2, 1, 0),
+                              coil(0xFFF6, "C{}").times(10, 1, 0)};
+  for (const auto unmapped : {MapPolicy::Unmapped::refused, MapPolicy::Unmapped::reads_zero}) {
+    Toy toy(rows, {.unmapped = unmapped});
+    EXPECT_EQ(write(toy, 0xFFFE, {5, 6}), Refusal::none);
+    EXPECT_EQ(write(toy, 0xFFFF, {7}), Refusal::none);
+    EXPECT_EQ(world::read(toy.device, 0xFFFE, 2), (world::Words{5, 7}));
+    EXPECT_EQ(write(toy, 0xFFFF, {8, 9}), Refusal::no_register);
+    EXPECT_EQ(world::answer(toy.device, world::read_pdu(3, 0xFFFE, 3)), "83 02");
+    const world::Words bits{1, 0, 0, 0, 0, 0, 0, 0, 1, 1};
+    EXPECT_EQ(write_words(toy.device, Table::coil, 0xFFF6, bits), Refusal::none);
+    std::array<std::uint8_t, 2> packed{};
+    EXPECT_EQ(read_bits_request(toy.device, Table::coil, 0xFFF6, 10, packed), Objection{});
+    EXPECT_EQ(packed, (std::array<std::uint8_t, 2>{0x01, 0x03}));
+    EXPECT_EQ(read_bits_request(toy.device, Table::coil, 0xFFF6, 11, packed).cause, Cause::no_register);
+  }
+}
+
 TEST(Policy, WhatCanOnlyBeWrittenMayRefuseToBeRead) {
   Toy open(kToyRows);
   EXPECT_EQ(world::read(open.device, 0x0015, 3), (world::Words{0, 0, 0x8421}));

@@ -1,6 +1,6 @@
 // How long moves take, to the tick, by closed forms of the chip's laws (7.1): moves too short for their
-// speed, offsets of the deceleration, constant speeds, both directions. Whole profiles are in
-// single_axis_test.cpp.
+// speed, offsets of the deceleration, constant speeds, both directions; and where whole ones are at every
+// tick.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -123,6 +123,79 @@ TEST(RsM8194hDurations, AreThoseOfTheClosedForms) {
                    number(move.v) + ", AO " + number(move.ao));
       EXPECT_EQ(rsm.run_to_rest(), ticks);
       EXPECT_EQ(rsm.get("LP_Y"), way * move.distance);
+    }
+  }
+}
+
+constexpr double kRounding = 1e-6;
+
+/// A ramp from one speed to a higher one, in pulses after so many seconds: even, or in two equal parabolas.
+struct Ramp {
+  bool is_s = false;
+  double low = 0, high = 0;  // pulses a second
+  double rate = 0;           // A, or K
+
+  double lasts() const { return is_s ? 2 * std::sqrt((high - low) / rate) : (high - low) / rate; }
+  double pulses() const { return (low + high) / 2 * lasts(); }
+  double at(double t) const {
+    if (!is_s) return low * t + rate * t * t / 2;
+    if (t <= lasts() / 2) return low * t + rate * t * t * t / 6;
+    const double left = lasts() - t;
+    return pulses() - (high * left - rate * left * left * left / 6);
+  }
+};
+
+/// A move that reaches V.
+struct Law {
+  int mode = 0;  // of NORMAL_SPEED
+  double sv = 0, v = 0;
+  double up = 0, down = 0;  // A and D, or K and L
+
+  Ramp rising() const { return {mode == 1 || mode == 3, sv, v, up}; }
+  Ramp falling() const { return {mode == 1 || mode == 3, sv, v, down}; }
+  double seconds(double distance) const {
+    return rising().lasts() + falling().lasts() + (distance - rising().pulses() - falling().pulses()) / v;
+  }
+  /// Pulses after so many seconds.
+  double at(double t, double distance) const {
+    const double left = seconds(distance) - t;
+    if (left <= 0) return distance;
+    if (t < rising().lasts()) return rising().at(t);
+    if (left < falling().lasts()) return distance - falling().at(left);
+    return rising().pulses() + (t - rising().lasts()) * v;
+  }
+};
+constexpr Law kLaws[] = {
+    {0, 500, 8000, 20000, 20000},    {0, 8000, 8000, 20000, 20000}, {1, 500, 8000, 90000, 90000},
+    {2, 1000, 10000, 40000, 15000},  {2, 100, 10000, 9000, 60000},  {3, 1000, 10000, 60000, 250000},
+    {3, 1000, 10000, 250000, 60000},
+};
+constexpr double kDistance = 15000;
+
+TEST(RsM8194hDurations, AreWhereTheirLawSaysAtEveryTick) {
+  for (const Law& law : kLaws) {
+    for (const int way : {+1, -1}) {
+      OneRsm rsm;
+      const bool is_s = law.mode == 1 || law.mode == 3;
+      rsm.send("RSM_NORMAL_SPEED Z " + number(law.mode));
+      rsm.send("RSM_SET_SV Z " + number(law.sv));
+      rsm.send("RSM_SET_V Z " + number(law.v));
+      rsm.send((is_s ? "RSM_SET_K Z " : "RSM_SET_A Z ") + number(law.up));
+      rsm.send((is_s ? "RSM_SET_L Z " : "RSM_SET_D Z ") + number(law.down));
+      rsm.send("RSM_SET_AO Z 0");
+      rsm.run(1);
+      rsm.send("RSM_FIXED_MOVE Z " + number(way * kDistance));
+      const Tick begin = rsm.now();
+      do {
+        rsm.run(1);
+        const double t = static_cast<double>(rsm.now() - begin - 1) / 1000;  // from the next tick on
+        const double should = law.at(t, kDistance);
+        // A pulse goes out when its place has been reached.
+        const auto is = static_cast<double>(way * rsm.get("LP_Z"));
+        ASSERT_LE(is, should + kRounding) << "mode " << law.mode << " at " << t;
+        ASSERT_GT(is, should - 1 - kRounding) << "mode " << law.mode << " at " << t;
+      } while (rsm.get("DRIVING_AXIS") != 0);
+      EXPECT_EQ(rsm.get("LP_Z"), way * kDistance);
     }
   }
 }

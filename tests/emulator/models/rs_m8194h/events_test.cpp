@@ -116,6 +116,57 @@ TEST(RsM8194hEvents, LatchesAndPresetsAreOfTheMomentOfTheEdge) {
   EXPECT_EQ(rsm.get("EP_U"), 1000 - latched + 100);
 }
 
+TEST(RsM8194hEvents, EachDriveAndPresetDoesWhatItsLineSays) {
+  // The lines of 7.3.1: nDRV by nPRESET, of Y, at the start of a move of X.
+  enum Drives { none, fixed_plus, fixed_minus, endless_plus, endless_minus, slow_stop, sudden_stop };
+  enum Presets { nothing, position, encoder, distance, speed };
+  constexpr Value kPreset = 500;
+  for (int drive = none; drive <= sudden_stop; ++drive) {
+    for (int preset = nothing; preset <= speed; ++preset) {
+      SCOPED_TRACE("nDRV " + std::to_string(drive) + ", nPRESET " + std::to_string(preset));
+      SteadyRsm rsm;
+      rsm.send({"RSM_SET_SV Y 100", "RSM_SET_A Y 100000", "RSM_SET_PRESET Y 500"});
+      rsm.send("RSM_SYNC_ACTION X Y 16 " + std::to_string(drive) + " 0 " + std::to_string(preset) +
+               " 0 0 0 0 0 0");
+      const bool is_stop = drive >= slow_stop;
+      if (is_stop) rsm.send("RSM_CONTINUE_MOVE Y 2000");
+      rsm.run(100);
+      rsm.send("RSM_FIXED_MOVE X 2");
+      rsm.run(400);
+      const bool is_endless = drive == endless_plus || drive == endless_minus;
+      const int way = drive == fixed_plus || drive == endless_plus ? 1 : -1;
+      const bool is_fixed = drive == fixed_plus || drive == fixed_minus;
+      EXPECT_EQ(rsm.get("DRIVING_AXIS"), is_endless ? 2 : 0);
+      // Neither a distance nor a speed has a meaning for an endless drive.
+      if (is_endless) {
+        EXPECT_EQ(rsm.get("CV_Y"), 2000);
+      }
+      const Value moved = is_fixed && preset == distance ? way * kPreset : 0;
+      const Value absolute = rsm.get("ABS_Y");
+      if (!is_endless && !is_stop) {
+        EXPECT_EQ(absolute, moved);
+      }
+      if (is_endless) {
+        EXPECT_EQ(absolute > 0, way > 0);
+      }
+      // All three have counted the same but for what was preset; a stop takes some pulses first.
+      EXPECT_EQ(rsm.get("LP_Y") != absolute, preset == position);
+      EXPECT_EQ(rsm.get("EP_Y") != absolute, preset == encoder);
+      if (!is_stop && preset == position) {
+        EXPECT_EQ(rsm.get("LP_Y") - absolute, kPreset);
+      }
+      if (!is_stop && preset == encoder) {
+        EXPECT_EQ(rsm.get("EP_Y") - absolute, kPreset);
+      }
+      // V for what comes next.
+      rsm.send(
+          {"RSM_STOP_SUDDENLY Y", "RSM_CLEAR_STOP Y", "RSM_CLEAR_SYNC_ACTION X", "RSM_FIXED_MOVE Y 1000"});
+      rsm.run(100);
+      EXPECT_EQ(rsm.get("CV_Y"), preset == speed && !is_endless ? kPreset : 2000);
+    }
+  }
+}
+
 TEST(RsM8194hEvents, LineScansTriggerAtTheirPitch) {
   SteadyRsm rsm;
   rsm.send({"RSM_LINE_SCAN X 0 0 0 -39"});
@@ -131,6 +182,47 @@ TEST(RsM8194hEvents, LineScansTriggerAtTheirPitch) {
   rsm.send({"RSM_LINE_SCAN_START X 0 4000"});
   rsm.run_to_rest();
   EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+}
+
+TEST(RsM8194hEvents, AHeldLineScanBeginsWhenItIsReleased) {
+  SteadyRsm rsm;
+  rsm.send({"RSM_DRV_HOLD X", "RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN_START X 0 1000"});
+  rsm.run(50);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "it has not begun";
+  rsm.send("RSM_DRV_START X");
+  rsm.run(100);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0);
+  rsm.run(500);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+}
+
+TEST(RsM8194hEvents, ALineScanByAnEncoderHasItsLastTriggerToo) {
+  world::PlantSetup plant;
+  plant.encoder_counts_per_revolution = 4000;
+  plant.pulses_per_revolution = 1000;
+  for (const int way : {+1, -1}) {
+    OneRsm rsm({.plant = {{0, plant}}});
+    rsm.send({"RSM_SET_SV X 2000", "RSM_SET_V X 2000", "RSM_LINE_SCAN X 2 0 0 -39"});
+    rsm.send("RSM_LINE_SCAN_START X 2 " + std::to_string(way * 1000));
+    rsm.run(550);
+    EXPECT_EQ(rsm.get("EP_X"), way * 4000);
+    EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+    EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
+  }
+}
+
+TEST(RsM8194hEvents, LineScansThatBeginApartAreBothGiven) {
+  SteadyRsm rsm;
+  rsm.send({"RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN Y 0 0 0 4", "RSM_LINE_SCAN_START X 0 2000"});
+  rsm.run(100);
+  rsm.send("RSM_LINE_SCAN_START Y 0 500");
+  rsm.run(400);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "X is on its way";
+  rsm.run(600);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 200);
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut + 1), 100);
 }
 
 TEST(RsM8194hEvents, ActionsGivePulsesAtXAndYOnly) {

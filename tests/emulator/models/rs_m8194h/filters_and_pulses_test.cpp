@@ -27,6 +27,82 @@ TEST(RsM8194hFilters, EmgGoesThroughThatOfEachAxis) {
   }
 }
 
+/// An input of DI_ALL or DI_SIGNAL, and the bit of FEn that filters it (3.14).
+struct Filtered {
+  Pin pin;
+  const char* word;
+  int bit;     // of the word
+  int filter;  // of FEn
+};
+constexpr Filtered kFiltered[] = {
+    {Pin::limit_plus, "DI_ALL_Z", 1, 0},
+    {Pin::limit_minus, "DI_ALL_Z", 2, 0},
+    {Pin::near_home, "DI_ALL_Z", 6, 0},
+    {Pin::home, "DI_ALL_Z", 5, 0},
+    {Pin::index, "DI_ALL_Z", 9, 1},
+    {Pin::in_position, "DI_ALL_Z", 8, 2},
+    {Pin::alarm, "DI_ALL_Z", 4, 2},
+    {Pin::external_plus, "DI_SIGNAL_Z", 4, 3},
+    {Pin::external_minus, "DI_SIGNAL_Z", 5, 3},
+    {Pin::in3, "DI_ALL_Z", 7, 4},
+};
+
+TEST(RsM8194hFilters, EachInputIsDelayedByItsBitOfFenAndByFln) {
+  constexpr Tick kDelays[] = {0, 0, 0, 1, 2, 4, 8, 16};
+  for (const Filtered& each : kFiltered) {
+    for (int bit = 0; bit < 5; ++bit) {
+      for (int number = 0; number < 8; ++number) {
+        OneRsm rsm;
+        rsm.send("RSM_SET_ALARM Z 1 0");
+        rsm.send("RSM_SET_FILTER Z " + std::to_string(1 << bit) + " " + std::to_string(number));
+        rsm.run(3);
+        const auto level = [&] { return rsm.get(each.word) >> each.bit & 1; };
+        const Value before = level();
+        rsm.pin(2, each.pin, true);
+        Tick passes = 0;
+        while (level() == before && passes < 30) {
+          rsm.run(1);
+          ++passes;
+        }
+        const Tick delay = bit == each.filter ? kDelays[number] : 0;
+        EXPECT_EQ(passes, delay + 1) << each.word << "." << each.bit << ", FEn " << (1 << bit) << ", FLn "
+                                     << number;
+        // As long as the filter's time it has to stay.
+        rsm.pin(2, each.pin, false);
+        rsm.run(delay);
+        rsm.pin(2, each.pin, true);
+        for (int i = 0; i < 20 && delay > 0; ++i) {
+          EXPECT_NE(level(), before);
+          rsm.run(1);
+        }
+      }
+    }
+  }
+}
+
+TEST(RsM8194hFilters, ExternalDrivesLoseWhatIsTooShort) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_SV X 8000", "RSM_SET_V X 8000", "RSM_SET_FILTER X 8 6", "RSM_EXD_FP X 10"});
+  rsm.run(3);
+  const auto edge_after = [&](int edges, Tick ticks) {
+    rsm.world().set_external_input(0, terminal(0, Pin::external_plus), edges);
+    rsm.run(ticks);
+  };
+  edge_after(1, 5);  // FLn 6: 8.192 ms
+  edge_after(2, 30);
+  EXPECT_EQ(rsm.get("LP_X"), 0);
+  edge_after(3, 8);
+  EXPECT_EQ(rsm.get("LP_X"), 0);
+  rsm.run(10);
+  EXPECT_EQ(rsm.get("LP_X"), 10);
+  edge_after(4, 30);
+  edge_after(5, 3);
+  // Without the filter what it held back counts.
+  rsm.send("RSM_SET_FILTER X 0 0");
+  edge_after(6, 30);
+  EXPECT_EQ(rsm.get("LP_X"), 20);
+}
+
 TEST(RsM8194hPulses, LastAsLongAsPulseWidthSays) {
   constexpr std::pair<int, Tick> kWidths[] = {{0, 0}, {3, 0}, {4, 1}, {5, 2}, {6, 10}, {7, 20}};
   for (const auto& [code, ticks] : kWidths) {

@@ -2,6 +2,8 @@
 // FIFO, triggers without a host (5.4, 9, 10).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
 namespace understudy::emulator::models::rs_m8194h {
@@ -195,6 +197,26 @@ TEST(RsM8194hMacros, FrnetIsScannedEvery2Point88Milliseconds) {
   EXPECT_EQ(rsm.ask("02 00 00 00 08"), "02 01 02");
   rsm.run(4);
   EXPECT_EQ(rsm.rsm().output_word(kFirstDo + 32, 16), 0xFF01u);
+}
+
+TEST(RsM8194hMacros, FrnetIsScannedFromPowerUpOn) {
+  constexpr Tick kScans[] = {3, 6, 9, 12, 15, 18, 21, 24, 26, 29, 32};  // 2.88 ms after each other
+  for (const Tick before : {0, 7, 1007}) {
+    OneRsm rsm;
+    rsm.run(before);
+    rsm.world().switch_power(0, false);
+    rsm.run(1);
+    rsm.world().switch_power(0, true);
+    bool level = false;
+    for (Tick tick = 1; tick <= kScans[10]; ++tick) {
+      level = !level;
+      rsm.input(kFirstDi, level);
+      const Value seen = rsm.input_word(8);
+      rsm.run(1);
+      const bool is_scan = std::ranges::count(kScans, tick) > 0;
+      EXPECT_EQ(rsm.input_word(8), is_scan ? Value{level} : seen) << before << ", " << tick;
+    }
+  }
 }
 
 TEST(RsM8194hMacros, TriggersRunWithoutAHost) {

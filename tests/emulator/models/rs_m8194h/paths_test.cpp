@@ -2,7 +2,10 @@
 // (7.2, 7.4).
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <functional>
+#include <numbers>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
@@ -188,6 +191,169 @@ TEST(RsM8194hPaths, HelicesTurnAtTheSpeedOfTheirCircle) {
   rsm.send({"RSM_SET_MAX_V XYZU 80000", "RSM_HELIX_3D Y Z U 1 10000 0 5000 3 -2000"});
   EXPECT_NEAR(static_cast<double>(rsm.run_to_rest()), 3 * 2 * kPi * 5000 / 10 + 1, 1);
   EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 0, 0, -6000}));
+}
+
+constexpr double kRounding = 1e-6;
+
+using Place = std::array<double, 3>;
+
+/// Whether a straight way from a to b comes within half a pulse of a place, coordinate by coordinate.
+bool line_passes(const Place& a, const Place& b, const Place& place) {
+  double from = 0, to = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double way = b[i] - a[i];
+    const double low = place[i] - 0.5 - kRounding - a[i];
+    const double high = place[i] + 0.5 + kRounding - a[i];
+    if (way == 0) {
+      if (low > 0 || high < 0) return false;
+      continue;
+    }
+    from = std::max(from, std::min(low / way, high / way));
+    to = std::min(to, std::max(low / way, high / way));
+  }
+  return from <= to;
+}
+/// The same of a circle in the first two.
+bool circle_passes(const Place& centre, double radius, const Place& place) {
+  const double dx = std::abs(place[0] - centre[0]);
+  const double dy = std::abs(place[1] - centre[1]);
+  const double nearest = std::hypot(std::max(dx - 0.5, 0.0), std::max(dy - 0.5, 0.0));
+  const double farthest = std::hypot(dx + 0.5, dy + 0.5);
+  return nearest <= radius + kRounding && radius <= farthest + kRounding;
+}
+
+using Passes = std::function<bool(const Place&)>;
+Passes line(const Place& a, const Place& b) {
+  return [=](const Place& place) { return line_passes(a, b, place); };
+}
+Passes circle(const Place& centre, double radius) {
+  return [=](const Place& place) { return circle_passes(centre, radius, place); };
+}
+
+struct Course {
+  int mode;  // of VECTOR_SPEED
+  std::vector<std::string> commands;
+  std::vector<Passes> ways;  // one of them at each tick
+  Place end;
+};
+
+std::vector<Course> courses() {
+  const Place zero{0, 0, 0};
+  std::vector<Course> all;
+  for (const int mode : {0, 1, 2, 3, 4}) {
+    all.push_back({mode, {"RSM_LINE_2D 9000 -4001"}, {line(zero, {9000, -4001, 0})}, {9000, -4001, 0}});
+    all.push_back({mode, {"RSM_LINE_2D -7 12345"}, {line(zero, {-7, 12345, 0})}, {-7, 12345, 0}});
+  }
+  for (const int mode : {0, 5, 6}) {
+    all.push_back({mode, {"RSM_ARC_CW 3000 0 3000 3000"}, {circle({3000, 0, 0}, 3000)}, {3000, 3000, 0}});
+    all.push_back({mode, {"RSM_ARC_CCW 3000 0 3000 3000"}, {circle({3000, 0, 0}, 3000)}, {3000, 3000, 0}});
+    all.push_back({mode, {"RSM_CIRCLE_CW 1203 -1604"}, {circle({1203, -1604, 0}, 2005)}, zero});
+    all.push_back({mode, {"RSM_CIRCLE_CCW 0 4000"}, {circle({0, 4000, 0}, 4000)}, zero});
+  }
+  for (const int mode : {7, 8, 9, 10, 11}) {
+    all.push_back({mode, {"RSM_LINE_3D 9000 -4001 77"}, {line(zero, {9000, -4001, 77})}, {9000, -4001, 77}});
+  }
+  all.push_back({7,
+                 {"RSM_LINE_3D_INITIAL X Y Z 1000 8000 50000", "RSM_LINE_3D_CONTINUE 0 3000 500 -900",
+                  "RSM_LINE_3D_CONTINUE 0 -200 1700 3", "RSM_LINE_3D_CONTINUE 1 0 0 4000"},
+                 {line(zero, {3000, 500, -900}), line({3000, 500, -900}, {2800, 2200, -897}),
+                  line({2800, 2200, -897}, {2800, 2200, 3103})},
+                 {2800, 2200, 3103}});
+  all.push_back({0,
+                 {"RSM_MIX_2D_INITIAL X Y 1 1000 8000 50000", "RSM_MIX_2D_CONTINUE 0 1 0 0 3000 0",
+                  "RSM_MIX_2D_CONTINUE 0 3 0 1500 0 3000", "RSM_MIX_2D_CONTINUE 0 1 0 0 -3000 0",
+                  "RSM_MIX_2D_CONTINUE 1 5 0 -800 0 0"},
+                 {line(zero, {3000, 0, 0}), circle({3000, 1500, 0}, 1500),
+                  line({3000, 3000, 0}, {0, 3000, 0}), circle({0, 2200, 0}, 800)},
+                 {0, 3000, 0}});
+  // From Sp0, 6000 by 4000 with corners of 500.
+  all.push_back(
+      {0,
+       {"RSM_RECTANGLE X Y 1 0 0 6000 4000 500 1000 8000 40000 40000"},
+       {line(zero, {5000, 0, 0}), circle({5000, 500, 0}, 500), line({5500, 500, 0}, {5500, 3500, 0}),
+        circle({5000, 3500, 0}, 500), line({5000, 4000, 0}, {0, 4000, 0}), circle({0, 3500, 0}, 500),
+        line({-500, 3500, 0}, {-500, 500, 0}), circle({0, 500, 0}, 500)},
+       zero});
+  // Z is even over the angle.
+  all.push_back({0,
+                 {"RSM_HELIX_3D X Y Z 1 9000 1000 0 3 -700"},
+                 {[](const Place& place) {
+                   if (!circle_passes({1000, 0, 0}, 1000, place)) return false;
+                   const double turned = std::atan2(-place[1], 1000 - place[0]) / (2 * std::numbers::pi);
+                   const double by_z = place[2] / -700;
+                   // A pulse of Z is a good part of a turn, and one across it a small one.
+                   const double off = std::remainder(by_z - turned, 1.0);
+                   return std::abs(off) <= 0.5 / 700 + 0.71 / (1000 * 2 * std::numbers::pi);
+                 }},
+                 {0, 0, -2100}});
+  return all;
+}
+
+TEST(RsM8194hPaths, PathsAreWithinHalfAPulseAtEveryTick) {
+  for (const Course& course : courses()) {
+    SCOPED_TRACE(course.commands.back() + " in mode " + std::to_string(course.mode));
+    OneRsm rsm;
+    rsm.send({"RSM_SET_MAX_V XYZ 80000", "RSM_SET_VSV 1000", "RSM_SET_VV 9000", "RSM_SET_VA 40000",
+              "RSM_SET_VD 20000", "RSM_SET_VK 200000", "RSM_SET_VL 150000", "RSM_AXIS_ASSIGN X Y Z"});
+    rsm.run(2);
+    rsm.send("RSM_VECTOR_SPEED " + std::to_string(course.mode));
+    for (const std::string& command : course.commands) rsm.send(command);
+    std::size_t way = 0;
+    int ticks = 0;
+    do {
+      rsm.run(1);
+      ++ticks;
+      const Place place{static_cast<double>(rsm.get("LP_X")), static_cast<double>(rsm.get("LP_Y")),
+                        static_cast<double>(rsm.get("LP_Z"))};
+      while (way + 1 < course.ways.size() && !course.ways[way](place)) ++way;
+      ASSERT_TRUE(course.ways[way](place))
+          << "at " << ticks << " on way " << way << ": " << place[0] << " " << place[1] << " " << place[2];
+    } while (rsm.get("DRIVING_AXIS") != 0);
+    EXPECT_EQ(way + 1, course.ways.size());
+    EXPECT_GT(ticks, 500);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(rsm.positions()[i], course.end[i]);
+  }
+}
+
+/// The example of 7.4.3: 20,001 segments through the FIFO, by a host that sends until it is told that the box
+/// is busy.
+TEST(RsM8194hPaths, AStreamOf20001SegmentsNeverStops) {
+  constexpr int kSegments = 20'001;
+  constexpr int kStep = 100;
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V XY 160000", "RSM_LINE_2D_INITIAL X Y 300 18000 500000"});
+  const world::Bytes segment = pdu_of("RSM_LINE_2D_CONTINUE 0 100 100");
+  const world::Bytes last = pdu_of("RSM_LINE_2D_CONTINUE 1 100 100");
+  const Tick begin = rsm.now();
+  int sent = 0;
+  int busy = 0;
+  do {
+    while (sent < kSegments) {
+      const std::string reply = rsm.ask(sent + 1 == kSegments ? last : segment);
+      if (reply.starts_with("90")) {
+        ASSERT_EQ(reply, "90 06");
+        ++busy;
+        break;
+      }
+      ++sent;
+    }
+    rsm.run(kStep);
+    ASSERT_EQ(rsm.get("Continuous_Inp_Interrupt"), 0) << sent;
+    ASSERT_EQ(rsm.get("ERROR_STATE"), 0);
+    if (sent < kSegments) {
+      // 18000 along the diagonal.
+      ASSERT_NEAR(static_cast<double>(rsm.get("CV_X")), 18000 / std::numbers::sqrt2, 1);
+      ASSERT_EQ(rsm.get("LP_X"), rsm.get("LP_Y"));
+    }
+  } while (rsm.get("DRIVING_AXIS") != 0);
+  EXPECT_GT(busy, 1000);
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{2'000'100, 2'000'100, 0, 0}));
+  const double ramp_s = (18000.0 - 300) / 500000;
+  const double ramp_pulses = (18000.0 + 300) / 2 * ramp_s;
+  const double at_v = (kSegments * 100 * std::numbers::sqrt2 - ramp_pulses) / 18000 + ramp_s;
+  // The end ramp is cut short: it has two segments at most.
+  EXPECT_GT(static_cast<double>(rsm.now() - begin), at_v * 1000);
+  EXPECT_LT(static_cast<double>(rsm.now() - begin - kStep), (at_v + ramp_s - ramp_pulses / 18000) * 1000 + 1);
 }
 
 }  // namespace paths_test

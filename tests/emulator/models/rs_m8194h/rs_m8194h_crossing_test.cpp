@@ -157,5 +157,14 @@ TEST(RsM8194hCrossing, RandomCoursesAreTheSameInBulkAndByTicks) {
   EXPECT_GT(moved, 10'000);
 }
 
+TEST(RsM8194hCrossing, AMoveWithNothingToMeetIsCrossed) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_SV XY 1000", "RSM_SET_V XY 1000", "RSM_FIXED_MOVE XY 10000"});
+  const std::uint64_t before = rsm.world().ticks_crossed();
+  rsm.run(5000);
+  EXPECT_GT(rsm.world().ticks_crossed() - before, 4900U);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 3);
+}
+
 }  // namespace rs_m8194h_crossing_test
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -67,5 +67,36 @@ TEST(RsM8194hEncoder, AloneIsCountedHoweverTimeGoesBy) {
   }
 }
 
+/// SET_ENCODER (3.10): edges of A and B, of A, or A's rising ones; B first counts down. Up and down pulses
+/// are counted one by one.
+TEST(RsM8194hEncoder, IsDividedAndTurnedRound) {
+  for (int mode = 0; mode < 4; ++mode) {
+    for (int division = 0; division < 3; ++division) {
+      World world = cell("{ per_revolution: 4000, motor_pulses_per_revolution: 1000 }");
+      for (const int code : {0x0A0D, 0x0A47, 0x0A48}) {
+        world.receive(0, command(code, 1, 8000));
+        world.advance_to(world.now() + 5ms);
+      }
+      move_by(world, 10);
+      EXPECT_EQ(value_of(world, "cell.EP_X"), 40);
+      const auto byte = [](int number) { return static_cast<std::uint8_t>(number); };
+      world.receive(0, framed({0x01, 0x10, 0x1F, 0x40, 0x00, 0x05, 0x0A, 0x0A, 0x14, 0x00, 0x01, 0x00,
+                               byte(mode), 0x00, byte(division), 0x00, 0x00}));
+      world.advance_to(world.now() + 5ms);
+      EXPECT_EQ(value_of(world, "cell.EP_X"), 40) << "what was counted stays";
+      const bool is_quadrature = mode == 0 || mode == 2;
+      const int by = is_quadrature ? 1 << division : 1;
+      const int way = mode < 2 ? 1 : -1;
+      move_by(world, 1001);
+      EXPECT_EQ(value_of(world, "cell.EP_X"), 40 + way * (4004 / by)) << mode << " " << division;
+      move_by(world, -1001);
+      EXPECT_EQ(value_of(world, "cell.EP_X"), 40) << mode << " " << division;
+      move_by(world, -300);
+      EXPECT_EQ(value_of(world, "cell.EP_X"), 40 - way * (1200 / by)) << mode << " " << division;
+      EXPECT_EQ(value_of(world, "cell.LP_X"), -290);
+    }
+  }
+}
+
 }  // namespace rs_m8194h_encoder_test
 }  // namespace understudy::emulator::world

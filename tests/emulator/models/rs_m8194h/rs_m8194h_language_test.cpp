@@ -123,7 +123,7 @@ TEST(RsM8194hLanguage, MessagesThatAreNotADownloadAreRefused) {
       {{{{0x0AC9, 1}, 1}, {{0x0A4E, 1, 0, 5}, 2}}, "line 2: a real-time command in a macro"},
       {{{{0x0AC9, 1}, 1}, {{0x0C4E, 1}, 2}}, "line 2: too few or too many registers for this command"},
       {{{{0x0AC9, 158}, 1}}, "line 1: a parameter is out of range"},
-      {{{{0x0AC9, 1}, 4}}, "line 4: ends within a macro; expected its CLOSE"},
+      {{{{0x0AC9, 1}, 4}}, "line 4: ends inside a macro; expected its CLOSE"},
   };
   for (const auto& [rows, message] : kCases) {
     try {

@@ -3,6 +3,7 @@
 
 #include "base/state/state_error.h"
 #include "emulator/device/memory/kept_memory.h"
+#include "emulator/world/snapshot.h"
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
 namespace understudy::emulator::models::rs_m8194h {
@@ -57,6 +58,49 @@ TEST(RsM8194hMemory, KeepsWhatTheManualSaysAndLosesTheRest) {
   EXPECT_TRUE(holds_the_same(other->memory()->nv_image(), rsm.device().memory()->nv_image()));
 }
 
+struct Block {
+  const char* kind;
+  const char* name;
+  const char* text;
+  bool fits;
+};
+constexpr Block kBlocks[] = {
+    {"initial", "X", "RSM_SET_MAX_V INITIAL_X 50000\n", true},
+    {"initial", "X", "RSM_FIXED_MOVE X 5\n", false},
+    {"initial", "X", "RSM_MACRO_SET_MAX_V X 50000\n", true},  // the same setting, as a macro has it
+    {"initial", "X", "MAX_V 5\n", false},
+    {"initial", "W", "RSM_SET_MAX_V INITIAL_X 50000\n", false},
+    {"mp", "157", "MP 157\n  RSM_MACRO_TIMER 5\nEND\n", true},
+    {"mp", "158", "MP 158\n  RSM_MACRO_TIMER 5\nEND\n", false},
+    {"mp", "0", "MP 1\n  RSM_MACRO_TIMER 5\nEND\n", false},
+    {"mp", "1", "MP 1\n  RSM_MACRO_NEXT\nEND\n", false},
+    {"isr", "20", "ISR 20\n  RSM_MACRO_SET_VAR VAR1 5\nEND\n", true},
+    {"isr", "21", "ISR 21\n  RSM_MACRO_SET_VAR VAR1 5\nEND\n", false},
+    {"isr", "1", "ISR 1\n  RSM_MACRO_TIMER 5\nEND\n", false},
+    {"triggers", "15.15", "TRIGGER 15.15 on MP1\n", true},
+    {"triggers", "16.0", "TRIGGER 16.0 on MP1\n", false},
+    {"triggers", "7.15", "TRIGGER 7.15 on MP1\n", false},
+    {"triggers", "8.0", "TRIGGER 8.0 on MP158\n", false},
+    {"macros", "1", "MP 1\n  RSM_MACRO_TIMER 5\nEND\n", false},
+};
+
+TEST(RsM8194hMemory, TakesWhatIsOneOfItsBlocksAlone) {
+  for (const Block& block : kBlocks) {
+    DeviceSettings settings;
+    settings.name = "other";
+    NvImage image = OneRsm().device().memory()->nv_image();
+    image.blocks[block.kind][block.name] = SharedText(block.text);
+    settings.nv = image;
+    bool fits = true;
+    try {
+      (void)make_device(rs_m8194h::model(), settings);
+    } catch (const std::runtime_error&) {
+      fits = false;
+    }
+    EXPECT_EQ(fits, block.fits) << block.kind << " " << block.name << ": " << block.text;
+  }
+}
+
 TEST(RsM8194hMemory, TheFactorysIsEmpty) {
   OneRsm rsm;
   const NvImage image = rsm.device().memory()->nv_image();
@@ -96,6 +140,23 @@ TEST(RsM8194hMemory, AStateGoesOnAsIfNothingHadHappened) {
     ASSERT_TRUE(twin.device().same_state(rsm.device()));
     ASSERT_EQ(twin.device().save_state(), saved);
     ASSERT_EQ(twin.device().state_difference(saved, twin.device().save_state()), "");
+  }
+}
+
+TEST(RsM8194hMemory, WhatIsRestoredIsTheSameAtEachTickBehind) {
+  OneRsm plain;
+  OneRsm restored;
+  for (OneRsm* const one : {&plain, &restored}) {
+    one->send({"RSM_SET_SV X 1000", "RSM_FIXED_MOVE X 5000"});
+    one->run(40);
+  }
+  world::restore(restored.world(), world::save(restored.world()));
+  for (int tick = 0; tick < 10; ++tick) {
+    ASSERT_EQ(plain.device().state_difference(plain.device().save_state(), restored.device().save_state()),
+              "")
+        << tick;
+    plain.run(1);
+    restored.run(1);
   }
 }
 

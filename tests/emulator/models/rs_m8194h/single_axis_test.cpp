@@ -213,6 +213,30 @@ TEST(RsM8194hAxis, ExternalDrivesFollowTheirEdges) {
   }
 }
 
+TEST(RsM8194hAxis, ExternalDrivesKnowTheLevelsThatTheyFind) {
+  // EXP+ conducts already: it falls at its second edge from here.
+  for (const bool is_reset : {false, true}) {
+    OneRsm rsm;
+    const auto turn = [&](int edges) {
+      rsm.world().set_external_input(0, terminal(0, Pin::external_plus), edges);
+      rsm.run(50);
+    };
+    turn(1);
+    if (is_reset) {
+      rsm.send("RSM_RESET_CARD");
+    } else {
+      rsm.world().switch_power(0, false);
+      rsm.world().switch_power(0, true);
+    }
+    rsm.run(3);
+    rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_EXD_FP X 10"});
+    turn(2);
+    EXPECT_EQ(rsm.get("LP_X"), 0) << is_reset;
+    turn(3);
+    EXPECT_EQ(rsm.get("LP_X"), 10) << is_reset;
+  }
+}
+
 TEST(RsM8194hAxis, AContinuousExternalDriveRunsWhileItsInputIsLow) {
   OneRsm rsm;
   rsm.send({"RSM_SET_SV X 100", "RSM_SET_A X 1000000", "RSM_SET_V X 500", "RSM_EXD_CP X 2000"});

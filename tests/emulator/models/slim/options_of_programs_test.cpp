@@ -306,10 +306,10 @@ TEST(SlimProgramChoices, QuietTicksAndSavedStates) {
         drain(bulk, said[0]);
         drain(single, said[1]);
         ASSERT_EQ(said[0], said[1]);
-        ASSERT_EQ(bulk.device().save_state(), single.device().save_state()) << "moment " << moment;
+        ASSERT_TRUE(saves_the_same(bulk.device(), single.device())) << "moment " << moment;
         const std::vector<std::byte> saved = bulk.device().save_state();
         bulk.device().restore_state(saved);
-        ASSERT_EQ(bulk.device().save_state(), saved);
+        ASSERT_TRUE(saves(bulk.device(), saved));
         ASSERT_TRUE(same_state(bulk.device(), single.device()));
       }
       bulk.play(what);

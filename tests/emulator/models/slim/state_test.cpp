@@ -243,7 +243,7 @@ TEST(SlimState, QuietTicksMakeNoDifference) {
       bulk.pass(span);
       single.pass(span);
       ASSERT_EQ(seen_of(bulk), seen_of(single)) << "after " << span << " ms more";
-      ASSERT_EQ(bulk.device().save_state(), single.device().save_state());
+      ASSERT_TRUE(saves_the_same(bulk.device(), single.device()));
       ASSERT_TRUE(same_state(bulk.device(), single.device()));
     }
     EXPECT_EQ(single.world().ticks_crossed(), 0u);

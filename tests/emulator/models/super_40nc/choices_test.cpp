@@ -431,12 +431,8 @@ TEST(Super40ncChoices, ShowTheirEffects) {
   }
 }
 
-/// A row with one option says that others are not modelled, or follows from the manual.
-TEST(Super40ncChoices, SayWhatIsNotModelled) {
-  for (const ChoiceRow& row : kChoices) {
-    if (options_of(row).size() > 1 || row.confidence == kFollows) continue;
-    EXPECT_NE(row.why.find("not modelled"), std::string_view::npos) << row.id;
-  }
+TEST(Super40ncChoices, EachHasAnAlternative) {
+  for (const ChoiceRow& row : kChoices) EXPECT_GT(options_of(row).size(), 1U) << row.id;
 }
 
 }  // namespace choices_test

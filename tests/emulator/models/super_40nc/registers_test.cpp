@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
 #include "tests/interpreter/facts.h"
@@ -192,6 +193,55 @@ TEST(Super40ncRegisters, OutputVoltagesAreLimited) {
   one.input("VR3", 1000);
   one.run(1);
   EXPECT_EQ(one.get("D8093"), 1000);
+}
+
+/// Many in a request are what each is by itself: in rows, between rows, views of other state, from any first
+/// bit or word to any last one.
+TEST(Super40ncRegisters, AreReadManyAtOnceAsOneByOne) {
+  OneSuper40nc one({.program = "AREA X\nRPM K100\nDRV K50000\nEND\nAREA PLC\nLD M8120\nOUT Y3\nEND\n"});
+  std::mt19937 random(20241125);
+  const auto any = [&](int below) { return static_cast<int>(random() % static_cast<unsigned>(below)); };
+  for (int i = 0; i < 300; ++i) {
+    one.set("M" + std::to_string(any(512)), any(2));
+    one.set("D" + std::to_string(any(1000)), static_cast<std::int32_t>(random()));
+  }
+  for (const char* contact : {"M8100", "M8203", "M8500", "M8699", "M8012", "S5", "coil.T9"})
+    one.set(contact, 1);
+  one.input("X13", 1);
+  one.input("ALM_U", 1);
+  one.run(700);
+  const RegisterBank& bank = *one.device().register_bank();
+  struct Range {
+    Table table;
+    int first, last;
+  };
+  const Range kRanges[] = {
+      {Table::coil, 0, 31},         {Table::coil, 200, 327},      {Table::coil, 1000, 1511},
+      {Table::coil, 2000, 2699},    {Table::discrete, 0, 47},     {Table::holding, 0, 2127},
+      {Table::holding, 2500, 2563}, {Table::holding, 7000, 8199}, {Table::holding, 9000, 9999}};
+  for (int round = 0; round < 3000; ++round) {
+    const Range& range = kRanges[any(std::size(kRanges))];
+    const int most = range.table == Table::holding ? 125 : 800;
+    const int first = range.first + any(range.last - range.first + 1);
+    const int count = 1 + any(std::min(most, range.last - first + 1));
+    const auto alone = [&](int i) {
+      const Place place = bank.at(range.table, static_cast<std::uint16_t>(first + i));
+      return static_cast<std::uint16_t>(read_value(bank, place));
+    };
+    const auto address = static_cast<std::uint16_t>(first);
+    if (range.table == Table::holding) {
+      std::vector<std::uint16_t> words(static_cast<std::size_t>(count));
+      ASSERT_FALSE(read_request(bank, range.table, address, words));
+      for (int i = 0; i < count; ++i) ASSERT_EQ(words[static_cast<std::size_t>(i)], alone(i)) << first + i;
+      continue;
+    }
+    std::vector<std::uint8_t> packed(static_cast<std::size_t>(count + 7) / 8, 0xFF);
+    ASSERT_FALSE(read_bits_request(bank, range.table, address, static_cast<std::size_t>(count), packed));
+    for (int i = 0; i < 8 * static_cast<int>(packed.size()); ++i) {
+      const int bit = packed[static_cast<std::size_t>(i / 8)] >> i % 8 & 1;
+      ASSERT_EQ(bit, i < count ? alone(i) : 0) << first + i << " of " << first << " and " << count;
+    }
+  }
 }
 
 TEST(Super40ncRegisters, CapacitiesFollowTheLinesOfAFile) {

@@ -51,6 +51,11 @@ struct Unasking {
     for (ForkStep::Branch& branch : fork.branches) branch.steps = without_expectations(branch.steps);
     add(std::move(fork));
   }
+  void operator()(ProgramStep program) const {
+    program.refused.reset();
+    program.asks = false;
+    add(std::move(program));
+  }
   void operator()(const MemoryStep& memory) const {
     if (memory.what == MemoryStep::What::save) add(memory);
   }

@@ -279,6 +279,22 @@ TEST(ScopeMessage, SeesRestAsWellAsMotion) {
   }
 }
 
+TEST(ScopeMessage, KeepsWhatLedToAMomentBeforeALongRest) {
+  LookRig rig;
+  rig.run(50);
+  rig.ask(
+      R"({"do":"scope","names":["feeder.DIN_10"],"condition":"feeder.DIN_10","before":"10ms","after":"20ms"})");
+  rig.run(100);
+  rig.ask(R"({"do":"input","values":{"feeder.DIN_10":1}})");
+  rig.run(5'000);
+  const Json reply = rig.ask(R"({"do":"scope","from":0})");
+  ASSERT_EQ(reply["scope"]["state"], "done") << reply;
+  ASSERT_EQ(reply["scope"]["count"], 31);
+  const std::int64_t from = reply["scope"]["from_ns"];
+  EXPECT_EQ(reply["scope"]["trigger_ns"].get<std::int64_t>() - from, 10'000'000);
+  for (std::size_t i = 0; i < 31; ++i) EXPECT_EQ(reply["samples"][0][i], i < 10 ? 0 : 1) << i;
+}
+
 TEST(ScopeMessage, LeavesTheWorldAsItIs) {
   LookRig watched;
   LookRig alone;

@@ -144,7 +144,7 @@ TEST(ControlMessages, IdentifyTellsWhichDaemonItIs) {
   ASSERT_EQ(daemon["lines"].size(), 1U);
   EXPECT_EQ(daemon["lines"][0]["name"], "rs485");
   EXPECT_EQ(daemon["lines"][0]["link"], rig.folder.path + "/feeder.port");
-  EXPECT_EQ(daemon["lines"][0]["pty"], rig.daemon.ports()[0]->terminal().path());
+  EXPECT_EQ(daemon["lines"][0]["pty"], rig.daemon.ports()[0]->terminal()->path());
 }
 
 struct Bad {

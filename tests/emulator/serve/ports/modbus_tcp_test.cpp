@@ -20,6 +20,7 @@ const Bytes kRequest = hex("12 34 00 00 00 06 01 03 00 01 00 01");
 const Bytes kFrame = hex("01 03 00 01 00 01 D5 CA");
 const Bytes kReplyFrame = hex("01 03 02 C0 01 29 84");
 const Bytes kReply = hex("12 34 00 00 00 05 01 03 02 C0 01");
+constexpr std::size_t kRoom = 256;  // of the line, for any frame
 const Bytes kNobody = hex("12 34 00 00 00 03 01 83 0B");
 
 Bytes with_transaction(Bytes message, std::uint8_t low) {
@@ -30,7 +31,7 @@ Bytes with_transaction(Bytes message, std::uint8_t low) {
 TEST(ModbusTcp, MakesAFrameOfARequestAndAnAnswerOfAReply) {
   ModbusTcp gateway;
   EXPECT_TRUE(gateway.hear_client(kRequest));
-  EXPECT_EQ(gateway.take_for_line(), kFrame);
+  EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
   EXPECT_TRUE(gateway.waits());
   EXPECT_EQ(gateway.take_for_client(), Bytes{});
   gateway.hear_line(kReplyFrame);
@@ -42,11 +43,11 @@ TEST(ModbusTcp, TakesBothInPiecesOfAnySize) {
   for (std::size_t piece = 1; piece < kRequest.size(); ++piece) {
     ModbusTcp gateway;
     for (std::size_t at = 0; at < kRequest.size(); at += piece) {
-      EXPECT_EQ(gateway.take_for_line(), Bytes{}) << at;
+      EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << at;
       EXPECT_TRUE(
           gateway.hear_client(std::span(kRequest).subspan(at, std::min(piece, kRequest.size() - at))));
     }
-    EXPECT_EQ(gateway.take_for_line(), kFrame) << piece;
+    EXPECT_EQ(gateway.take_for_line(kRoom), kFrame) << piece;
     for (std::size_t at = 0; at < kReplyFrame.size(); at += piece) {
       EXPECT_EQ(gateway.take_for_client(), Bytes{}) << at;
       gateway.hear_line(std::span(kReplyFrame).subspan(at, std::min(piece, kReplyFrame.size() - at)));
@@ -64,12 +65,12 @@ TEST(ModbusTcp, HasOneRequestAtATimeOnTheLine) {
   }
   EXPECT_TRUE(gateway.hear_client(three));
   for (const std::uint8_t low : {1, 2, 3}) {
-    EXPECT_EQ(gateway.take_for_line(), kFrame);
-    EXPECT_EQ(gateway.take_for_line(), Bytes{}) << "another is on the line";
+    EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
+    EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "another is on the line";
     gateway.hear_line(kReplyFrame);
     EXPECT_EQ(gateway.take_for_client(), with_transaction(kReply, low));
   }
-  EXPECT_EQ(gateway.take_for_line(), Bytes{});
+  EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{});
 }
 
 TEST(ModbusTcp, KnowsWhereEachReplyEnds) {
@@ -91,7 +92,7 @@ TEST(ModbusTcp, KnowsWhereEachReplyEnds) {
        }) {
     ModbusTcp gateway;
     EXPECT_TRUE(gateway.hear_client(hex(c.request)));
-    gateway.take_for_line();
+    gateway.take_for_line(kRoom);
     for (const std::uint8_t byte : hex(c.frame)) {
       EXPECT_EQ(gateway.take_for_client(), Bytes{});
       gateway.hear_line(std::array{byte});
@@ -103,7 +104,7 @@ TEST(ModbusTcp, KnowsWhereEachReplyEnds) {
 TEST(ModbusTcp, TellsOfAStationThatDoesNotAnswer) {
   ModbusTcp gateway;
   EXPECT_TRUE(gateway.hear_client(kRequest));
-  gateway.take_for_line();
+  gateway.take_for_line(kRoom);
   gateway.give_up();
   EXPECT_EQ(gateway.take_for_client(), kNobody);
   EXPECT_FALSE(gateway.waits());
@@ -120,7 +121,7 @@ TEST(ModbusTcp, PassesOnNothingButTheReply) {
   for (const Bytes& other : {of_station_2, garbled, of_function_6}) {
     ModbusTcp gateway;
     EXPECT_TRUE(gateway.hear_client(kRequest));
-    gateway.take_for_line();
+    gateway.take_for_line(kRoom);
     gateway.hear_line(other);
     EXPECT_EQ(gateway.take_for_client(), Bytes{});
     gateway.hear_line(kReplyFrame);
@@ -131,7 +132,7 @@ TEST(ModbusTcp, PassesOnNothingButTheReply) {
 TEST(ModbusTcp, LeavesABroadcastUnanswered) {
   ModbusTcp gateway;
   EXPECT_TRUE(gateway.hear_client(hex("12 34 00 00 00 06 00 06 10 02 00 C8")));
-  EXPECT_EQ(gateway.take_for_line(), hex("00 06 10 02 00 C8 2C 8D"));
+  EXPECT_EQ(gateway.take_for_line(kRoom), hex("00 06 10 02 00 C8 2C 8D"));
   EXPECT_TRUE(gateway.is_broadcast());
   gateway.give_up();
   EXPECT_EQ(gateway.take_for_client(), Bytes{});
@@ -142,7 +143,7 @@ TEST(ModbusTcp, PassesOverAnotherProtocol) {
   ModbusTcp gateway;
   EXPECT_TRUE(gateway.hear_client(hex("00 01 00 07 00 03 01 02 03")));
   EXPECT_TRUE(gateway.hear_client(kRequest));
-  EXPECT_EQ(gateway.take_for_line(), kFrame);
+  EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
 }
 
 TEST(ModbusTcp, LetsALengthGoThatNoRequestHas) {
@@ -165,7 +166,7 @@ TEST(ModbusTcp, HasRoomForSoMuch) {
     ASSERT_LT(i, 1000);
     EXPECT_TRUE(gateway.hear_client(kRequest));
   }
-  while (!gateway.take_for_line().empty()) {
+  while (!gateway.take_for_line(kRoom).empty()) {
     gateway.give_up();
     EXPECT_FALSE(gateway.take_for_client().empty());
   }
@@ -176,11 +177,11 @@ TEST(ModbusTcp, WaitsUntilItsAnswerIsTaken) {
   ModbusTcp gateway;
   EXPECT_TRUE(gateway.hear_client(kRequest));
   EXPECT_TRUE(gateway.hear_client(kRequest));
-  gateway.take_for_line();
+  gateway.take_for_line(kRoom);
   gateway.hear_line(kReplyFrame);
-  EXPECT_EQ(gateway.take_for_line(), Bytes{}) << "nobody has taken the answer";
+  EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "nobody has taken the answer";
   EXPECT_EQ(gateway.take_for_client(), kReply);
-  EXPECT_EQ(gateway.take_for_line(), kFrame);
+  EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
 }
 
 // Whatever comes from both sides, frames have their checksum and answers their length, and nothing grows.
@@ -203,7 +204,7 @@ TEST(ModbusTcp, StaysWholeWhateverItHears) {
     if (what < 4 && gateway.has_room() && !gateway.hear_client(piece)) gateway = ModbusTcp();
     if (what >= 4 && what < 7) gateway.hear_line(piece);
     if (what == 7) gateway.give_up();
-    const Bytes frame = gateway.take_for_line();
+    const Bytes frame = gateway.take_for_line(kRoom);
     if (!frame.empty()) {
       ++frames;
       ASSERT_TRUE(pty::rtu_crc_ok(frame));

@@ -44,7 +44,7 @@ class LostPort : public testing::Test {
     return true;
   }
   int open_host() const { return open(link.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK); }
-  bool is_lost() const { return port.terminal().is_lost(); }
+  bool is_lost() const { return port.terminal()->is_lost(); }
 
   TestFolder folder;
   const std::string link = folder.path + "/port";

@@ -85,7 +85,8 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
       {"understudy: 1\n" + kLines + "lines: {}\n", "3: lines: is given twice; expected it once"},
       {"understudy: 1\nunderstudy: 1\n" + kLines, "2: understudy: is given twice; expected it once"},
       {with_line("speed: 1, " + kStation),
-       "3: lines.a.speed: is not a key here; expected one of link, baud, baud_tolerance, timing, stations"},
+       "3: lines.a.speed: is not a key here; expected one of link, listen, pty, baud, baud_tolerance, "
+       "timing, stations"},
       {with("adress: 2"),
        "5: lines.a.stations[0].adress: is not a key here; expected one of name, model, address, port, "
        "firmware, "
@@ -136,6 +137,23 @@ TEST(BenchErrors, Lines) {
        "3: lines.a.stations[0]: baud: 9600 is not a speed of simple2-r3; expected one of 19200, 115200"},
       {with_line("baud_tolerance: 11%, " + kStation),
        "3: lines.a.baud_tolerance: '11%' is not a share of the speed; expected 0% to 10%, as in 2%"},
+      {with_line("listen: tcp://:1, " + kStation),
+       "3: lines.a.listen: 'tcp://:1'"
+       " is not an address; expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as "
+       "rtu://127.0.0.1:5020"},
+      {with_line("listen: [ 'rtu://:1', 'rtu://here:2' ], " + kStation),
+       "3: lines.a.listen[1]: 'rtu://here:2'"
+       " is not an address; expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as "
+       "rtu://127.0.0.1:5020"},
+      {with_line("listen: [ 'rtu://:1', 'rfc2217://127.0.0.1:1' ], " + kStation),
+       "3: lines.a.listen[1]: appears twice; expected it once"},
+      {with_line("listen: 'modbus-tcp://:1', stations: [ { name: x, model: slim } ]"),
+       "3: lines.a.listen: the line speaks lines of text, not Modbus; expected rtu:// or rfc2217://, which "
+       "carry any bytes"},
+      {with_line("pty: false, " + kStation),
+       "3: lines.a.pty: leaves the line without a port; expected `listen` beside it"},
+      {with_line("pty: false, link: p, listen: 'rtu://:0', " + kStation),
+       "3: lines.a.link: is of a pseudo-terminal, and `pty` is false; expected one of the two"},
       {with_line("timing: fast, " + kStation),
        "3: lines.a.timing: 'fast' is not a timing; expected wire or instant"},
       {with_line("link: '', " + kStation), "3: lines.a.link: is empty; expected a path"},
@@ -143,7 +161,8 @@ TEST(BenchErrors, Lines) {
        "3: lines.a.link: has a control character; expected a path without one"},
       {with_line("link: [ a ], " + kStation), "3: lines.a.link: expected a word or a number"},
       {with_line("link: \"tcp://:1502\", " + kStation),
-       "3: lines.a.link: 'tcp://:1502' is an address of a network; expected a path, for a serial port"},
+       "3: lines.a.link: 'tcp://:1502' is an address of a network; expected a path for a pseudo-terminal "
+       "(`listen` has addresses)"},
       {with_line("link: /, " + kStation),
        "3: lines.a.link: '/' is a folder; expected a path for the link in it"},
       {with_line("link: ., " + kStation),

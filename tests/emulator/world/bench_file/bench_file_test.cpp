@@ -95,6 +95,28 @@ TEST(BenchFile, WiresJoinAnOutputToAnInput) {
   EXPECT_EQ(name(bench.wires[1].to_device, bench.wires[1].to_terminal), "feeder.DIN_9");
 }
 
+TEST(BenchFile, ALineListensWhereItSays) {
+  const auto line_of = [](const std::string& keys) {
+    return parse_bench(
+               models::all_models(),
+               "understudy: 1\nlines: { a: { " + keys + "stations: [ { name: x, model: simple2-r3 } ] } }\n",
+               "bench.yaml", "/benches")
+        .lines[0];
+  };
+  const LineSetup plain = line_of("");
+  EXPECT_TRUE(plain.has_pty);
+  EXPECT_TRUE(plain.tcp.empty());
+  const LineSetup both = line_of("listen: [ 'rtu://:0', 'rfc2217://192.168.1.2:5021' ], ");
+  ASSERT_EQ(both.tcp.size(), 2U);
+  EXPECT_EQ(to_string(both.tcp[0]), "rtu://127.0.0.1:0");
+  EXPECT_EQ(to_string(both.tcp[1]), "rfc2217://192.168.1.2:5021");
+  EXPECT_TRUE(both.has_pty);
+  const LineSetup only = line_of("listen: modbus-tcp://:502, pty: false, ");
+  ASSERT_EQ(only.tcp.size(), 1U);
+  EXPECT_EQ(to_string(only.tcp[0]), "modbus-tcp://127.0.0.1:502");
+  EXPECT_FALSE(only.has_pty);
+}
+
 TEST(BenchFile, LinksAreRelativeToTheFilesFolder) {
   const auto link_of = [](const std::string& link, const std::string& folder) {
     return parse_bench(models::all_models(),

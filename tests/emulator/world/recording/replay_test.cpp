@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "base/version.h"
@@ -185,6 +186,23 @@ TEST(Replay, StopsWhereItIsTold) {
   EXPECT_EQ(half.result.verdict, Verdict::stopped);
   EXPECT_EQ(half.result.reached, middle);
   EXPECT_EQ(reached, middle);
+}
+
+TEST(Replay, WhatHappensAtThatMomentBelongsToIt) {
+  BusyWorld busy(5);
+  busy.play(100);
+  const std::string text = busy.finish();
+  std::vector<std::int64_t> times;
+  for (const std::string& line : lines_of(text)) {
+    if (line.starts_with("{\"t\":")) times.push_back(std::stoll(line.substr(5)));
+  }
+  ASSERT_GT(times.size(), 100U);
+  for (std::size_t i = 0; i < times.size(); i += 7) {
+    for (const std::int64_t until : {times[i] - 1, times[i]}) {
+      const auto events = std::count_if(times.begin(), times.end(), [&](auto t) { return t <= until; });
+      EXPECT_EQ(play(text, SimTime{until}).result.events, static_cast<std::uint64_t>(events)) << until;
+    }
+  }
 }
 
 TEST(Replay, ATruncatedRecordingIsPlayedAsFarAsItGoes) {

@@ -53,7 +53,10 @@ TEST(Timeline, ComesToWhatAReplayComesTo) {
     EXPECT_EQ(keyframes, static_cast<int>(timeline.keyframes()));
     const auto take_back = [&](const WorldState& state) { restore(world, state); };
     for (std::int64_t i = 1; i <= 12; ++i) {
-      const SimTime time{timeline.end().count() * (i * 7 % 13) / 13};
+      const auto mixed = i * 7 % 13;
+      // Also at the very time of an event.
+      const SimTime time = i % 2 == 0 ? SimTime{timeline.end().count() * mixed / 13}
+                                      : events[events.size() * static_cast<std::size_t>(mixed) / 13].at;
       std::istringstream again(text);
       std::vector<std::uint64_t> expected;
       replay(models::all_models(), again, "a", time, {}, [&](World& there) { expected = states_of(there); });
@@ -65,6 +68,27 @@ TEST(Timeline, ComesToWhatAReplayComesTo) {
     EXPECT_EQ(world.now(), timeline.begin());
     timeline.go_to(kHorizon, take_back);
     EXPECT_EQ(world.now(), timeline.end());
+  }
+}
+
+/// What led to a moment is seen as well: by one keyframe more, where they are not too far apart.
+TEST(Timeline, BeginsAtTheKeyframeBeforeTheLast) {
+  using namespace std::chrono_literals;
+  const struct {
+    SimTime length;
+    SimTime time;
+    SimTime from;
+  } cases[] = {{5s, 4500ms, 3s}, {5s, 4s, 3s},    {5s, 3999ms, 2s},   {5s, 1500ms, 0s}, {2000s, 4s, 2s},
+               {5s, 1s, 0s},     {5s, 900ms, 0s}, {3000s, 10s, 9s},   {3000s, 9s, 9s},  {3000s, 8s, 6s},
+               {2000s, 5s, 4s},  {1000s, 7s, 6s}, {1000s, 7500ms, 6s}};
+  for (const auto& [length, time, from] : cases) {
+    World world = make_world();
+    Timeline timeline(world, save(world), {}, length, [] {});
+    timeline.go_to(time, [&](const WorldState& state) {
+      restore(world, state);
+      EXPECT_EQ(world.now(), from) << format_duration(length) << ", " << format_duration(time);
+    });
+    EXPECT_EQ(world.now(), time);
   }
 }
 

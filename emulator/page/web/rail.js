@@ -1,0 +1,90 @@
+// The rail of an axis: its travel, what lies along it, where it is, where it goes, and where it is taken to be.
+import { html } from './preact.js';
+import { store, valueOf } from './store.js';
+import { grouped, isOn, spaced } from './small.js';
+
+export const kSwitches = ['lower_limit', 'near_home', 'home', 'mark', 'upper_limit'];
+const kZoneTop = { lower_limit: 42, upper_limit: 42, home: 42, near_home: 55, mark: 55 };
+
+// The stretch that each rail shows; it only grows, so that nothing jumps.
+const stretches = new Map();
+
+function stretchOf(key, machine, places) {
+  const marks = [machine.start ?? 0, ...places.filter((place) => typeof place === 'number')];
+  for (const name of kSwitches) {
+    const at = machine[name];
+    if (at) marks.push(...(at.on ?? [at.at]).filter((place) => Math.abs(place) < 1e12));
+  }
+  if (machine.travel) marks.push(...machine.travel);
+  let [low, high] = [Math.min(...marks), Math.max(...marks)];
+  if (high - low < 1000) [low, high] = [low - 500, high + 500];
+  const room = machine.travel ? 0.03 : 0.1;
+  const known = stretches.get(key);
+  if (known && known.machine === machine && low >= known.low && high <= known.high) return known;
+  const margin = (high - low) * room;
+  const made = { low: low - margin, high: high + margin, machine };
+  stretches.set(key, made);
+  return made;
+}
+
+/// Where a switch is on, as drawn: a limit is on from its place outwards.
+function zoneOf(name, machine, stretch) {
+  const it = machine[name];
+  if (!it) return null;
+  if (it.on) return it.on;
+  return name === 'lower_limit' ? [stretch.low, it.at] : [it.at, stretch.high];
+}
+
+/// Round numbers along it, three to five.
+function marksOf({ low, high }) {
+  const rough = (high - low) / 5;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((factor) => factor * power).find((it) => it >= rough);
+  const all = [];
+  for (let at = Math.ceil(low / step) * step; at <= high; at += step) all.push(Math.round(at) + 0);  // no -0
+  return all;
+}
+
+/// Where the encoder has the machine to be, in pulses; nothing where it has none on the motor.
+function encoderPlace(machine, counts) {
+  const { encoder } = machine;
+  if (!encoder || encoder.wheel || typeof counts !== 'number') return null;
+  const pulses = counts * encoder.pulses_per_revolution / encoder.counts_per_revolution;
+  return (machine.start ?? 0) + (encoder.reversed ? -pulses : pulses);
+}
+
+/// `press(contact)`: what a click on its zone does, if anything.
+export function Rail({ device, axis, press }) {
+  const name = `${device.name}.${axis.name}`;
+  const value = (what) => valueOf(`${name}.${what}`);
+  const machine = axis.machine;
+  const [position, pulses, target] = [value('position'), value('pulses'), value('target')];
+  const stretch = stretchOf(`${store.number}/${name}`, machine, [position, pulses, target]);
+  const share = (place) => Math.max(0, Math.min(100, 100 * (place - stretch.low) / (stretch.high - stretch.low)));
+  const x = (place) => `${share(place).toFixed(3)}%`;
+  const wide = (from, to) => `${(share(to) - share(from)).toFixed(3)}%`;
+  const zones = kSwitches.map((contact) => [contact, zoneOf(contact, machine, stretch)]).filter(([, zone]) => zone);
+  const differs = (place) => typeof place === 'number' && typeof position === 'number' && place !== position;
+  const encoder = encoderPlace(machine, value('encoder'));
+  const count = machine.encoder ? machine.encoder.pulses_per_revolution / machine.encoder.counts_per_revolution : 0;
+  const isOff = encoder !== null && typeof position === 'number' && Math.abs(encoder - position) > Math.max(count, 1);
+  const heads = typeof target === 'number' && target !== pulses;
+  const says = [`${name} at ${grouped(position)} pulses`, heads ? `on its way to ${grouped(target)}` : '',
+                differs(pulses) ? `commanded ${grouped(pulses)}` : '', isOff ? `encoder at ${grouped(Math.round(encoder))}` : '']
+    .filter(Boolean).join(', ');
+  return html`<svg class="rail" role="img" aria-label=${says}>
+    <rect class="bed" x="0" y="32" width="100%" height="8" />
+    ${marksOf(stretch).map((at) => html`<g key=${at}><rect class="tick" x=${x(at)} y="68" width="1" height="4" />
+      ${share(at) > 8 && share(at) < 92 && html`<text x=${x(at)} y="84">${grouped(at)}</text>`}</g>`)}
+    ${machine.travel && html`
+      <rect class="stop" x="0" y="20" width=${wide(stretch.low, machine.travel[0])} height="32"><title>hard stop</title></rect>
+      <rect class="stop" x=${x(machine.travel[1])} y="20" width=${wide(machine.travel[1], stretch.high)} height="32"><title>hard stop</title></rect>`}
+    ${zones.map(([contact, [from, to]]) => html`<rect key=${contact} onClick=${press(contact)}
+      class=${`zone ${contact} ${isOn(value(contact)) ? 'lit' : ''} ${press(contact) ? 'pressable' : ''}`} x=${x(from)} y=${kZoneTop[contact]}
+      style=${{ width: `max(4px, ${wide(from, to)})` }} height="11"><title>${spaced(contact)}</title></rect>`)}
+    ${heads && html`<svg x=${x(target)}><path class="target" d="M0 20 v32 M0 20 h9 l-3 4 l3 4 h-9"><title>target</title></path></svg>`}
+    ${differs(pulses) && html`<svg x=${x(pulses)}><path class="ghost" d="M0 30 l-9 -18 h18 z"><title>commanded</title></path></svg>`}
+    ${isOff && html`<svg x=${x(encoder)}><path class="ghost encoder" d="M0 30 l-9 -18 h18 z"><title>encoder</title></path></svg>`}
+    <svg x=${x(position ?? 0)}><path class="hair" d="M0 12 v54" /><path class="carriage" d="M0 31 l-9 -19 h18 z" /></svg>
+  </svg>`;
+}

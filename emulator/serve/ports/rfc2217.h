@@ -1,0 +1,74 @@
+// A serial port over telnet: the host's speed, parity, data bits and stop bits are seen. What a command does
+// is a row of its table. Source: RFC 2217.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "emulator/serve/ports/tcp_speech.h"
+#include "emulator/serve/ports/telnet.h"
+#include "pty/line_settings.h"
+
+namespace understudy::emulator::serve {
+
+class Rfc2217 final : public TcpSpeech {
+ public:
+  /// `line`: a host that sets nothing has what the line has.
+  explicit Rfc2217(const pty::LineSettings& line);
+
+  bool has_room() const override { return reader_.has_room() && to_client_.size() < kMostUnsaid; }
+  bool hear_client(std::span<const std::uint8_t> bytes) override;
+  Bytes take_for_line(std::size_t room) override;
+  std::optional<pty::HostSettings> settings() const override;
+  bool takes_back() override;
+  bool throws_away() override;
+  bool listens() const override { return !is_suspended_; }
+  void hear_line(std::span<const std::uint8_t> bytes) override;
+  Bytes take_for_client() override;
+
+  struct Row;
+
+ private:
+  static constexpr std::size_t kMostUnsaid = 4096;
+
+  void obey(const telnet::Command& command);
+  void obey_com_port(std::span<const std::uint8_t> body);
+  void answer(std::uint8_t code, std::span<const std::uint8_t> value);
+  void answer(std::uint8_t code, std::uint8_t value) { answer(code, std::span(&value, 1)); }
+  void tell_modem_state();
+
+  // What the table's rows do, each with the value that came.
+  void tell_signature(std::span<const std::uint8_t> value);
+  void set_baud(std::span<const std::uint8_t> value);
+  void set_data_bits(std::span<const std::uint8_t> value);
+  void set_parity(std::span<const std::uint8_t> value);
+  void set_stop_bits(std::span<const std::uint8_t> value);
+  void control(std::span<const std::uint8_t> value);
+  void notify_line_state(std::span<const std::uint8_t> value);
+  void notify_modem_state(std::span<const std::uint8_t> value);
+  void suspend(std::span<const std::uint8_t> value);
+  void resume(std::span<const std::uint8_t> value);
+  void mask_line_state(std::span<const std::uint8_t> value);
+  void mask_modem_state(std::span<const std::uint8_t> value);
+  void purge(std::span<const std::uint8_t> value);
+
+  telnet::Reader reader_;
+  telnet::Options options_;
+  Bytes to_client_;
+  pty::LineSettings settings_;
+  // As the codes of SET-CONTROL: none, off, on, on, none.
+  std::uint8_t flow_ = 1;
+  std::uint8_t break_ = 6;
+  std::uint8_t dtr_ = 8;
+  std::uint8_t rts_ = 11;
+  std::uint8_t inbound_flow_ = 14;
+  bool is_suspended_ = false;
+  bool has_told_modem_state_ = false;
+  bool breaks_ = false;  // a break goes onto the line next
+  bool takes_back_ = false;
+  bool throws_away_ = false;
+};
+
+}  // namespace understudy::emulator::serve

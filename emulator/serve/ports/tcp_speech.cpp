@@ -1,0 +1,55 @@
+#include "emulator/serve/ports/tcp_speech.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "emulator/serve/ports/modbus_tcp.h"
+#include "emulator/serve/ports/rfc2217.h"
+#include "pty/line_settings.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+/// As they come, both ways.
+class RawBytes final : public TcpSpeech {
+ public:
+  bool has_room() const override { return to_line_.size() < kMostHeard; }
+  bool hear_client(std::span<const std::uint8_t> bytes) override {
+    to_line_.insert(to_line_.end(), bytes.begin(), bytes.end());
+    return true;
+  }
+  Bytes take_for_line(std::size_t room) override {
+    const auto end = to_line_.begin() + static_cast<std::ptrdiff_t>(std::min(room, to_line_.size()));
+    Bytes taken(to_line_.begin(), end);
+    to_line_.erase(to_line_.begin(), end);
+    return taken;
+  }
+  void hear_line(std::span<const std::uint8_t> bytes) override {
+    to_client_.insert(to_client_.end(), bytes.begin(), bytes.end());
+  }
+  Bytes take_for_client() override { return std::exchange(to_client_, {}); }
+
+ private:
+  static constexpr std::size_t kMostHeard = 4096;
+  Bytes to_line_;
+  Bytes to_client_;
+};
+
+}  // namespace
+
+std::unique_ptr<TcpSpeech> make_tcp_speech(world::TcpProtocol protocol, const pty::LineSettings& line) {
+  switch (protocol) {
+    case world::TcpProtocol::rtu: return std::make_unique<RawBytes>();
+    case world::TcpProtocol::rfc2217: return std::make_unique<Rfc2217>(line);
+    case world::TcpProtocol::modbus_tcp: return std::make_unique<ModbusTcp>();
+  }
+  throw std::logic_error("an unknown protocol of TCP");
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,137 @@
+#include "emulator/serve/ports/telnet.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace understudy::emulator::serve::telnet {
+
+namespace {
+
+constexpr std::uint8_t kReturn = '\r';
+constexpr std::uint8_t kLineFeed = '\n';
+
+bool has_option(std::uint8_t verb) { return verb >= kSubnegotiation && verb != kIac; }
+
+}  // namespace
+
+void Reader::drop(std::size_t count) {
+  heard_.erase(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+void Reader::take_data(Bytes& taken, std::size_t most, bool is_binary) {
+  std::size_t at = 0;
+  while (!is_skipping_ && taken.size() < most && at < heard_.size()) {
+    const std::uint8_t byte = heard_[at];
+    const bool is_escaped = byte == kIac && at + 1 < heard_.size() && heard_[at + 1] == kIac;
+    if (byte == kIac && !is_escaped) break;
+    at += is_escaped ? 2 : 1;
+    if (!is_binary && was_return_ && byte == 0) {
+      was_return_ = false;
+      continue;
+    }
+    was_return_ = byte == kReturn;
+    taken.push_back(byte);
+  }
+  drop(at);
+}
+
+std::optional<Command> Reader::take_command() {
+  if (is_skipping_) return skip_subnegotiation() ? std::optional(Command{}) : std::nullopt;
+  if (heard_.size() < 2 || heard_[0] != kIac || heard_[1] == kIac) return std::nullopt;
+  Command command{.verb = heard_[1], .option = 0, .body = {}};
+  if (!has_option(command.verb)) {
+    drop(2);
+    return command;
+  }
+  if (heard_.size() < 3) return std::nullopt;
+  command.option = heard_[2];
+  if (command.verb == kSubnegotiation) return take_subnegotiation();
+  drop(3);
+  return command;
+}
+
+/// False: its end has not come. What is passed over is dropped, but for a byte whose meaning the next tells.
+bool Reader::skip_subnegotiation() {
+  std::size_t at = 0;
+  while (at + 1 < heard_.size()) {
+    if (heard_[at] != kIac) {
+      ++at;
+    } else if (heard_[at + 1] == kIac) {
+      at += 2;
+    } else {
+      drop(heard_[at + 1] == kSubnegotiationEnd ? at + 2 : at);
+      is_skipping_ = false;
+      return true;
+    }
+  }
+  if (at < heard_.size() && heard_[at] != kIac) ++at;
+  drop(at);
+  return false;
+}
+
+/// A command in the midst of one breaks it off: it counts for nothing.
+std::optional<Command> Reader::take_subnegotiation() {
+  Command command{.verb = kSubnegotiation, .option = heard_[2], .body = {}};
+  for (std::size_t at = 3; at + 1 < heard_.size(); ++at) {
+    if (at > kLongestSubnegotiation) {
+      drop(3);
+      is_skipping_ = true;
+      return take_command();
+    }
+    if (heard_[at] == kIac && heard_[at + 1] != kIac) {
+      const bool is_ended = heard_[at + 1] == kSubnegotiationEnd;
+      drop(is_ended ? at + 2 : at);
+      return is_ended ? command : Command{};
+    }
+    command.body.push_back(heard_[at]);
+    if (heard_[at] == kIac) ++at;
+  }
+  return std::nullopt;
+}
+
+Bytes Options::begin() {
+  Bytes said;
+  for (Row& row : rows_) {
+    said.insert(said.end(), {kIac, kDo, row.option});
+    row.theirs = State::asked;
+    if (row.option == kComPort) continue;  // it is the client's to offer
+    said.insert(said.end(), {kIac, kWill, row.option});
+    row.ours = State::asked;
+  }
+  return said;
+}
+
+Bytes Options::answer(const Command& command) {
+  const bool is_about_us = command.verb == kDo || command.verb == kDont;
+  const bool is_on = command.verb == kDo || command.verb == kWill;
+  const std::uint8_t yes = is_about_us ? kWill : kDo;
+  const std::uint8_t no = is_about_us ? kWont : kDont;
+  auto* const row = std::ranges::find(rows_, command.option, &Row::option);
+  if (row == rows_.end()) return is_on ? Bytes{kIac, no, command.option} : Bytes{};
+  State& state = is_about_us ? row->ours : row->theirs;
+  const State before = state;
+  state = is_on ? State::on : State::off;
+  // What we have asked for is answered by it, and needs no answer.
+  if (before == State::asked || before == state) return {};
+  return {kIac, is_on ? yes : no, command.option};
+}
+
+void append_data(Bytes& sent, std::span<const std::uint8_t> bytes, bool is_binary) {
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    sent.push_back(bytes[i]);
+    if (bytes[i] == kIac) sent.push_back(kIac);
+    const bool is_end = i + 1 == bytes.size() || bytes[i + 1] != kLineFeed;
+    if (!is_binary && bytes[i] == kReturn && is_end) sent.push_back(0);
+  }
+}
+
+void append_subnegotiation(Bytes& sent, std::span<const std::uint8_t> body) {
+  sent.insert(sent.end(), {kIac, kSubnegotiation});
+  append_data(sent, body, true);
+  sent.insert(sent.end(), {kIac, kSubnegotiationEnd});
+}
+
+}  // namespace understudy::emulator::serve::telnet

@@ -1,0 +1,89 @@
+// Telnet as far as a serial port behind it needs it: bytes apart from commands, and which options are on.
+// Source: RFC 854, 855, 856, 858.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace understudy::emulator::serve::telnet {
+
+using Bytes = std::vector<std::uint8_t>;
+
+inline constexpr std::uint8_t kIac = 255;
+enum Verb : std::uint8_t {
+  kSubnegotiationEnd = 240,
+  kNop = 241,
+  kBreak = 243,
+  kAreYouThere = 246,
+  kSubnegotiation = 250,
+  kWill = 251,
+  kWont = 252,
+  kDo = 253,
+  kDont = 254,
+};
+enum Option : std::uint8_t { kBinary = 0, kSuppressGoAhead = 3, kComPort = 44 };
+
+struct Command {
+  std::uint8_t verb = kNop;
+  std::uint8_t option = 0;  // of will, wont, do, dont and subnegotiation
+  Bytes body;               // of a subnegotiation, behind its option
+};
+
+/// What was heard, taken apart in its order.
+class Reader {
+ public:
+  static constexpr std::size_t kMostHeard = 4096;
+  static constexpr std::size_t kLongestSubnegotiation = 256;  // as it is sent; longer ones are passed over
+
+  bool has_room() const { return heard_.size() < kMostHeard; }
+  void hear(std::span<const std::uint8_t> bytes) { heard_.insert(heard_.end(), bytes.begin(), bytes.end()); }
+  /// Adds bytes up to the next command, until there are `most`. Where they are not binary, the 0 that follows
+  /// a carriage return is no byte of the line's.
+  void take_data(Bytes& taken, std::size_t most, bool is_binary);
+  /// The next command, if no byte comes before it and it has come wholly; for one that is malformed a kNop.
+  std::optional<Command> take_command();
+
+ private:
+  bool skip_subnegotiation();
+  std::optional<Command> take_subnegotiation();
+  void drop(std::size_t count);
+
+  Bytes heard_;
+  bool is_skipping_ = false;  // an overlong subnegotiation
+  bool was_return_ = false;
+};
+
+/// Which options are on, on either side. Only what changes something is answered, so two sides never go on
+/// about it without end.
+class Options {
+ public:
+  /// What we would like to have.
+  Bytes begin();
+  /// The answer to will, wont, do or dont; none where nothing changes.
+  Bytes answer(const Command& command);
+
+  bool we_are_binary() const { return rows_[0].ours == State::on; }
+  bool they_are_binary() const { return rows_[0].theirs == State::on; }
+  /// One side at least has agreed to it.
+  bool has_com_port() const { return rows_[2].ours == State::on || rows_[2].theirs == State::on; }
+
+ private:
+  enum class State : std::uint8_t { off, asked, on };
+  struct Row {
+    std::uint8_t option;
+    State ours = State::off;
+    State theirs = State::off;
+  };
+  std::array<Row, 3> rows_{Row{kBinary}, Row{kSuppressGoAhead}, Row{kComPort}};
+};
+
+/// Bytes of the line as they are sent.
+void append_data(Bytes& sent, std::span<const std::uint8_t> bytes, bool is_binary);
+/// A subnegotiation as it is sent; `body` begins with the option.
+void append_subnegotiation(Bytes& sent, std::span<const std::uint8_t> body);
+
+}  // namespace understudy::emulator::serve::telnet

@@ -1,0 +1,284 @@
+"""What a person does in each panel of the live page, with a host beside it, and what must come of it (for live.py)."""
+import json
+import pathlib
+import time
+
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+import browse
+
+BENCH = """understudy: 1
+lines:
+  rs485:
+    link: ./host.port
+    stations: [ { device: feeder, address: 1 } ]
+devices:
+  feeder: { model: simple2-r3, nv: { DIN4_Aaxis_Home: 1 } }
+plant:
+  feeder.A: { travel: [-40000, 40000], home: { at: -30000, width: 200 }, limits: { lower: -35000, upper: 35000 }, encoder: { per_revolution: 4000 } }
+"""
+LISTING = '        Delay_mSec 60000\n        END\n'
+
+
+def enter(visit, label, text):
+    """Types into the field of that label, and presses Enter."""
+    field = visit.find(f'input[aria-label^="{label}"]')[0]
+    field.send_keys(Keys.CONTROL + 'a')
+    field.send_keys(text, Keys.ENTER)
+    return field
+
+
+def select(visit, label, value):
+    chosen = visit.find(f'select[aria-label="{label}"]')[0]
+    visit.driver.execute_script("arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('change', { bubbles: true }))",
+                                chosen, value)
+
+
+def saved(visit, name, press):
+    """The file that the browser keeps when a button is pressed, as bytes."""
+    visit.driver.execute_script("""
+        window.kept = null;
+        window.createBefore ??= URL.createObjectURL;
+        URL.createObjectURL = (blob) => { new Response(blob).arrayBuffer().then((bytes) => { window.kept = [...new Uint8Array(bytes)]; });
+                                          return window.createBefore.call(URL, blob); };""")
+    visit.press(press)
+    visit.until(f'{name} is saved', lambda: visit.driver.execute_script('return window.kept && window.kept.length'))
+    return bytes(visit.driver.execute_script('return window.kept'))
+
+
+def axes(visit, stage):
+    """The rail shows target, switches and steps that are lost; all of them by the mouse."""
+    stage.host_writes(0x1014, 1)
+    stage.host_writes(0x1000, 30000, 0, 60, 5, 5, 1)  # 30,000 pulses
+    visit.until('the target is told', lambda: any('30,000' in text for text in visit.texts('.reading')) and visit.find('.rail .target'))
+    visit.picture('target')
+    visit.press('break feeder.A')
+    select(visit, 'kind of fault', 'lost_steps')
+    visit.until('the form asks how many', lambda: visit.find('.fault_form .fields input'))
+    visit.find('.fault_form .fields input')[0].send_keys('10')
+    visit.find('.fault_form button[type=submit]')[0].click()
+    visit.until('steps are lost', lambda: 'lost' in ' '.join(visit.texts('.axis .lamps')) and stage.value('feeder.A.lost') > 0)
+    visit.until('the commanded place is a ghost', lambda: visit.find('.rail .ghost'))
+    visit.picture('ghost')
+    visit.press('home of A, DIN_4: stuck on')
+    visit.until('the switch is stuck', lambda: stage.value('feeder.DIN_4') == 1 and visit.find('button[title="home of A, DIN_4: mend"]'))
+    visit.press('home of A, DIN_4: mend')
+    visit.until('and mended', lambda: stage.value('feeder.DIN_4') == 0)
+    stage.host_writes(0x100E, 1)
+    visit.until('the axis stands', lambda: stage.value('feeder.A.speed') == 0)
+    visit.press('break feeder.A')
+    select(visit, 'kind of fault', 'slip')
+    before = stage.value('feeder.A.position')
+    visit.until('a slip asks how far', lambda: visit.find('.fault_form .fields input'))
+    visit.find('.fault_form .fields input')[0].send_keys('-500')
+    visit.find('.fault_form button[type=submit]')[0].click()
+    visit.until('the carriage has slipped', lambda: stage.value('feeder.A.position') == before - 500)
+    zone = visit.find('.rail .zone.home')[0]
+    visit.driver.execute_script("arguments[0].dispatchEvent(new MouseEvent('click', { bubbles: true }))", zone)
+    visit.until('a zone is pressed on the rail itself', lambda: stage.value('feeder.DIN_4') == 1)
+
+
+def signals(visit, stage):
+    visit.show('Signals')
+    slider = lambda: visit.find('input[type=range][aria-label="AIN_A"]')[0]
+    visit.until('there is a slider', slider)
+    slider().send_keys(Keys.END)
+    visit.until('a slider sets a voltage by the keyboard', lambda: stage.value('feeder.AIN_A') == 12000)
+    enter(visit, 'set AIN_A', '2500')
+    visit.until('and a number to the millivolt', lambda: stage.value('feeder.AIN_A') == 2500)
+    dip = lambda: next(it for it in visit.find('button.signal') if it.text.startswith('DIP1'))
+    dip().click()
+    visit.until('a DIP switch is a switch', lambda: stage.value('feeder.DIP1') == 1 and dip().get_attribute('aria-pressed') == 'true')
+    enter(visit, 'find a signal', 'home')
+    visit.until('found by what it is used for', lambda: len(visit.find('.signal')) == 1 and 'DIN_4' in visit.texts('.signal')[0])
+
+
+def plot(visit, stage):
+    visit.show('Plot')
+    enter(visit, 'a name to plot', 'feeder.A.sped')
+    visit.until('a wrong name is said to be wrong', lambda: 'sped' in visit.texts('.said')[0])
+    enter(visit, 'a name to plot', 'feeder.A.speed')
+    visit.until('a second curve', lambda: len(visit.find('.curve')) == 2)
+    stage.host_writes(0x1014, 1)
+    stage.host_writes(0x1000, 6400, 0, 60, 5, 5, 1)
+    time.sleep(1.5)
+    visit.press('freeze the plot')
+    first = saved(visit, 'a CSV', 'save as CSV').decode()
+    time.sleep(0.5)
+    if saved(visit, 'the same CSV', 'save as CSV').decode() != first:
+        browse.fail('a plot that is frozen changes')
+    lines = first.splitlines()
+    if lines[0] != 'time_s,feeder.A.position,feeder.A.speed' or len(lines) < 20:
+        browse.fail(f'what is this CSV: {lines[:3]}')
+    picture = saved(visit, 'a picture', 'save as a picture')
+    if not picture.startswith(b'\x89PNG'):
+        browse.fail('the picture is no PNG')
+    visit.picture('plot')
+    visit.press('freeze the plot')
+    field = visit.find('input[aria-label="condition of the trigger"]')[0]
+    field.send_keys('feeder.A.pulses >= 9000')
+    select(visit, 'this long before and after', '500ms')
+    visit.press('arm the trigger')
+    visit.until('the trigger is armed', lambda: 'armed' in ' '.join(visit.texts('output')))
+    stage.host_writes(0x1000, 6400, 0, 60, 5, 5, 1)
+    visit.until('the shot is there', lambda: visit.find('button[title="back to the running plot"]'))
+    shot = [line.split(',') for line in saved(visit, 'the shot', 'save as CSV').decode().splitlines()[1:]]
+    steps = {round(float(b[0]) - float(a[0]), 6) for a, b in zip(shot, shot[1:])}
+    if steps != {0.001} or not -0.51 < float(shot[0][0]) < -0.4 or not 0.4 < float(shot[-1][0]) < 0.51:
+        browse.fail(f'a shot of every tick around its moment? {shot[0]}, {shot[-1]}, {steps}')
+    at = next(row for row in shot if float(row[0]) >= 0)
+    if not 9000 <= float(at[1]) < 9100:
+        browse.fail(f'the moment is not where the condition becomes true: {at}')
+    visit.picture('shot')
+
+
+def registers(visit, stage):
+    visit.show('Registers')
+    row = lambda name: next(it for it in visit.find('.registers tbody tr') if it.find_element(By.CSS_SELECTOR, '.name').text == name)
+    said = lambda name: row(name).find_element(By.CSS_SELECTOR, '.by').text
+    enter(visit, 'find a register', 'Aaxis_Speed')
+    visit.until('found by name, with its section', lambda: row('Aaxis_Speed') and 'motion' in row('Aaxis_Speed').text)
+    stage.host_writes(0x1002, 321)
+    visit.until('a write of the host flashes as its', lambda: said('Aaxis_Speed') == 'host')
+    row('Aaxis_Speed').find_element(By.CSS_SELECTOR, 'input').send_keys('123', Keys.ENTER)
+    visit.until('one of the page as the page\'s', lambda: said('Aaxis_Speed') == 'page' and stage.value('feeder.Aaxis_Speed') == 123)
+    row('Aaxis_Speed').find_element(By.CSS_SELECTOR, 'input').send_keys('40000', Keys.ENTER)
+    visit.until('a value out of range is refused in the check\'s words', lambda: '32768' in visit.texts('.said')[0])
+    enter(visit, 'find a register', '0x0E04')
+    visit.until('found by number', lambda: row('Cord_A'))
+    stage.host_writes(0x1014, 1)
+    stage.host_writes(0x1000, 6400, 0, 60, 5, 5, 1)
+    visit.until('the device\'s own changes are the device\'s', lambda: said('Cord_A') == 'device')
+    writes = lambda: int(visit.texts('.count')[0].replace(',', ''))
+    before = writes()
+    stage.host_writes(0xF000, 61)
+    visit.until('writes of the EEPROM are counted', lambda: writes() == before + 1)
+    enter(visit, 'find a register', Keys.DELETE)
+    visit.find('.check input')[0].click()
+    expected = {'Aaxis_Speed', 'Aaxis_SVON', 'Aaxis_Pulse', 'Aaxis_AccTime', 'Aaxis_DecTime', 'Aaxis_Move_INC', 'Aaxis_Home_Speed'}
+    visit.until('only what the host uses, each of several in one request', lambda: expected <= set(visit.texts('.registers .name')))
+    if 'Cord_A' in visit.texts('.registers .name'):
+        browse.fail('a register that no host has asked for is shown as if one had')
+    visit.picture('heard')
+
+
+def bus(visit, stage):
+    visit.show('Bus')
+    stage.host_writes(0x1002, 200)
+    visit.until('frames are told in words', lambda: any('feeder.Aaxis_Speed = 200' in text for text in visit.texts('.frames .words')))
+    visit.until('with their latency', lambda: any('ms' in text for text in visit.texts('.frames .out .figure')))
+    visit.press('drop the next request like this')
+    visit.until('a drop waits', lambda: len(browse.control(visit.arguments, 'list')['faults']) == 1)
+    stage.host_tries(0x1002, 201)
+    visit.until('the next one is dropped, and why is told', lambda: any('drop' in text for text in visit.texts('.frames .words')))
+    stage.host_tries(0x1002, 60000)
+    visit.until('an exception stands out', lambda: visit.find('.frames tr.bad'))
+    select(visit, 'which frames', 'exceptions')
+    visit.until('a filter leaves exceptions alone', lambda: len(visit.find('.frames tbody tr')) == len(visit.find('.frames tr.bad')) > 0)
+    select(visit, 'which frames', 'all')
+    visit.picture('bus')
+    capture = saved(visit, 'a capture', 'save these frames as a capture')
+    if capture[:4] != b'\x0a\x0d\x0d\x0a':
+        browse.fail('the capture is no pcapng')
+    pathlib.Path(stage.folder, 'bus.pcapng').write_bytes(capture)
+    enter(visit, 'bytes of a request', '01 03 10 02 00 01')
+    visit.until('a request by hand is answered', lambda: any('feeder.Aaxis_Speed = 201' in text for text in visit.texts('.frames .out .words')))
+    visit.press('hold the list still')
+    before = visit.texts('.frames .words')
+    stage.host_writes(0x1002, 222)
+    time.sleep(0.5)
+    if visit.texts('.frames .words') != before:
+        browse.fail('a list that is held still moves')
+    visit.press('hold the list still')
+    visit.until('and it goes on', lambda: any('222' in text for text in visit.texts('.frames .words')))
+
+
+def program(visit, stage):
+    visit.show('Program')
+    visit.until('there is no program yet', lambda: 'There is no program' in visit.driver.find_element(By.ID, 'panel').text)
+    visit.press('change the program')
+    area = lambda: visit.find('textarea')[0]
+    area().send_keys('        NONSENSE 1\n')
+    visit.press('load this text')
+    visit.until('a mistake is told with its line', lambda: any('line 1' in text for text in visit.texts('.bad')))
+    visit.driver.execute_script("const it = arguments[0]; it.focus(); it.select(); document.execCommand('insertText', false, arguments[1])", area(), LISTING)
+    visit.press('load this text')
+    visit.until('a program is loaded', lambda: len(visit.find('.listing li')) == 2)
+    visit.press('start at line 0')
+    visit.until('the line that runs is marked', lambda: 'Delay_mSec' in ' '.join(visit.texts('.listing .running')))
+    visit.until('what it waits for, and how long still', lambda: 'its delay' in visit.texts('.programs')[0] and 'another 5' in visit.texts('.programs')[0])
+    enter(visit, 'another value to see', 'Cord_A')
+    visit.until('a value of one\'s own is beside it', lambda: 'Cord_A' in visit.texts('.values tr')[0])
+    visit.picture('runs')
+    visit.press('stop: PROG_MAIN_RunTime_END=1')
+    visit.until('it is stopped', lambda: 'stopped' in visit.texts('.programs')[0])
+
+
+def faults(visit, stage):
+    visit.show('Faults')
+    enter(visit, 'run until a condition', 'time >= 100000s &&')
+    visit.until('a wrong condition is said to be wrong', lambda: visit.texts('.said')[0])
+    stage.host_writes(0x1014, 1)
+    stage.host_writes(0x1000, 32000, 0, 60, 5, 5, 1)
+    enter(visit, 'run until a condition', 'feeder.A.pulses >= 20000')
+    visit.until('time runs until then, and stands', lambda: 20000 <= stage.value('feeder.A.pulses') < 20010)
+    enter(visit, 'keep a snapshot', 'here')
+    visit.until('a snapshot is kept', lambda: visit.find('button[title="go back to here"]'))
+    enter(visit, 'keep a snapshot', '<img src=x onerror=alert(1)>')
+    visit.until('a name is a name, whatever it holds', lambda: '<img src=x onerror=alert(1)>' in visit.texts('.named b') and not visit.find('.named img'))
+    visit.press('on by 1 s')
+    visit.until('a second later', lambda: stage.value('feeder.A.pulses') > 22000)
+    visit.press('go back to here')
+    visit.until('back again', lambda: 20000 <= stage.value('feeder.A.pulses') < 20010)
+    select(visit, 'speed of time', '0.1')
+    visit.press('let time go on')
+    begin, before = time.monotonic(), browse.time_ns(visit.arguments)
+    time.sleep(1)
+    ratio = (browse.time_ns(visit.arguments) - before) / 1e9 / (time.monotonic() - begin)
+    if not 0.05 < ratio < 0.15:
+        browse.fail(f'a tenth of the speed? {ratio}')
+    select(visit, 'speed of time', 'real')
+    select(visit, 'kind of fault', 'drop')
+    visit.find('.fault_form .check input')[0].click()
+    visit.until('the trigger has fields', lambda: len(visit.find('.fault_form .fields label')) > 4)
+    names = [text.split('\n')[0] for text in visit.texts('.fault_form .fields label')]
+    visit.find('.fault_form .fields input')[names.index('function')].send_keys('6')
+    visit.find('.fault_form button[type=submit]')[0].click()
+    visit.until('a fault waits', lambda: any('function' in text for text in visit.texts('.scroll td')))
+    stage.host_tries(0x1002, 201)
+    visit.until('its hits are counted', lambda: browse.control(visit.arguments, 'list')['faults'][0]['hits'] >= 1)
+    visit.picture('faults')
+    visit.press('power of feeder: off')
+    visit.until('the power is off', lambda: stage.value('feeder.power') == 0)
+    visit.press('power of feeder: on')
+    visit.until('and on', lambda: stage.value('feeder.power') == 1)
+    visit.until('all of it is told below', lambda: {'inject', 'power', 'restored'} <= set(visit.texts('.events td:nth-child(2)')))
+
+
+def keyboard(visit, stage):
+    """Without a mouse: each panel by the arrow keys, a signal by Tab and Space, the clock as well."""
+    driver = visit.driver
+    active = lambda what: driver.execute_script(f'return document.activeElement.{what}')
+    visit.find('#tab_Axes')[0].send_keys(Keys.ARROW_RIGHT)
+    visit.until('an arrow goes to the next panel', lambda: active('id') == 'tab_Signals' and visit.find('.signal'))
+    for _ in range(4):
+        driver.switch_to.active_element.send_keys(Keys.TAB)
+        if 'DIN_0' in (active('textContent') or ''):
+            break
+    driver.switch_to.active_element.send_keys(Keys.SPACE)
+    visit.until('Tab and Space hold an input', lambda: stage.value('feeder.DIN_0') == 1)
+    visit.find('#tab_Signals')[0].send_keys(Keys.END)
+    visit.until('End goes to the last panel', lambda: active('id') == 'tab_Faults')
+    visit.find('button.pause')[0].send_keys(Keys.ENTER)
+    visit.until('Enter stops time', lambda: browse.control(visit.arguments, 'status')['status']['paused'])
+    nameless = driver.execute_script("""
+        return [...document.querySelectorAll('button, input, select, textarea, canvas, svg[role], [role=img]')]
+          .filter((it) => !(it.getAttribute('aria-label') || it.title || it.textContent.trim() || it.closest('label')))
+          .map((it) => it.outerHTML.slice(0, 120))""")
+    if nameless:
+        browse.fail(f'nothing is said of these: {json.dumps(nameless)}')
+
+
+PARTS = {'axes': axes, 'signals': signals, 'plot': plot, 'registers': registers, 'bus': bus, 'program': program, 'faults': faults,
+         'keyboard': keyboard}

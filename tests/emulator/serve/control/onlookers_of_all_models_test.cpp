@@ -1,0 +1,239 @@
+// What onlookers are told of every model alike: where a move will end, how programs are started and stopped,
+// what the memory has been given.
+#include "emulator/device/program_language.h"
+#include "tests/emulator/serve/control/daemon_rig.h"
+
+namespace understudy::emulator::serve {
+namespace onlookers_of_all_models_test {
+
+/// One device, called d, whose clock stands.
+struct OneDevice {
+  explicit OneDevice(const std::string& model, const std::string& settings = "")
+      : bench(world::parse_bench(
+            models::all_models(),
+            "understudy: 1\nlines: { a: { link: ./a.port, stations: [ { name: d, model: " + model + settings +
+                " } ] } }\n",
+            "bench.yaml", folder.path)),
+        daemon(bench, options(), [](const std::string&) {}) {}
+  static DaemonOptions options() {
+    DaemonOptions made;
+    made.speed = {.kind = Speed::Kind::manual};
+    return made;
+  }
+  Json ask(const Json& message) {
+    Json reply;
+    handle_message(daemon, message.dump(), [&](const std::string& line) { reply = Json::parse(line); });
+    EXPECT_EQ(reply["ok"], true) << message << " " << reply;
+    return reply;
+  }
+  void run(int ms) { daemon.world().advance_to(daemon.world().now() + std::chrono::milliseconds(ms)); }
+  /// "set NAME=VALUE", "command TEXT", "text TEXT", "program TEXT".
+  void act(const std::string& what) {
+    const std::string word = what.substr(0, what.find(' '));
+    const std::string rest = what.substr(word.size() + 1);
+    if (word == "command") ask({{"do", "command"}, {"text", rest}});
+    if (word == "program") ask({{"do", "program"}, {"text", rest}});
+    if (word == "text") ask({{"do", "send"}, {"line", "a"}, {"text", rest}});
+    if (word == "set") {
+      const std::size_t sign = rest.find('=');
+      ask({{"do", "set"}, {"values", {{rest.substr(0, sign), std::stoll(rest.substr(sign + 1))}}}});
+    }
+    run(100);
+  }
+  Json value(const std::string& name) { return ask({{"do", "get"}, {"names", {name}}})["values"][name]; }
+
+  const TestFolder folder;
+  const world::Bench bench;
+  Daemon daemon;
+};
+
+// --- where a move will end
+// -----------------------------------------------------------------------------------
+
+struct MoveCase {
+  const char* name;
+  const char* model;
+  std::vector<std::string> acts;
+  std::vector<std::string> axes;  // that move
+  std::vector<std::int64_t> ends;
+};
+
+const std::vector<MoveCase>& moves() {
+  static const std::vector<MoveCase> all{
+      {"a move",
+       "simple2-r3",
+       {"set Aaxis_SVON=1", "set Aaxis_Pulse=3200", "set Aaxis_Speed=60", "set Aaxis_Move_INC=1"},
+       {"A"},
+       {3200}},
+      {"a move back, of an axis that is turned round",
+       "simple2-r3",
+       {"set Aaxis_DIR_Polarity=1", "set Aaxis_SVON=1", "set Aaxis_Pulse=3200", "set Aaxis_Speed=60",
+        "set Aaxis_Move_INC=1"},
+       {"A"},
+       {-3200}},
+      {"a move", "rs-m8194h", {"command RSM_SET_V X 5000", "command RSM_FIXED_MOVE X -5000"}, {"X"}, {-5000}},
+      {"a line",
+       "rs-m8194h",
+       {"command RSM_AXIS_ASSIGN X Y 0", "command RSM_SET_VV 5000", "command RSM_LINE_2D 6000 -2000"},
+       {"X", "Y"},
+       {6000, -2000}},
+      {"a line",
+       "super-40nc",
+       {"program AREA C\nF K20000\nLIN K20000 K-10000\nEND\nAREA PLC\nEND\n", "set M8000=1"},
+       {"X", "Y"},
+       {}},
+      {"a move",
+       "super-40nc",
+       {"program AREA X\nINCC\nRPM K100\nDRV K20000\nEND\nAREA PLC\nEND\n", "set M8100=1"},
+       {"X"},
+       {}},
+      {"a line", "slim", {"text TX=0", "text TY=1", "text 2MA 3000,-1500"}, {"T0", "T1"}, {}},
+      {"a move", "slim", {"text MA 300000"}, {"T0"}, {}},
+  };
+  return all;
+}
+
+/// A path of a SUPER-40NC is of axes that its program C has.
+std::string settings_of(const MoveCase& move) {
+  if (move.model == std::string_view("slim")) return ", modules: 2";
+  const bool is_path = move.model == std::string_view("super-40nc") && move.axes.size() > 1;
+  return is_path ? ", set: { D9003: 4, D9181: 1 }" : "";
+}
+
+TEST(AxisTarget, IsWhereTheMoveEnds) {
+  for (const MoveCase& one : moves()) {
+    SCOPED_TRACE(std::string(one.model) + ": " + one.name);
+    OneDevice bench(one.model, settings_of(one));
+    for (const std::string& axis : one.axes) EXPECT_EQ(bench.value("d." + axis + ".target"), 0);
+    for (const std::string& act : one.acts) bench.act(act);
+    std::map<std::string, std::int64_t> told;
+    for (const std::string& axis : one.axes) {
+      const std::string name = "d." + axis;
+      ASSERT_NE(bench.value(name + ".speed"), 0.0) << axis;
+      told[axis] = bench.value(name + ".target");
+      EXPECT_NE(told[axis], bench.value(name + ".pulses").get<std::int64_t>()) << axis;
+    }
+    bench.run(60'000);
+    for (std::size_t i = 0; i < one.axes.size(); ++i) {
+      const std::string name = "d." + one.axes[i];
+      EXPECT_EQ(bench.value(name + ".pulses"), told[one.axes[i]]) << name;
+      EXPECT_EQ(bench.value(name + ".target"), told[one.axes[i]]) << name;
+      if (!one.ends.empty()) {
+        EXPECT_EQ(told[one.axes[i]], one.ends[i]) << name;
+      }
+    }
+  }
+}
+
+TEST(AxisTarget, OfASpeedAndOfAStopIsWhereItIs) {
+  OneDevice bench("simple2-r3");
+  for (const char* act : {"set Aaxis_SVON=1", "set Aaxis_Pulse=32000", "set Aaxis_Speed=60",
+                          "set Aaxis_AccTime=100", "set Aaxis_DecTime=100", "set Aaxis_Move_INC=1"}) {
+    bench.act(act);
+  }
+  bench.run(1'000);
+  EXPECT_EQ(bench.value("d.A.target"), 32'000);
+  bench.ask({{"do", "set"}, {"values", {{"Aaxis_STOP", 1}}}});
+  bench.run(50);
+  EXPECT_EQ(bench.value("d.A.target"), bench.value("d.A.pulses"));
+}
+
+// --- an encoder that is not there
+// ----------------------------------------------------------------------------
+
+TEST(AxisEncoder, ThatIsNotThereCountsNothing) {
+  for (const Model* model : models::all_models()) {
+    OneDevice bench{std::string(model->name)};
+    const Json axes = bench.ask({{"do", "bench"}, {"device", "d"}})["device"]["axes"];
+    for (const Json& axis : axes) {
+      EXPECT_EQ(bench.value("d." + axis["name"].get<std::string>() + ".encoder"), 0) << model->name;
+    }
+  }
+}
+
+// --- programs are started and stopped
+// --------------------------------------------------------------------------
+
+struct ControlCase {
+  const char* model;
+  const char* program;  // waits for long
+  std::size_t start;    // which of the language's controls
+  int number;
+  std::size_t stop;
+};
+
+constexpr ControlCase kControls[] = {
+    {"simple2-r3", "        Wait_IO DIN_5 ON\n        END\n", 0, 0, 1},
+    {"rs-m8194h", "MP 41\n  RSM_MACRO_TIMER 5000\nEND\n", 0, 41, 1},
+    {"super-40nc", "AREA C\nTMR K5000\nEND\nAREA PLC\nEND\n", 0, 0, 2},
+    {"super-40nc", "AREA X\nWAT X5\nEND\nAREA PLC\nEND\n", 3, 0, 4},
+    {"super-40nc", "AREA U\nWAT X5\nEND\nAREA PLC\nEND\n", 9, 0, 10},
+    {"slim", "WI 3\nRET\n", 0, 0, 1},
+};
+
+/// As a page does it.
+void press(OneDevice& bench, const Json& control, int number) {
+  const auto filled = [&](const char* key) {
+    std::string text = control.at(key);
+    if (const std::size_t at = text.find("{}"); at != std::string::npos)
+      text.replace(at, 2, std::to_string(number));
+    return text;
+  };
+  if (control.contains("command")) return bench.act("command " + filled("command"));
+  if (control.contains("text")) return bench.act("text " + filled("text"));
+  std::istringstream pairs(filled("set"));
+  for (std::string pair; pairs >> pair;) bench.act("set " + pair);
+}
+
+TEST(ProgramControls, StartAndStopTheProgramsOfEveryModel) {
+  for (const ControlCase& one : kControls) {
+    SCOPED_TRACE(std::string(one.model) + ": " + one.program);
+    OneDevice bench(one.model);
+    const Json controls = bench.ask({{"do", "bench"}, {"device", "d"}})["device"]["program"]["controls"];
+    const auto runs = [&] {
+      return bench.ask({{"do", "status"}})["status"]["devices"][0]["runs"].get<bool>();
+    };
+    bench.act(std::string("program ") + one.program);
+    EXPECT_FALSE(runs());
+    for (int round = 0; round < 2; ++round) {  // a key that was pressed is pressed again
+      press(bench, controls.at(one.start), one.number);
+      EXPECT_TRUE(runs()) << round;
+      press(bench, controls.at(one.stop), one.number);
+      EXPECT_FALSE(runs()) << round;
+    }
+  }
+}
+
+TEST(ProgramControls, AreThereForEveryLanguage) {
+  for (const Model* model : models::all_models()) {
+    if (model->language == nullptr) continue;
+    EXPECT_GE(model->language->controls().size(), 2U) << model->name;
+    for (const ProgramControl& control : model->language->controls()) {
+      const bool has_number = control.what.find("{}") != std::string_view::npos;
+      EXPECT_EQ(has_number, control.highest > 0) << control.word;
+    }
+  }
+}
+
+// --- what the memory has been given
+// ----------------------------------------------------------------------------
+
+TEST(KeptWrites, AreCountedWhenTheyAreDone) {
+  OneDevice bench("simple2-r3");
+  const auto writes = [&] {
+    return bench.ask({{"do", "status"}})["status"]["devices"][0]["kept_writes"].get<int>();
+  };
+  const int before = writes();
+  bench.act("set Aaxis_Speed=77");  // is not kept
+  EXPECT_EQ(writes(), before);
+  bench.act("set Aaxis_Home_Speed=77");
+  bench.run(2'000);
+  EXPECT_EQ(writes(), before + 1);
+  bench.act("set PROG_MEM0=1");
+  bench.act("set PROG_MEM1=2");
+  bench.run(2'000);
+  EXPECT_EQ(writes(), before + 3);
+}
+
+}  // namespace onlookers_of_all_models_test
+}  // namespace understudy::emulator::serve
