@@ -25,7 +25,7 @@ TEST(CtlGet, TakesWhateverConditionsTake) {
   for (const char* axis : {"device.A", "A", "device.A."}) {
     const std::string errors = daemon.ctl({"get", axis}).errors;
     EXPECT_EQ(errors.find("understudy: ctl get: 'device.A' is an axis; expected one of its values: "
-                          "device.A.pulses, device.A.speed, device.A.pwm, "),
+                          "device.A.pulses, device.A.target, device.A.speed, device.A.servo, device.A.pwm, "),
               0U)
         << errors;
   }

@@ -88,7 +88,7 @@ TEST(ScenarioFiles, TheirSchemaIsPrinted) {
   }
   const Finished refused = understudy({"schema", "recording"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_EQ(refused.errors, "understudy: 'recording' has no schema; expected bench or scenario\n");
+  EXPECT_EQ(refused.errors, "understudy: 'recording' has no schema; expected bench, scenario or model\n");
 }
 
 }  // namespace scenario_files_test
