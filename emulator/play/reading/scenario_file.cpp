@@ -70,12 +70,10 @@ class ScenarioFile::Reader {
         save_below_(options.save_below.empty() ? root_.folder() : options.save_below),
         seed_(options.seed),
         file_{.shared = shared} {
-    world::Complaints all;
-    all.demand([&] {
-      all.attempt([&] { root_.demand_keys(kScenarioKeys); });
-      all.attempt([&] { root_.at("understudy").integer(world::kVersionForm); });
-      cases_.emplace(root_, seed_);
-    });
+    head_.attempt([&] { root_.demand_keys(kScenarioKeys); });
+    head_.attempt([&] { root_.at("understudy").integer(world::kVersionForm); });
+    // Without its cases nothing more can be said.
+    if (!head_.attempt([&] { cases_.emplace(root_, seed_); })) head_.throw_if_any();
   }
 
   const CaseTable& cases() const { return *cases_; }
@@ -88,23 +86,19 @@ class ScenarioFile::Reader {
   }
 
   Scenario read(std::uint64_t number) {
-    // What is read one by one, as what `vary` makes is, is never all there at once.
-    if (cases_->is_varied() || !saved_before_) {
-      file_.steps = 0;
-      file_.bytes = 0;
-    }
-    return read_case(number, cases_->at(number));
+    head_.throw_if_any();
+    return read_one(number);
   }
 
   void check(const std::function<void(Scenario)>& take) {
     std::set<std::string> names;
-    world::Complaints all;
+    world::Complaints all = head_;
     saved_before_.emplace();
     all.demand([&] {
       for (const std::uint64_t number : cases_->typical()) {
         const Case which = cases_->at(number);
         try {
-          Scenario scenario = read(number);
+          Scenario scenario = read_one(number);
           if (!names.insert(scenario.name).second && !cases_->is_varied()) {
             cases_->place_of(number).fail("makes a second scenario called " +
                                           understudy::quoted(scenario.name) + "; expected different values");
@@ -120,6 +114,15 @@ class ScenarioFile::Reader {
   }
 
  private:
+  Scenario read_one(std::uint64_t number) {
+    // What is read one by one, as what `vary` makes is, is never all there at once.
+    if (cases_->is_varied() || !saved_before_) {
+      file_.steps = 0;
+      file_.bytes = 0;
+    }
+    return read_case(number, cases_->at(number));
+  }
+
   /// The case's values, and the defaults of all others; a default may use what is defined before it.
   void define_all(std::uint64_t number, const Case& which, Parameters& parameters) const {
     const auto define = [&](const auto& field, const std::string& name, const std::string& value) {
@@ -310,6 +313,7 @@ class ScenarioFile::Reader {
   std::string save_below_;
   std::optional<std::uint64_t> seed_;
   FileReading file_;
+  world::Complaints head_;  // what is wrong beside the cases
   std::optional<CaseTable> cases_;
   std::optional<std::vector<FileClaim>> saved_before_{};  // by the cases so far, while all are read
 };
