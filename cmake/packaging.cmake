@@ -17,6 +17,8 @@ install(TARGETS understudy_tty_shim LIBRARY DESTINATION lib/understudy)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/ DESTINATION ${scenarios_folder} USE_SOURCE_PERMISSIONS
   PATTERN "*.port" EXCLUDE)
 install(FILES ${packaging}/vscode/settings.json DESTINATION ${CMAKE_INSTALL_DATADIR}/understudy/vscode)
+install(DIRECTORY ${packaging}/campaign DESTINATION ${CMAKE_INSTALL_DATADIR}/understudy USE_SOURCE_PERMISSIONS
+  PATTERN "__pycache__" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 

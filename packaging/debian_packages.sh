@@ -1,7 +1,7 @@
 # Sourced by ./run and ./test: what they need from Debian, and how it is installed.
 
 build_packages=(g++ cmake ninja-build ccache pkg-config libboost-dev libcli11-dev libmodbus-dev libspdlog-dev
-                libyaml-cpp-dev nlohmann-json3-dev libgtest-dev libeigen3-dev)
+                libyaml-cpp-dev nlohmann-json3-dev libsqlite3-dev libgtest-dev libeigen3-dev)
 host_packages=(mbpoll python3-serial expect)
 plot_packages=(gnuplot-nox)
 test_packages=(python3                                   # counts the results
@@ -10,6 +10,7 @@ test_packages=(python3                                   # counts the results
                dpkg-dev man-db                           # for the package and its man page
                tshark gtkwave                            # read the captures and traces
                socat                                     # makes a port of an address
+               sqlite3 parallel                          # read results, and play shards
                zsh fish                                  # are offered commands and flags
                python3-pytest python3-pytest-xdist python3-hypothesis python3-yaml mypy  # the Python client
                python3-pip python3-setuptools python3-wheel                  # its wheel

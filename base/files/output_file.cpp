@@ -107,6 +107,14 @@ void OutputFile::begin(std::string_view head) {
   if (const int error = write(head); error != 0) throw OutputError(error_text(error));
 }
 
+void OutputFile::go_on(std::uint64_t size) {
+  const auto end = static_cast<off_t>(size);
+  if (::ftruncate(file_.get(), end) != 0 || ::lseek(file_.get(), end, SEEK_SET) != end) {
+    throw OutputError(error_text(errno));
+  }
+  written_ = size;
+}
+
 int OutputFile::write(std::string_view piece) {
   const std::uint64_t end = written_ + piece.size();
   while (!piece.empty()) {

@@ -41,6 +41,8 @@ class OutputFile {
   /// Replaces what was there by these first bytes. Throws OutputError: a file to which nothing can be written
   /// should not begin.
   void begin(std::string_view head);
+  /// Keeps the first bytes of what was there, and writes behind them. Throws OutputError.
+  void go_on(std::uint64_t size);
   /// Writes all of it and returns 0, or none of it and returns the error: half a packet would spoil those
   /// before it.
   int write(std::string_view piece);

@@ -22,6 +22,7 @@
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
 #include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/daemon/nv_keeper.h"
 #include "emulator/world/bench/bench.h"
@@ -67,10 +68,19 @@ std::string described(ModelList models, const std::string& file, play::FileKind 
              counted(bench.devices.size(), "device");
     }
     case play::FileKind::scenario: {
-      const auto scenarios = play::load_scenarios(models, file, save_below);
+      play::SharedReading shared{.models = models, .benches = {}, .included = {}};
+      play::ScenarioFile scenarios(file, {.save_below = save_below, .seed = {}}, shared);
       std::size_t steps = 0;
-      for (const play::Scenario& scenario : scenarios) steps += count_steps(scenario.steps);
-      return (scenarios.size() == 1 ? "a scenario" : std::to_string(scenarios.size()) + " scenarios") +
+      std::size_t checked = 0;
+      scenarios.check([&](const play::Scenario& scenario) {
+        steps += count_steps(scenario.steps);
+        ++checked;
+      });
+      const std::string count = std::to_string(scenarios.size());
+      return (scenarios.size() == 1 ? "a scenario"
+              : checked < scenarios.size()
+                  ? count + " scenarios, of which " + std::to_string(checked) + " were checked,"
+                  : count + " scenarios") +
              " with " + counted(steps, "step");
     }
     case play::FileKind::model: {

@@ -93,8 +93,11 @@ struct RunArguments {
   std::optional<int> jobs;  // none: one for each core
   std::string shard;        // "1/4"
   std::optional<std::uint64_t> seed;
-  std::string filter;   // a pattern for names
-  std::string version;  // of this program
+  std::string filter;                // a pattern for names, or a case's identity
+  std::vector<std::string> results;  // files of rows
+  bool resume = false;
+  std::string failures;  // the folder for recordings of failures; empty: below /tmp
+  std::string version;   // of this program
 };
 int run_scenarios(ModelList models, const RunArguments& arguments);
 

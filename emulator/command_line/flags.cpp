@@ -192,7 +192,19 @@ struct CommandLine {
         ->check(kNotEmpty);
     command->add_option("--seed", run.seed, "Instead of the scenarios' own seeds")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{INT64_MAX}));
-    command->add_option("--filter", run.filter, "Those whose names match this pattern, such as '*move*'")
+    command
+        ->add_option("--filter", run.filter,
+                     "Those whose names match this pattern, such as '*move*'; or one case, by its identity")
+        ->check(kNotEmpty);
+    command
+        ->add_option("--results", run.results,
+                     "Write a row for each case to this file: FILE.jsonl or FILE.sqlite; may be given twice")
+        ->allow_extra_args(false)
+        ->check(kNotEmpty);
+    command->add_flag("--resume", run.resume, "Leave out the cases that --results has rows of already");
+    command
+        ->add_option("--failures", run.failures,
+                     "Folder for the recordings of failures, the first of each kind [below /tmp]")
         ->check(kNotEmpty);
     command->callback([this] {
       run.version = UNDERSTUDY_VERSION;

@@ -47,14 +47,19 @@ class ResultFile {
   bool is_wanted() const { return !path_.empty(); }
   /// Empties the file, so that nobody takes the old content for the result of a run that breaks off.
   void empty() {
-    if (file_) begin("");
+    if (file_) begin();
   }
-  void write(const std::string& text) {
-    if (file_) return begin(text);
-    for (std::string_view rest = text; !rest.empty();) {
-      const ssize_t size = ::write(stream_.get(), rest.data(), rest.size());
+  /// Adds it to what was written before.
+  void write(std::string_view text) {
+    if (file_) {
+      if (!has_begun_) begin();
+      if (const int error = file_->write(text); error != 0) refuse(std::strerror(error));
+      return;
+    }
+    while (!text.empty()) {
+      const ssize_t size = ::write(stream_.get(), text.data(), text.size());
       if (size < 0 && errno != EINTR) refuse(std::strerror(errno));
-      if (size > 0) rest.remove_prefix(static_cast<std::size_t>(size));
+      if (size > 0) text.remove_prefix(static_cast<std::size_t>(size));
     }
   }
 
@@ -63,9 +68,10 @@ class ResultFile {
     struct stat status = {};
     return ::stat(path.c_str(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode));
   }
-  void begin(const std::string& text) {
+  void begin() {
+    has_begun_ = true;
     try {
-      file_->begin(text);
+      file_->begin("");
     } catch (const OutputError& error) {
       refuse(error.what());
     }
@@ -77,6 +83,7 @@ class ResultFile {
   std::string flag_;
   std::string path_;
   std::optional<OutputFile> file_;
+  bool has_begun_ = false;
   Descriptor stream_;
 };
 

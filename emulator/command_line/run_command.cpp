@@ -1,36 +1,40 @@
 
 #include <algorithm>
-#include <cinttypes>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
+#include "base/state/state_bytes.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
+#include "emulator/command_line/run_account.h"
 #include "emulator/command_line/run_files.h"
 #include "emulator/command_line/terminal.h"
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/device/model.h"
 #include "emulator/play/lint/lint.h"
 #include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/playbill.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/performing/suite.h"
 #include "emulator/play/reading/scenario_file.h"
-#include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/report/camera.h"
-#include "emulator/play/report/page.h"
 #include "emulator/play/results/junit.h"
 #include "emulator/play/results/result.h"
-#include "emulator/play/results/result_text.h"
+#include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/real_stage.h"
 #include "emulator/world/names/names.h"
@@ -50,83 +54,107 @@ std::vector<std::string> files_of(const std::string& path) {
   return files;
 }
 
-/// All scenarios of all files; what is wrong with each is told. Nothing if anything is.
-std::optional<std::vector<play::Scenario>> load_all(ModelList models, const RunArguments& arguments) {
-  std::vector<play::Scenario> scenarios;
-  std::vector<std::string> files;
-  play::SharedReading shared{.models = models, .benches = {}, .included = {}};
-  bool is_well = true;
-  for (const std::string& path : arguments.scenarios) {
-    try {
-      const auto more = files_of(path);
-      files.insert(files.end(), more.begin(), more.end());
-    } catch (const FileError& error) {
-      std::fprintf(stderr, "%s\n", error.what());
-      is_well = false;
-    }
+/// A file that a scenario saves.
+struct SavedFile {
+  std::string path;
+  std::string scenario;  // its file
+  std::size_t case_number;
+  bool is_varied;  // a playbill knows whether two such cases save one file
+};
+
+/// What is known of the scenarios before anything is played.
+struct Known {
+  FileClaims claims;      // files that are read
+  std::size_t cases = 0;  // that were looked at
+  std::vector<SavedFile> saved{};
+  std::string trace_error{};  // why --trace-also does not suit one of them; empty: it does
+};
+
+void note_saved(const play::Scenario& scenario, const RunArguments& arguments, Known& known) {
+  ++known.cases;
+  if (!play::is_meant(arguments.filter, scenario.name, play::identity_of(scenario.which))) return;
+  for (const std::string& path : scenario.saved) {
+    known.saved.push_back({path, scenario.file, known.cases, scenario.which.is_varied});
   }
-  for (const std::string& file : files) {
-    try {
-      for (play::Scenario& scenario : play::load_scenarios(file, arguments.save_below, shared)) {
-        if (arguments.seed) scenario.seed = scenario.bench.seed = *arguments.seed;
-        scenarios.push_back(std::move(scenario));
-      }
-    } catch (const FileError& error) {
-      std::fprintf(stderr, "%s\n", error.what());
-      is_well = false;
-    }
+  if (arguments.trace_also.empty() || !known.trace_error.empty()) return;
+  try {
+    world::trace_signals(world::World(scenario.bench, {}, {}), arguments.trace_also);
+  } catch (const world::NameError& error) {
+    known.trace_error = "--trace-also: " + scenario.file + ": " + error.what();
   }
-  if (!is_well) return std::nullopt;
-  return scenarios;
 }
 
-std::vector<play::Scenario> choose_some(std::vector<play::Scenario> scenarios,
-                                        const RunArguments& arguments) {
-  play::Shard shard;
-  if (!arguments.shard.empty()) {
-    const auto parsed = play::parse_shard(arguments.shard);
-    if (!parsed) {
-      throw UsageError("--shard: " + understudy::quoted(arguments.shard) +
-                       " is not a part; expected I/N such as 1/4, I up to N");
+/// Adds all files; what is wrong with each is told. False if anything is.
+bool add_all(play::Playbill& bill, const RunArguments& arguments, Known& known) {
+  std::vector<std::string> files;
+  bool is_well = true;
+  const auto attempt = [&](const auto& act) {
+    try {
+      act();
+    } catch (const FileError& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      is_well = false;
     }
-    shard = *parsed;
+  };
+  for (const std::string& path : arguments.scenarios) {
+    attempt([&] {
+      const auto more = files_of(path);
+      files.insert(files.end(), more.begin(), more.end());
+    });
   }
-  if (!arguments.filter.empty() && play::choose(scenarios, arguments.filter, {}).empty()) {
-    throw UsageError("--filter: " + understudy::quoted(arguments.filter) +
-                     " matches no scenario's name; expected a pattern such as '*move*'");
+  for (const std::string& file : files) {
+    attempt([&] {
+      bill.add(file, [&](const play::Scenario& scenario) {
+        known.claims.add(scenario.files);  // also by those that are not chosen
+        note_saved(scenario, arguments, known);
+      });
+    });
   }
-  return play::choose(std::move(scenarios), arguments.filter, shard);
+  return is_well;
+}
+
+play::Shard shard_of(const RunArguments& arguments) {
+  if (arguments.shard.empty()) return {};
+  const auto parsed = play::parse_shard(arguments.shard);
+  if (!parsed) {
+    throw UsageError("--shard: " + understudy::quoted(arguments.shard) +
+                     " is not a part; expected I/N such as 1/4, I up to N");
+  }
+  return *parsed;
+}
+
+void demand_some(const play::Playbill& bill, const RunArguments& arguments) {
+  if (arguments.filter.empty() || play::Selection(bill, arguments.filter, {}).next()) return;
+  throw UsageError("--filter: " + understudy::quoted(arguments.filter) +
+                   " matches no scenario's name; expected a pattern such as '*move*'");
 }
 
 RunFolders folders_of(const RunArguments& arguments) {
   return {.recordings = arguments.record,
+          .failures = arguments.failures,
           .traces = arguments.trace,
           .captures = arguments.capture,
           .trace_also = arguments.trace_also};
 }
 
 /// What is written is nothing that is read, whichever scenario comes first, and nothing else that is written.
-void demand_own_files(FileClaims& claims, const std::vector<play::Scenario>& scenarios,
-                      const RunArguments& arguments) {
-  for (const play::Scenario& scenario : scenarios) {
-    for (const std::string& path : scenario.saved) {
-      if (const std::string why = claims.objection_to(path); !why.empty()) {
-        throw UsageError(scenario.file + ": save: " + path + " " + why);
-      }
+void demand_own_files(Known& known, const RunArguments& arguments) {
+  FileClaims& claims = known.claims;
+  std::vector<FileClaim> of_this;  // a case may save a file twice
+  for (std::size_t i = 0; i < known.saved.size(); ++i) {
+    const SavedFile& saved = known.saved[i];
+    if (const std::string why = claims.objection_to(saved.path); !why.empty()) {
+      throw UsageError(saved.scenario + ": save: " + saved.path + " " + why);
     }
-    for (const std::string& path : scenario.saved) claims.add({path, "what " + scenario.file + " saves"});
+    if (!saved.is_varied) of_this.push_back({saved.path, "what " + saved.scenario + " saves"});
+    const bool is_last = i + 1 == known.saved.size() || known.saved[i + 1].case_number != saved.case_number;
+    if (is_last) claims.add(std::exchange(of_this, {}));
   }
   if (arguments.junit != kStandardOutput) demand_output(claims, "--junit", arguments.junit);
   demand_output(claims, "--report", arguments.report);
+  for (const std::string& path : arguments.results) demand_output(claims, "--results", path);
   demand_folders(claims, folders_of(arguments));
-  if (arguments.trace_also.empty()) return;
-  for (const play::Scenario& scenario : scenarios) {
-    try {
-      world::trace_signals(world::World(scenario.bench, {}, {}), arguments.trace_also);
-    } catch (const world::NameError& error) {
-      throw UsageError("--trace-also: " + scenario.file + ": " + error.what());
-    }
-  }
+  if (!known.trace_error.empty()) throw UsageError(known.trace_error);
 }
 
 // In real time a scenario mostly waits.
@@ -143,15 +171,79 @@ int jobs_of(const RunArguments& arguments) {
   return *arguments.jobs;
 }
 
-void print(const std::vector<play::ScenarioResult>& results, bool with_hash, std::FILE* to) {
-  for (const play::ScenarioResult& result : results) {
-    std::fprintf(to, "%s\n", coloured_verdict(play::verdict_line(result), wants_colour(fileno(to))).c_str());
-    if (with_hash && result.verdict != play::ScenarioResult::Verdict::not_reached) {
-      std::fprintf(to, "hash %s %016" PRIx64 "\n", one_line(result.name).c_str(), result.outcome_hash);
+/// How one scenario is played, and who looks on.
+class Stagehand {
+ public:
+  Stagehand(const RunArguments& arguments, RunFiles& files) : arguments_(arguments), files_(files) {
+    // Rows of results have the hash.
+    options_.with_hash = arguments.hash || (!arguments.results.empty() && !arguments.real_time);
+    if (arguments.lint) {
+      options_.onlookers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
     }
-    for (const std::string& line : play::failure_lines(result)) std::fprintf(to, "      %s\n", line.c_str());
+    if (arguments.real_time) options_.make_stage = play::make_real_stage;
   }
-  std::fflush(to);
+
+  std::vector<play::ScenarioResult> play(play::CaseReader& reader, const play::Ticket& ticket,
+                                         const play::Playbill& bill) const {
+    try {
+      const auto scenario = reader.read(ticket);
+      play::RunOptions options = options_;
+      // Pictures of cases without end are made when one is to be shown.
+      if (!arguments_.report.empty() && !scenario->which.is_varied) options.onlookers.push_back(camera());
+      add(options, files_.onlookers(*scenario));
+      return play::run_scenario(*scenario, options);
+    } catch (const FileError& error) {
+      return {unreadable(reader, ticket, bill, error)};
+    }
+  }
+
+  /// Once more, with a recorder, and a camera if there is a page: in free time it comes to the same.
+  std::vector<play::ScenarioResult> play_again(play::CaseReader& reader, const play::Ticket& ticket) const {
+    const auto scenario = reader.read(ticket);
+    play::RunOptions options = options_;
+    if (!arguments_.report.empty()) options.onlookers.push_back(camera());
+    options.onlookers.push_back(files_.recorder(*scenario));
+    return play::run_scenario(*scenario, options);
+  }
+
+ private:
+  static play::OnlookerMaker camera() {
+    return [](world::World& world) { return std::make_unique<play::Camera>(world); };
+  }
+  static void add(play::RunOptions& options, std::vector<play::OnlookerMaker> more) {
+    for (play::OnlookerMaker& maker : more) options.onlookers.push_back(std::move(maker));
+  }
+
+  /// A case that was not among those that were checked beforehand, and that something is wrong with.
+  static play::ScenarioResult unreadable(play::CaseReader& reader, const play::Ticket& ticket,
+                                         const play::Playbill& bill, const FileError& error) {
+    play::ScenarioResult result{.verdict = play::ScenarioResult::Verdict::failed,
+                                .name = bill.path(ticket.file),
+                                .file = bill.path(ticket.file)};
+    result.is_unreadable = true;
+    result.which.is_varied = bill.is_varied(ticket.file);
+    try {
+      result.which = reader.case_of(ticket);
+      result.name = reader.name_of(ticket);
+    } catch (const FileError&) {
+      // Then it has no better one.
+    }
+    play::Failure failure{.what = one_line(error.complaints().front().text)};
+    for (std::size_t i = 1; i < error.complaints().size(); ++i) {
+      failure.details.push_back(one_line(error.complaints()[i].text));
+    }
+    result.failure = std::move(failure);
+    return result;
+  }
+
+  const RunArguments& arguments_;
+  RunFiles& files_;
+  play::RunOptions options_{};
+};
+
+/// The program is part of what makes a result.
+std::uint64_t made_of(const play::Playbill& bill, std::size_t file, const std::string& version) {
+  return hash_of(std::as_bytes(std::span(version)), bill.made_of(file));
 }
 
 }  // namespace
@@ -161,53 +253,60 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   if (arguments.hash && arguments.real_time) {
     throw UsageError("--hash: in real time no two runs are the same; expected it without --real-time");
   }
-  auto loaded = load_all(models, arguments);
-  if (!loaded) return kExitBadInput;
-  FileClaims claims;  // also by those that are not chosen
-  for (const play::Scenario& scenario : *loaded) claims.add(scenario.files);
-  const std::vector<play::Scenario> scenarios = choose_some(std::move(*loaded), arguments);
-  demand_own_files(claims, scenarios, arguments);
+  if (arguments.resume && arguments.results.empty()) {
+    throw UsageError("--resume: expected --results FILE beside it, which says what was played");
+  }
+  const play::Shard shard = shard_of(arguments);
+  play::Playbill bill(models, {.save_below = arguments.save_below, .seed = arguments.seed});
+  Known known;
+  if (!add_all(bill, arguments, known)) return kExitBadInput;
+  demand_some(bill, arguments);
+  demand_own_files(known, arguments);
   ResultFile junit("--junit", arguments.junit);
   ResultFile report("--report", arguments.report);
-  RunFiles files(folders_of(arguments), std::move(claims), arguments.real_time, arguments.version);
+  RunAccount account(arguments);
+  RunFiles files(folders_of(arguments), std::move(known.claims), arguments.real_time, arguments.version);
   junit.empty();
   report.empty();
-  // What is for people makes way for results on standard output.
-  std::FILE* const told = arguments.junit == kStandardOutput ? stderr : stdout;
-  std::vector<play::ScenarioResult> all;
-  play::RunOptions options{.with_hash = arguments.hash};
-  if (arguments.lint) {
-    options.onlookers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
-  }
-  if (arguments.real_time) options.make_stage = play::make_real_stage;
-  if (report.is_wanted()) {
-    options.onlookers.push_back([](world::World& world) { return std::make_unique<play::Camera>(world); });
-  }
-  const auto options_for = [&](const play::Scenario& scenario) {
-    play::RunOptions of_one = options;
-    for (play::OnlookerMaker& maker : files.onlookers(scenario)) of_one.onlookers.push_back(std::move(maker));
-    return of_one;
-  };
+  account.begin();
+  const Stagehand stagehand(arguments, files);
+  play::CaseReader reader(bill);  // of this thread
+  play::CaseReader next_reader(bill);
+  const std::uint64_t total = play::Selection::count(bill, arguments.filter, shard);
+  play::Selection selection(bill, arguments.filter, shard);
   {
-    ProgressLine progress(scenarios.size());
-    play::run_suite(scenarios, options_for, jobs, [&](std::vector<play::ScenarioResult> results) {
-      for (play::ScenarioResult& result : results) files.settle(result);
-      progress.one_done([&] { print(results, arguments.hash, told); });
-      all.insert(all.end(), results.begin(), results.end());
-    });
+    ProgressLine progress(total);
+    const auto next = [&] {
+      std::optional<play::Ticket> ticket;
+      while ((ticket = selection.next())) {
+        if (!arguments.resume) break;
+        const bool was_played =
+            account.was_played({.file = bill.path(ticket->file),
+                                .identity = play::identity_of(next_reader.case_of(*ticket)),
+                                .made_of = made_of(bill, ticket->file, arguments.version)});
+        if (!was_played) break;
+        progress.one_left_out();
+      }
+      return ticket;
+    };
+    const auto make_play = [&]() -> play::Play {
+      return [&, own = std::make_shared<play::CaseReader>(bill)](const play::Ticket& ticket) {
+        return stagehand.play(*own, ticket, bill);
+      };
+    };
+    const auto threads = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(jobs), total));
+    play::run_suite(next, make_play, threads,
+                    [&](const play::Ticket& ticket, std::vector<play::ScenarioResult> results) {
+                      account.add(std::move(results), made_of(bill, ticket.file, arguments.version), files,
+                                  progress, [&] { return stagehand.play_again(reader, ticket); });
+                    });
   }
-  std::fprintf(told, "%s\n", play::summary_line(all).c_str());
-  for (const play::ScenarioResult& result : all) {
-    for (const std::string& finding : result.manners) {
-      std::fprintf(stderr, "lint: %s\n", one_line(result.file + ": " + result.name + ": " + finding).c_str());
-    }
+  account.finish();
+  if (play::Junit* const results = account.junit()) {
+    results->write([&](std::string_view piece) { junit.write(piece); });
   }
-  if (junit.is_wanted()) junit.write(play::junit_text(all));
-  if (report.is_wanted()) report.write(play::report_page(all, arguments.version));
-  const bool has_failed = std::any_of(all.begin(), all.end(), [](const play::ScenarioResult& result) {
-    return result.verdict == play::ScenarioResult::Verdict::failed;
-  });
-  return has_failed ? kExitFailed : kExitWell;
+  if (report.is_wanted()) report.write(account.report());
+  return account.exit_code();
 }
 
 }  // namespace understudy::emulator::command_line

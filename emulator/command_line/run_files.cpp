@@ -26,6 +26,7 @@
 #include "emulator/play/performing/onlooker.h"
 #include "emulator/play/performing/performance_recorder.h"
 #include "emulator/play/results/result.h"
+#include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/ports/private_folder.h"
 #include "emulator/world/bench/bench_text.h"
@@ -61,6 +62,9 @@ constexpr FileKind kCapture{"--capture",
                             ".pcapng",
                             {".pcapng", ".pcap", ".txt"}};
 constexpr std::array<FileKind, 3> kKinds{kRecording, kTrace, kCapture};
+constexpr FileKind kFailure{
+    "--failures", &RunFolders::failures, &play::ScenarioResult::recording, ".jsonl", {".jsonl"}};
+constexpr std::array<FileKind, 4> kFolders{kRecording, kTrace, kCapture, kFailure};
 
 /// A file about a play. Such a file has one course: where the play goes back to an earlier state, or is a
 /// branch that begins in one, it begins anew.
@@ -158,7 +162,10 @@ void demand_folders(const FileClaims& claims, const RunFolders& folders) {
   if (folders.traces.empty() && !folders.trace_also.empty()) {
     throw UsageError("--trace-also: expected --trace DIR beside it");
   }
-  for (const FileKind& kind : kKinds) {
+  if (!folders.failures.empty() && !folders.recordings.empty()) {
+    throw UsageError("--failures: --record keeps all recordings in its folder; expected one of the two");
+  }
+  for (const FileKind& kind : kFolders) {
     const std::string& folder = folders.*kind.folder;
     if (folder.empty()) continue;
     const auto refuse_it = [&](const std::string& why) {
@@ -180,7 +187,7 @@ RunFiles::RunFiles(RunFolders folders, FileClaims claims, bool real_time, std::s
       real_time_(real_time),
       version_(std::move(version)) {
   std::error_code error;
-  for (const FileKind& kind : kKinds) {
+  for (const FileKind& kind : kFolders) {
     const std::string& folder = folders_.*kind.folder;
     if (!folder.empty()) fs::create_directories(folder, error);
     if (error) refuse(kind.flag, folder, error);
@@ -206,9 +213,8 @@ std::string RunFiles::next_spool(const std::string& ending) {
   return spool_ + "/" + std::to_string(++count_) + ending;
 }
 
-std::vector<play::OnlookerMaker> RunFiles::onlookers(const play::Scenario& scenario) {
-  std::vector<play::OnlookerMaker> makers;
-  makers.push_back([this, &scenario](world::World& world) {
+play::OnlookerMaker RunFiles::recorder(const play::Scenario& scenario) {
+  return [this, &scenario](world::World& world) {
     world::RecordingHeader header{.version = version_,
                                   .bench = world::to_text(scenario.bench),
                                   .options = {},
@@ -217,7 +223,15 @@ std::vector<play::OnlookerMaker> RunFiles::onlookers(const play::Scenario& scena
     header.options.strict_framing = !real_time_;
     return std::make_unique<play::PerformanceRecorder>(world, std::move(header),
                                                        next_spool(kRecording.ending));
-  });
+  };
+}
+
+std::vector<play::OnlookerMaker> RunFiles::onlookers(const play::Scenario& scenario) {
+  std::vector<play::OnlookerMaker> makers;
+  // Of cases without end most recordings would be thrown away; in free time a failure can be played again.
+  if (!scenario.which.is_varied || real_time_ || !folders_.recordings.empty()) {
+    makers.push_back(recorder(scenario));
+  }
   const auto add = [&](const FileKind& kind, const PlayFile::Begin& begin) {
     if ((folders_.*kind.folder).empty()) return;
     makers.push_back([this, &kind, begin](world::World& world) {
@@ -237,24 +251,30 @@ std::vector<play::OnlookerMaker> RunFiles::onlookers(const play::Scenario& scena
   return makers;
 }
 
-std::string RunFiles::free_name(const std::string& name) {
-  const std::string plain = file_name_of(name);
+std::string RunFiles::free_name(const play::ScenarioResult& result) {
+  std::string plain = file_name_of(result.name);
+  // Names are kept in mind only where there are not too many of them.
+  if (result.which.is_varied) {
+    if (!result.branch.empty()) plain += "-" + file_name_of(result.branch);
+    return plain + "-" + play::identity_text(play::identity_of(result.which));
+  }
   std::string free = plain;
   for (int i = 2; !names_.insert(free).second; ++i) free = plain + "-" + std::to_string(i);
   return free;
 }
 
-void RunFiles::settle(play::ScenarioResult& result) {
+void RunFiles::settle(play::ScenarioResult& result, bool is_new) {
   std::string name;
   for (const FileKind& kind : kKinds) {
     std::string& place = result.*kind.place;
     if (place.empty()) continue;
     const std::string spooled = std::exchange(place, {});
-    const std::string& folder = folders_.*kind.folder;
-    const bool is_kept = !folder.empty() || result.failure;
+    std::string folder = folders_.*kind.folder;
+    const bool is_kept = !folder.empty() || (result.failure && is_new);
     if (is_kept) {
-      if (name.empty()) name = free_name(result.name);
-      place = (fs::path(folder.empty() ? private_folder_.path() : folder) / (name + kind.ending)).string();
+      if (folder.empty()) folder = folders_.failures.empty() ? private_folder_.path() : folders_.failures;
+      if (name.empty()) name = free_name(result);
+      place = (fs::path(folder) / (name + kind.ending)).string();
     }
     for (const char* const part : kParts) {
       std::error_code error;

@@ -19,7 +19,8 @@ namespace understudy::emulator::command_line {
 
 /// What is wanted of each play. Folders are made; an empty path means none.
 struct RunFolders {
-  std::string recordings;  // if empty, those of failures are kept, below /tmp
+  std::string recordings;  // of all; if empty, those of failures are kept, the first of each kind:
+  std::string failures;    // here, or, if empty, below /tmp
   std::string traces;
   std::string captures;
   std::vector<std::string> trace_also;
@@ -38,16 +39,17 @@ class RunFiles {
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
 
-  /// An onlooker that makes them of a scenario's play, or of one of its branches. May be called from any
-  /// thread.
+  /// Onlookers that make them of a scenario's play, or of one of its branches. May be called from any thread.
   std::vector<play::OnlookerMaker> onlookers(const play::Scenario& scenario);
+  play::OnlookerMaker recorder(const play::Scenario& scenario);
   /// Keeps the files, under the result's name, or removes them; the result says where they are. To be called
-  /// in the order of the results, which decides between equal names.
-  void settle(play::ScenarioResult& result);
+  /// in the order of the results, which decides between equal names. `is_new`: it is the first failure of its
+  /// kind.
+  void settle(play::ScenarioResult& result, bool is_new);
 
  private:
   std::string next_spool(const std::string& ending);
-  std::string free_name(const std::string& name);
+  std::string free_name(const play::ScenarioResult& result);
 
   RunFolders folders_;
   FileClaims claims_;

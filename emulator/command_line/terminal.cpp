@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
@@ -36,8 +37,31 @@ std::string coloured_verdict(const std::string& line, bool with_colour) {
   return "\x1b[" + std::string(colour) + "m" + word + "\x1b[0m" + line.substr(end);
 }
 
-ProgressLine::ProgressLine(std::size_t total) : total_(total) {
-  if (isatty(STDOUT_FILENO) != 0 && !is_dumb()) thread_ = std::thread([this] { run(); });
+std::string progress_text(std::uint64_t done, std::uint64_t total, std::uint64_t failed, double seconds) {
+  std::string text = std::to_string(done) + " of " + std::to_string(total) + " played, ";
+  if (failed > 0) text += std::to_string(failed) + " failed, ";
+  const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+  char figures[40];
+  std::snprintf(figures, sizeof figures, rate < 10 ? "%.1f/s" : "%.0f/s", rate);
+  text += figures;
+  if (done == 0 || done > total) return text;
+  const auto left = static_cast<std::uint64_t>(static_cast<double>(total - done) / rate + 0.5);
+  constexpr std::uint64_t kMinute = 60;
+  constexpr std::uint64_t kHour = 3600;
+  if (left >= kHour) {
+    text +=
+        ", " + std::to_string(left / kHour) + " h " + std::to_string(left % kHour / kMinute) + " min left";
+  } else if (left >= kMinute) {
+    text += ", " + std::to_string(left / kMinute) + " min " + std::to_string(left % kMinute) + " s left";
+  } else {
+    text += ", " + std::to_string(left) + " s left";
+  }
+  return text;
+}
+
+ProgressLine::ProgressLine(std::uint64_t total) : total_(total) {
+  const bool is_watched = isatty(STDERR_FILENO) != 0 && !is_dumb() && !is_set("CI");
+  if (is_watched) thread_ = std::thread([this] { run(); });
 }
 
 ProgressLine::~ProgressLine() {
@@ -52,8 +76,7 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::wipe() {
   if (!is_shown_) return;
-  std::fputs("\r\x1b[K", stdout);
-  std::fflush(stdout);
+  std::fputs("\r\x1b[K", stderr);
   is_shown_ = false;
 }
 
@@ -62,10 +85,8 @@ void ProgressLine::run() {
   std::unique_lock lock(mutex_);
   over_.wait_for(lock, kFirst, [this] { return is_over_; });
   while (!is_over_) {
-    const auto seconds =
-        std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin);
-    std::printf("\r%zu of %zu played, %lld s\x1b[K", done_, total_, static_cast<long long>(seconds.count()));
-    std::fflush(stdout);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+    std::fprintf(stderr, "\r%s\x1b[K", progress_text(done_, total_, failed_, passed.count()).c_str());
     is_shown_ = true;
     over_.wait_for(lock, kEvery, [this] { return is_over_; });
   }

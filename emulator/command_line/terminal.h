@@ -2,12 +2,15 @@
 #pragma once
 
 #include <condition_variable>
-#include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <thread>
 
 namespace understudy::emulator::command_line {
+
+/// "850 played of 100000, ..." without the line's control characters. `seconds` since the beginning.
+std::string progress_text(std::uint64_t done, std::uint64_t total, std::uint64_t failed, double seconds);
 
 /// Whether it is a terminal, and colours are not unwanted (NO_COLOR, TERM=dumb).
 bool wants_colour(int descriptor);
@@ -15,21 +18,32 @@ bool wants_colour(int descriptor);
 /// A line that begins with a verdict ("ok", "FAIL", "-"); that word is coloured if colours are wanted.
 std::string coloured_verdict(const std::string& line, bool with_colour);
 
-/// A last line on standard output that says how many are done, rewritten now and then once the run has taken
-/// a while. There is none if standard output is not a terminal.
+/// A last line at a terminal that says how many are done, how many have failed, how many a second, and how
+/// much time is left; rewritten now and then once the run has taken a while. There is none if standard error
+/// is not a terminal, or the variable CI says that nobody is there.
 class ProgressLine {
  public:
-  explicit ProgressLine(std::size_t total);
+  explicit ProgressLine(std::uint64_t total);
   ~ProgressLine();  // wipes it away
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// One more is done; what `print` prints stands above the line.
+  /// One more is done.
+  void one_done(bool has_failed) {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    if (has_failed) ++failed_;
+  }
+  /// One was played in another run.
+  void one_left_out() {
+    const std::lock_guard lock(mutex_);
+    --total_;
+  }
+  /// What `print` prints stands above the line.
   template <typename Print>
-  void one_done(const Print& print) {
+  void above(const Print& print) {
     const std::lock_guard lock(mutex_);
     wipe();
-    ++done_;
     print();
   }
 
@@ -37,10 +51,11 @@ class ProgressLine {
   void run();
   void wipe();
 
-  const std::size_t total_;
+  std::uint64_t total_;
   std::mutex mutex_;
   std::condition_variable over_;
-  std::size_t done_ = 0;
+  std::uint64_t done_ = 0;
+  std::uint64_t failed_ = 0;
   bool is_shown_ = false;
   bool is_over_ = false;
   std::thread thread_;  // last: it uses all the others

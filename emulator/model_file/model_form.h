@@ -164,7 +164,7 @@ inline constexpr std::array kModelKeys{
     KeyRow{"line", "How it stands on its serial line.", &kLineForm},
     KeyRow{"map", "What it answers where the list leaves it open.", &kMapForm},
     KeyRow{"bits", "Names of bits: { STATUS: { READY: 0, STATE: 4-7 } }.", &kBitNamesForm},
-    KeyRow{"inputs", "Its inputs, and where they are shown: { DI1: INPUTS.0 }; - for nowhere.",
+    KeyRow{"inputs", "Its inputs, and where they are shown: { DI1: INPUTS.0, HOME: nowhere }.",
            &world::kTextByName},
     KeyRow{"outputs", "Its outputs, and what switches them: { DO1: OUTPUTS.0 }.", &world::kTextByName},
     KeyRow{"axes", "Its motor axes, by name, and the registers that are bound to them.", &kAxesForm},

@@ -96,8 +96,10 @@ void read_bits(const YamlFields& field, Description& made, Complaints& complaint
       entries.demand_map();
       for (const auto& [bit_name, bit] : entries.entries()) {
         try {
-          found->bits.push_back(bits_called(bit_name, bit.text(), found->type));
-          demand_apart(found->bits);
+          auto all = found->bits;
+          all.push_back(bits_called(bit_name, bit.text(), found->type));
+          demand_apart(all);
+          found->bits = std::move(all);
         } catch (const std::invalid_argument& error) {
           bit.fail(error.what());
         }

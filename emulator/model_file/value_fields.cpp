@@ -31,7 +31,7 @@ using world::YamlFields;
 
 namespace {
 
-constexpr std::string_view kNowhere = "-";
+constexpr std::string_view kNowhere = "nowhere";
 constexpr Tick kMostEvery = 60'000;
 
 }  // namespace

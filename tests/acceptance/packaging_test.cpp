@@ -252,7 +252,7 @@ TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
   ASSERT_NE(package, "") << cpack.output();
 
   const std::string needed = run({"dpkg-deb", "-f", package, "Depends"}).output;
-  for (const char* library : {"libc6", "libstdc++6", "libmodbus5", "libyaml-cpp", "libspdlog"})
+  for (const char* library : {"libc6", "libstdc++6", "libmodbus5", "libyaml-cpp", "libspdlog", "libsqlite3"})
     EXPECT_NE(needed.find(library), std::string::npos) << needed;
   EXPECT_EQ(run({"dpkg-deb", "-f", package, "Package"}).output, "understudy\n");
   // The pages name them all, where the package was made for the Debian that they tell of.

@@ -184,12 +184,12 @@ bool note_events(AxisState& axis, const AxisBinding& binding) {
     set_position(axis, binding, binding.home_position);
   }
   const bool has_ended = (events & motion::bit(motion::Event::ended)) != 0;
-  if (has_ended && axis.motor.task == motion::Task::none && axis.motor.cause == motion::Cause::arrived)
-    axis.arrived = true;
-  // Whoever holds it is to tell it anew, but for one that was to turn round.
-  const motion::Cause cause = axis.motor.cause;
-  if (has_ended && cause != motion::Cause::arrived && cause != motion::Cause::stopped)
-    axis.way_is_spent = true;
+  if (has_ended && axis.motor.task == motion::Task::none) {  // nothing else has begun since
+    const motion::Cause cause = axis.motor.cause;
+    if (cause == motion::Cause::arrived) axis.arrived = true;
+    // Whoever holds it is to tell it anew, but for one that was to turn round.
+    if (cause != motion::Cause::arrived && cause != motion::Cause::stopped) axis.way_is_spent = true;
+  }
   return has_ended || (events & motion::bit(motion::Event::homed)) != 0;
 }
 

@@ -45,7 +45,8 @@ ImportedDevice::ImportedDevice(const ImportedModel& model, const DeviceSettings&
       RegisterBankOf(*this, *model.model().registers, settings.firmware),
       KeptMemory(model.model().name, settings.firmware),
       model_(model),
-      edges_(model.description().axes.size()) {
+      edges_(model.description().axes.size()),
+      is_restored_(edges_.size()) {
   state_.eeprom = factory_memory(map());
   state_ = state_at_power_up();
   for (const Following& following : its().followings) {
@@ -327,8 +328,11 @@ void ImportedDevice::look_round(std::size_t number) {
 }
 
 void ImportedDevice::set_edges(int axis, const MachineEdges& edges) {
-  edges_[static_cast<std::size_t>(axis)] = edges;
-  look_round(static_cast<std::size_t>(axis));
+  const auto number = static_cast<std::size_t>(axis);
+  edges_[number] = edges;
+  // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
+  if (is_restored_[number] == 0) look_round(number);
+  is_restored_[number] = 0;
 }
 
 void ImportedDevice::sample_inputs(Tick) {

@@ -126,9 +126,10 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   const ImportedModel& model_;
   const CountsOf counts_of_ = [this](const Quantity& quantity) { return counts_of(quantity); };
   State state_;
-  std::vector<MachineEdges> edges_;   // not state: they are told again
-  std::vector<std::size_t> written_;  // by the request that is being served: registers' slots
-  std::vector<double> shares_;        // by following: of the way, in one period
+  std::vector<MachineEdges> edges_;        // not state: they are told again
+  std::vector<std::uint8_t> is_restored_;  // by axis: nor this
+  std::vector<std::size_t> written_;       // by the request that is being served: registers' slots
+  std::vector<double> shares_;             // by following: of the way, in one period
 };
 
 /// The reader and the effect of every row that shows something (Cell::argument: its number in the list).

@@ -34,7 +34,10 @@ std::function<void()> ImportedDevice::read_own_state(StateReader& reader) {
     demand_state(axis.wanted_way >= -1 && axis.wanted_way <= 1, "a way is neither forward nor backward");
   }
   restored->eeprom.check_restored(state_.eeprom);
-  return [this, restored] { state_ = *restored; };
+  return [this, restored] {
+    state_ = *restored;
+    is_restored_.assign(is_restored_.size(), 1);
+  };
 }
 
 std::string ImportedDevice::own_difference(StateReader& a, StateReader& b) const {

@@ -13,6 +13,7 @@
 #include "emulator/device/model.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/real_stage.h"
@@ -60,12 +61,13 @@ bool is_same_bench(const world::Bench& one, const world::Bench& other) {
 
 Scenario load_companion(ModelList models, const std::string& path, const world::Bench& bench,
                         const std::string& save_below) {
-  std::vector<Scenario> scenarios = load_scenarios(models, path, save_below);
-  if (scenarios.size() != 1) {
-    throw FileError(path + ": cases: there are " + std::to_string(scenarios.size()) +
+  SharedReading shared{.models = models, .benches = {}, .included = {}};
+  ScenarioFile file(path, {.save_below = save_below, .seed = {}}, shared);
+  if (file.size() != 1) {
+    throw FileError(path + ": cases: there are " + std::to_string(file.size()) +
                     "; expected one, as it is played beside one program");
   }
-  Scenario scenario = std::move(scenarios.front());
+  Scenario scenario = file.read(0);
   if (!is_same_bench(scenario.bench, bench)) {
     throw FileError(path +
                     ": bench: has other devices or lines than the one that is served; expected the same");

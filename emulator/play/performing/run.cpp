@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -24,6 +25,8 @@ namespace {
 
 using Checkpoint = std::shared_ptr<const Performance::Checkpoint>;
 using Checkpoints = std::map<std::string, Checkpoint>;
+
+constexpr std::string_view kBranch = " / ";  // between a name and a branch's
 
 /// Those who look on at one performance.
 class Onlookers {
@@ -70,7 +73,7 @@ class Run {
   /// From power-up on, or from a checkpoint.
   void perform(const std::string& name, const Steps& steps, const Checkpoint& begin, Checkpoints known) {
     const std::size_t number = results_.size();
-    results_.push_back({.name = name, .file = scenario_.file});
+    results_.push_back(result_called(name));
     Performance performance(scenario_, options_.make_stage(scenario_), options_.with_hash);
     Onlookers onlookers(performance, options_.onlookers);
     if (begin) {
@@ -119,7 +122,7 @@ class Run {
 
     for (const Fork& fork : forks) {
       for (const ForkStep::Branch& branch : fork.step->branches) {
-        const std::string its_name = name + " / " + branch.name;
+        const std::string its_name = name + std::string(kBranch) + branch.name;
         if (fork.begin) {
           perform(its_name, branch.steps, fork.begin, fork.known);
         } else {
@@ -143,14 +146,23 @@ class Run {
     }
   }
 
+  ScenarioResult result_called(const std::string& name) const {
+    ScenarioResult result{.name = name, .file = scenario_.file};
+    result.which = scenario_.which;
+    result.seed = scenario_.seed;
+    if (name.size() > scenario_.name.size())
+      result.branch = name.substr(scenario_.name.size() + kBranch.size());
+    return result;
+  }
+
   void leave_out(const std::string& name, const Steps& steps) {
-    results_.push_back(
-        {.verdict = ScenarioResult::Verdict::not_reached, .name = name, .file = scenario_.file});
+    results_.push_back(result_called(name));
+    results_.back().verdict = ScenarioResult::Verdict::not_reached;
     for (const Step& step : steps) {
       const auto* const fork = std::get_if<ForkStep>(&step.what);
       if (fork == nullptr) continue;
       for (const ForkStep::Branch& branch : fork->branches) {
-        leave_out(name + " / " + branch.name, branch.steps);
+        leave_out(name + std::string(kBranch) + branch.name, branch.steps);
       }
     }
   }

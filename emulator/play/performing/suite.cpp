@@ -1,121 +1,124 @@
 #include "emulator/play/performing/suite.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "base/text/parse_integer.h"
-#include "emulator/play/performing/run.h"
 #include "emulator/play/results/result.h"
-#include "emulator/play/scenario/scenario.h"
 
 namespace understudy::emulator::play {
 
 namespace {
 
+// How many cases the threads may be ahead of the first one that is not over. One that takes its time does not
+// hold up the others soon, and results do not pile up for ever.
+constexpr std::size_t kAhead = 256;
+
 /// What the threads share.
 class Board {
  public:
-  explicit Board(std::span<const Scenario> scenarios) : scenarios_(scenarios), entries_(scenarios.size()) {}
+  explicit Board(const NextTicket& next) : next_(next) {}
 
-  void work(const OptionsFor& options_for) {
-    while (const auto number = take()) {
-      Entry entry;
+  void work(const std::function<Play()>& make_play) {
+    const Play play = make_play();
+    while (Entry* const entry = take()) {
+      std::vector<ScenarioResult> results;
+      std::exception_ptr error = entry->error;
       try {
-        entry.results = run_scenario(scenarios_[*number], options_for(scenarios_[*number]));
+        if (!error) results = play(entry->ticket);
       } catch (...) {
-        entry.error = std::current_exception();
+        error = std::current_exception();
       }
-      put(*number, std::move(entry));
+      const std::lock_guard lock(mutex_);
+      entry->results = std::move(results);
+      entry->error = error;
+      entry->is_over = true;
+      if (entry == &entries_.front()) is_first_over_.notify_one();
     }
   }
 
-  /// Waits for that scenario.
-  std::vector<ScenarioResult> results_of(std::size_t number) {
+  /// Waits for the first case that was not told; false after the last one.
+  bool tell_next(const std::function<void(const Ticket&, std::vector<ScenarioResult>)>& tell) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return entries_[number].is_over; });
-    if (entries_[number].error) std::rethrow_exception(entries_[number].error);
-    return std::move(entries_[number].results);
+    is_first_over_.wait(lock, [&] { return entries_.empty() ? is_last_taken_ : entries_.front().is_over; });
+    if (entries_.empty()) return false;
+    Entry entry = std::move(entries_.front());
+    entries_.pop_front();
+    has_room_.notify_one();
+    lock.unlock();
+    if (entry.error) std::rethrow_exception(entry.error);
+    tell(entry.ticket, std::move(entry.results));
+    return true;
   }
 
   /// Nobody begins another one.
   void stop() {
     const std::lock_guard lock(mutex_);
-    next_ = entries_.size();
+    is_last_taken_ = true;
+    has_room_.notify_all();
   }
 
  private:
   struct Entry {
+    Ticket ticket;
     bool is_over = false;
-    std::vector<ScenarioResult> results;
-    std::exception_ptr error;
+    std::vector<ScenarioResult> results{};
+    std::exception_ptr error{};
   };
 
-  std::optional<std::size_t> take() {
-    const std::lock_guard lock(mutex_);
-    if (next_ >= entries_.size()) return std::nullopt;
-    return next_++;
+  /// Stays where it is until it has been told.
+  Entry* take() {
+    std::unique_lock lock(mutex_);
+    has_room_.wait(lock, [&] { return is_last_taken_ || entries_.size() < kAhead; });
+    if (is_last_taken_) return nullptr;
+    Entry entry;
+    try {
+      const auto ticket = next_();
+      if (!ticket) {
+        is_last_taken_ = true;
+        has_room_.notify_all();
+        is_first_over_.notify_one();
+        return nullptr;
+      }
+      entry.ticket = *ticket;
+    } catch (...) {
+      entry.error = std::current_exception();
+      is_last_taken_ = true;
+      has_room_.notify_all();
+    }
+    return &entries_.emplace_back(std::move(entry));
   }
 
-  void put(std::size_t number, Entry entry) {
-    const std::lock_guard lock(mutex_);
-    entries_[number] = std::move(entry);
-    entries_[number].is_over = true;
-    changed_.notify_all();
-  }
-
-  std::span<const Scenario> scenarios_;
+  const NextTicket& next_;
   std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<Entry> entries_;
-  std::size_t next_ = 0;
+  std::condition_variable has_room_;
+  std::condition_variable is_first_over_;
+  std::deque<Entry> entries_;  // taken, and not yet told, in order
+  bool is_last_taken_ = false;
 };
 
 }  // namespace
 
-std::optional<Shard> parse_shard(std::string_view text) {
-  const std::size_t slash = text.find('/');
-  if (slash == std::string_view::npos) return std::nullopt;
-  const auto number = parse_integer(text.substr(0, slash));
-  const auto of = parse_integer(text.substr(slash + 1));
-  if (!number || !of || *number < 1 || *number > *of) return std::nullopt;
-  return Shard{static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
-}
-
-std::vector<Scenario> choose(std::vector<Scenario> scenarios, const std::string& pattern, Shard shard) {
-  std::erase_if(scenarios, [&](const Scenario& scenario) {
-    return !pattern.empty() && fnmatch(pattern.c_str(), scenario.name.c_str(), 0) != 0;
-  });
-  std::vector<Scenario> chosen;
-  for (std::size_t i = shard.number - 1; i < scenarios.size(); i += shard.of) {
-    chosen.push_back(std::move(scenarios[i]));
-  }
-  return chosen;
-}
-
-void run_suite(std::span<const Scenario> scenarios, const OptionsFor& options_for, int jobs,
-               const std::function<void(const std::vector<ScenarioResult>&)>& tell) {
-  Board board(scenarios);
+void run_suite(const NextTicket& next, const std::function<Play()>& make_play, int jobs,
+               const std::function<void(const Ticket&, std::vector<ScenarioResult>)>& tell) {
+  Board board(next);
   std::vector<std::jthread> threads;
-  const std::size_t count = std::min(static_cast<std::size_t>(std::max(jobs, 1)), scenarios.size());
   const auto stop_at_end = [&board](void*) { board.stop(); };
-  for (std::size_t i = 0; i < count; ++i) threads.emplace_back([&] { board.work(options_for); });
+  for (int i = 0; i < std::max(jobs, 1); ++i) threads.emplace_back([&] { board.work(make_play); });
   // Also when something is thrown the threads are not left to play on.
   const std::unique_ptr<void, decltype(stop_at_end)> guard(&board, stop_at_end);
-  for (std::size_t i = 0; i < scenarios.size(); ++i) tell(board.results_of(i));
+  while (board.tell_next(tell)) {
+  }
 }
 
 }  // namespace understudy::emulator::play

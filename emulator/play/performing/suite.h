@@ -1,36 +1,33 @@
-// Plays many scenarios: which of them, and on how many threads. Worlds share nothing, so neither the results
-// nor their order depend on the threads.
+// Plays many cases, one after the other, on several threads. Worlds share nothing, so neither the results nor
+// their order depend on the threads. Only the cases that are being played, and a few that are over, are held:
+// there may be any number.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "emulator/play/performing/run.h"
+#include "emulator/play/results/result.h"
 
 namespace understudy::emulator::play {
 
-/// Which part of a suite: the first, and each `of`th after it, for number 1.
-struct Shard {
-  std::size_t number = 1;
-  std::size_t of = 1;
+/// A case of a file of a playbill.
+struct Ticket {
+  std::size_t file = 0;
+  std::uint64_t number = 0;
+  friend bool operator==(const Ticket&, const Ticket&) = default;
 };
-/// Reads "2/4"; nothing if the text is something else.
-std::optional<Shard> parse_shard(std::string_view text);
 
-/// Those whose names match the pattern (`*`, `?`, `[abc]`; an empty one matches all), and of those one shard,
-/// in the same order.
-std::vector<Scenario> choose(std::vector<Scenario> scenarios, const std::string& pattern, Shard shard);
+/// The next case to play, or nothing. One call at a time, on any thread.
+using NextTicket = std::function<std::optional<Ticket>()>;
+/// Plays a case.
+using Play = std::function<std::vector<ScenarioResult>(const Ticket&)>;
 
-/// How a scenario is to be played. Called on the threads that play.
-using OptionsFor = std::function<RunOptions(const Scenario&)>;
-
-/// Plays all on `jobs` threads. `tell` gets the results of each scenario, in order, on the calling thread.
-/// What run_scenario() throws comes out here, after the results of all scenarios before that one.
-void run_suite(std::span<const Scenario> scenarios, const OptionsFor& options_for, int jobs,
-               const std::function<void(const std::vector<ScenarioResult>&)>& tell);
+/// Plays all on `jobs` threads, each with a Play of its own, made on that thread. `tell` gets the results of
+/// each case, in order, on the calling thread. What a Play throws comes out here, after the results of all
+/// cases before that one.
+void run_suite(const NextTicket& next, const std::function<Play()>& make_play, int jobs,
+               const std::function<void(const Ticket&, std::vector<ScenarioResult>)>& tell);
 
 }  // namespace understudy::emulator::play

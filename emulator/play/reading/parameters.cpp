@@ -2,8 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/text/one_line.h"
@@ -114,6 +117,14 @@ std::vector<std::string> Parameters::names() const {
   std::vector<std::string> all = outer_ != nullptr ? outer_->names() : std::vector<std::string>();
   for (const auto& [name, value] : values_) all.push_back(name);
   return all;
+}
+
+std::set<std::string, std::less<>> Parameters::used_in(const std::string& written) const {
+  auto before = std::exchange(used_, {});
+  apply(written);
+  const auto used = used_;
+  used_.merge(before);
+  return used;
 }
 
 std::string Parameters::evaluated(std::string_view written) const {

@@ -28,6 +28,8 @@ class Parameters final : public world::ScalarRule {
   const std::string* find(std::string_view name) const;
   std::vector<std::string> names() const;
   bool was_used(const std::string& name) const { return used_.contains(name); }
+  /// Those of its own that a text uses. Throws as apply() does.
+  std::set<std::string, std::less<>> used_in(const std::string& written) const;
 
  private:
   std::string evaluated(std::string_view written) const;

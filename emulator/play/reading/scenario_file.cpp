@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,10 +23,12 @@
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/play/reading/case_table.h"
 #include "emulator/play/reading/parameters.h"
 #include "emulator/play/reading/scenario_form.h"
 #include "emulator/play/reading/steps_reader.h"
 #include "emulator/play/reading/trial.h"
+#include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/daemon/nv_keeper.h"
 #include "emulator/world/bench/bench.h"
@@ -37,19 +41,6 @@
 namespace understudy::emulator::play {
 
 namespace {
-
-/// A row of `cases`: names and values, in the order written.
-struct Case {
-  std::vector<std::pair<std::string, std::string>> values;
-  std::optional<world::YamlFields> where{};  // nothing without `cases`
-};
-
-/// "(speed=200, takes=3050ms)"
-std::string to_text(const Case& row) {
-  std::string text;
-  for (const auto& [name, value] : row.values) text += (text.empty() ? "(" : ", ") + name + "=" + value;
-  return text.empty() ? text : text + ")";
-}
 
 /// Wherever links lead.
 bool is_below(const std::string& path, const std::string& folder) {
@@ -67,102 +58,124 @@ bool is_below(const std::string& path, const std::string& folder) {
   return at_top == top.end() || (at_top->empty() && std::next(at_top) == top.end());
 }
 
-class ScenarioReader {
+}  // namespace
+
+/// Reads one case after the other.
+class ScenarioFile::Reader {
  public:
-  ScenarioReader(const world::YamlFields& root, std::string path, const std::string& save_below,
-                 SharedReading& shared)
+  Reader(const world::YamlFields& root, std::string path, const ReadingOptions& options,
+         SharedReading& shared)
       : root_(root),
         path_(std::move(path)),
-        save_below_(save_below.empty() ? root_.folder() : save_below),
-        file_{.shared = shared} {}
+        save_below_(options.save_below.empty() ? root_.folder() : options.save_below),
+        seed_(options.seed),
+        file_{.shared = shared} {
+    head_.attempt([&] { root_.demand_keys(kScenarioKeys); });
+    head_.attempt([&] { root_.at("understudy").integer(world::kVersionForm); });
+    // Without its cases nothing more can be said.
+    if (!head_.attempt([&] { cases_.emplace(root_, seed_); })) head_.throw_if_any();
+  }
 
-  std::vector<Scenario> read() {
-    std::vector<Scenario> scenarios;
+  const CaseTable& cases() const { return *cases_; }
+
+  std::string name_of(std::uint64_t number) const {
+    const Case which = cases_->at(number);
+    Parameters parameters;
+    define_all(number, which, parameters);
+    return name_with(which, parameters);
+  }
+
+  Scenario read(std::uint64_t number) {
+    head_.throw_if_any();
+    return read_one(number);
+  }
+
+  void check(const std::function<void(Scenario)>& take) {
     std::set<std::string> names;
-    world::Complaints all;
+    world::Complaints all = head_;
+    saved_before_.emplace();
     all.demand([&] {
-      all.attempt([&] { root_.demand_keys(kScenarioKeys); });
-      all.attempt([&] { root_.at("understudy").integer(world::kVersionForm); });
-      for (const Case& row : read_cases()) {
+      for (const std::uint64_t number : cases_->typical()) {
+        const Case which = cases_->at(number);
         try {
-          Scenario scenario = read_case(row);
-          if (!names.insert(scenario.name).second) {
-            row.where->fail("makes a second scenario called " + understudy::quoted(scenario.name) +
-                            "; expected different values");
+          Scenario scenario = read_one(number);
+          if (!names.insert(scenario.name).second && !cases_->is_varied()) {
+            cases_->place_of(number).fail("makes a second scenario called " +
+                                          understudy::quoted(scenario.name) + "; expected different values");
           }
-          scenarios.push_back(std::move(scenario));
+          take(std::move(scenario));
         } catch (const FileError& error) {
           // What is wrong may be so in one case only.
-          all.add(error, row.values.empty() ? "" : "  " + to_text(row));
+          all.add(error, which.values.empty() ? "" : "  " + to_text(which));
         }
       }
     });
-    return scenarios;
+    saved_before_.reset();
   }
 
  private:
-  std::vector<Case> read_cases() const {
-    if (!root_.has("cases")) return {Case{}};
-    const Parameters none;
-    std::vector<Case> cases;
-    std::vector<std::string> known;
-    if (root_.has("parameters")) {
-      for (const auto& [name, value] : root_.at("parameters").entries()) known.push_back(name);
+  Scenario read_one(std::uint64_t number) {
+    // What is read one by one, as what `vary` makes is, is never all there at once.
+    if (cases_->is_varied() || !saved_before_) {
+      file_.steps = 0;
+      file_.bytes = 0;
     }
-    const auto rows = root_.at("cases").with_rule(&none).elements();
-    if (rows.empty()) root_.at("cases").fail("is empty; expected at least one row");
-    for (const world::YamlFields& row : rows) {
-      row.demand_map();
-      cases.push_back({.values = {}, .where = row.with_rule(nullptr)});
-      for (const auto& [name, value] : row.entries()) {
-        // The first row may bring names of its own; every other row has the same ones.
-        const bool is_known = std::find(known.begin(), known.end(), name) != known.end();
-        if (!is_known && cases.size() > 1) {
-          value.fail("is not a parameter, nor in the first case" + suggestion(name, known));
-        }
-        if (!is_known) known.push_back(name);
-        cases.back().values.emplace_back(name, value.text());
-      }
-      if (cases.back().values.empty())
-        row.fail("is empty; expected a parameter's value, as in `{ speed: 100 }`");
-    }
-    return cases;
+    return read_case(number, cases_->at(number));
   }
 
   /// The case's values, and the defaults of all others; a default may use what is defined before it.
-  void define_all(const Case& row, Parameters& parameters) const {
-    const auto define = [&](const world::YamlFields& field, const std::string& name,
-                            const std::string& value) {
+  void define_all(std::uint64_t number, const Case& which, Parameters& parameters) const {
+    const auto define = [&](const auto& field, const std::string& name, const std::string& value) {
       try {
         parameters.define(name, value);
       } catch (const world::NameError& error) {
-        field.fail(error.what());
+        field().fail(error.what());
       }
     };
-    for (const auto& [name, value] : row.values) define(row.where->at(name), name, value);
+    for (const auto& [name, value] : which.values) {
+      define([&, &its_name = name] { return cases_->field_of(number, its_name); }, name, value);
+    }
     if (!root_.has("parameters")) return;
     const world::YamlFields defaults = root_.at("parameters").with_rule(&parameters);
     defaults.demand_map();
     const auto is_given = [&](const std::string& name) {
-      return std::any_of(row.values.begin(), row.values.end(),
+      return std::any_of(which.values.begin(), which.values.end(),
                          [&](const auto& value) { return value.first == name; });
     };
     for (const auto& [name, value] : defaults.entries()) {
-      if (!is_given(name)) define(value, name, value.text());
+      if (!is_given(name)) define([&, &field = value] { return field; }, name, value.text());
     }
   }
 
   /// Where one was meant and another was written, both are left over.
-  void demand_all_used(const Case& row, const Parameters& parameters) const {
-    const auto demand_used = [&](const std::string& name, const world::YamlFields& field) {
-      if (!parameters.was_used(name)) {
-        field.fail(understudy::quoted(name) + " is used nowhere; expected ${" + name +
-                   "} somewhere in the scenario");
-      }
+  void demand_all_used(std::uint64_t number, const Case& which, const Parameters& parameters) const {
+    const auto fail = [&](const std::string& name, const world::YamlFields& field) {
+      field.fail(understudy::quoted(name) + " is used nowhere; expected ${" + name +
+                 "} somewhere in the scenario");
     };
-    for (const auto& [name, value] : row.values) demand_used(name, row.where->at(name));
+    for (const auto& [name, value] : which.values) {
+      if (!parameters.was_used(name)) fail(name, cases_->field_of(number, name));
+    }
     if (!root_.has("parameters")) return;
-    for (const auto& [name, value] : root_.at("parameters").entries()) demand_used(name, value);
+    for (const auto& [name, value] : root_.at("parameters").entries()) {
+      if (!parameters.was_used(name)) fail(name, value);
+    }
+  }
+
+  /// What is written, and the values that tell this case from the others.
+  std::string name_with(const Case& which, const Parameters& parameters) const {
+    std::string name = std::filesystem::path(path_).stem().string();
+    if (!root_.has("name")) return which.values.empty() ? name : name + " " + to_text(which);
+    const std::string written = root_.at("name").text();
+    name = world::on_one_line(root_.with_rule(&parameters).at("name").text());
+    if (which.values.empty()) return name;
+    if (!which.is_varied) return name != written ? name : name + " " + to_text(which);
+    Case untold;
+    const auto told = parameters.used_in(written);
+    for (const auto& value : which.values) {
+      if (!told.contains(value.first)) untold.values.push_back(value);
+    }
+    return untold.values.empty() ? name : name + " " + to_text(untold);
   }
 
   world::Bench bench_at(const world::YamlFields& field) const {
@@ -218,12 +231,13 @@ class ScenarioReader {
     }
   }
 
-  Scenario read_case(const Case& row) {
+  Scenario read_case(std::uint64_t number, const Case& which) {
     Parameters parameters;
-    define_all(row, parameters);
+    define_all(number, which, parameters);
     const world::YamlFields root = root_.with_rule(&parameters);
     Scenario scenario;
     scenario.file = path_;
+    scenario.which = which;
     scenario.name = std::filesystem::path(path_).stem().string();
     // Without its bench nothing can be said of the steps.
     scenario.bench = read_its_bench(root);
@@ -234,13 +248,7 @@ class ScenarioReader {
     }
     const Trial trial = make_trial(root, scenario.bench);
     world::Complaints all;
-    bool is_named_by_case = false;
-    all.attempt([&] {
-      if (!root.has("name")) return;
-      scenario.name = world::on_one_line(root.at("name").text());
-      is_named_by_case = scenario.name != root_.at("name").text();
-    });
-    if (!row.values.empty() && !is_named_by_case) scenario.name += " " + to_text(row);
+    all.attempt([&] { scenario.name = name_with(which, parameters); });
     all.attempt([&] {
       if (root.has("gap")) scenario.gap = root.at("gap").duration();
     });
@@ -248,11 +256,12 @@ class ScenarioReader {
       if (!root.has("seed")) return;
       scenario.bench.seed = static_cast<std::uint64_t>(root.at("seed").integer(world::kSeedForm));
     });
+    if (seed_) scenario.bench.seed = *seed_;
     scenario.seed = scenario.bench.seed;
     StepsReader steps(trial, file_, path_);
     all.attempt([&] { scenario.steps = steps.read(root.at("steps"), parameters); });
     all.throw_if_any();
-    demand_all_used(row, parameters);
+    demand_all_used(number, which, parameters);
     scenario.files.push_back({path_, "the scenario itself"});
     for (const auto& files : {scenario.bench.files, steps.files()}) {
       scenario.files.insert(scenario.files.end(), files.begin(), files.end());
@@ -265,7 +274,7 @@ class ScenarioReader {
   void demand_own_paths(const StepsReader& steps, Scenario& scenario) {
     FileClaims claims;
     claims.add(scenario.files);
-    claims.add(saved_before_);
+    if (saved_before_) claims.add(*saved_before_);
     for (const auto& [path, field] : steps.saved()) {
       if (const std::string why = claims.objection_to(path); !why.empty()) field.fail(path + " " + why);
       if (!is_below(path, save_below_)) {
@@ -276,7 +285,7 @@ class ScenarioReader {
         field.fail(path + " cannot be written: " + why);
       }
       scenario.saved.push_back(path);
-      saved_before_.push_back({path, "what another case saves"});
+      if (saved_before_) saved_before_->push_back({path, "what another case saves"});
     }
   }
 
@@ -302,38 +311,59 @@ class ScenarioReader {
   world::YamlFields root_;
   std::string path_;
   std::string save_below_;
+  std::optional<std::uint64_t> seed_;
   FileReading file_;
-  std::vector<FileClaim> saved_before_;  // by the cases so far
+  world::Complaints head_;  // what is wrong beside the cases
+  std::optional<CaseTable> cases_;
+  std::optional<std::vector<FileClaim>> saved_before_{};  // by the cases so far, while all are read
 };
 
-}  // namespace
-
-namespace {
-
-std::vector<Scenario> parse_with(SharedReading& shared, const std::string& text, const std::string& path,
-                                 const std::string& save_below) {
+ScenarioFile::ScenarioFile(const std::string& text, const std::string& path, const ReadingOptions& options,
+                           SharedReading& shared) {
   const world::YamlFields root =
       world::YamlFields::parse(text, path, "scenario", "`understudy: 1`, `bench:` and `steps:`");
   if (root.has("lines") && !root.has("bench") && !root.has("steps")) {
     throw FileError({path, 1, 1},
                     "scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
   }
-  return ScenarioReader(root, path, save_below, shared).read();
+  reader_ = std::make_unique<Reader>(root, path, options, shared);
 }
 
-}  // namespace
+ScenarioFile::ScenarioFile(const std::string& path, const ReadingOptions& options, SharedReading& shared)
+    : ScenarioFile(
+          [&] {
+            auto text = read_text_file(path);
+            if (!text) throw FileError(path + ": scenario: " + text.why + "; expected a scenario file");
+            return std::move(*text);
+          }(),
+          path, options, shared) {}
+
+ScenarioFile::~ScenarioFile() = default;
+
+std::uint64_t ScenarioFile::size() const { return reader_->cases().size(); }
+bool ScenarioFile::is_varied() const { return reader_->cases().is_varied(); }
+Case ScenarioFile::case_of(std::uint64_t number) const { return reader_->cases().at(number); }
+std::string ScenarioFile::name_of(std::uint64_t number) const { return reader_->name_of(number); }
+Scenario ScenarioFile::read(std::uint64_t number) { return reader_->read(number); }
+void ScenarioFile::check(const std::function<void(Scenario)>& take) { reader_->check(take); }
 
 std::vector<Scenario> parse_scenarios(ModelList models, const std::string& text, const std::string& path,
                                       const std::string& save_below) {
   SharedReading shared{.models = models, .benches = {}, .included = {}};
-  return parse_with(shared, text, path, save_below);
+  std::vector<Scenario> scenarios;
+  ScenarioFile(text, path, {.save_below = save_below, .seed = {}}, shared).check([&](Scenario scenario) {
+    scenarios.push_back(std::move(scenario));
+  });
+  return scenarios;
 }
 
 std::vector<Scenario> load_scenarios(const std::string& path, const std::string& save_below,
                                      SharedReading& shared) {
-  const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ": scenario: " + text.why + "; expected a scenario file");
-  return parse_with(shared, *text, path, save_below);
+  std::vector<Scenario> scenarios;
+  ScenarioFile(path, {.save_below = save_below, .seed = {}}, shared).check([&](Scenario scenario) {
+    scenarios.push_back(std::move(scenario));
+  });
+  return scenarios;
 }
 
 std::vector<Scenario> load_scenarios(ModelList models, const std::string& path,

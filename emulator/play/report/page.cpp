@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -206,15 +207,20 @@ std::string body_of(const ScenarioResult& result) {
 
 }  // namespace
 
-std::string report_page(std::span<const ScenarioResult> results, std::string_view version) {
-  const std::string summary = xml_escaped(summary_line(results));
+std::string report_page(std::span<const ScenarioResult> results, std::string_view version, const Tally* all) {
+  const std::string summary = xml_escaped(all != nullptr ? summary_line(*all) : summary_line(results));
+  const std::uint64_t count = all != nullptr ? all->passed + all->failed + all->not_reached : results.size();
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>Understudy: " +
       summary + "</title>\n<style>" + std::string(kPageStyle) +
-      "</style>\n</head>\n<body>\n<header>\n<h1>Understudy</h1>\n<p>" + summary +
-      "</p>\n</header>\n<main>\n<nav aria-label=\"scenarios\">\n<h2 class=\"unseen\">Scenarios</h2>\n" +
+      "</style>\n</head>\n<body>\n<header>\n<h1>Understudy</h1>\n<p>" + summary + "</p>\n" +
+      (count > results.size()
+           ? "<p class=\"dim\">" + std::to_string(count - results.size()) +
+                 " of these are not shown: they passed, or failed as one that is shown.</p>\n"
+           : "") +
+      "</header>\n<main>\n<nav aria-label=\"scenarios\">\n<h2 class=\"unseen\">Scenarios</h2>\n" +
       list_of(results) + "</nav>\n";
   // Those that failed are open; one alone as well.
   for (std::size_t i = 0; i < results.size(); ++i) {

@@ -1,14 +1,17 @@
 #include "emulator/play/results/junit.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
-#include "base/simulated_time.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/results/result_text.h"
 
@@ -37,23 +40,12 @@ std::size_t character_size(std::string_view text) {
   return is_too_long || is_surrogate || code > 0x10FFFF || code == 0xFFFE || code == 0xFFFF ? 0 : size;
 }
 
-struct Counts {
-  std::size_t tests = 0;
-  std::size_t failures = 0;
-  std::size_t skipped = 0;
-  SimTime time{0};
-
-  void add(const ScenarioResult& result) {
-    ++tests;
-    if (result.verdict == Verdict::failed) ++failures;
-    if (result.verdict == Verdict::not_reached) ++skipped;
-    time += result.simulated;
-  }
-  std::string text() const {
-    return "tests=\"" + std::to_string(tests) + "\" failures=\"" + std::to_string(failures) +
-           "\" errors=\"0\" skipped=\"" + std::to_string(skipped) + "\" time=\"" + seconds_text(time) + "\"";
-  }
-};
+std::string counts_text(const Tally& tally) {
+  return "tests=\"" + std::to_string(tally.passed + tally.failed + tally.not_reached) + "\" failures=\"" +
+         std::to_string(tally.failed - tally.unreadable) + "\" errors=\"" + std::to_string(tally.unreadable) +
+         "\" skipped=\"" + std::to_string(tally.not_reached) + "\" time=\"" + seconds_text(tally.simulated) +
+         "\"";
+}
 
 std::string lines_text(const std::vector<std::string>& lines) {
   std::string text;
@@ -67,11 +59,14 @@ std::string case_text(const ScenarioResult& result) {
   if (result.verdict == Verdict::not_reached) {
     text += "      <skipped message=\"a step before its fork failed\"/>\n";
   }
+  const bool is_one_of_many = result.which.is_varied && (!result.failure || !result.like.empty());
   if (result.failure) {
-    text += "      <failure type=\"expectation\" message=\"" + xml_escaped(result.failure->what) + "\">" +
-            xml_escaped(lines_text(failure_lines(result))) + "</failure>\n";
+    const std::string tag = result.is_unreadable ? "error type=\"case\"" : "failure type=\"expectation\"";
+    text += "      <" + tag + " message=\"" + xml_escaped(result.failure->what) + "\">" +
+            xml_escaped(is_one_of_many ? "" : lines_text(failure_lines(result))) + "</" +
+            tag.substr(0, tag.find(' ')) + ">\n";
   }
-  std::string output = lines_text(step_lines(result));
+  std::string output = is_one_of_many ? "" : lines_text(step_lines(result));
   for (const std::string& finding : result.manners) output += "lint: " + finding + "\n";
   if (!output.empty()) text += "      <system-out>" + xml_escaped(output) + "</system-out>\n";
   return text + "    </testcase>\n";
@@ -105,27 +100,54 @@ std::string xml_escaped(std::string_view text) {
   return escaped;
 }
 
-std::string junit_text(std::span<const ScenarioResult> results) {
-  std::vector<std::string> files;
-  Counts all;
-  for (const ScenarioResult& result : results) {
-    all.add(result);
-    if (std::find(files.begin(), files.end(), result.file) == files.end()) files.push_back(result.file);
-  }
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"understudy\" " + all.text() + ">\n";
-  for (const std::string& file : files) {
-    Counts counts;
-    std::string cases;
-    for (const ScenarioResult& result : results) {
-      if (result.file != file) continue;
-      counts.add(result);
-      cases += case_text(result);
+void Junit::fail() {
+  throw std::system_error(errno, std::generic_category(), "--junit: results cannot be kept below /tmp");
+}
+
+Junit::Junit() : waiting_(std::tmpfile(), &std::fclose) {
+  if (!waiting_) fail();
+}
+
+void Junit::add(const ScenarioResult& result) {
+  const auto [it, is_new] = numbers_.emplace(result.file, suites_.size());
+  if (is_new) suites_.push_back({.file = result.file});
+  Suite& suite = suites_[it->second];
+  suite.tally.add(result);
+  all_.add(result);
+  const std::string text = case_text(result);
+  if (std::fwrite(text.data(), 1, text.size(), waiting_.get()) != text.size()) fail();
+  if (suite.pieces.empty() || suite.pieces.back().end != end_)
+    suite.pieces.push_back({.begin = end_, .end = end_});
+  end_ += static_cast<long>(text.size());
+  suite.pieces.back().end = end_;
+}
+
+void Junit::write(const std::function<void(std::string_view)>& take) {
+  take("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"understudy\" " + counts_text(all_) +
+       ">\n");
+  std::vector<char> part(std::size_t{1} << 16);
+  for (const Suite& suite : suites_) {
+    take("  <testsuite name=\"" + xml_escaped(suite.file) + "\" " + counts_text(suite.tally) + ">\n");
+    for (const Piece& piece : suite.pieces) {
+      if (std::fflush(waiting_.get()) != 0 || std::fseek(waiting_.get(), piece.begin, SEEK_SET) != 0) fail();
+      for (long left = piece.end - piece.begin; left > 0;) {
+        const std::size_t wanted = std::min(part.size(), static_cast<std::size_t>(left));
+        if (std::fread(part.data(), 1, wanted, waiting_.get()) != wanted) fail();
+        take({part.data(), wanted});
+        left -= static_cast<long>(wanted);
+      }
     }
-    text += "  <testsuite name=\"" + xml_escaped(file) + "\" " + counts.text() + ">\n" + cases +
-            "  </testsuite>\n";
+    take("  </testsuite>\n");
   }
-  return text + "</testsuites>\n";
+  take("</testsuites>\n");
+}
+
+std::string junit_text(std::span<const ScenarioResult> results) {
+  Junit junit;
+  for (const ScenarioResult& result : results) junit.add(result);
+  std::string text;
+  junit.write([&](std::string_view piece) { text += piece; });
+  return text;
 }
 
 }  // namespace understudy::emulator::play

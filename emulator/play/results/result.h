@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/play/scenario/case.h"
 
 namespace understudy::emulator::play {
 
@@ -51,6 +52,11 @@ struct ScenarioResult {
   std::string recording{};                   // its path, if one was made; of a trace and a capture as well
   std::string trace{};
   std::string capture{};
+  Case which{};  // of its file
+  std::uint64_t seed = 0;
+  std::string branch{};  // "with a stall"; of one inside another "with a stall / again"; empty: the scenario
+  bool is_unreadable = false;  // the case was not played: what is wrong with it is its failure
+  std::string like{};          // it failed as this one did before, whose recording was kept
 };
 
 }  // namespace understudy::emulator::play

@@ -1,7 +1,5 @@
 #include "emulator/play/results/result_text.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -10,6 +8,7 @@
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/play/results/result.h"
+#include "emulator/play/scenario/case.h"
 
 namespace understudy::emulator::play {
 
@@ -64,23 +63,35 @@ std::vector<std::string> failure_lines(const ScenarioResult& result) {
   if (!failure.state.empty()) add("  the state at " + format_duration(failure.at) + ":");
   for (const std::string& state : failure.state) add("    " + state);
   if (!result.recording.empty()) add("to run this again: understudy replay " + result.recording);
+  if (!result.like.empty()) add("it failed as this one did, whose recording is kept: " + result.like);
+  if (result.which.is_varied) {
+    add("to play this case alone: understudy run " + result.file + " --filter " +
+        identity_text(identity_of(result.which)));
+  }
   return lines;
 }
 
-std::string summary_line(std::span<const ScenarioResult> results) {
-  const auto count = [&](Verdict verdict) {
-    return static_cast<std::size_t>(
-        std::count_if(results.begin(), results.end(),
-                      [&](const ScenarioResult& result) { return result.verdict == verdict; }));
-  };
-  SimTime simulated{0};
-  for (const ScenarioResult& result : results) simulated += result.simulated;
-  std::string text = std::to_string(count(Verdict::passed)) + " passed, " +
-                     std::to_string(count(Verdict::failed)) + " failed";
-  if (const std::size_t left_out = count(Verdict::not_reached); left_out != 0) {
-    text += ", " + std::to_string(left_out) + " not reached";
+void Tally::add(const ScenarioResult& result) {
+  switch (result.verdict) {
+    case Verdict::passed: ++passed; break;
+    case Verdict::failed: ++failed; break;
+    case Verdict::not_reached: ++not_reached; break;
   }
-  return text + "; " + format_duration(simulated) + " simulated";
+  if (result.is_unreadable) ++unreadable;
+  simulated += result.simulated;
+}
+
+std::string summary_line(const Tally& tally) {
+  std::string text = std::to_string(tally.passed) + " passed, " + std::to_string(tally.failed) + " failed";
+  if (tally.not_reached != 0) text += ", " + std::to_string(tally.not_reached) + " not reached";
+  if (tally.unreadable != 0) text += ", of which " + std::to_string(tally.unreadable) + " could not be read";
+  return text + "; " + format_duration(tally.simulated) + " simulated";
+}
+
+std::string summary_line(std::span<const ScenarioResult> results) {
+  Tally tally;
+  for (const ScenarioResult& result : results) tally.add(result);
+  return summary_line(tally);
 }
 
 }  // namespace understudy::emulator::play

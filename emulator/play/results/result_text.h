@@ -1,10 +1,12 @@
 // Results for people.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/play/results/result.h"
 
 namespace understudy::emulator::play {
@@ -20,7 +22,19 @@ std::vector<std::string> step_lines(const ScenarioResult& result);
 /// failed.
 std::vector<std::string> failure_lines(const ScenarioResult& result);
 
+/// How many results there were of each kind, without holding them.
+struct Tally {
+  std::uint64_t passed = 0;
+  std::uint64_t failed = 0;
+  std::uint64_t not_reached = 0;
+  std::uint64_t unreadable = 0;  // cases, among those that failed
+  SimTime simulated{0};
+
+  void add(const ScenarioResult& result);
+};
+
 /// "12 passed, 1 failed, 2 not reached; 48.3s simulated".
+std::string summary_line(const Tally& tally);
 std::string summary_line(std::span<const ScenarioResult> results);
 
 }  // namespace understudy::emulator::play

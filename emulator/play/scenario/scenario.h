@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/play/scenario/case.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/expression/tolerance.h"
 #include "emulator/world/faults/fault.h"
@@ -216,6 +217,7 @@ struct Scenario {
   Steps steps;
   std::vector<FileClaim> files{};    // that it is read from, the bench's as well
   std::vector<std::string> saved{};  // paths that its steps write
+  Case which{};
 };
 
 }  // namespace understudy::emulator::play

@@ -48,7 +48,12 @@ class SchemaWriter {
         if (lists(form)) schema["propertyNames"] = reference(form.names_of);
         return schema;
       }
-      case world::Form::Kind::keys: return keys(form.keys);
+      case world::Form::Kind::keys: {
+        Json schema = keys(form.keys);
+        // A key may be a parameter's value as well: { "${fault}": feeder }.
+        if (has_parameters_) schema["patternProperties"] = Json{{kParameter, Json::object()}};
+        return schema;
+      }
       case world::Form::Kind::either: {
         Json ways = Json::array();
         for (const world::Form* way : form.ways) ways.push_back(of(*way));

@@ -1,89 +1,14 @@
-// Which scenarios are played, on how many threads, and that it makes no difference.
+// On how many threads cases are played, and that it makes no difference.
 #include "emulator/play/performing/suite.h"
 
 #include <atomic>
-#include <set>
+#include <mutex>
 
 #include "emulator/play/results/junit.h"
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
 namespace suite_test {
-
-std::vector<Scenario> named(const std::vector<std::string>& names) {
-  std::vector<Scenario> scenarios;
-  for (const std::string& name : names) {
-    Scenario& scenario = scenarios.emplace_back();
-    scenario.name = name;
-    scenario.file = "test.yaml";
-  }
-  return scenarios;
-}
-
-std::vector<std::string> names_of(const std::vector<Scenario>& scenarios) {
-  std::vector<std::string> names;
-  for (const Scenario& scenario : scenarios) names.push_back(scenario.name);
-  return names;
-}
-
-TEST(Suite, ShardsAreWrittenAsPartOfHowMany) {
-  struct Case {
-    const char* text;
-    std::size_t number;  // 0: refused
-    std::size_t of;
-  };
-  const std::vector<Case> cases = {{"1/1", 1, 1}, {"2/4", 2, 4},  {"4/4", 4, 4},   {"5/4", 0, 0},
-                                   {"0/4", 0, 0}, {"-1/4", 0, 0}, {"1", 0, 0},     {"/4", 0, 0},
-                                   {"1/", 0, 0},  {"", 0, 0},     {"1/2/3", 0, 0}, {"a/b", 0, 0},
-                                   {"1/0", 0, 0}};
-  for (const Case& c : cases) {
-    const auto shard = parse_shard(c.text);
-    EXPECT_EQ(shard.has_value(), c.number != 0) << c.text;
-    if (!shard) continue;
-    EXPECT_EQ(shard->number, c.number) << c.text;
-    EXPECT_EQ(shard->of, c.of) << c.text;
-  }
-}
-
-TEST(Suite, PatternsAndShardsChooseInOrder) {
-  const std::vector<std::string> all = {"a move", "home from anywhere", "a long move", "EEPROM busy",
-                                        "move (n=1)"};
-  struct Case {
-    const char* pattern;
-    Shard shard;
-    std::vector<std::string> chosen;
-  };
-  const std::vector<Case> cases = {
-      {"", {1, 1}, all},
-      {"*", {1, 1}, all},
-      {"*move*", {1, 1}, {"a move", "a long move", "move (n=1)"}},
-      {"a*", {1, 1}, {"a move", "a long move"}},
-      {"a move", {1, 1}, {"a move"}},
-      {"? move", {1, 1}, {"a move"}},
-      {"[Eh]*", {1, 1}, {"home from anywhere", "EEPROM busy"}},
-      {"nothing", {1, 1}, {}},
-      {"", {1, 2}, {"a move", "a long move", "move (n=1)"}},
-      {"", {2, 2}, {"home from anywhere", "EEPROM busy"}},
-      {"*move*", {2, 2}, {"a long move"}},
-      {"", {5, 7}, {"move (n=1)"}},
-      {"", {7, 7}, {}},
-  };
-  for (const Case& c : cases) {
-    EXPECT_EQ(names_of(choose(named(all), c.pattern, c.shard)), c.chosen) << c.pattern << c.shard.number;
-  }
-}
-
-TEST(Suite, EveryScenarioIsInExactlyOneShard) {
-  std::vector<std::string> all;
-  for (int i = 0; i < 23; ++i) all.push_back(std::to_string(i));
-  for (std::size_t of = 1; of < 30; ++of) {
-    std::multiset<std::string> seen;
-    for (std::size_t number = 1; number <= of; ++number) {
-      for (const std::string& name : names_of(choose(named(all), "", {number, of}))) seen.insert(name);
-    }
-    EXPECT_EQ(seen, std::multiset<std::string>(all.begin(), all.end())) << of;
-  }
-}
 
 /// Moves of different lengths, every third of which fails, and one with branches.
 std::vector<Scenario> many() {
@@ -102,16 +27,32 @@ std::vector<Scenario> many() {
   return scenarios;
 }
 
+NextTicket each_of(const std::vector<Scenario>& scenarios) {
+  return [&, next = std::uint64_t{0}]() mutable -> std::optional<Ticket> {
+    if (next >= scenarios.size()) return std::nullopt;
+    return Ticket{.file = 0, .number = next++};
+  };
+}
+
+std::function<Play()> players(const std::vector<Scenario>& scenarios, const RunOptions& options) {
+  return [&]() -> Play {
+    return [&](const Ticket& ticket) { return run_scenario(scenarios[ticket.number], options); };
+  };
+}
+
 std::string told(const std::vector<Scenario>& scenarios, int jobs) {
   std::vector<ScenarioResult> all;
   std::string text;
-  const auto options_for = [](const Scenario&) { return RunOptions{.with_hash = true}; };
-  run_suite(scenarios, options_for, jobs, [&](const std::vector<ScenarioResult>& results) {
-    for (const ScenarioResult& result : results) {
-      text += verdict_line(result) + " " + std::to_string(result.outcome_hash) + "\n" + why(result);
-      all.push_back(result);
-    }
-  });
+  const RunOptions options{.with_hash = true};
+  std::uint64_t number = 0;
+  run_suite(each_of(scenarios), players(scenarios, options), jobs,
+            [&](const Ticket& ticket, const std::vector<ScenarioResult>& results) {
+              EXPECT_EQ(ticket.number, number++);
+              for (const ScenarioResult& result : results) {
+                text += verdict_line(result) + " " + std::to_string(result.outcome_hash) + "\n" + why(result);
+                all.push_back(result);
+              }
+            });
   return text + junit_text(all) + summary_line(all);
 }
 
@@ -136,18 +77,63 @@ TEST(Suite, ThatNoStageCanBeHadIsThrownAfterWhatCameBefore) {
     return make_free_stage(scenario);
   }};
   std::vector<std::string> names;
-  const auto tell = [&](const std::vector<ScenarioResult>& results) {
+  const auto tell = [&](const Ticket&, const std::vector<ScenarioResult>& results) {
     names.push_back(results.front().name);
   };
   try {
-    run_suite(
-        scenarios, [&](const Scenario&) { return options; }, 4, tell);
+    run_suite(each_of(scenarios), players(scenarios, options), 4, tell);
     ADD_FAILURE() << "expected it to throw";
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "no port is free");
   }
   EXPECT_EQ(names, (std::vector<std::string>{"move 0", "move 1", "move 2", "move 3", "move 4"}));
   EXPECT_LT(made, 48);  // the rest is not played
+}
+
+TEST(Suite, ThreadsAreNeverFarAheadOfWhatIsTold) {
+  std::uint64_t taken = 0;
+  std::uint64_t told = 0;
+  std::uint64_t farthest = 0;
+  std::mutex mutex;
+  const auto next = [&]() -> std::optional<Ticket> {
+    const std::lock_guard lock(mutex);
+    if (taken == 20'000) return std::nullopt;
+    farthest = std::max(farthest, taken - told);
+    return Ticket{.file = 0, .number = taken++};
+  };
+  const auto make_play = []() -> Play {
+    return [](const Ticket& ticket) {
+      std::vector<ScenarioResult> results(1);
+      results.front().name = std::to_string(ticket.number);
+      return results;
+    };
+  };
+  run_suite(next, make_play, 3, [&](const Ticket& ticket, const std::vector<ScenarioResult>& results) {
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(results.front().name, std::to_string(ticket.number));
+    EXPECT_EQ(ticket.number, told++);
+  });
+  EXPECT_EQ(told, 20'000U);
+  EXPECT_LE(farthest, 300U);
+}
+
+TEST(Suite, WhatNextThrowsComesOutInItsTurn) {
+  std::uint64_t taken = 0;
+  const auto next = [&]() -> std::optional<Ticket> {
+    if (taken == 7) throw std::runtime_error("the file is gone");
+    return Ticket{.file = 0, .number = taken++};
+  };
+  const auto make_play = []() -> Play {
+    return [](const Ticket&) { return std::vector<ScenarioResult>(1); };
+  };
+  std::uint64_t told = 0;
+  try {
+    run_suite(next, make_play, 3, [&](const Ticket&, const std::vector<ScenarioResult>&) { ++told; });
+    ADD_FAILURE() << "expected it to throw";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "the file is gone");
+  }
+  EXPECT_EQ(told, 7U);
 }
 
 }  // namespace suite_test

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -122,6 +123,49 @@ TEST(Junit, NoByteMakesItUnreadable) {
   const std::string text = read_back(junit_text(results));
   EXPECT_EQ(text.find("Error"), std::string::npos) << text.substr(0, 2000);
   EXPECT_EQ(text.find("testsuites"), 0U);
+}
+
+TEST(Junit, OfManyCasesOnlyTheFirstFailureIsAtLength) {
+  const auto varied = [](ScenarioResult result) {
+    result.which.is_varied = true;
+    return result;
+  };
+  ScenarioResult alike = kResults[1];
+  alike.like = "it's \"<odd>\" & more";
+  ScenarioResult unreadable{.verdict = Verdict::failed, .name = "wrong", .file = "a.yaml"};
+  unreadable.is_unreadable = true;
+  unreadable.failure = Failure{.what = "a.yaml:3:1: vary.x: 7 is too much"};
+  unreadable.like = "another";
+  const std::string text =
+      read_back(junit_text(std::vector{varied(kResults[0]), varied(alike), varied(unreadable)}));
+  EXPECT_EQ(text,
+            "testsuites errors='1' failures='1' name='understudy' skipped='0' tests='3' time='4.075000000'\n"
+            "  testsuite errors='0' failures='0' name='b.yaml' skipped='0' tests='1' time='3.075000000'\n"
+            "    testcase classname='b.yaml' name='a move' time='3.075000000'\n"
+            "      system-out 'lint: rs485: 2 requests <soon>'\n"
+            "  testsuite errors='1' failures='1' name='a.yaml' skipped='0' tests='2' time='1.000000000'\n"
+            "    testcase classname='a.yaml' name='it\\'s \"<odd>\" & more' time='1.000000000'\n"
+            "      failure message=\"'x < 1' does not hold\" type='expectation'\n"
+            "    testcase classname='a.yaml' name='wrong' time='0.000000000'\n"
+            "      error message='a.yaml:3:1: vary.x: 7 is too much' type='case'\n");
+  const std::string first = read_back(junit_text(std::vector{varied(kResults[1])}));
+  EXPECT_NE(first.find("expected: x < 1"), std::string::npos) << first;
+}
+
+TEST(Junit, SuitesOfFilesThatComeAgainStayTogether) {
+  Junit junit;
+  for (int i = 0; i < 30; ++i) {
+    junit.add({.name = "case " + std::to_string(i), .file = i % 3 == 0 ? "a.yaml" : "b.yaml"});
+  }
+  std::string text;
+  junit.write([&](std::string_view piece) { text += piece; });
+  std::vector<std::size_t> places;
+  for (int i = 0; i < 30; i += 3) places.push_back(text.find("name=\"case " + std::to_string(i) + "\""));
+  for (int i = 0; i < 30; ++i) {
+    if (i % 3 != 0) places.push_back(text.find("name=\"case " + std::to_string(i) + "\""));
+  }
+  EXPECT_TRUE(std::is_sorted(places.begin(), places.end()));
+  EXPECT_LT(places.back(), text.size());
 }
 
 }  // namespace junit_test

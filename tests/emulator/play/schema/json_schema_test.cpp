@@ -53,6 +53,9 @@ TEST(JsonSchema, SuitsEveryExampleOfTheDocumentation) {
     const bool is_whole = example.starts_with("understudy: 1");
     EXPECT_EQ(of_scenario(is_whole ? example : ScenarioFolder::scenario_of(example)), "") << example;
   }
+  for (const std::string& example : examples_of("campaigns.md"))
+    EXPECT_EQ(of_scenario(example), "") << example;
+  EXPECT_EQ(of_scenario(contents(PROJECT_FOLDER "/examples/campaign/move.yaml")), "");
 }
 
 /// What readers refuse because of its form, the schema refuses.
@@ -127,7 +130,8 @@ TEST(JsonSchema, RefusesScenariosOfAnotherForm) {
   const std::string good = ScenarioFolder::scenario_of("- advance: 1ms\n");
   EXPECT_EQ(of_scenario(good), "");
   for (const std::string more :
-       {"nam: x\n", "gap: 5\n", "seed: -1\n", "cases: {}\n", "parameters: [ a ]\n"}) {
+       {"nam: x\n", "gap: 5\n", "seed: -1\n", "cases: {}\n", "parameters: [ a ]\n", "vary: [ 1 ]\n",
+        "vary: { a: 5 }\n", "vary: { a: { from: 1, to: 2 } }\n", "vary: { a: { between: [ 1 ] } }\n"}) {
     EXPECT_NE(of_scenario(good + more), "") << more;
     EXPECT_NE(folder.complaint(good + more), "") << more;
   }

@@ -110,7 +110,7 @@ class Judge {
     }
     if (!value.is_object()) {
       if (keyword == "properties" || keyword == "required" || keyword == "additionalProperties" ||
-          keyword == "dependencies")
+          keyword == "patternProperties" || keyword == "dependencies")
         return "";
       throw std::logic_error("keyword " + keyword);
     }
@@ -122,19 +122,36 @@ class Judge {
     for (const auto& [key, part] : value.items()) {
       std::string found;
       if (keyword == "properties" && rule.contains(key)) found = complaint(rule[key], part, at + "." + key);
+      if (keyword == "patternProperties") {
+        for (const auto& [pattern, way] : rule.items()) {
+          if (found.empty() && std::regex_search(key, std::regex(pattern)))
+            found = complaint(way, part, at + "." + key);
+        }
+      }
       if (keyword == "additionalProperties" &&
-          !(schema.contains("properties") && schema["properties"].contains(key))) {
+          !(schema.contains("properties") && schema["properties"].contains(key)) &&
+          !suits_pattern(schema, key)) {
         found = rule == false ? at + "." + key + ": is not a key" : complaint(rule, part, at + "." + key);
       }
       if (keyword == "dependencies" && rule.contains(key)) found = complaint(rule[key], value, at);
       if (!found.empty()) return found;
     }
-    if (keyword == "properties" || keyword == "additionalProperties" || keyword == "dependencies") return "";
+    if (keyword == "properties" || keyword == "patternProperties" || keyword == "additionalProperties" ||
+        keyword == "dependencies")
+      return "";
     if (keyword != "required") throw std::logic_error("keyword " + keyword);
     for (const json& key : rule) {
       if (!value.contains(key)) return at + ": needs " + key.get<std::string>();
     }
     return "";
+  }
+
+  static bool suits_pattern(const json& schema, const std::string& key) {
+    if (!schema.contains("patternProperties")) return false;
+    for (const auto& [pattern, way] : schema["patternProperties"].items()) {
+      if (std::regex_search(key, std::regex(pattern))) return true;
+    }
+    return false;
   }
 
   const json& root_;

@@ -1,0 +1,153 @@
+#include "emulator/command_line/run_account.h"
+
+#include <cinttypes>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/text/one_line.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/result_file.h"
+#include "emulator/command_line/run_files.h"
+#include "emulator/command_line/terminal.h"
+#include "emulator/play/report/page.h"
+#include "emulator/play/results/failure_kinds.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/results/result_text.h"
+#include "emulator/play/results/results_file.h"
+
+namespace understudy::emulator::command_line {
+
+namespace {
+
+constexpr std::size_t kMostShown = 1000;    // on a page, besides the first failures of each kind
+constexpr std::size_t kMostManners = 1000;  // lines
+
+using RunVerdict = play::ScenarioResult::Verdict;
+
+void print(const play::ScenarioResult& result, bool with_hash, std::FILE* to) {
+  std::fprintf(to, "%s\n", coloured_verdict(play::verdict_line(result), wants_colour(fileno(to))).c_str());
+  if (with_hash && result.verdict != RunVerdict::not_reached) {
+    std::fprintf(to, "hash %s %016" PRIx64 "\n", one_line(result.name).c_str(), result.outcome_hash);
+  }
+  for (const std::string& line : play::failure_lines(result)) std::fprintf(to, "      %s\n", line.c_str());
+}
+
+std::unique_ptr<play::ResultsFile> open_results(const std::string& path, bool goes_on) {
+  if (path.ends_with(play::kJsonLinesEnding)) return play::open_json_lines(path, goes_on);
+  if (path.ends_with(play::kSqliteEnding)) return play::open_sqlite(path, goes_on);
+  throw UsageError("--results: " + path + ": is not a kind of results; expected FILE.jsonl or FILE.sqlite");
+}
+
+}  // namespace
+
+RunAccount::RunAccount(const RunArguments& arguments)
+    : arguments_(arguments),
+      // What is for people makes way for results on standard output.
+      told_(arguments.junit == kStandardOutput ? stderr : stdout) {
+  for (const std::string& path : arguments.results) rows_.push_back(open_results(path, arguments.resume));
+  if (!arguments.junit.empty()) junit_.emplace();
+}
+
+bool RunAccount::was_played(const play::CaseKey& key) {
+  if (!arguments_.resume || rows_.empty()) return false;
+  bool has_failed = false;
+  for (const auto& rows : rows_) {
+    const auto before = rows->has_failed(key);
+    if (!before) return false;
+    has_failed = has_failed || *before;
+  }
+  ++left_out_;
+  if (has_failed) ++left_out_failed_;
+  return true;
+}
+
+void RunAccount::begin() {
+  if (arguments_.resume) return;
+  for (const auto& rows : rows_) rows->begin();
+}
+
+void RunAccount::add(std::vector<play::ScenarioResult> results, std::uint64_t made_of, RunFiles& files,
+                     ProgressLine& progress,
+                     const std::function<std::vector<play::ScenarioResult>()>& again) {
+  bool has_failed = false;
+  std::vector<play::ResultRow> rows;
+  for (play::ScenarioResult& result : results) {
+    const bool is_new = add_one(result, files, progress, again);
+    has_failed = has_failed || result.failure;
+    if (!rows_.empty()) rows.push_back(play::row_of(result, made_of, !arguments_.real_time));
+    const bool is_shown = is_new || (!result.which.is_varied && shown_.size() < kMostShown);
+    if (!arguments_.report.empty() && is_shown) shown_.push_back(std::move(result));
+  }
+  for (const auto& file : rows_) file->add(rows);
+  progress.one_done(has_failed);
+}
+
+bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, ProgressLine& progress,
+                         const std::function<std::vector<play::ScenarioResult>()>& again) {
+  const play::FailureKinds::Kind* const kind = result.failure ? kinds_.add(result) : nullptr;
+  const bool is_new = kind != nullptr && kind->count == 1;
+  if (is_new && result.recording.empty() && !result.is_unreadable) {
+    for (play::ScenarioResult& other : again()) {
+      if (other.branch == result.branch) {
+        result.recording = std::exchange(other.recording, {});
+        result.footage = other.footage;
+      } else if (!other.recording.empty()) {
+        files.settle(other, false);
+      }
+    }
+  }
+  files.settle(result, is_new);
+  if (kind != nullptr && !is_new && result.recording.empty()) result.like = kind->first;
+  const bool is_one_of_many = result.which.is_varied && !is_new && !arguments_.hash;
+  if (!is_one_of_many) {
+    progress.above([&] {
+      print(result, arguments_.hash, told_);
+      std::fflush(told_);
+    });
+  }
+  tally_.add(result);
+  if (junit_) junit_->add(result);
+  note_manners(result);
+  return is_new;
+}
+
+void RunAccount::note_manners(const play::ScenarioResult& result) {
+  for (const std::string& finding : result.manners) {
+    if (result.which.is_varied && !known_manners_.insert(result.file + ": " + finding).second) continue;
+    if (manners_.size() < kMostManners)
+      manners_.push_back(one_line(result.file + ": " + result.name + ": " + finding));
+  }
+}
+
+void RunAccount::finish() {
+  for (const auto& file : rows_) file->finish();
+  for (const play::FailureKinds::Kind& kind : kinds_.all()) {
+    if (kind.varied < 2) continue;
+    std::fprintf(told_, "%" PRIu64 " failed alike: %s; the first was %s\n", kind.count,
+                 one_line(kind.text).c_str(), one_line(kind.first).c_str());
+  }
+  if (kinds_.others() > 0) {
+    std::fprintf(told_, "%" PRIu64 " more failed in other ways than the first %zu kinds\n", kinds_.others(),
+                 play::FailureKinds::kMost);
+  }
+  if (left_out_ > 0) {
+    std::fprintf(told_, "%" PRIu64 " left out, as they were played before; %" PRIu64 " of them failed\n",
+                 left_out_, left_out_failed_);
+  }
+  std::fprintf(told_, "%s\n", play::summary_line(tally_).c_str());
+  for (const std::string& line : manners_) std::fprintf(stderr, "lint: %s\n", line.c_str());
+}
+
+std::string RunAccount::report() const { return play::report_page(shown_, arguments_.version, &tally_); }
+
+int RunAccount::exit_code() const {
+  if (tally_.unreadable > 0) return kExitBadInput;
+  return tally_.failed + left_out_failed_ > 0 ? kExitFailed : kExitWell;
+}
+
+}  // namespace understudy::emulator::command_line

@@ -1,0 +1,179 @@
+#include "emulator/play/performing/playbill.h"
+
+#include <fnmatch.h>
+#include <malloc.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/files/file_claims.h"
+#include "base/files/file_error.h"
+#include "base/files/text_file.h"
+#include "base/state/state_bytes.h"
+#include "base/text/parse_integer.h"
+#include "emulator/device/model.h"
+#include "emulator/play/performing/suite.h"
+#include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/reading/shared_reading.h"
+#include "emulator/play/scenario/case.h"
+#include "emulator/play/scenario/scenario.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+// Reading a case again costs less than a tenth of playing it, but a suite as people write them need not.
+constexpr std::size_t kMostHeld = 1000;
+constexpr std::size_t kMostShared = 256;  // benches and files of steps
+constexpr std::size_t kTrimEvery = 256;   // files
+
+std::uint64_t hash_of_text(std::string_view text, std::uint64_t onto) {
+  return hash_of(std::as_bytes(std::span(text)), onto);
+}
+
+/// What is shared between files is shared for a while only.
+void keep_few(SharedReading& shared) {
+  if (shared.benches.size() > kMostShared) shared.benches.clear();
+  if (shared.included.size() > kMostShared) shared.included.clear();
+}
+
+}  // namespace
+
+std::optional<Shard> parse_shard(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  const auto number = parse_integer(text.substr(0, slash));
+  const auto of = parse_integer(text.substr(slash + 1));
+  if (!number || !of || *number < 1 || *number > *of) return std::nullopt;
+  return Shard{static_cast<std::uint64_t>(*number), static_cast<std::uint64_t>(*of)};
+}
+
+bool is_meant(const std::string& pattern, const std::string& name, std::uint64_t identity) {
+  return pattern.empty() || fnmatch(pattern.c_str(), name.c_str(), 0) == 0 || pattern == name ||
+         pattern == identity_text(identity);
+}
+
+Playbill::Playbill(ModelList models, ReadingOptions options)
+    : options_(std::move(options)), shared_{.models = models, .benches = {}, .included = {}} {}
+
+std::uint64_t Playbill::cases() const {
+  std::uint64_t sum = 0;
+  for (const File& file : files_) sum += file.size;
+  return sum;
+}
+
+std::uint64_t Playbill::hash_of_file(const std::string& path) {
+  const auto it = hashes_.find(path);
+  if (it != hashes_.end()) return it->second;
+  const auto text = read_text_file(path);
+  return hashes_.emplace(path, text ? hash_of_text(*text, hash_of({})) : 0).first->second;
+}
+
+void Playbill::add(const std::string& path, const std::function<void(const Scenario&)>& look) {
+  keep_few(shared_);
+  ScenarioFile opened(path, options_, shared_);
+  File file{.path = path, .size = opened.size(), .is_varied = opened.is_varied(), .made_of = 0, .held = {}};
+  const bool is_held = !file.is_varied && held_ + file.size <= kMostHeld;
+  std::set<std::uint64_t> contents;  // wherever the files stand, and however their paths are spelled
+  opened.check([&](Scenario scenario) {
+    look(scenario);
+    for (const FileClaim& claim : scenario.files) contents.insert(hash_of_file(claim.path));
+    if (is_held) file.held.push_back(std::make_shared<const Scenario>(std::move(scenario)));
+  });
+  file.made_of = hash_of_text(options_.seed ? std::to_string(*options_.seed) : "", hash_of({}));
+  for (const std::uint64_t content : contents)
+    file.made_of = hash_of_text(identity_text(content), file.made_of);
+  held_ += file.held.size();
+  files_.push_back(std::move(file));
+  // The little that is kept of each file lies between what its world took, and glibc 2.36 uses aligned memory
+  // anew only if nothing does: 14 KiB a file, which are given back.
+  if (files_.size() % kTrimEvery == 0) ::malloc_trim(0);
+}
+
+/// Of listed cases this was asked when they were checked.
+void Playbill::claim_saved(const Scenario& scenario) const {
+  const std::uint64_t who = identity_of(scenario.which) ^ hash_of_text(scenario.file, hash_of({}));
+  for (const std::string& path : scenario.saved) {
+    const std::lock_guard lock(saved_mutex_);
+    if (saved_.emplace(hash_of_text(path, hash_of({})), who).first->second != who) {
+      throw FileError(scenario.file + ": save: " + path +
+                      " is what another case saves; expected a path that differs from case to case");
+    }
+  }
+}
+
+CaseReader::CaseReader(const Playbill& bill)
+    : bill_(bill), shared_{.models = bill.shared_.models, .benches = {}, .included = {}} {}
+
+ScenarioFile& CaseReader::open(std::size_t file) {
+  if (file != file_) {
+    keep_few(shared_);
+    file_ = SIZE_MAX;
+    open_ = std::make_unique<ScenarioFile>(bill_.files_[file].path, bill_.options_, shared_);
+    file_ = file;
+  }
+  return *open_;
+}
+
+std::shared_ptr<const Scenario> CaseReader::read(const Ticket& ticket) {
+  const Playbill::File& file = bill_.files_[ticket.file];
+  if (!file.held.empty()) return file.held[ticket.number];
+  ScenarioFile& opened = open(ticket.file);
+  if (opened.size() != file.size) {
+    throw FileError(file.path +
+                    ": cases: are not as many as when the file was checked; expected it to stay as it was");
+  }
+  auto scenario = std::make_shared<const Scenario>(opened.read(ticket.number));
+  if (file.is_varied && !scenario->saved.empty()) bill_.claim_saved(*scenario);
+  return scenario;
+}
+
+std::string CaseReader::name_of(const Ticket& ticket) {
+  const Playbill::File& file = bill_.files_[ticket.file];
+  return file.held.empty() ? open(ticket.file).name_of(ticket.number) : file.held[ticket.number]->name;
+}
+
+Case CaseReader::case_of(const Ticket& ticket) {
+  const Playbill::File& file = bill_.files_[ticket.file];
+  return file.held.empty() ? open(ticket.file).case_of(ticket.number) : file.held[ticket.number]->which;
+}
+
+Selection::Selection(const Playbill& bill, std::string pattern, Shard shard)
+    : bill_(bill), pattern_(std::move(pattern)), shard_(shard), reader_(bill) {}
+
+std::optional<Ticket> Selection::next() {
+  while (at_.file < bill_.files()) {
+    if (at_.number >= bill_.cases_of(at_.file)) {
+      at_ = {.file = at_.file + 1, .number = 0};
+      continue;
+    }
+    const Ticket ticket = at_;
+    ++at_.number;
+    if (!pattern_.empty() &&
+        !is_meant(pattern_, reader_.name_of(ticket), identity_of(reader_.case_of(ticket)))) {
+      continue;
+    }
+    if (meant_++ % shard_.of == shard_.number - 1) return ticket;
+  }
+  return std::nullopt;
+}
+
+std::uint64_t Selection::count(const Playbill& bill, const std::string& pattern, Shard shard) {
+  if (pattern.empty()) return (bill.cases() + shard.of - shard.number) / shard.of;
+  Selection all(bill, pattern, shard);
+  std::uint64_t count = 0;
+  while (all.next()) ++count;
+  return count;
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,155 @@
+#include "emulator/play/reading/case_table.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
+#include "base/text/suggestion.h"
+#include "emulator/play/reading/parameters.h"
+#include "emulator/play/reading/variation.h"
+#include "emulator/play/scenario/case.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+constexpr std::uint64_t kMostCases = 1'000'000'000'000;
+constexpr std::uint64_t kTypical = 1000;  // cases that stand for all others
+
+/// No parameter has a value where cases are read.
+const Parameters& no_parameters() {
+  static const Parameters none;
+  return none;
+}
+
+}  // namespace
+
+CaseTable::CaseTable(const world::YamlFields& root, std::optional<std::uint64_t> seed) : root_(root) {
+  if (root_.has("cases")) read_rows(root_);
+  if (root_.has("vary")) read_variations(root_, seed);
+}
+
+void CaseTable::read_rows(const world::YamlFields& root) {
+  std::vector<std::string> known;
+  if (root.has("parameters")) {
+    for (const auto& [name, value] : root.at("parameters").entries()) known.push_back(name);
+  }
+  const auto rows = root.at("cases").with_rule(&no_parameters()).elements();
+  if (rows.empty()) root.at("cases").fail("is empty; expected at least one row");
+  for (const world::YamlFields& row : rows) {
+    row.demand_map();
+    rows_.push_back({.where = row.with_rule(nullptr), .values = {}});
+    for (const auto& [name, value] : row.entries()) {
+      // The first row may bring names of its own; every other row has the same ones.
+      const bool is_known = std::find(known.begin(), known.end(), name) != known.end();
+      if (!is_known && rows_.size() > 1) {
+        value.fail("is not a parameter, nor in the first case" + suggestion(name, known));
+      }
+      if (!is_known) known.push_back(name);
+      rows_.back().values.emplace_back(name, value.text());
+    }
+    if (rows_.back().values.empty())
+      row.fail("is empty; expected a parameter's value, as in `{ speed: 100 }`");
+  }
+  size_ = rows_.size();
+}
+
+void CaseTable::read_variations(const world::YamlFields& root, std::optional<std::uint64_t> seed) {
+  const world::YamlFields vary = root.at("vary").with_rule(&no_parameters());
+  vary.demand_map();
+  std::set<std::string> of_rows;
+  for (const Row& row : rows_) {
+    for (const auto& [name, value] : row.values) of_rows.insert(name);
+  }
+  std::uint64_t own_seed = 0;
+  if (root.has("seed") && root.at("seed").is_scalar()) {
+    own_seed = static_cast<std::uint64_t>(parse_integer(root.at("seed").text()).value_or(0));
+  }
+  bool is_counted = false;
+  for (const auto& [name, field] : vary.entries()) {
+    if (of_rows.contains(name)) field.fail("is given by `cases` already; expected it in one of them");
+    const Variation& added = variations_.emplace_back(field, name, seed.value_or(own_seed), seed.has_value());
+    is_counted = is_counted || !added.is_free();
+    if (added.count() > kMostCases / size_)
+      field.fail("makes more than " + std::to_string(kMostCases) + " cases; expected fewer");
+    size_ *= added.count();
+  }
+  if (variations_.empty()) vary.fail("is empty; expected a parameter's values, as in `speed: [ 100, 200 ]`");
+  if (!is_counted && rows_.empty()) {
+    vary.fail(
+        "does not say how many cases there are; expected `samples: 100` beside one `between` or `one_of`");
+  }
+}
+
+std::uint64_t CaseTable::row_of(std::uint64_t number) const {
+  return rows_.empty() ? 0 : number / (size_ / rows_.size());
+}
+
+Case CaseTable::at(std::uint64_t number) const {
+  Case made{.values = {}, .is_varied = is_varied()};
+  if (!rows_.empty()) made.values = rows_[row_of(number)].values;
+  const std::size_t first = made.values.size();
+  made.values.resize(first + variations_.size());
+  for (std::size_t i = variations_.size(); i-- > 0;) {
+    const Variation& variation = variations_[i];
+    made.values[first + i].first = variation.name();
+    if (variation.is_free()) continue;
+    made.values[first + i].second = variation.value(number % variation.count());
+    number /= variation.count();
+  }
+  // What is drawn for this case depends on its other values, not on how many cases there are.
+  std::optional<std::uint64_t> of_others;
+  for (std::size_t i = 0; i < variations_.size(); ++i) {
+    if (!variations_[i].is_free()) continue;
+    if (!of_others) of_others = identity_of(made);
+    made.values[first + i].second = variations_[i].drawn_for(*of_others);
+  }
+  return made;
+}
+
+world::YamlFields CaseTable::field_of(std::uint64_t number, const std::string& name) const {
+  for (const Variation& variation : variations_) {
+    if (variation.name() == name) return variation.field();
+  }
+  return rows_[row_of(number)].where.at(name);
+}
+
+world::YamlFields CaseTable::place_of(std::uint64_t number) const {
+  if (!rows_.empty()) return rows_[row_of(number)].where;
+  return is_varied() ? root_.at("vary") : root_;
+}
+
+std::vector<std::uint64_t> CaseTable::typical() const {
+  std::vector<std::uint64_t> numbers;
+  if (!is_varied() || size_ <= kTypical) {
+    for (std::uint64_t i = 0; i < size_; ++i) numbers.push_back(i);
+    return numbers;
+  }
+  std::uint64_t count = std::max<std::uint64_t>(rows_.size(), 2);
+  for (const Variation& variation : variations_) {
+    count =
+        std::max(count, variation.is_listed() ? variation.count() : std::min(variation.count(), kTypical));
+  }
+  for (std::uint64_t i = 0; i < count; ++i) {
+    std::uint64_t number = rows_.empty() ? 0 : i % rows_.size();
+    for (const Variation& variation : variations_) {
+      const std::uint64_t values = variation.count();
+      // Of those too many to be looked at each, evenly from the first to the last.
+      const std::uint64_t chosen = values <= count ? i % values : i * ((values - 1) / (count - 1));
+      const bool is_last = values > count && i + 1 == count;
+      number = number * values + (is_last ? values - 1 : chosen);
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+}  // namespace understudy::emulator::play

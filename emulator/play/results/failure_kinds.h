@@ -1,0 +1,40 @@
+// Failures by kind: a thousand cases that fail for one reason are one thing to look at. Two failures are of
+// one kind if the same step failed with the same words, whatever the numbers in them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "emulator/play/results/result.h"
+
+namespace understudy::emulator::play {
+
+/// "grid.yaml:17: feeder.Cord_A is #; expected #"; empty if it did not fail.
+std::string kind_of_failure(const ScenarioResult& result);
+
+class FailureKinds {
+ public:
+  static constexpr std::size_t kMost = 1000;  // those beyond are counted, and not told apart
+
+  struct Kind {
+    std::string text;
+    std::string first;  // the name of the first that failed so
+    std::uint64_t count = 0;
+    std::uint64_t varied = 0;  // of these, cases that `vary` made
+  };
+
+  /// Counts it. The kind it is of; null if there were too many before.
+  const Kind* add(const ScenarioResult& result);
+  /// In the order of their first ones.
+  const std::vector<Kind>& all() const { return kinds_; }
+  std::uint64_t others() const { return others_; }
+
+ private:
+  std::vector<Kind> kinds_;
+  std::unordered_map<std::string, std::size_t> numbers_;
+  std::uint64_t others_ = 0;
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,124 @@
+// Results as lines of JSON. A row is about the latest run of its case: of two about one case, the later
+// counts.
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "base/files/growing_file.h"
+#include "base/files/output_file.h"
+#include "base/state/state_bytes.h"
+#include "emulator/play/results/results_file.h"
+#include "emulator/play/scenario/case.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+std::uint64_t hash_of_key(const std::string& file, const std::string& case_id, const std::string& made_of) {
+  const std::string all = file + "\n" + case_id + "\n" + made_of;
+  return hash_of(std::as_bytes(std::span(all)));
+}
+
+class JsonLines final : public ResultsFile {
+ public:
+  JsonLines(const std::string& path, bool goes_on) : path_(path) {
+    try {
+      file_.emplace(path);
+      if (goes_on) read();
+    } catch (const OutputError& error) {
+      refuse(error.what());
+    }
+  }
+
+  void begin() override {
+    try {
+      file_->begin("");
+    } catch (const OutputError& error) {
+      refuse(error.what());
+    }
+  }
+
+  std::optional<bool> has_failed(const CaseKey& key) override {
+    const std::uint64_t hash =
+        hash_of_key(key.file, identity_text(key.identity), identity_text(key.made_of)) & ~kFailed;
+    const auto it = std::lower_bound(played_.begin(), played_.end(), hash);
+    if (it == played_.end() || (*it & ~kFailed) != hash) return std::nullopt;
+    return (*it & kFailed) != 0;
+  }
+
+  void add(std::span<const ResultRow> rows) override {
+    // Branches first: a case is there once its own row is.
+    std::string text;
+    for (const ResultRow& row : rows) text += row.branch.empty() ? "" : json_text(row) + "\n";
+    for (const ResultRow& row : rows) text += row.branch.empty() ? json_text(row) + "\n" : "";
+    if (const int error = file_->write(text); error != 0) refuse(std::generic_category().message(error));
+  }
+
+  void finish() override {}
+
+ private:
+  // The lowest bit of what is held of a case; the others are of its hash.
+  static constexpr std::uint64_t kFailed = 1;
+
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw GrowingFileError("--results: " + path_ + " cannot be written: " + why);
+  }
+
+  /// What was played before: 8 bytes a row. A line that has no end was being written when the run was killed.
+  void read() {
+    std::ifstream before(path_, std::ios::binary);
+    std::uint64_t size = 0;
+    std::string line;
+    std::vector<std::uint64_t> failed_branches;
+    for (std::uint64_t number = 1; std::getline(before, line) && !before.eof(); ++number) {
+      size += line.size() + 1;
+      const auto json = nlohmann::json::parse(line, nullptr, false);
+      if (!is_row(json)) {
+        throw GrowingFileError("--results: " + path_ + ":" + std::to_string(number) +
+                               ": is not a row of results; expected what `--results` has written");
+      }
+      const std::string verdict = json["verdict"];
+      const std::uint64_t failed = verdict == "failed" ? kFailed : 0;
+      const std::uint64_t hash = hash_of_key(json["file"], json["case_id"], json["made_of"]) & ~kFailed;
+      if (json["branch"] != "") {
+        if (failed != 0) failed_branches.push_back(hash);
+      } else if (verdict != "unreadable") {
+        played_.push_back(hash | failed);
+      }
+    }
+    std::sort(played_.begin(), played_.end());
+    for (const std::uint64_t hash : failed_branches) {
+      const auto it = std::lower_bound(played_.begin(), played_.end(), hash);
+      if (it != played_.end() && (*it & ~kFailed) == hash) *it |= kFailed;
+    }
+    file_->go_on(size);
+  }
+
+  static bool is_row(const nlohmann::json& json) {
+    if (!json.is_object()) return false;
+    for (const char* const key : {"file", "branch", "case_id", "verdict", "made_of"}) {
+      if (!json.contains(key) || !json[key].is_string()) return false;
+    }
+    return true;
+  }
+
+  std::string path_;
+  std::optional<OutputFile> file_;
+  std::vector<std::uint64_t> played_;
+};
+
+}  // namespace
+
+std::unique_ptr<ResultsFile> open_json_lines(const std::string& path, bool goes_on) {
+  return std::make_unique<JsonLines>(path, goes_on);
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,336 @@
+// Campaigns as users run them: killed and gone on with, in shards, at a terminal, with constant memory.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <random>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "tests/acceptance/at_terminal.h"
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace campaign_test {
+
+namespace fs = std::filesystem;
+
+std::string contents(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// As many cases as are wanted; of the speeds every tenth fails at one step, and every fiftieth at another
+/// one.
+std::string campaign(int cases) {
+  return "understudy: 1\nname: speeds\n"
+         "bench: { lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } } }\n"
+         "vary: { speed: { from: 1, to: " +
+         std::to_string(cases) +
+         ", step: 1 } }\nsteps:\n"
+         "  - write: { feeder.Aaxis_Pulse: \"${speed}\" }\n"
+         "  - assert: feeder.Aaxis_Pulse % 50 != 0\n"
+         "  - assert: feeder.Aaxis_Pulse % 10 != 0\n"
+         "  - advance: 10ms\n";
+}
+
+class Campaign : public testing::Test {
+ protected:
+  std::string file(int cases) const { return folder_.write("campaign.yaml", campaign(cases)); }
+  std::vector<std::string> rows(const std::string& name) const {
+    auto all = lines_of(contents(folder_ / name));
+    // Where recordings are is the only thing that differs between runs.
+    const std::regex recording("\"recording\":(null|\"[^\"]*\")");
+    for (std::string& row : all) row = std::regex_replace(row, recording, "");
+    return all;
+  }
+  /// "97 passed, 3 failed" by verdict, as Python's sqlite3 sees it.
+  std::string sqlite(const std::string& name, const std::string& question) const {
+    return run({"python3", "-c",
+                "import sqlite3, sys\nfor row in sqlite3.connect(sys.argv[1]).execute(sys.argv[2]): "
+                "print(*row)",
+                folder_ / name, question})
+        .output;
+  }
+  std::set<std::string> recordings(const std::string& name) const {
+    std::set<std::string> all;
+    if (!fs::exists(folder_ / name)) return all;
+    for (const auto& entry : fs::directory_iterator(folder_ / name)) all.insert(entry.path().filename());
+    return all;
+  }
+
+  PrivateFolder folder_;
+};
+
+TEST_F(Campaign, OnlyTheFirstFailureOfEachKindIsKept) {
+  const Finished finished = understudy({"run", file(100), "--failures", folder_ / "failures", "--results",
+                                        folder_ / "all.sqlite", "--report", folder_ / "page.html"});
+  EXPECT_EQ(finished.exit_code, 1) << finished.errors;
+  EXPECT_NE(finished.output.find("8 failed alike: "), std::string::npos) << finished.output;
+  EXPECT_NE(finished.output.find("2 failed alike: "), std::string::npos);
+  EXPECT_NE(finished.output.find("90 passed, 10 failed; "), std::string::npos);
+  EXPECT_EQ(std::count(finished.output.begin(), finished.output.end(), '\n') < 60, true) << finished.output;
+  const std::string page = contents(folder_ / "page.html");
+  EXPECT_NE(page.find("98 of these are not shown"), std::string::npos);
+  const auto kept = recordings("failures");
+  ASSERT_EQ(kept.size(), 2U);
+  EXPECT_TRUE(kept.begin()->starts_with("speeds_speed_10-")) << *kept.begin();
+  EXPECT_TRUE(kept.rbegin()->starts_with("speeds_speed_50-")) << *kept.rbegin();
+  for (const std::string& recording : kept) {
+    const Finished replayed = understudy({"replay", folder_ / ("failures/" + recording)});
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.errors;
+  }
+  EXPECT_EQ(sqlite("all.sqlite", "SELECT count(*), count(recording), count(DISTINCT kind) FROM results"),
+            "100 2 2\n");
+  EXPECT_EQ(
+      sqlite("all.sqlite", "SELECT min(speed), max(speed), count(*) FROM cases WHERE verdict = 'failed'"),
+      "10 100 10\n");
+  // The case that a failure names can be played alone.
+  const std::regex alone("understudy run (\\S+) --filter ([0-9a-f]{16})");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(finished.output, found, alone)) << finished.output;
+  const Finished one = understudy({"run", found[1], "--filter", found[2]});
+  EXPECT_NE(one.output.find("speeds (speed=10)"), std::string::npos) << one.output;
+  EXPECT_NE(one.output.find("0 passed, 1 failed; "), std::string::npos) << one.output;
+}
+
+TEST_F(Campaign, CasesOfAListKeepTheirFirstFailuresToo) {
+  const std::string scenario = folder_.write(
+      "rows.yaml",
+      "understudy: 1\nbench: { lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } } }\n"
+      "cases: [ { n: 1 }, { n: 2 }, { n: 0 }, { n: 3 } ]\nsteps: [ expect: { feeder.Aaxis_Pulse: \"${n}\" } "
+      "]\n");
+  const Finished finished = understudy({"run", scenario, "--failures", folder_ / "failures"});
+  EXPECT_EQ(recordings("failures"), std::set<std::string>{"rows_n_1.jsonl"});
+  EXPECT_NE(finished.output.find("it failed as this one did, whose recording is kept: rows (n=1)"),
+            std::string::npos)
+      << finished.output;
+  EXPECT_NE(finished.output.find("ok    " + scenario + ": rows (n=0)"), std::string::npos);
+  understudy({"run", scenario, "--record", folder_ / "all"});
+  EXPECT_EQ(recordings("all").size(), 4U);
+  EXPECT_EQ(understudy({"run", scenario, "--record", folder_ / "all", "--failures", folder_ / "failures"})
+                .exit_code,
+            2);
+}
+
+TEST_F(Campaign, ThreadsAndKindsOfFilesMakeNoDifference) {
+  const std::string scenario = file(400);
+  for (const char* jobs : {"1", "7"}) {
+    understudy({"run", scenario, "--jobs", jobs, "--results",
+                folder_ / (std::string("of_") + jobs + ".jsonl"), "--results",
+                folder_ / (std::string("of_") + jobs + ".sqlite")});
+  }
+  EXPECT_EQ(rows("of_1.jsonl").size(), 400U);
+  EXPECT_EQ(rows("of_7.jsonl"), rows("of_1.jsonl"));
+  const std::string question =
+      "SELECT name, case_id, parameters, verdict, hash, simulated_s, kind FROM results";
+  EXPECT_EQ(sqlite("of_7.sqlite", question), sqlite("of_1.sqlite", question));
+}
+
+TEST_F(Campaign, ShardsAreThePartsOfTheWhole) {
+  const std::string scenario = file(200);
+  understudy({"run", scenario, "--results", folder_ / "whole.jsonl"});
+  std::vector<std::string> parts;
+  for (int i = 1; i <= 6; ++i) {
+    const std::string name = "part" + std::to_string(i) + ".jsonl";
+    understudy({"run", scenario, "--shard", std::to_string(i) + "/6", "--results", folder_ / name});
+    const auto more = rows(name);
+    EXPECT_TRUE(more.size() == 33 || more.size() == 34) << more.size();
+    parts.insert(parts.end(), more.begin(), more.end());
+  }
+  auto whole = rows("whole.jsonl");
+  std::sort(parts.begin(), parts.end());
+  std::sort(whole.begin(), whole.end());
+  EXPECT_EQ(parts, whole);
+}
+
+TEST_F(Campaign, OneThatIsKilledGoesOn) {
+  constexpr int kCases = 12'000;
+  constexpr int kKills = 4;
+  constexpr unsigned kSeed = 20'008;
+  const std::string scenario = file(kCases);
+  understudy({"run", scenario, "--jobs", "2", "--results", folder_ / "whole.jsonl"});
+  for (const std::string kind : {"jsonl", "sqlite"}) {
+    std::mt19937 random(kSeed);
+    const std::string results = folder_ / ("killed." + kind);
+    const Words command{"run", scenario, "--jobs", "2", "--results", results, "--resume"};
+    int killed = 0;
+    for (int kill = 0; kill < kKills; ++kill) {
+      Words words{UNDERSTUDY_BINARY};
+      words.insert(words.end(), command.begin(), command.end());
+      Process process(words);
+      // In the midst: some are there, and not yet all.
+      const auto played = [&]() -> std::size_t {
+        if (kind == "jsonl") return fs::exists(results) ? fs::file_size(results) : 0;
+        const std::string count = sqlite("killed.sqlite", "SELECT count(*) FROM results");
+        return count.empty() ? 0 : std::stoul(count);
+      };
+      const auto before = played();
+      const auto more = kind == "jsonl" ? random() % 100'000 : 1;
+      eventually([&] { return played() >= before + more; }, Wait(20'000));
+      process.send(SIGKILL);
+      if (process.wait(kPatience) == 128 + SIGKILL) ++killed;
+    }
+    EXPECT_GT(killed, 0) << "it was always over before it was killed";
+    const Finished last = understudy(command);
+    EXPECT_EQ(last.exit_code, 1) << last.errors;
+    const std::regex left_out("([0-9]+) left out, as they were played before; ([0-9]+) of them failed");
+    const std::regex played("([0-9]+) passed, ([0-9]+) failed; ");
+    std::smatch before;
+    std::smatch now;
+    ASSERT_TRUE(std::regex_search(last.output, before, left_out)) << kind << last.output;
+    ASSERT_TRUE(std::regex_search(last.output, now, played)) << last.output;
+    EXPECT_EQ(std::stoi(before[1]) + std::stoi(now[1]) + std::stoi(now[2]), kCases) << last.output;
+    EXPECT_EQ(std::stoi(before[2]) + std::stoi(now[2]), kCases / 10) << last.output;
+    if (kind == "jsonl") {
+      EXPECT_EQ(rows("killed.jsonl"), rows("whole.jsonl"));
+    } else {
+      EXPECT_EQ(sqlite("killed.sqlite", "PRAGMA integrity_check"), "ok\n");
+      EXPECT_EQ(sqlite("killed.sqlite",
+                       "SELECT count(*), count(DISTINCT case_id), sum(verdict = 'failed') FROM results"),
+                "12000 12000 1200\n");
+    }
+    EXPECT_NE(
+        understudy(command).output.find("12000 left out, as they were played before; 1200 of them failed"),
+        std::string::npos);
+  }
+}
+
+TEST_F(Campaign, WhatHasChangedIsPlayedAgain) {
+  const std::string scenario = file(20);
+  const Words command{"run", scenario, "--results", folder_ / "rows.jsonl", "--resume"};
+  understudy(command);
+  EXPECT_NE(understudy(command).output.find("20 left out"), std::string::npos);
+  folder_.write("campaign.yaml", campaign(20) + "  - advance: 1ms\n");
+  EXPECT_NE(understudy(command).output.find("18 passed, 2 failed; "), std::string::npos);
+  EXPECT_EQ(rows("rows.jsonl").size(), 40U);
+  Words seeded = command;
+  seeded.insert(seeded.end(), {"--seed", "9"});
+  EXPECT_NE(understudy(seeded).output.find("18 passed, 2 failed; "), std::string::npos);
+  // And more cases are only those that are new.
+  folder_.write("campaign.yaml", campaign(20));
+  EXPECT_NE(understudy(command).output.find("20 left out"), std::string::npos);
+}
+
+TEST_F(Campaign, ACaseThatCannotBeReadIsToldAndTheOthersArePlayed) {
+  const std::string scenario = folder_.write(
+      "late.yaml",
+      "understudy: 1\nname: late\nbench: { lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } "
+      "] } } }\n"
+      "vary: { n: { from: 1, to: 3000, step: 1 } }\n"
+      "steps:\n  - write: { feeder.Aaxis_AccTime: \"${n * (4000 / (abs(n - 1778) + 1) / 4000 * 4 + 1)}\" "
+      "}\n");
+  const Finished checked = understudy({"check", scenario});
+  EXPECT_EQ(checked.exit_code, 0) << checked.output << checked.errors;
+  EXPECT_NE(checked.output.find("3000 scenarios, of which 1000 were checked"), std::string::npos)
+      << checked.output;
+  const Finished finished =
+      understudy({"run", scenario, "--results", folder_ / "rows.sqlite", "--junit", folder_ / "rows.xml"});
+  EXPECT_EQ(finished.exit_code, 2) << finished.output;
+  EXPECT_NE(finished.output.find(": steps[0].write.feeder.Aaxis_AccTime: 8890 is out of range"),
+            std::string::npos)
+      << finished.output;
+  EXPECT_NE(finished.output.find("2999 passed, 1 failed, of which 1 could not be read; "), std::string::npos)
+      << finished.output;
+  EXPECT_EQ(sqlite("rows.sqlite", "SELECT n, verdict, hash FROM cases WHERE verdict <> 'passed'"),
+            "1778 unreadable None\n");
+  EXPECT_NE(contents(folder_ / "rows.xml").find("failures=\"0\" errors=\"1\""), std::string::npos);
+}
+
+/// What /usr/bin/time would say, in KiB, by Python.
+long most_memory(const Words& arguments) {
+  Words command{"python3", "-c",
+                "import resource, subprocess, sys\nsubprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL)\n"
+                "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)",
+                UNDERSTUDY_BINARY};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const Finished finished = run(command);
+  return finished.output.empty() ? 0 : std::stol(finished.output);
+}
+
+TEST_F(Campaign, MemoryDoesNotGrowWithTheNumberOfCases) {
+  const auto memory = [&](int cases) {
+    return most_memory({"run", file(cases), "--jobs", "2", "--results", folder_ / "rows.jsonl", "--results",
+                        folder_ / "rows.sqlite", "--junit", folder_ / "rows.xml", "--report",
+                        folder_ / "page.html"});
+  };
+  const long few = memory(1000);
+  const long many = memory(12'000);
+  ASSERT_GT(few, 0);
+  // A result alone, with its steps and names, takes more than 1 KiB.
+  EXPECT_LT(many - few, 4000) << few << " KiB for 1000, " << many << " KiB for 12000";
+}
+
+TEST_F(Campaign, TheExampleIsWhatItSays) {
+  const std::string example = std::string(PROJECT_FOLDER) + "/examples/campaign";
+  const Finished checked = understudy({"check", example});
+  EXPECT_NE(checked.output.find("move.yaml: 100000 scenarios"), std::string::npos)
+      << checked.output << checked.errors;
+  const Finished finished = understudy({"run", example, "--shard", "77/500"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.output;
+  EXPECT_NE(finished.output.find("200 passed, 0 failed; "), std::string::npos) << finished.output;
+}
+
+TEST_F(Campaign, ProgressIsForTerminalsOnly) {
+  const std::string scenario =
+      folder_.write("slow.yaml",
+                    "understudy: 1\nname: slow\nbench: { lines: { rs485: { stations: [ { name: feeder, "
+                    "model: simple2-r3 } ] } } }\n"
+                    "vary: { n: [ 1, 2, 3 ] }\nsteps:\n  - advance: 800ms\n  - assert: ${n} != 1\n");
+  const Words run{UNDERSTUDY_BINARY, "run", scenario, "--real-time", "--jobs", "1"};
+  AtTerminal watched(run, {{"TERM", "xterm"}, {"CI", ""}});
+  EXPECT_TRUE(watched.shows("1 of 3 played, 1 failed, ")) << watched.screen();
+  EXPECT_TRUE(watched.shows("/s, ")) << watched.screen();
+  EXPECT_TRUE(watched.shows(" s left")) << watched.screen();
+  EXPECT_TRUE(watched.shows("2 passed, 1 failed")) << watched.screen();
+  AtTerminal in_ci(run, {{"TERM", "xterm"}, {"CI", "true"}});
+  EXPECT_TRUE(in_ci.shows("2 passed, 1 failed")) << in_ci.screen();
+  EXPECT_EQ(in_ci.screen().find(" played, "), std::string::npos) << in_ci.screen();
+}
+
+TEST_F(Campaign, RecipesComeToTheSameAsOneRun) {
+  const std::string script = std::string(PROJECT_FOLDER) + "/packaging/campaign/try_all.sh";
+  for (const char* recipe : {"gitlab", "github", "parallel"}) {
+    const Finished finished = run({script, UNDERSTUDY_BINARY, recipe});
+    if (finished.exit_code == 77) continue;  // what it needs is not installed
+    EXPECT_EQ(finished.exit_code, 0) << recipe << finished.output << finished.errors;
+    EXPECT_NE(finished.output.find(": as one run without shards"), std::string::npos) << finished.output;
+  }
+}
+
+TEST_F(Campaign, FlagsThatMakeNoSenseAreRefused) {
+  const std::string scenario = file(3);
+  struct Row {
+    Words flags;
+    const char* complaint;
+    int code;
+  };
+  folder_.write("other.jsonl", "not a row\n");
+  for (const Row& row : std::vector<Row>{
+           {{"--resume"}, "--resume: expected --results FILE beside it, which says what was played", 2},
+           {{"--results", "rows.csv"},
+            "--results: rows.csv: is not a kind of results; expected FILE.jsonl or FILE.sqlite",
+            2},
+           {{"--results", scenario}, "the scenario itself", 2},
+           {{"--results", folder_ / "other.jsonl", "--resume"},
+            "other.jsonl:1: is not a row of results; expected what `--results` has written",
+            3},
+           {{"--results", folder_ / "no/rows.jsonl"}, "cannot be written: No such file or directory", 3},
+           {{"--results", folder_ / "r.jsonl", "--results", folder_ / "r.jsonl"},
+            "what --results writes",
+            2}}) {
+    Words words{"run", scenario};
+    words.insert(words.end(), row.flags.begin(), row.flags.end());
+    const Finished finished = understudy(words);
+    EXPECT_EQ(finished.exit_code, row.code) << finished.errors;
+    EXPECT_NE(finished.errors.find(row.complaint), std::string::npos) << finished.errors;
+  }
+}
+
+}  // namespace campaign_test
+}  // namespace understudy::acceptance

@@ -1,0 +1,185 @@
+#include "emulator/model_file/register_list.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "emulator/device/describe/describe.h"
+#include "emulator/model_file/starter.h"
+#include "tests/emulator/model_file/described.h"
+
+namespace understudy::emulator::model_file {
+namespace register_list_test {
+
+std::string complaint_about_list(const std::string& list) {
+  try {
+    read_list_file(list, "l.csv");
+    return "";
+  } catch (const FileError& error) {
+    return error.what();
+  }
+}
+
+struct WrongList {
+  const char* list;
+  const char* complaint;
+};
+
+TEST(RegisterList, SaysWhatIsWrongAndWhere) {
+  const WrongList kWrong[] = {
+      {"", "l.csv:1:1: registers: there is none; expected a line of columns, and one for each register"},
+      {"address,name\n",
+       "l.csv:1:1: registers: there is none; expected a line of columns, and one for each "
+       "register"},
+      {"adress,name\n0,A\n",
+       "l.csv:1:1: columns: 'adress' is not a column; the nearest is 'address'\n"
+       "l.csv:1:1: columns: there is no address; expected a first line such as "
+       "address,name,access,width,unit,min,max,default"},
+      {"address,name,Address\n0,A,1\n", "l.csv:1:14: columns: 'Address' appears twice; expected it once"},
+      {"address,name\n0\n", "l.csv:2:1: name: is missing; expected one in every row"},
+      {"address,name\n,A\n", "l.csv:2:1: address: is missing; expected one in every row"},
+      {"address,name\n65536,A\n",
+       "l.csv:2:1: address: '65536' is not an address; expected 0 to 65535, or 0x0000 to 0xFFFF"},
+      {"address,name\n0,A,B\n",
+       "l.csv:2:5: columns: the row has 3 cells; expected 2, and quotes around a cell with a separator in "
+       "it"},
+      {"address,name\n0,A\n0,B\n",
+       "l.csv:3:1: address: '0' is taken by A in line 2; expected a free one in the table holding"},
+      {"address,name,width\n0,A,32\n1,B,16\n",
+       "l.csv:3:1: address: '1' is taken by A in line 2; expected a free one in the table holding"},
+      {"address,name\n0,A\n1,A\n",
+       "l.csv:3:3: name: 'A' is a name of line 2 already; expected another one in the table holding"},
+      {"address,name,width\n0,A,32\n2,A_L,16\n",
+       "l.csv:3:3: name: 'A_L' is a name of line 2 already; expected another one in the table holding"},
+      {"address,name\n0,4A\n",
+       "l.csv:2:3: name: '4A' cannot be used as a name; expected one that does not begin "
+       "with a digit, is not a table, and has none of . { } \""},
+      {"address,name\n0,coil\n",
+       "l.csv:2:3: name: 'coil' cannot be used as a name; expected one that does not "
+       "begin with a digit, is not a table, and has none of . { } \""},
+      {"address,name,table\n0,A,holdings\n",
+       "l.csv:2:5: table: 'holdings' is not a table; expected holding, input, coil or discrete"},
+      {"address,name,access\n0,A,RX\n", "l.csv:2:5: access: 'RX' is unknown; expected R, W or R/W"},
+      {"address,name,table,access\n0,A,input,R/W\n",
+       "l.csv:2:11: access: hosts cannot write the table input; expected R"},
+      {"address,name,width\n0,A,8\n",
+       "l.csv:2:5: width: '8' is not possible; expected 16 or 32, and 1 in coil and discrete"},
+      {"address,name,table,width\n0,A,coil,16\n",
+       "l.csv:2:10: width: '16' is not possible there; expected 1"},
+      {"address,name,type\n0,A,u8\n",
+       "l.csv:2:5: type: 'u8' is not a type; expected u16, s16, u32, s32, f32 or bit"},
+      {"address,name,type\n0,A,bit\n",
+       "l.csv:2:5: type: is not as wide as its table; expected bit in coil and discrete, and only there"},
+      {"address,name,signed\n0,A,maybe\n",
+       "l.csv:2:5: signed: 'maybe' is neither yes nor no; expected 1 or 0"},
+      {"address,name,min,max\n0,A,1,\n",
+       "l.csv:2:5: min: is given alone; expected both min and max, or neither"},
+      {"address,name,min,max\n0,A,5,1\n",
+       "l.csv:2:7: max: '1' is below 5; expected a range that ends where it begins or above"},
+      {"address,name,min,max\n0,A,0,65536\n",
+       "l.csv:2:7: max: '65536' is not possible; expected a whole number from 0 to 65535"},
+      {"address,name,range\n0,A,many\n", "l.csv:2:5: range: 'many' is not a range; expected 0..3000"},
+      {"address,name,range,min\n0,A,0..3,0\n",
+       "l.csv:2:5: range: is given beside min and max; expected one of the two"},
+      {"address,name,default\n0,A,x\n",
+       "l.csv:2:5: default: 'x' is not possible; expected a whole number from 0 to 65535"},
+      {"address,name,width,real\n0,A,16,1\n",
+       "l.csv:2:8: real: a real number has 32 bits; expected the width 32"},
+      {"address,name,type,default\n0,A,f32,x\n", "l.csv:2:9: default: 'x' is not a number; expected one"},
+      {"address,name,bits\n0,A,0 X 1\n",
+       "l.csv:2:5: bits: 'X 1' cannot be used as a bit's name; expected a word"},
+      {"address,name,bits\n0,A,16 X\n",
+       "l.csv:2:5: bits: '16' is not a bit; expected 0 to 15, or two of them as in 4-7"},
+      {"address,name,bits\n0,A,\"0-3 X, 2 Y\"\n",
+       "l.csv:2:5: bits: Y shares a bit; expected bits of its own"},
+      {"address,name,bits\n0,A,\"0 X, 1 X\"\n", "l.csv:2:5: bits: 'X' appears twice; expected it once"},
+      {"address,name,width\n65535,A,32\n",
+       "l.csv:2:1: address: has no room for 32 bits; expected 0xFFFE or below"},
+      {"address,name\n0,\"A\n", "l.csv:2:3: registers: a quotation has no end; expected a second \""},
+      {"address,name\n0,A\xFF\n",
+       "l.csv:2:1: registers: the line is not UTF-8; expected the list saved as CSV in UTF-8"},
+  };
+  for (const WrongList& wrong : kWrong)
+    EXPECT_EQ(complaint_about_list(wrong.list), wrong.complaint) << wrong.list;
+}
+
+TEST(RegisterList, TellsAllThatIsWrongAtOnce) {
+  EXPECT_EQ(complaint_about_list("address,name,access\nx,A,R\n1,B,Q\n2,C,R\n"),
+            "l.csv:2:1: address: 'x' is not an address; expected 0 to 65535, or 0x0000 to 0xFFFF\n"
+            "l.csv:3:5: access: 'Q' is unknown; expected R, W or R/W");
+}
+
+TEST(RegisterList, MayBeWrittenInSeveralWays) {
+  const std::string kSame[] = {
+      "address,name,min,max,default\n0x10,A,-5,5,1\n",
+      "\xEF\xBB\xBF"
+      "Address;Name;Min;Max;Default\r\n16;A;-5;5;1\r\n",
+      "# a list\n\naddress\tname\trange\tdefault\n16\t A \t-5..5\t1\n",
+      "address,name,range,default,comment\n16,\"A\",-5 to 5,1,\"what, ever\"",
+      "name,type,address,min,max,default\nA,int16,16,-5,5,1\n",
+      "table,address,name,access,width,signed,min,max,unit,persistent,default\nholding,0x0010,A,rw,16,yes,-5,"
+      "5,,no,1\n",
+  };
+  for (const std::string& list : kSame) {
+    const auto registers = read_list_file(list, "l.csv");
+    ASSERT_EQ(registers.size(), 1U) << list;
+    const auto& only = registers.front();
+    EXPECT_EQ(only.table, Table::holding) << list;
+    EXPECT_EQ(only.address, 16) << list;
+    EXPECT_EQ(only.name, "A") << list;
+    EXPECT_EQ(only.type, Type::s16) << list;
+    EXPECT_EQ(only.access, Access::read_write) << list;
+    EXPECT_TRUE(only.ranged && only.least == -5 && only.most == 5) << list;
+    EXPECT_EQ(only.factory, 1) << list;
+  }
+}
+
+TEST(RegisterList, TakesTheNearestToZeroForAMissingDefault) {
+  const auto registers = read_list_file("address,name,min,max\n0,A,1,247\n1,B,0,9\n", "l.csv");
+  EXPECT_EQ(registers[0].factory, 1);
+  EXPECT_EQ(registers[1].factory, 0);
+}
+
+/// What `describe` prints of a model is a list of the same registers.
+TEST(RegisterList, IsWhatDescribePrints) {
+  int compared = 0;
+  for (const Model* const model : models::all_models()) {
+    if (model->registers == nullptr) continue;
+    const std::string list = format_sheet(*describe(*model, "registers", SheetFormat::csv), SheetFormat::csv);
+    const Model& again = described_models().parse(model_with(list, ""), "m.yaml");
+    EXPECT_EQ(format_sheet(*describe(again, "registers", SheetFormat::csv), SheetFormat::csv), list)
+        << model->name;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 3);
+}
+
+/// Lines of a list inside of a model file are those of that file.
+TEST(RegisterList, InsideOfAModelFileIsSaidToBeThere) {
+  EXPECT_EQ(complaint_about(model_with("address,name\n0,A\n0,B\n", "")),
+            "m.yaml:6:1: address: '0' is taken by A in line 5; expected a free one in the table holding");
+}
+
+TEST(Starter, IsAModelThatCanBeReadAndEdited) {
+  const std::string list =
+      "address,name,access\n0,CONTROL,R/W\n1,STATUS,R\n2,TARGET_POS,R/W\n3,SPEED,R/"
+      "W\n4,POS,R\n5,NOW_SPEED,R\n";
+  std::string text = starter_model(read_list_file(list, "l.csv"), "mine", "l.csv");
+  EXPECT_NE(text.find("#    target: TARGET_POS"), std::string::npos) << text;
+  EXPECT_NE(text.find("#    busy: STATUS.0"), std::string::npos) << text;
+  const auto put_list_in = [&list](std::string model) {
+    const std::string key = "registers: l.csv";
+    return model.replace(model.find(key), key.size(), "registers: " + quoted_scalar(list));
+  };
+  EXPECT_EQ(complaint_about(put_list_in(text)), "");
+  // With the marks of the axis taken away what it guesses is a whole axis, but for the two bits of no value.
+  const std::size_t axes = text.find("#axes:");
+  for (std::size_t at = axes; at < text.find("# A value that"); ++at) {
+    if (text[at] == '#' && (at == axes || text[at - 1] == '\n')) text.erase(at, 1);
+  }
+  EXPECT_EQ(complaint_about(put_list_in(text)), "");
+}
+
+}  // namespace register_list_test
+}  // namespace understudy::emulator::model_file
