@@ -31,6 +31,7 @@ using language::Operand;
 
 constexpr std::uint32_t kUnset = 0x8000'0000;
 constexpr std::int32_t kFirstCommand = 100;  // of D8020
+constexpr std::uint32_t kNoCoil = 0x1'0000;  // an address that no frame can have
 
 struct CommandRow {
   Op op;
@@ -52,7 +53,7 @@ constexpr std::array<CommandRow, 10> kCommands{{{Op::lin, 4},
 
 /// Y, M or M8 at an address; unset where none is.
 Operand coil_at(std::uint32_t address) {
-  const auto number = static_cast<std::int32_t>(std::min<std::uint32_t>(address, INT32_MAX));
+  const auto number = static_cast<std::int32_t>(std::min(address, kNoCoil));
   Operand coil;
   if (number < kOutputCount) coil = {Letter::y, number};
   if (number >= relay_address(0) && number < relay_address(8000))
