@@ -40,7 +40,7 @@ TEST_F(Terminal, ALongRunTellsHowFarItHasCome) {
   const Words run{"run", "--real-time", "--jobs", "1", scenario("  - advance: 3s\n")};
   Words command{UNDERSTUDY_BINARY};
   command.insert(command.end(), run.begin(), run.end());
-  AtTerminal at_terminal(command, {{"TERM", "xterm"}});
+  AtTerminal at_terminal(command, {{"TERM", "xterm"}, {"CI", ""}});
   EXPECT_TRUE(at_terminal.shows("0 of 2 played, ")) << at_terminal.screen();
   EXPECT_TRUE(at_terminal.shows("1 of 2 played, ")) << at_terminal.screen();
   EXPECT_TRUE(at_terminal.shows("\r\x1b[K")) << "it is wiped away";
