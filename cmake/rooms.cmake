@@ -30,7 +30,7 @@ endfunction()
 
 # Several sources of a target are one for the compiler, which reads the headers once for all of them: a build from
 # nothing takes half the time or less. So a name in an anonymous namespace is its room's: no two files may use it
-# for different things. tests/clang_reads_the_product.py sees that each file still includes what it needs.
+# for different things. The preset `tidy` compiles each file alone: it sees that each includes what it needs.
 set(UNDERSTUDY_TOGETHER 32)  # sources
 function(compile_together target)
   set_target_properties(${target} PROPERTIES

@@ -6,28 +6,18 @@ usage: clang_reads_the_product.py COMPILE_COMMANDS.json SOURCE_FOLDER
 The build for fuzzing is clang's; what only g++ takes would break it unseen. Prints what clang says, and how many
 files it read. Exit 0: it took them all; 77: there is no clang here.
 """
-import collections
 import concurrent.futures
 import json
 import os
-import re
 import shlex
 import shutil
 import subprocess
 import sys
-import tempfile
 
 ONLY_GCC = ("-Wno-restrict", "-Wno-maybe-uninitialized", "-fpch-preprocess", "-Wno-array-bounds",
             "-Wno-stringop-overflow")
 
-
-def each_alone(entry):
-    """A file that the build compiles together with others is read alone: it has to include what it needs."""
-    if "/Unity/" not in entry["file"]:
-        return [entry]
-    with open(entry["file"], encoding="utf-8") as file:
-        parts = re.findall(r'^#include "(.+)"', file.read(), re.MULTILINE)
-    return [entry | {"file": part, "command": entry["command"].replace(entry["file"], part)} for part in parts]
+ROOMS = ("base", "motion", "interpreter", "pty", "emulator", "tests/fuzz")
 
 
 def reading(entry, clang):
@@ -42,19 +32,10 @@ def reading(entry, clang):
     return [clang, "-fsyntax-only"] + words
 
 
-def read_once(entries, clang, folder):
-    """The standard headers that many files include, as one that clang has read: most of the time goes into them. Whether
-    each file includes those that it needs is what the preset `tidy` looks at."""
-    counts = collections.Counter()
-    for entry in entries:
-        with open(entry["file"], encoding="utf-8") as file:
-            counts.update(set(re.findall(r"^#include <([a-z_]+)>$", file.read(), re.MULTILINE)))
-    header = os.path.join(folder, "often.h")
-    with open(header, "w", encoding="utf-8") as file:
-        file.writelines(f"#include <{name}>\n" for name in sorted(counts) if counts[name] >= 5)
-    words = ["-std=c++20", "-x", "c++-header", header, "-o", header + ".pch"]
-    subprocess.run([clang] + words, check=True)
-    return ["-include-pch", header + ".pch"]
+def is_of_the_product(file, commands, folder):
+    built = os.path.relpath(file, os.path.dirname(os.path.abspath(commands)))
+    path = os.path.relpath(file, folder) if built.startswith("..") else built
+    return path.startswith(tuple(room + "/" for room in ROOMS))
 
 
 def main():
@@ -65,18 +46,11 @@ def main():
         return 77
     with open(commands, encoding="utf-8") as file:
         entries = json.load(file)
-    rooms = ("base", "motion", "interpreter", "pty", "emulator", "tests/fuzz")
-    entries = [alone for entry in entries for alone in each_alone(entry)]
-    entries = {e["file"]: e for e in entries if os.path.relpath(e["file"], folder).startswith(tuple(r + "/" for r in rooms))}
-
-    often = tempfile.TemporaryDirectory()
-    known = read_once(entries.values(), clang, often.name)
+    # What the build compiles together is read together. That each file includes what it needs, the preset `tidy` sees.
+    entries = {e["file"]: e for e in entries if is_of_the_product(e["file"], commands, folder)}
 
     def read(entry):
-        words = reading(entry, clang)
-        if "-fno-exceptions" not in words:
-            words += known
-        run = subprocess.run(words, cwd=entry["directory"], capture_output=True, text=True, check=False)
+        run = subprocess.run(reading(entry, clang), cwd=entry["directory"], capture_output=True, text=True, check=False)
         return run.returncode, run.stderr
 
     failed = 0

@@ -67,7 +67,7 @@ class Counter {
 
  private:
   friend struct StateOf<Counter>;
-  int watchers_ = 0;
+  [[maybe_unused]] int watchers_ = 0;
 };
 
 inline std::string drawer(std::size_t number) { return number == 2 ? "lowest" : std::to_string(number); }
