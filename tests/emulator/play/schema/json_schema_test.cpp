@@ -22,8 +22,14 @@ std::string contents(const std::string& path) {
   return text.str();
 }
 
-std::string of_bench(const std::string& text) { return schema_complaint(bench_schema(), text); }
-std::string of_scenario(const std::string& text) { return schema_complaint(scenario_schema(), text); }
+std::string of_bench(const std::string& text) {
+  static const std::string schema = bench_schema();
+  return schema_complaint(schema, text);
+}
+std::string of_scenario(const std::string& text) {
+  static const std::string schema = scenario_schema();
+  return schema_complaint(schema, text);
+}
 
 std::vector<std::string> examples_of(const std::string& page) {
   const std::string text = contents(std::string(PROJECT_FOLDER) + "/docs/" + page);

@@ -160,7 +160,9 @@ class Judge {
 }  // namespace
 
 std::string schema_complaint(const std::string& schema, const std::string& yaml) {
-  const json root = json::parse(schema);
+  static std::string parsed;  // many files are held against one schema
+  static json root;
+  if (parsed != schema) root = json::parse(schema), parsed = schema;
   return Judge(root).complaint(root, to_json(YAML::Load(yaml)), "file");
 }
 
