@@ -15,7 +15,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -39,6 +38,7 @@
 #include "interpreter/rs_m8194h/window.h"
 #include "pty/rtu_crc.h"
 #include "tests/fuzz/fuzzing.h"
+#include "tests/fuzz/twice.h"
 
 namespace {
 
@@ -340,31 +340,17 @@ Box& box_for(std::size_t program, bool in_bulk) {
   return *one;
 }
 
-/// Requests of what the line brings, one after the other: one that is refused leaves all as it was. In a
-/// download a refused line may spoil it, which is not looked at.
+/// Requests of what the line brings, one after the other. In a download a refused line may spoil it.
 void check_refusals(Box& box, std::span<const Act> acts) {
-  emulator::Device& device = box.world().device(0);
   for (const Act& act : acts) {
     std::vector<std::uint8_t> pdu;
     if (act.kind() == 1) pdu = act.bytes;
     if (act.kind() == 4) pdu = box.command_pdu(act);
     if (act.kind() == 5) pdu = Box::register_pdu(act);
     if (pdu.empty() || pdu.size() > world::kModbusMaxPdu) continue;
-    const bool is_ready = box.word(emulator::Table::input, kRsmState) == 0;
-    const auto before = device.save_state();
-    const world::ModbusReply reply = world::serve(device, pdu);
-    demand(reply.size >= 2 && reply.size <= world::kModbusMaxPdu, "a reply has a size");
-    if ((reply.pdu[0] & 0x80) == 0 || !is_ready) continue;
-    demand(device.state_difference(before, device.save_state()).empty(), "a refused request changes nothing");
+    const bool is_in_download = box.word(emulator::Table::input, kRsmState) != 0;
+    fuzzing::demand_refused_changes_nothing(box.world().device(0), pdu, is_in_download);
   }
-}
-
-void demand_no_difference(Box& box, const world::WorldState& a, const world::WorldState& b,
-                          const char* what) {
-  const std::string difference = world::difference(box.world(), a, b);
-  if (difference.empty()) return;
-  std::fprintf(stderr, "%s\n", difference.c_str());
-  demand(false, what);
 }
 
 }  // namespace
@@ -374,26 +360,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t program = data[0] % std::size(kPrograms);
   const std::vector<Act> acts = read_acts({data + 1, size - 1});
   Box& box = box_for(program, true);
-  box.begin_anew();
-  for (const Act& act : acts) box.obey(act);
-  box.run(20);
+  fuzzing::play(box, std::span(acts), 20);
   if (!fuzzing::is_checked_wholly({data, size}, 128)) return 0;
-
   Box& stepped = box_for(program, false);
-  stepped.begin_anew();
-  const std::size_t half = acts.size() / 2;
-  for (std::size_t i = 0; i < half; ++i) stepped.obey(acts[i]);
-  // In the midst of it.
-  const world::WorldState midst = world::save(stepped.world());
-  world::restore(stepped.world(), midst);
-  demand_no_difference(stepped, midst, world::save(stepped.world()),
-                       "a state that is restored is the one that was saved");
-  for (std::size_t i = half; i < acts.size(); ++i) stepped.obey(acts[i]);
-  stepped.run(20);
-  if (world::hash(stepped.world()) != world::hash(box.world())) {
-    demand_no_difference(stepped, world::save(stepped.world()), world::save(box.world()),
-                         "many ticks in one step are the same as one by one");
-  }
+  fuzzing::demand_same_by_single_ticks(stepped, box, std::span(acts), 20);
   check_refusals(stepped, acts);
   return 0;
 }

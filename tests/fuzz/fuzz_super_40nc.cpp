@@ -5,16 +5,18 @@
 //
 // An input is a byte of options (which programs), then acts of a byte and what belongs to it. The byte's
 // lower bits:
-//   0 a lump as it is    1 a PDU (station and checksum are put round it)   bit 7: RS485; a byte of length,
-//   bytes 2 time: the upper bits, in ticks, once more times the next byte 3 an input: upper bits which one,
-//   the next byte its level 4 a contact: a byte says which command or relay, the top bit of it OFF; bit 7: by
-//   RS485 5 a register: a byte says which, four bytes its value 6 the power goes and comes    7 the
-//   hand-wheel is turned, upper bits
+//   0 a lump as it is    1 a PDU (station and checksum are put round it)
+//     bit 7: RS485; a byte of length, bytes
+//   2 time: the upper bits, in ticks, once more times the next byte
+//   3 an input: upper bits which one, the next byte its level
+//   4 a contact: a byte says which command or relay, the top bit of it OFF; bit 7: by RS485
+//   5 a register: a byte says which, four bytes its value
+//   6 the power goes and comes
+//   7 the hand-wheel is turned, upper bits
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -32,6 +34,7 @@
 #include "emulator/world/world.h"
 #include "pty/rtu_crc.h"
 #include "tests/fuzz/fuzzing.h"
+#include "tests/fuzz/twice.h"
 
 namespace {
 
@@ -245,25 +248,12 @@ Listener& listener_for(std::size_t program, bool in_bulk) {
   return *one;
 }
 
-/// Requests as they are, of what the lines bring: one that is refused leaves all as it was.
+/// Requests as they are, of what the lines bring.
 void check_refusals(Listener& listener, std::span<const Act> acts) {
-  emulator::Device& device = listener.world().device(0);
   for (const Act& act : acts) {
     if (act.kind() != 1 || act.bytes.empty() || act.bytes.size() > world::kModbusMaxPdu) continue;
-    const auto before = device.save_state();
-    const world::ModbusReply reply = world::serve(device, act.bytes);
-    demand(reply.size >= 2 && reply.size <= world::kModbusMaxPdu, "a reply has a size");
-    if ((reply.pdu[0] & 0x80) == 0) continue;
-    demand(device.state_difference(before, device.save_state()).empty(), "a refused request changes nothing");
+    fuzzing::demand_refused_changes_nothing(listener.world().device(0), act.bytes);
   }
-}
-
-void demand_no_difference(Listener& listener, const world::WorldState& a, const world::WorldState& b,
-                          const char* what) {
-  const std::string difference = world::difference(listener.world(), a, b);
-  if (difference.empty()) return;
-  std::fprintf(stderr, "%s\n", difference.c_str());
-  demand(false, what);
 }
 
 }  // namespace
@@ -273,26 +263,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t program = data[0] % std::size(kPrograms);
   const std::vector<Act> acts = read_acts({data + 1, size - 1});
   Listener& listener = listener_for(program, true);
-  listener.begin_anew();
-  for (const Act& act : acts) listener.obey(act);
-  listener.run(20);
+  fuzzing::play(listener, std::span(acts), 20);
   if (!fuzzing::is_checked_wholly({data, size}, 64)) return 0;
-
   Listener& stepped = listener_for(program, false);
-  stepped.begin_anew();
-  const std::size_t half = acts.size() / 2;
-  for (std::size_t i = 0; i < half; ++i) stepped.obey(acts[i]);
-  // In the midst of it.
-  const world::WorldState midst = world::save(stepped.world());
-  world::restore(stepped.world(), midst);
-  demand_no_difference(stepped, midst, world::save(stepped.world()),
-                       "a state that is restored is the one that was saved");
-  for (std::size_t i = half; i < acts.size(); ++i) stepped.obey(acts[i]);
-  stepped.run(20);
-  if (world::hash(stepped.world()) != world::hash(listener.world())) {
-    demand_no_difference(stepped, world::save(stepped.world()), world::save(listener.world()),
-                         "many ticks in one step are the same as one by one");
-  }
+  fuzzing::demand_same_by_single_ticks(stepped, listener, std::span(acts), 20);
   check_refusals(stepped, acts);
   return 0;
 }
