@@ -10,6 +10,7 @@
 #include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/ladder.h"
 #include "interpreter/super_40nc/numbers.h"
+#include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/ownership.h"
 #include "interpreter/super_40nc/requests.h"
 

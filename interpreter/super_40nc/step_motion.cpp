@@ -13,6 +13,7 @@
 #include "interpreter/super_40nc/instruction_row.h"
 #include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/ownership.h"
 #include "interpreter/super_40nc/program.h"
 #include "interpreter/super_40nc/requests.h"
