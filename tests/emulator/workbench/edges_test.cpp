@@ -229,6 +229,34 @@ TEST(Edges, AtAHardStopLoseTheirPlaceAndFindIt) {
   EXPECT_EQ(rig.place(0), kIndex);
 }
 
+TEST(Edges, TwoThatLoseTheirPlacesAtOnceFindThem) {
+  Rig rig({.position = 3400});
+  for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
+    auto& settings = rig.axis(motor).settings;
+    settings.at_limit_plus = settings.at_limit_minus = motion::Reaction::ignore;
+    EXPECT_EQ(rig.axis(motor).run(sense(motor), law(4e6), rig.device().now()), motion::Cause::none);
+  }
+  rig.advance(20);
+  for (std::size_t motor = 0; motor < kMotorCount; ++motor) rig.axis(motor).stop();
+  rig.advance(2);
+  Rig never_lost({.position = 3500});
+  for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
+    SCOPED_TRACE(motor);
+    EXPECT_EQ(rig.place(motor), 3500);
+    // From where it stands, everything is as far away as for one that has come there without a loss.
+    ASSERT_EQ(rig.here(motor).zone_count, never_lost.here(motor).zone_count);
+    for (std::size_t i = 0; i < rig.here(motor).zone_count; ++i) {
+      EXPECT_EQ(rig.here(motor).zones[i].from - rig.axis(motor).travel_pulses,
+                never_lost.here(motor).zones[i].from - never_lost.axis(motor).travel_pulses);
+    }
+    EXPECT_GT(rig.world.plant(0, static_cast<int>(motor)).lost_pulses(), 1000);
+    auto& settings = rig.axis(motor).settings;
+    settings.at_limit_plus = settings.at_limit_minus = motion::Reaction::stop_at_once;
+    ASSERT_EQ(rig.home(motor, four_steps(motor, 4e6)), motion::Cause::arrived);
+    EXPECT_EQ(rig.place(motor), kIndex);
+  }
+}
+
 /// At 4 MPPS a tick goes 500 pulses beyond the stop: the index at 4007 is never passed by the machine.
 TEST(Edges, AnIndexBeyondAHardStopIsNeverSeen) {
   struct Case {
