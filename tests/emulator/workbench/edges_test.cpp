@@ -229,6 +229,15 @@ TEST(Edges, AtAHardStopLoseTheirPlaceAndFindIt) {
   EXPECT_EQ(rig.place(0), kIndex);
 }
 
+/// From where they stand, everything is as far away for the one as for the other.
+void expect_as_far_away(Rig& rig, Rig& other, std::size_t motor) {
+  ASSERT_EQ(rig.here(motor).zone_count, other.here(motor).zone_count);
+  for (std::size_t i = 0; i < rig.here(motor).zone_count; ++i) {
+    EXPECT_EQ(rig.here(motor).zones[i].from - rig.axis(motor).travel_pulses,
+              other.here(motor).zones[i].from - other.axis(motor).travel_pulses);
+  }
+}
+
 TEST(Edges, TwoThatLoseTheirPlacesAtOnceFindThem) {
   Rig rig({.position = 3400});
   for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
@@ -243,15 +252,28 @@ TEST(Edges, TwoThatLoseTheirPlacesAtOnceFindThem) {
   for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
     SCOPED_TRACE(motor);
     EXPECT_EQ(rig.place(motor), 3500);
-    // From where it stands, everything is as far away as for one that has come there without a loss.
-    ASSERT_EQ(rig.here(motor).zone_count, never_lost.here(motor).zone_count);
-    for (std::size_t i = 0; i < rig.here(motor).zone_count; ++i) {
-      EXPECT_EQ(rig.here(motor).zones[i].from - rig.axis(motor).travel_pulses,
-                never_lost.here(motor).zones[i].from - never_lost.axis(motor).travel_pulses);
-    }
+    expect_as_far_away(rig, never_lost, motor);
     EXPECT_GT(rig.world.plant(0, static_cast<int>(motor)).lost_pulses(), 1000);
     auto& settings = rig.axis(motor).settings;
     settings.at_limit_plus = settings.at_limit_minus = motion::Reaction::stop_at_once;
+    ASSERT_EQ(rig.home(motor, four_steps(motor, 4e6)), motion::Cause::arrived);
+    EXPECT_EQ(rig.place(motor), kIndex);
+  }
+}
+
+/// A controller may count otherwise from one moment to the next, as when it is told that a motor is reversed.
+TEST(Edges, FollowAxesThatAllCountAnew) {
+  Rig rig({.position = 2000});
+  Rig as_before({.position = 2000});
+  rig.world.set_bulk_ticks(false);
+  for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
+    rig.axis(motor).travel_pulses += 500;
+    rig.axis(motor).base_pulses += 500;
+  }
+  rig.advance(2);
+  for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
+    SCOPED_TRACE(motor);
+    expect_as_far_away(rig, as_before, motor);
     ASSERT_EQ(rig.home(motor, four_steps(motor, 4e6)), motion::Cause::arrived);
     EXPECT_EQ(rig.place(motor), kIndex);
   }
