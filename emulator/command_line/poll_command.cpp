@@ -389,7 +389,8 @@ int poll_port(ModelList models, const PollArguments& arguments) {
                  modbus_strerror(errno));
     return kExitNoResource;
   }
-  if (const auto order = word_order_item(models, polled, items)) {
+  const auto order = word_order_item(models, polled, items);
+  if (order) {
     std::uint16_t word = 0;
     keep_silent(polled);
     if (modbus_read_registers(context.get(), order->address, 1, &word) < 0) {
@@ -401,11 +402,14 @@ int poll_port(ModelList models, const PollArguments& arguments) {
   }
   for (int round = 0; round < polled.times || polled.times == 0; ++round) {
     if (round > 0) std::this_thread::sleep_for(every);
-    for (const Item& item : items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const Item item = items[i];
       keep_silent(polled);
       const bool good = item.write ? write_item(context.get(), item) : read_item(context.get(), item);
       // Nobody answers that.
       const bool is_broadcast = polled.station == 0 && item.write && errno == ETIMEDOUT;
+      if (good && order && item.write && item.table == order->table && item.address == order->address)
+        items = items_of(models, polled, item.value == 1);  // from here on
       if (good || is_broadcast) continue;
       std::fprintf(stderr, "understudy: poll: %s: %s\n", item.label.c_str(), modbus_strerror(errno));
       return kExitFailed;

@@ -21,6 +21,7 @@
 #include "emulator/device/command_window.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/program_error.h"
@@ -118,13 +119,16 @@ std::string list_of(const Items& items, Format format) {
   return text;
 }
 
+std::string why_no_firmware(const Model& model, const std::string& version) {
+  return quoted(version) + " is unknown for " + std::string(model.name) + "; expected one of " +
+         list_of(model.firmwares, version_text);
+}
+
 void check(const Model& model, const DeviceSettings& settings) {
   const auto& firmwares = model.firmwares;
   if (settings.firmware != 0 &&
       std::find(firmwares.begin(), firmwares.end(), settings.firmware) == firmwares.end()) {
-    throw SettingError("firmware", "'" + version_text(settings.firmware) + "' is unknown for " +
-                                       std::string(model.name) + "; expected one of " +
-                                       list_of(firmwares, version_text));
+    throw SettingError("firmware", why_no_firmware(model, version_text(settings.firmware)));
   }
   if (settings.modules != 0 && (settings.modules < 1 || settings.modules > model.most_modules)) {
     throw SettingError(
@@ -237,6 +241,13 @@ void set_station_number(Device& device) {
 void load_memory(Device& device, const NvImage& image) {
   if (device.memory() == nullptr)
     throw NvError(std::string(device.model().name) + " keeps nothing; expected no memory");
+  // A bench that says itself what a memory holds names no firmware.
+  const auto& firmwares = device.model().firmwares;
+  if (!image.firmware.empty() && image.model == device.model().name &&
+      std::find(firmwares.begin(), firmwares.end(), parse_firmware(image.firmware)) == firmwares.end()) {
+    const std::string why = why_no_firmware(device.model(), image.firmware);
+    throw NvEntryError(NvEntryError::List::firmware, {}, {}, why, "firmware: " + why);
+  }
   device.memory()->load_nv(image);
 }
 

@@ -162,9 +162,9 @@ TEST(Memory, ThatCannotBeWrittenIsToldWhileTheDevicesGoOn) {
 TEST(Memory, OfAnotherKindIsRefusedAndLeftAlone) {
   const std::string whole = image("{\"Parms_Speed1\": 5}");
   const std::pair<std::string, const char*> cases[] = {
-      {whole.substr(0, whole.size() - 3), "device.json: line 1: is torn or not JSON; expected an NV image"},
-      {"", "device.json: line 1: is torn or not JSON"},
-      {"understudy: 1\n", "device.json: line 1: is torn or not JSON"},
+      {whole.substr(0, whole.size() - 3), "device.json:1: is torn or not JSON; expected an NV image"},
+      {"", "device.json:1: is torn or not JSON"},
+      {"understudy: 1\n", "device.json:1: is torn or not JSON"},
       {"{\"somebody\": \"else's\"}", "device.json: understudy: is missing; expected an NV image"},
       {image("{\"Parms_Speed99\": 5}"), "'Parms_Speed99'"},
       {image("{\"Parms_Speed1\": 99999}"), "'Parms_Speed1': 99999 does not fit; expected 0 to 32768"},

@@ -271,6 +271,11 @@ TEST_F(ServedWorkbench, IsAskedByPollForItsOrderOfWords) {
   EXPECT_EQ(polled({"--type", "s32", "0x10"}), "0x10 70000\n");
   EXPECT_EQ(polled({"--command", "MOVE Z 65538", "Run=1"}), "");
   EXPECT_TRUE(eventually([&] { return polled({"holding.Position_Z"}) == "holding.Position_Z 65538\n"; }));
+  // What it writes itself counts from then on.
+  EXPECT_EQ(polled({"Word_Order=0", "holding.Position_Y=7", "holding.Position_Y", "Word_Order=1",
+                    "holding.Position_Y"}),
+            "holding.Position_Y 7\nholding.Position_Y 7\n");
+  EXPECT_EQ(polled({"holding.Position_Y"}), "holding.Position_Y 7\n");
   // Or it is said: what the device has is not asked.
   EXPECT_EQ(polled({"--word-order", "high", "holding.Position_Z"}), "holding.Position_Z 131073\n");
   EXPECT_EQ(polled({"--word-order", "low", "holding.Position_Z"}), "holding.Position_Z 65538\n");

@@ -9,21 +9,29 @@
 #include <variant>
 #include <vector>
 
+#include "base/files/file_error.h"
 #include "base/files/output_file.h"
 #include "base/files/text_file.h"
+#include "base/text/one_line.h"
 #include "emulator/device/memory/nv_image.h"
 
 namespace understudy::emulator {
+
+FileError::Complaint complaint_of(const NvError& wrong, const std::string& path) {
+  return {.place = {.file = path, .line = static_cast<int>(wrong.line)},
+          .text = one_line(wrong.in_file(path))};
+}
 
 std::optional<NvImage> read_nv_file(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error) && !error) return std::nullopt;
   const auto text = read_text_file(path);
-  if (!text) throw NvError(path + ": file: " + text.why + "; expected an NV image");
+  if (!text)
+    throw FileError({{.place = {path}, .text = path + ": file: " + text.why + "; expected an NV image"}});
   try {
     return parse_nv_image(*text);
   } catch (const NvError& wrong) {
-    throw NvError(path + ": " + wrong.what());
+    throw FileError({complaint_of(wrong, path)});
   }
 }
 
@@ -34,7 +42,7 @@ std::string why_not_replaceable_by_image(const std::string& path) {
     return "";
   } catch (const OutputError& error) {
     return error.what();
-  } catch (const NvError&) {
+  } catch (const FileError&) {
     return "it is not an NV image; expected one to replace, or a free path";
   }
 }

@@ -12,11 +12,16 @@
 #include <variant>
 #include <vector>
 
+#include "base/files/file_error.h"
 #include "emulator/device/memory/nv_image.h"
 
 namespace understudy::emulator {
 
-/// Nothing if there is no file. Throws NvError "path: field: what is wrong"; the file is left as it is.
+/// What is wrong with the image of a file, as "path:line: field: what is wrong".
+FileError::Complaint complaint_of(const NvError& wrong, const std::string& path);
+
+/// Nothing if there is no file. Throws FileError "path:line: field: what is wrong"; the file is left as it
+/// is.
 std::optional<NvImage> read_nv_file(const std::string& path);
 
 /// Why no image may be put there: something else is there. Empty if the path is free or has an image.

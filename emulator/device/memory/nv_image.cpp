@@ -37,10 +37,12 @@ std::string text_of(const Json& object, const char* key) {
   return text.get<std::string>();
 }
 
-/// "line 3" for a place in the text, as the parser counts its bytes.
-std::string line_of(const std::string& text, std::size_t byte) {
+std::string line_text(std::size_t line) { return line == 0 ? "" : "line " + std::to_string(line) + ": "; }
+
+/// The line of a place in the text, as the parser counts its bytes.
+std::size_t line_of(const std::string& text, std::size_t byte) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
-  return "line " + std::to_string(1 + std::count(text.begin(), end, '\n'));
+  return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
 }
 
 /// Tells the parser's place, which is right behind a key when it has read one.
@@ -82,9 +84,9 @@ struct BlockPlace {
   std::size_t line = 0;  // in the file
 };
 
-/// "line 12: blocks: files: "A": "
+/// "blocks: files: 'A': "
 std::string text_of(const BlockPlace& place) {
-  std::string text = "line " + std::to_string(place.line) + ": blocks: ";
+  std::string text = "blocks: ";
   if (!place.kind.empty()) text += place.kind + ": ";
   return place.name.empty() ? text : text + understudy::quoted(place.name) + ": ";
 }
@@ -104,7 +106,6 @@ Parsed parse_strictly(const std::string& text) {
   Parsed parsed;
   const char* seen = text.data();
   LineCount lines(text);
-  const auto line_there = [&] { return "line " + std::to_string(lines.at(seen)); };
   const auto end_of_block = [&]() -> std::string {
     return outermost == "blocks" && !parsed.blocks.empty() ? text_of(parsed.blocks.back()) : "";
   };
@@ -114,8 +115,10 @@ Parsed parse_strictly(const std::string& text) {
     if (event != Json::parse_event_t::key) return true;
     const auto& key = json.get_ref<const std::string&>();
     if (!keys.back().insert(key).second) {
-      const std::string where = outermost == "blocks" && depth > 1 ? line_there() + ": blocks: " : "";
-      throw NvError(where + understudy::quoted(key) + ": appears twice; expected it once");
+      const bool is_block = outermost == "blocks" && depth > 1;
+      throw NvError(
+          (is_block ? "blocks: " : "") + understudy::quoted(key) + ": appears twice; expected it once",
+          lines.at(seen));
     }
     if (depth == 1) outermost = key;
     if (depth == 2 && outermost == "registers") parsed.registers.push_back(key);
@@ -136,9 +139,9 @@ Parsed parse_strictly(const std::string& text) {
     const std::string block = end_of_block();
     const auto wrong = first_not_utf8(text);
     if (wrong && !block.empty()) {
-      throw NvError(line_of(text, *wrong) + block.substr(block.find(':')) + "is not UTF-8; expected text");
+      throw NvError(block + "is not UTF-8; expected text", line_of(text, *wrong));
     }
-    throw NvError(line_of(text, error.byte) + ": is torn or not JSON; expected an NV image");
+    throw NvError("is torn or not JSON; expected an NV image", line_of(text, error.byte));
   } catch (const Json::exception&) {  // a number that no type holds
     throw NvError("a number is beyond all bounds; expected one that 64 bits hold");
   }
@@ -197,7 +200,9 @@ void read_blocks(const Json& blocks, const std::vector<BlockPlace>& places, NvIm
   for (const BlockPlace& place : places) {
     image.block_lines[{place.kind, place.name}] = place.line;
     const Json& entries = blocks[place.kind];
-    if (!entries.is_object()) throw NvError(text_of(place) + "is not an object; expected names and lines");
+    if (!entries.is_object()) {
+      throw NvError(text_of(place) + "is not an object; expected names and lines", place.line);
+    }
     if (place.name.empty()) {
       image.blocks[place.kind];
       continue;
@@ -207,7 +212,7 @@ void read_blocks(const Json& blocks, const std::vector<BlockPlace>& places, NvIm
       return line.is_string() && line.get_ref<const std::string&>().find('\n') == std::string::npos;
     };
     if (!lines.is_array() || lines.empty() || !std::all_of(lines.begin(), lines.end(), is_line)) {
-      throw NvError(text_of(place) + "is not a list of lines; expected one");
+      throw NvError(text_of(place) + "is not a list of lines; expected one", place.line);
     }
     std::string text;
     for (const Json& line : lines) text += line.get_ref<const std::string&>() + "\n";
@@ -217,6 +222,14 @@ void read_blocks(const Json& blocks, const std::vector<BlockPlace>& places, NvIm
 }
 
 }  // namespace
+
+NvError::NvError(const std::string& complaint, std::size_t line_of_it)
+    : std::runtime_error(line_text(line_of_it) + complaint), line(line_of_it) {}
+
+std::string NvError::in_file(const std::string& path) const {
+  const std::string complaint = std::string(what()).substr(line_text(line).size());
+  return path + (line == 0 ? "" : ":" + std::to_string(line)) + ": " + complaint;
+}
 
 bool NvImage::operator==(const NvImage& other) const {
   return firmware == other.firmware && holds_the_same(*this, other);
@@ -268,6 +281,7 @@ NvImage parse_nv_image(const std::string& text) {
       throw NvError(understudy::quoted(key) + ": is not a key of an NV image; expected none");
   }
   NvImage image{.model = text_of(file, "model"), .firmware = text_of(file, "firmware"), .registers = {}};
+  if (image.firmware.empty()) throw NvError("firmware: is empty; expected the version that wrote the image");
   const Json& registers = demand(file, "registers");
   if (!registers.is_object()) throw NvError("registers: is not an object; expected names and values");
   for (const std::string& name : parsed.registers) {

@@ -37,9 +37,13 @@ struct NvImage {
 /// An image that is yet to be made.
 using LateImage = std::function<NvImage()>;
 
-/// An image that cannot be used: one line, "field: what is wrong; what was expected".
+/// An image that cannot be used: one line, "field: what is wrong; what was expected", with "line 3: " before
+/// it where its line is known.
 struct NvError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit NvError(const std::string& complaint, std::size_t line_of_it = 0);
+  std::size_t line;  // in the file; 0: it is the whole
+  /// Of an image that was read from a file: "path:3: field: what is wrong; what was expected".
+  std::string in_file(const std::string& path) const;
 };
 
 /// Whether they hold the same, whichever firmware wrote them.

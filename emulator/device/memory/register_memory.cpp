@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/text/one_line.h"
+#include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
@@ -20,6 +21,8 @@
 namespace understudy::emulator {
 
 namespace {
+
+using List = NvEntryError::List;
 
 void write_kept_registers(const RegisterMap& map, const std::vector<bool>& keeps_row,
                           const std::vector<std::uint32_t>& kept, NvImage& image) {
@@ -73,33 +76,37 @@ std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImag
   auto entries = image.registers;
   for (const auto& [name, real] : image.reals) {
     const auto found = map.find(name, newest);
-    if (!found) throw NvError("reals: " + map.why_not(name, newest));
+    if (!found) throw refused_value(List::reals, name, map.why_not(name, newest));
     const auto value = value_of_number(*found, real);
     if (!found->is_real() || !value) {
-      throw NvError("reals: " + quoted(name) + " does not hold such a number; expected " +
-                    range_text(*found->place.row));
+      throw refused_value(
+          List::reals, name,
+          quoted(name) + " does not hold such a number; expected " + range_text(*found->place.row));
     }
     entries.emplace_back(name, *value);
   }
   for (const auto& [name, value] : entries) {
     const auto found = map.find(name, newest);
     if (!found || found->bit >= 0 || found->place.part != Place::Part::whole) {
-      throw NvError("registers: " + map.why_not(name, newest));
+      throw refused_value(List::registers, name, map.why_not(name, newest));
     }
     const RegisterRow& row = *found->place.row;
     if (!bank.keeps(row)) {
-      throw NvError("registers: " + quoted(name) + " is not kept through power-off; expected one that is");
+      throw refused_value(List::registers, name,
+                          quoted(name) + " is not kept through power-off; expected one that is");
     }
     const auto bits = static_cast<std::uint32_t>(value);
     // Half of a 32-bit value may have been written alone, so it can be beyond its range; nothing else can.
     const bool in_range = !row.ranged || is_32_bit(row.type) || (value >= row.min && value <= row.max);
     if (value_of(bits, row.type) != value || (bits & row.stored_bits) != bits || !in_range) {
-      throw NvError("registers: " + quoted(name) + ": " + std::to_string(value) + " does not fit; expected " +
-                    range_text(row));
+      throw refused_value(
+          List::registers, name,
+          quoted(name) + ": " + std::to_string(value) + " does not fit; expected " + range_text(row));
     }
     const auto slot = static_cast<std::size_t>(found->place.slot);
     if (is_named[slot]) {
-      throw NvError("registers: " + quoted(name) + ": appears twice, by two names; expected it once");
+      throw refused_value(List::registers, name,
+                          quoted(name) + ": appears twice, by two names; expected it once");
     }
     is_named[slot] = true;
     values[slot] = bits;

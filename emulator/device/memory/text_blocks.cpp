@@ -13,7 +13,7 @@
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "base/text/utf8.h"
-#include "emulator/device/memory/block_error.h"
+#include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
 
 namespace understudy::emulator {
@@ -90,9 +90,8 @@ void TextBlocks::check(const NamedBlocks& blocks, const BlockLines& lines) const
   const auto refuse = [&](const std::string& kind_name, const std::string& name, const std::string& whose,
                           const std::string& why) {
     const auto line = lines.find({kind_name, name});
-    throw BlockError(kind_name, name, why,
-                     (line == lines.end() ? "" : "line " + std::to_string(line->second) + ": ") +
-                         "blocks: " + whose + why);
+    throw NvEntryError(NvEntryError::List::blocks, kind_name, name, why, "blocks: " + whose + why,
+                       line == lines.end() ? 0 : line->second);
   };
   for (const auto& [kind_name, entries] : blocks) {
     const BlockKind* const of = kind(kind_name);

@@ -16,6 +16,7 @@
 #include "emulator/device/device_of.h"
 #include "emulator/device/machine_ahead.h"
 #include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
@@ -203,8 +204,9 @@ std::array<Errors, kModules> Slim::read_history(NvImage& image) const {
       if (found == image.registers.end()) break;
       constexpr auto kMost = static_cast<std::int64_t>(Error::address);
       if (found->second < 1 || found->second > kMost) {
-        throw NvError("registers: " + history_name(m, i) + ": " + std::to_string(found->second) +
-                      " is not an error; expected 1 to " + std::to_string(kMost));
+        throw refused_value(NvEntryError::List::registers, history_name(m, i),
+                            history_name(m, i) + ": " + std::to_string(found->second) +
+                                " is not an error; expected 1 to " + std::to_string(kMost));
       }
       errors[static_cast<std::size_t>(m)].history.push_back(static_cast<std::uint8_t>(found->second));
       image.registers.erase(found);

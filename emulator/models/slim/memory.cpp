@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/text/one_line.h"
+#include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/models/slim/module.h"
 #include "emulator/models/slim/numbers.h"
@@ -88,11 +89,12 @@ Memory read_image(const NvImage& image, const Memory& factory, const MemoryForm&
     const auto node = from.extract(name);
     return node.empty() ? std::nullopt : std::optional(node.mapped());
   };
-  const auto does_not_fit = [](const char* where, const std::string& name, double value, double lowest,
+  const auto does_not_fit = [](NvEntryError::List where, const std::string& name, double value, double lowest,
                                double highest) {
-    return NvError(std::string(where) + ": " + quoted(name) + ": " + text_of_real(value, RealForm::exponent) +
-                   " does not fit; expected " + text_of_real(lowest, RealForm::exponent) + " to " +
-                   text_of_real(highest, RealForm::exponent));
+    return refused_value(where, name,
+                         quoted(name) + ": " + text_of_real(value, RealForm::exponent) +
+                             " does not fit; expected " + text_of_real(lowest, RealForm::exponent) + " to " +
+                             text_of_real(highest, RealForm::exponent));
   };
   for_each_name(memory, form.speed_names,
                 [&](const std::string& name, auto& value, const ParameterDefinition* row) {
@@ -100,7 +102,7 @@ Memory read_image(const NvImage& image, const Memory& factory, const MemoryForm&
                   const bool whole = std::is_same_v<T, std::int16_t> || (row != nullptr && is_integer(*row));
                   const auto given = take(whole ? integers : reals, name);
                   if (!given) return;
-                  const char* const where = whole ? "registers" : "reals";
+                  const auto where = whole ? NvEntryError::List::registers : NvEntryError::List::reals;
                   if (row != nullptr) {
                     const auto fits = fitted(*row, *given);
                     if (!fits) throw does_not_fit(where, name, *given, row->lowest, row->highest);
@@ -117,12 +119,14 @@ Memory read_image(const NvImage& image, const Memory& factory, const MemoryForm&
                   }
                 });
   if (!integers.empty()) {
-    throw NvError("registers: there is no " + quoted(integers.begin()->first) +
-                  "; expected a parameter or variable");
+    const std::string& name = integers.begin()->first;
+    throw refused_value(NvEntryError::List::registers, name,
+                        "there is no " + quoted(name) + "; expected a parameter or variable");
   }
   if (!reals.empty()) {
-    throw NvError("reals: there is no " + quoted(reals.begin()->first) +
-                  "; expected a parameter or variable");
+    const std::string& name = reals.begin()->first;
+    throw refused_value(NvEntryError::List::reals, name,
+                        "there is no " + quoted(name) + "; expected a parameter or variable");
   }
   return memory;
 }

@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/files/file_error.h"
 #include "base/simulated_time.h"
-#include "emulator/device/memory/nv_image.h"
 #include "emulator/device/program_error.h"
 #include "emulator/play/performing/state_text.h"
 #include "emulator/play/results/result.h"
@@ -141,7 +141,7 @@ std::optional<Failure> Performance::play(std::span<const Step> steps) {
     return explain_failure(StepError(error.what()));
   } catch (const ProgramError& error) {
     return explain_failure(StepError(in_text(error.first())));
-  } catch (const NvError& error) {
+  } catch (const FileError& error) {
     return explain_failure(StepError(error.what()));
   }
 }

@@ -157,14 +157,15 @@ void read_memory(StepsReader& reader, const world::YamlFields& step, const world
     MemoryStep memory{
         .what = MemoryStep::What::expect, .device = reader.trial().device(field, name), .file = field.path()};
     if (!reader.story().saved.contains(memory.file)) {
+      std::optional<NvImage> image;
       try {
-        const auto image = read_nv_file(memory.file);
-        if (!image) field.fail(memory.file + " " + why_not_readable(memory.file) + "; expected an NV image");
-        reader.trial().demand_memory(field, memory.device, *image);
-        reader.add_file(memory.file, "a memory that a step compares with");
-      } catch (const NvError& error) {
+        image = read_nv_file(memory.file);
+      } catch (const FileError& error) {
         field.fail(error.what());
       }
+      if (!image) field.fail(memory.file + " " + why_not_readable(memory.file) + "; expected an NV image");
+      reader.trial().demand_memory(field, memory.device, *image);
+      reader.add_file(memory.file, "a memory that a step compares with");
     }
     reader.add(step, "memory " + name + " " + field.text(), std::move(memory));
   }

@@ -9,13 +9,17 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "base/files/file_error.h"
 #include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_file.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/world.h"
 #include "pty/port_link.h"
 
@@ -49,6 +53,27 @@ void make_folder(const std::string& folder) {
   throw std::system_error(error, "--nv: " + folder + " cannot be made");
 }
 
+/// All that is wrong with it is told.
+void read_memory(world::DeviceSetup& device, world::Complaints& complaints) {
+  bool is_asked = complaints.attempt([&] {
+    // Until there is a file, the bench may say what the memory holds.
+    if (auto image = read_nv_file(device.nv_path)) device.settings.nv = std::move(image);
+  });
+  while (is_asked) {
+    is_asked = false;
+    complaints.attempt([&] {
+      try {
+        make_device(*device.model, device.settings);
+      } catch (const NvEntryError& refused) {
+        is_asked = take_away(refused, *device.settings.nv);
+        throw FileError({complaint_of(refused, device.nv_path)});
+      } catch (const NvError& error) {
+        throw FileError({complaint_of(error, device.nv_path)});
+      }
+    });
+  }
+}
+
 }  // namespace
 
 void read_memories(world::Bench& bench, const std::string& folder) {
@@ -59,16 +84,12 @@ void read_memories(world::Bench& bench, const std::string& folder) {
     }
   }
   demand_own_files(bench);
-  for (world::DeviceSetup& device : bench.devices) {
-    if (device.nv_path.empty()) continue;
-    // Until there is a file, the bench may say what the memory holds.
-    if (auto image = read_nv_file(device.nv_path)) device.settings.nv = std::move(image);
-    try {
-      make_device(*device.model, device.settings);
-    } catch (const NvError& error) {
-      throw NvError(device.nv_path + ": " + error.what());
+  world::Complaints complaints;
+  complaints.demand([&] {
+    for (world::DeviceSetup& device : bench.devices) {
+      if (!device.nv_path.empty()) read_memory(device, complaints);
     }
-  }
+  });
 }
 
 NvKeeper::NvKeeper(const world::Bench& bench, const world::World& world,

@@ -15,8 +15,8 @@
 namespace understudy::emulator::serve {
 
 /// Gives every device that has no file one in `folder`, which is made if it does not exist (if `folder` is
-/// empty they stay without), and reads the existing files into the settings. Throws NvError "path: field:
-/// what", or std::system_error.
+/// empty they stay without), and reads the existing files into the settings. Throws FileError with all that
+/// is wrong with them, NvError where a file or the folder cannot be used, or std::system_error.
 void read_memories(world::Bench& bench, const std::string& folder);
 
 class NvKeeper {

@@ -17,7 +17,7 @@
 #include "base/text/parse_real.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/device.h"
-#include "emulator/device/memory/block_error.h"
+#include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
@@ -163,21 +163,13 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
   return !std::exchange(settings.bauds, {}).empty();  // switches that say another one
 }
 
-/// The same of a block of its memory, or of all of a kind.
-bool take_away(const BlockError& error, DeviceSettings& settings) {
-  if (!settings.nv) return false;
-  NamedBlocks& blocks = settings.nv->blocks;
-  if (error.name.empty()) return blocks.erase(error.kind) > 0;
-  const auto of_kind = blocks.find(error.kind);
-  return of_kind != blocks.end() && of_kind->second.erase(error.name) > 0;
-}
-
-/// Where the block is; of one without a place of its own, at the memory, as that says it.
-[[noreturn]] void complain(const YamlFields& nv, const BlockError& error) {
+/// Where the entry is; of one without a place of its own, at the memory, as that says it.
+[[noreturn]] void complain(const YamlFields& nv, const NvEntryError& error) {
   if (!nv.is_map()) nv.fail(error.what());
-  if (const auto kind = nv.find(error.kind)) {
-    if (error.name.empty()) kind->fail(error.complaint);
-    if (const auto block = kind->find(error.name)) block->fail(error.complaint);
+  const bool is_block = error.list == NvEntryError::List::blocks;
+  if (const auto entry = nv.find(is_block ? error.kind : error.name)) {
+    if (!is_block || error.name.empty()) entry->fail(error.complaint);
+    if (const auto block = entry->find(error.name)) block->fail(error.complaint);
   }
   nv.fail(error.what());
 }
@@ -271,8 +263,8 @@ void judge_device(const DevicePlaces& places, DeviceSetup& device, Complaints& c
       } catch (const SettingError& error) {
         is_asked = take_away(error, settings, *device.model);
         complain(places, error, *device.model);
-      } catch (const BlockError& error) {
-        is_asked = take_away(error, settings);
+      } catch (const NvEntryError& error) {
+        is_asked = settings.nv && emulator::take_away(error, *settings.nv);
         if (const auto nv = fields.find("nv")) complain(*nv, error);
         fields.fail(std::string("nv: ") + error.what());
       } catch (const NvError& error) {

@@ -262,6 +262,15 @@ TEST(BadRequests, AFunctionThatIsNotServedIsHeardOfToo) {
   }
 }
 
+TEST(BadRequests, NothingAtAllIsNoFunction) {
+  OneStation rig;
+  const world::ModbusReply reply = world::serve(*rig.device, {});
+  EXPECT_EQ(reply.size, 2U);
+  EXPECT_EQ(reply.pdu[0], 0x80);
+  EXPECT_EQ(reply.pdu[1], 1);
+  EXPECT_EQ(reply.refused.objection.cause, Cause::unknown_function);
+}
+
 TEST(BadRequests, TheDeviceHasReasonsOfItsOwn) {
   OneStation rig;
   for (std::size_t i = 0; i < kFifo; ++i) ASSERT_EQ(rig.ask("06 1F 40 0A 02"), "06 1F 40 0A 02");

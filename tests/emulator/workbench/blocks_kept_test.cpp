@@ -91,9 +91,9 @@ TEST(KeptBlocks, AFileThatTheDeviceRefusesIsToldWithItsLine) {
   try {
     serve::read_memories(bench, folder.path());
     ADD_FAILURE() << "it is taken";
-  } catch (const NvError& error) {
+  } catch (const FileError& error) {
     EXPECT_EQ(error.what(),
-              folder.path("it.json") + ": line 6: blocks: files: 'B': is not a number; expected 00 to 99");
+              folder.path("it.json") + ":6: blocks: files: 'B': is not a number; expected 00 to 99");
   }
 }
 
@@ -113,12 +113,12 @@ TEST(KeptBlocks, ThoseOfABenchAreToldWithTheirLines) {
     }
     EXPECT_EQ(
         told,
-        "bench.yaml:8:11: lines.rs485.stations[0].nv: registers: no register is called 'Nix'; expected one "
-        "such as 'Speed_X'\n"
         "bench.yaml:10:18: lines.rs485.stations[0].nv.files.B: is not a number; expected 00 to 99\n"
         "bench.yaml:11:19: lines.rs485.stations[0].nv.files.08: line 1: is not UTF-8; expected text\n"
         "bench.yaml:13:13: lines.rs485.stations[0].nv.fils: 'fils' is not a kind of block; the nearest "
-        "is 'files'\n");
+        "is 'files'\n"
+        "bench.yaml:14:16: lines.rs485.stations[0].nv.Nix: no register is called 'Nix'; expected one such as "
+        "'Speed_X'\n");
   }
 }
 

@@ -229,6 +229,56 @@ TEST(Edges, AtAHardStopLoseTheirPlaceAndFindIt) {
   EXPECT_EQ(rig.place(0), kIndex);
 }
 
+/// From where they stand, everything is as far away for the one as for the other.
+void expect_as_far_away(Rig& rig, Rig& other, std::size_t motor) {
+  ASSERT_EQ(rig.here(motor).zone_count, other.here(motor).zone_count);
+  for (std::size_t i = 0; i < rig.here(motor).zone_count; ++i) {
+    EXPECT_EQ(rig.here(motor).zones[i].from - rig.axis(motor).travel_pulses,
+              other.here(motor).zones[i].from - other.axis(motor).travel_pulses);
+  }
+}
+
+TEST(Edges, TwoThatLoseTheirPlacesAtOnceFindThem) {
+  Rig rig({.position = 3400});
+  for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
+    auto& settings = rig.axis(motor).settings;
+    settings.at_limit_plus = settings.at_limit_minus = motion::Reaction::ignore;
+    EXPECT_EQ(rig.axis(motor).run(sense(motor), law(4e6), rig.device().now()), motion::Cause::none);
+  }
+  rig.advance(20);
+  for (std::size_t motor = 0; motor < kMotorCount; ++motor) rig.axis(motor).stop();
+  rig.advance(2);
+  Rig never_lost({.position = 3500});
+  for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
+    SCOPED_TRACE(motor);
+    EXPECT_EQ(rig.place(motor), 3500);
+    expect_as_far_away(rig, never_lost, motor);
+    EXPECT_GT(rig.world.plant(0, static_cast<int>(motor)).lost_pulses(), 1000);
+    auto& settings = rig.axis(motor).settings;
+    settings.at_limit_plus = settings.at_limit_minus = motion::Reaction::stop_at_once;
+    ASSERT_EQ(rig.home(motor, four_steps(motor, 4e6)), motion::Cause::arrived);
+    EXPECT_EQ(rig.place(motor), kIndex);
+  }
+}
+
+/// A controller may count otherwise from one moment to the next, as when it is told that a motor is reversed.
+TEST(Edges, FollowAxesThatAllCountAnew) {
+  Rig rig({.position = 2000});
+  Rig as_before({.position = 2000});
+  rig.world.set_bulk_ticks(false);
+  for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
+    rig.axis(motor).travel_pulses += 500;
+    rig.axis(motor).base_pulses += 500;
+  }
+  rig.advance(2);
+  for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
+    SCOPED_TRACE(motor);
+    expect_as_far_away(rig, as_before, motor);
+    ASSERT_EQ(rig.home(motor, four_steps(motor, 4e6)), motion::Cause::arrived);
+    EXPECT_EQ(rig.place(motor), kIndex);
+  }
+}
+
 /// At 4 MPPS a tick goes 500 pulses beyond the stop: the index at 4007 is never passed by the machine.
 TEST(Edges, AnIndexBeyondAHardStopIsNeverSeen) {
   struct Case {

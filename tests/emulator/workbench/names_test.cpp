@@ -34,6 +34,7 @@ TEST(Names, StandForOneRegisterOfOneTable) {
       {"coil.Output_79", Table::coil, 79, -1, 1},   {"DRIVING_Y", Table::discrete, 32, -1, 1},
       {"Step8301", Table::holding, 0x220, -1, 1},   {"input.0x0014", Table::input, 20, -1, 1},
       {"0x0030.4", Table::holding, 0x30, 4, 1},     {"input.Position_X.31", Table::input, 2, 31, 1},
+      {"0x17CF", Table::coil, 0x17CF, -1, 1},
   };
   for (const Case& c : cases) {
     const auto found = find(c.name);
@@ -110,7 +111,7 @@ TEST(Memory, NamesRealsAndRegistersOfSeveralTables) {
   ASSERT_EQ(write_value(bank, *find("Speed_Z"), 77), Refusal::none);
   ASSERT_EQ(write_value(bank, *find("Gain_X"), value_of_real(3.25F)), Refusal::none);
   bank.image()[static_cast<std::size_t>(find("Gain_Y")->place.slot)] = 0x7FC00000;  // not a number
-  NvImage image{.model = "workbench", .firmware = {}};
+  NvImage image{.model = "workbench", .firmware = "1.00"};
   registers_writer(bank, bank.image())(image);
   EXPECT_EQ(image.reals, (std::vector<std::pair<std::string, double>>{{"Gain_X", 3.25}}));
   EXPECT_EQ(image.registers,

@@ -124,6 +124,8 @@ TEST(RowSense, WhatIsAtTheEdgeIsTaken) {
       reg(2, "Axis_{}", Type::u16, Access::read_write).each(kTwo, 1, 2),
       word("Logic Position 3").holding_bits(1),
       command().also("Code"),
+      with(command(), [](RegisterRow& row) { row.least_words = 5; }),  // all of it, and no less
+      word().range(7, 7).from_factory(7),
   };
   for (const RegisterRow& row : rows) EXPECT_NO_THROW(RegisterMap(std::span(&row, 1), {})) << row.name;
 }

@@ -158,9 +158,9 @@ TEST(NvImage, RefusesWhatIsNoImage) {
       {"an unknown key", head + R"("firmware": "1.52", "registers": {}, "extra": 1})",
        "'extra': is not a key of an NV image; expected none"},
       {"a key twice", R"({"understudy": 1, "understudy": 1})",
-       "'understudy': appears twice; expected it once"},
+       "line 1: 'understudy': appears twice; expected it once"},
       {"a register twice", with_registers(R"({"A": 1, "B": 2, "A": 1})"),
-       "'A': appears twice; expected it once"},
+       "line 1: 'A': appears twice; expected it once"},
       {"a key with a newline, twice", R"({"a\nb": 1, "a\nb": 1})", "'a?b': appears twice; expected it once"},
   };
   for (const Refused& c : cases) {
@@ -198,7 +198,7 @@ TEST(NvImage, HoldsRealNumbersAndAProgram) {
   EXPECT_EQ(reals("[1]"), "reals: is not an object; expected names and values");
   EXPECT_EQ(reals(R"({"R0": "1"})"), "reals: 'R0': is not a number; expected one");
   EXPECT_EQ(reals(R"({"R0": 1e999})"), "a number is beyond all bounds; expected one that 64 bits hold");
-  EXPECT_EQ(reals(R"({"R0": 1, "R0": 2})"), "'R0': appears twice; expected it once");
+  EXPECT_EQ(reals(R"({"R0": 1, "R0": 2})"), "line 1: 'R0': appears twice; expected it once");
 }
 
 TEST(NvImage, TakesWholeNumbersOf64BitsOnly) {

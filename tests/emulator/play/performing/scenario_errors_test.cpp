@@ -90,7 +90,8 @@ TEST_F(ScenarioErrors, TheBench) {
             "scenario.yaml:3: nv.feeder: none.json cannot be read (No such file or directory); expected an "
             "NV image");
   folder_.write("torn.json", "{ \"understudy\": 1,");
-  EXPECT_TRUE(folder_.complaint(with("nv: { feeder: torn.json }")).starts_with("torn.json: "));
+  EXPECT_EQ(folder_.complaint(with("nv: { feeder: torn.json }")),
+            "torn.json:1: is torn or not JSON; expected an NV image");
 }
 
 TEST_F(ScenarioErrors, ParametersAndCases) {

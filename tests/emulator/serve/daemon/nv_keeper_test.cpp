@@ -46,6 +46,8 @@ std::string complaint(world::Bench bench, const std::string& folder) {
   try {
     read_memories(bench, folder);
     return "";
+  } catch (const FileError& error) {
+    return error.what();
   } catch (const NvError& error) {
     return error.what();
   }
@@ -115,23 +117,57 @@ TEST(ReadMemories, RefusesWhatIsNoMemoryOfTheDeviceAndLeavesItAlone) {
   const std::string whole = image_text({{"Parms_Speed1", 5}});
   const std::pair<std::string, const char*> cases[] = {
       {whole.substr(0, whole.size() / 2), ": is torn or not JSON"},
-      {"", "line 1: is torn or not JSON"},
+      {"", "turner.json:1: is torn or not JSON"},
       {"{}", "understudy: is missing"},
       {image_text({}, "super-40nc"), "model: is the memory of a 'super-40nc'"},
       {image_text({{"Parms_Speed17", 5}}), "'Parms_Speed17'"},
       {image_text({{"Parms_Speed1", 70'000}}), "'Parms_Speed1': 70000 does not fit"},
       {image_text({{"Cord_A", 1}}), "'Cord_A' is not kept"},
+      {to_json({.model = "simple2-r3", .firmware = "9.99"}),
+       "turner.json: firmware: '9.99' is unknown for simple2-r3; expected one of 1.39, "},
+      {to_json({.model = "simple2-r3", .firmware = "new"}), "firmware: 'new' is unknown for simple2-r3"},
+      {to_json({.model = "simple2-r3", .firmware = ""}), "firmware: is empty; expected the version"},
   };
   for (const auto& [text, why] : cases) {
     const std::string path = folder.path + "/turner.json";
     put(path, text);
     const std::string found = complaint(bench_of(folder), folder.path);
-    EXPECT_EQ(found.rfind(path + ": ", 0), 0u) << found;
+    EXPECT_EQ(found.rfind(path + ":", 0), 0u) << found;
     EXPECT_NE(found.find(why), std::string::npos) << found;
     EXPECT_NE(found.find("; "), std::string::npos) << found;
     EXPECT_EQ(found.find('\n'), std::string::npos) << found;
     EXPECT_EQ(text_of(path), text);
   }
+}
+
+TEST(ReadMemories, TellsAllThatIsWrongWithAllOfThem) {
+  const TestFolder folder;
+  const std::string feeder = folder.path + "/feeder.json";
+  const std::string turner = folder.path + "/turner.json";
+  put(feeder, to_json({.model = "simple2-r3",
+                       .firmware = "9.99",
+                       .registers = {{"Cord_A", 1}, {"Parms_Speed1", 70'000}, {"Parms_Speed2", 5}}}));
+  put(turner, "{\n");
+  try {
+    world::Bench bench = bench_of(folder);
+    read_memories(bench, folder.path);
+    ADD_FAILURE() << "they are taken";
+  } catch (const FileError& error) {
+    ASSERT_EQ(error.complaints().size(), 4u) << error.what();
+    const std::string begins[] = {
+        feeder + ": firmware: '9.99' is unknown", feeder + ": registers: 'Cord_A' is",
+        feeder + ": registers: 'Parms_Speed1': 70000 does", turner + ":2: is torn or not JSON"};
+    for (std::size_t i = 0; i < std::size(begins); ++i) {
+      EXPECT_EQ(error.complaints()[i].text.rfind(begins[i], 0), 0u) << error.complaints()[i].text;
+    }
+    EXPECT_EQ(error.complaints()[3].place.line, 2);
+  }
+  // There may be a hundred wrong values: no more is told than of a bench.
+  NvImage wild{.model = "simple2-r3", .firmware = "1.52"};
+  for (int i = 0; i < 100; ++i) wild.registers.emplace_back("N" + std::to_string(i), 1);
+  put(feeder, to_json(wild));
+  const std::string many = complaint(bench_of(folder), folder.path);
+  EXPECT_EQ(std::count(many.begin(), many.end(), '\n'), 20) << many;
 }
 
 TEST(ReadMemories, OfAFolderThatCannotBeMadeIsAnError) {

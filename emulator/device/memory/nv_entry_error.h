@@ -1,0 +1,35 @@
+// What is wrong with one entry of an NV image. Whoever wants to know all that is wrong takes it away, and
+// asks again.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "emulator/device/memory/nv_image.h"
+
+namespace understudy::emulator {
+
+struct NvEntryError : NvError {
+  enum class List { firmware, registers, reals, blocks };
+
+  NvEntryError(List list_of_it, std::string kind_of_it, std::string name_of_it, std::string what_is_wrong,
+               const std::string& told, std::size_t line_of_it = 0)
+      : NvError(told, line_of_it),
+        list(list_of_it),
+        kind(std::move(kind_of_it)),
+        name(std::move(name_of_it)),
+        complaint(std::move(what_is_wrong)) {}
+  List list;
+  std::string kind;       // of blocks
+  std::string name;       // of blocks: none where all of their kind are meant
+  std::string complaint;  // for messages that say already which entry it is
+};
+
+/// Of a value: "registers: " or "reals: ", and why it is refused.
+NvEntryError refused_value(NvEntryError::List list, const std::string& name, const std::string& why);
+
+/// Takes away what was refused. Whether it was there.
+bool take_away(const NvEntryError& refused, NvImage& image);
+
+}  // namespace understudy::emulator
