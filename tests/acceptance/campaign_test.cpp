@@ -99,6 +99,18 @@ TEST_F(Campaign, OnlyTheFirstFailureOfEachKindIsKept) {
   EXPECT_NE(one.output.find("0 passed, 1 failed; "), std::string::npos) << one.output;
 }
 
+TEST_F(Campaign, ARecordingWithoutRoomIsToldByItsFlag) {
+  const Words command{"run", file(20), "--failures", folder_ / "failures"};
+  EXPECT_EQ(understudy(command).exit_code, 1);
+  const std::string kept = folder_ / ("failures/" + *recordings("failures").begin());
+  fs::remove(kept);
+  fs::create_directory(kept);
+  const Finished finished = understudy(command);
+  EXPECT_EQ(finished.exit_code, 3);
+  EXPECT_TRUE(finished.errors.starts_with("understudy: --failures: " + kept + " cannot be written: "))
+      << finished.errors;
+}
+
 TEST_F(Campaign, CasesOfAListKeepTheirFirstFailuresToo) {
   const std::string scenario = folder_.write(
       "rows.yaml",
