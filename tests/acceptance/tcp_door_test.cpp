@@ -75,10 +75,11 @@ TEST(TcpDoor, IsAPortElsewhereBySocat) {
 TEST(TcpDoor, NoticesThatAHostHasVanished) {
   const char* wanted = getenv("UNDERSTUDY_HEAVY_HOSTS");
   if (wanted == nullptr || std::string(wanted) != "1") GTEST_SKIP() << "UNDERSTUDY_HEAVY_HOSTS=1 is not set";
-  const Finished hosts =
-      run({"/usr/bin/python3", std::string(TEST_FACTS) + "/hosts/vanishing_hosts.py", UNDERSTUDY_BINARY});
-  if (hosts.exit_code == 77) GTEST_SKIP() << "network namespaces are not allowed here";
-  EXPECT_EQ(hosts.exit_code, 0) << hosts.output << hosts.errors;
+  Process hosts(
+      {"/usr/bin/python3", std::string(TEST_FACTS) + "/hosts/vanishing_hosts.py", UNDERSTUDY_BINARY});
+  const auto exit_code = hosts.wait(std::chrono::seconds(90));
+  if (exit_code == 77) GTEST_SKIP() << "network namespaces are not allowed here";
+  EXPECT_EQ(exit_code, 0) << hosts.output() << hosts.errors();
 }
 
 TEST(TcpDoor, SaysWhyItCannotListen) {

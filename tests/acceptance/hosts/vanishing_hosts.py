@@ -117,8 +117,9 @@ def main(understudy):
         with open(bench, "w", encoding="utf-8") as file:
             file.write(BENCH)
         log = open(os.path.join(folder, "log"), "w+", encoding="utf-8")
-        served = subprocess.Popen([understudy, "serve", bench, "--control", folder + "/control"], stdout=subprocess.PIPE,
-                                  stderr=log, text=True)
+        # It ends with this program, also when that is killed.
+        served = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", understudy, "serve", bench, "--control",
+                                   folder + "/control"], stdout=subprocess.PIPE, stderr=log, text=True)
         hosts = []
         try:
             for _ in range(2):
