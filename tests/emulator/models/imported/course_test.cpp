@@ -158,6 +158,17 @@ TEST(DescribedTerminals, BeginAsTheirRegistersDo) {
   EXPECT_EQ(one.read("STATES"), 0);
 }
 
+TEST(DescribedTerminals, TheFirstIsShownLikeAnyOther) {
+  OneDescribed one(
+      model_file::model_with("address,name,access\n0,STATE,R\n",
+                             "inputs: { ALARM: nowhere }\n"
+                             "axes: { A: { alarm: STATE.0, ready: STATE.1, inputs: { alarm: ALARM } } }\n"));
+  EXPECT_EQ(one.read("STATE"), 2);
+  one.world.set_external_input(0, 0, 1);
+  one.advance(1);
+  EXPECT_EQ(one.read("STATE"), 1);
+}
+
 /// Whatever is written, nothing but a refusal comes of it.
 TEST(DescribedCourses, OutliveAnyNumbers) {
   std::mt19937_64 random(7);
