@@ -41,9 +41,10 @@ int write_first_files(ModelList models, const InitArguments& arguments) {
   const std::vector<NewFile> files{
       {in_folder("bench.yaml"), bench},
       {in_folder("first_move.yaml"), std::string(kScenarioHead) + std::string(model.first_files->steps)},
-      {in_folder("bench.schema.json"), play::bench_schema()},
+      {in_folder("bench.schema.json"), play::bench_schema(models)},
       {in_folder("scenario.schema.json"),
-       play::scenario_schema(world::parse_bench(models, bench, in_folder("bench.yaml"), arguments.folder))},
+       play::scenario_schema(models,
+                             world::parse_bench(models, bench, in_folder("bench.yaml"), arguments.folder))},
   };
   demand_new(files);
   std::error_code error;

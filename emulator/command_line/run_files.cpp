@@ -10,9 +10,11 @@
 #include <cctype>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -42,7 +44,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestName = 100;  // bytes
+constexpr std::size_t kLongestName = 100;    // bytes
+constexpr std::size_t kPieceOfCopy = 65536;  // bytes
 
 /// What is made of a play.
 struct FileKind {
@@ -137,19 +140,33 @@ void remove_abandoned_spools() {
   throw std::system_error(error, std::string(flag) + ": " + path + " cannot be written");
 }
 
+/// What it cannot hold as a whole is not left there in part.
+void copy_file(const std::string& from, const std::string& to) {
+  OutputFile file(to);
+  file.begin("");
+  std::ifstream source(from, std::ios::binary);
+  std::string piece(kPieceOfCopy, '\0');
+  while (source.read(piece.data(), static_cast<std::streamsize>(piece.size())), source.gcount() > 0) {
+    const auto size = static_cast<std::size_t>(source.gcount());
+    const int failure = file.write(std::string_view(piece).substr(0, size));
+    if (failure == 0) continue;
+    std::error_code ignored;
+    fs::remove(to, ignored);
+    throw OutputError(std::generic_category().message(failure));
+  }
+}
+
 /// Also from one file system to another.
 void move_file(const char* flag, const std::string& from, const std::string& path) {
   std::error_code error;
-  std::string to;
   try {
-    to = output_target(path);
+    const std::string to = output_target(path);
+    fs::rename(from, to, error);
+    if (!error) return;
+    copy_file(from, to);
   } catch (const OutputError& refused) {
     throw GrowingFileError(std::string(flag) + ": " + path + " cannot be written: " + refused.what());
   }
-  fs::rename(from, to, error);
-  if (!error) return;
-  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
-  if (error) refuse(flag, to, error);
   fs::remove(from, error);
 }
 
@@ -276,14 +293,16 @@ void RunFiles::settle(play::ScenarioResult& result, bool is_new) {
       if (name.empty()) name = free_name(result);
       place = (fs::path(folder) / (name + kind.ending)).string();
     }
+    const bool is_of_failure = kind.place == kFailure.place && (folders_.*kind.folder).empty();
+    const char* const flag = is_of_failure ? kFailure.flag : kind.flag;
     for (const char* const part : kParts) {
       std::error_code error;
       if (!fs::exists(spooled + part, error)) continue;
       if (is_kept) {
         if (const std::string why = claims_.objection_to(place + part); !why.empty()) {
-          throw GrowingFileError(std::string(kind.flag) + ": " + place + part + ": " + why);
+          throw GrowingFileError(std::string(flag) + ": " + place + part + ": " + why);
         }
-        move_file(kind.flag, spooled + part, place + part);
+        move_file(flag, spooled + part, place + part);
       } else {
         fs::remove(spooled + part, error);
       }

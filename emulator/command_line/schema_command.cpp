@@ -19,11 +19,11 @@ int print_schema(ModelList models, const SchemaArguments& arguments) {
   if ((is_bench || is_model) && !arguments.bench.empty()) {
     throw UsageError("schema: --bench belongs to `scenario`: the names are the bench's");
   }
-  const std::string schema = is_bench   ? play::bench_schema()
+  const std::string schema = is_bench   ? play::bench_schema(models)
                              : is_model ? play::file_schema("Understudy model", model_file::kModelKeys)
                              : arguments.bench.empty()
-                                 ? play::scenario_schema()
-                                 : play::scenario_schema(world::load_bench(models, arguments.bench));
+                                 ? play::scenario_schema(models)
+                                 : play::scenario_schema(models, world::load_bench(models, arguments.bench));
   std::fputs(schema.c_str(), stdout);
   return kExitWell;
 }

@@ -91,9 +91,14 @@ Condition Binder::condition(const YamlFields& field) const {
   made.value = parse_integer(number);
   if (!made.value)
     field.fail(understudy::quoted(number) + " is not a number; expected one, as in COMMAND == 2");
-  const TypeLimits limits = made.spot.is_whole()
-                                ? limits_of(listed(made.spot).type)
-                                : TypeLimits{0, static_cast<Value>(mask_of(made.spot) >> made.spot.bit)};
+  const ListedRegister& its = listed(made.spot);
+  TypeLimits limits = limits_of(its.type);
+  // What is shown may be beyond the list's range, and so may what is stored as it comes.
+  const bool is_kept_in_range =
+      its.ranged && its.access != Access::read && map_.policy().out_of_range != MapPolicy::OutOfRange::stored;
+  if (is_kept_in_range)
+    limits = {.lowest = std::min(its.least, its.factory), .highest = std::max(its.most, its.factory)};
+  if (!made.spot.is_whole()) limits = {0, static_cast<Value>(mask_of(made.spot) >> made.spot.bit)};
   if (*made.value < limits.lowest || *made.value > limits.highest) {
     field.fail(understudy::quoted(number) + " is never there; expected " + std::to_string(limits.lowest) +
                " to " + std::to_string(limits.highest));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/files/file_error.h"
+#include "base/text/one_line.h"
 
 namespace understudy::emulator::model_file {
 
@@ -79,13 +80,22 @@ class CsvReader {
     CsvCell cell{.text = {}, .column = static_cast<int>(at_ - line_begin_) + 1};
     if (!is_at_end_of_line() && text_[at_] == '"') {
       cell.text = read_quoted(cell.column);
-      while (!is_at_end_of_line() && text_[at_] != separator_) ++at_;
+      demand_end_of_cell();
       return cell;
     }
     const std::size_t begin = at_;
     while (!is_at_end_of_line() && text_[at_] != separator_) ++at_;
     cell.text = without_blanks(text_.substr(begin, at_ - begin));
     return cell;
+  }
+
+  void demand_end_of_cell() {
+    const std::size_t begin = at_;
+    while (!is_at_end_of_line() && text_[at_] != separator_) ++at_;
+    const std::string more = without_blanks(text_.substr(begin, at_ - begin));
+    if (more.empty()) return;
+    throw FileError({file_, line_, static_cast<int>(begin - line_begin_) + 1},
+                    "registers: " + quoted(more) + " comes after a quotation; expected a separator");
   }
 
   /// Two quotes in it are one.

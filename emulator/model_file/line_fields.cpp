@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -98,8 +99,15 @@ void read_line(const YamlFields& fields, Line& line, Complaints& complaints) {
           number && std::find(line.functions.begin(), line.functions.end(), *number) != line.functions.end();
       if (!is_known)
         most.fail(understudy::quoted(code) + " is not one of its functions; expected one of `functions`");
-      line.limits.push_back(
-          {.code = static_cast<std::uint8_t>(*number), .most = static_cast<int>(most.integer(kMostForm))});
+      const world::FunctionRow& row =
+          *std::find_if(std::begin(world::kModbusFunctions), std::end(world::kModbusFunctions),
+                        [&](const world::FunctionRow& one) { return one.code == *number; });
+      const auto count = most.integer(kMostForm);
+      if (count > row.most) {
+        most.fail(std::to_string(count) + " is more than function " + code + " can have; expected " +
+                  std::to_string(row.most) + " or fewer");
+      }
+      line.limits.push_back({.code = row.code, .most = static_cast<int>(count)});
     }
   });
   read("broadcast",

@@ -14,6 +14,7 @@
 #include "emulator/device/model.h"
 #include "emulator/model_file/model_reader.h"
 #include "emulator/models/imported/model.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::model_file {
 
@@ -37,8 +38,9 @@ const Model& DescribedModels::read(const std::string& text, const std::string& n
   models::imported::Description described = read_model(text, name, may_read, files);
   for (const Model* const model : house_) {
     if (model->name != described.name) continue;
-    throw FileError({name, 1, 1}, "model: " + quoted(described.name) +
-                                      " is a model of this program's own; expected another name");
+    world::YamlFields::parse(text, name, "model", "a model")
+        .at("model")
+        .fail(quoted(described.name) + " is a model of this program's own; expected another name");
   }
   const std::lock_guard lock(mutex_);
   auto& model = models_[described.text];

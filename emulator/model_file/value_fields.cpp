@@ -160,6 +160,10 @@ class BindingCheck {
         });
       }
     }
+    for (const Terminal& terminal : made_.terminals) {
+      if (terminal.is_input) continue;
+      complaints_.attempt([&] { check_output(root_.at("outputs").at(terminal.name), *terminal.spot); });
+    }
   }
 
  private:
@@ -167,15 +171,25 @@ class BindingCheck {
     return std::find(made_.momentary.begin(), made_.momentary.end(), spot.number) != made_.momentary.end();
   }
 
+  static bool meet(const Spot& a, const Spot& b) {
+    return a.is_whole() || b.is_whole() || (a.bit < b.bit + b.width && b.bit < a.bit + a.width);
+  }
+
+  void check_output(const YamlFields& field, const Spot& spot) const {
+    if (made_.registers[spot.number].access != Access::read) return;
+    for (const ShownPart& part : shown_[spot.number]) {
+      if (meet(spot, part.spot)) return;
+    }
+    field.fail(understudy::quoted(field.text()) +
+               " never changes; expected what hosts write, or what shows something");
+  }
+
   /// What changes by itself would be seen only when hosts write something.
   void check_command(const YamlFields& field, Command command, const Spot& spot) const {
     const std::string& name = made_.registers[spot.number].name;
     for (const ShownPart& part : shown_[spot.number]) {
       if (is_level(command) && part.what == ShownPart::What::input) continue;
-      const bool is_elsewhere =
-          !spot.is_whole() && !part.spot.is_whole() &&
-          (spot.bit + spot.width <= part.spot.bit || part.spot.bit + part.spot.width <= spot.bit);
-      if (is_elsewhere) continue;
+      if (!meet(spot, part.spot)) continue;
       field.fail(understudy::quoted(name) + " shows something there; expected what hosts write" +
                  (is_level(command) ? ", or an input" : ""));
     }

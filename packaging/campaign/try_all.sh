@@ -13,8 +13,16 @@ recipes=("$@")
 here=$(realpath "$(dirname "$0")")
 work=$(mktemp -d)
 started=()
+cluster=  # not empty: a Slurm was started here
 finish() {
   local pid
+  if [ -n "$cluster" ]; then  # if this ends early, jobs still run, and the daemons would wait for them
+    timeout 5 scancel --quiet --name=understudy || true
+    for _ in $(seq 50); do
+      [ -n "$(timeout 5 squeue -h 2>/dev/null)" ] || break
+      sleep 0.2
+    done
+  fi
   for pid in "${started[@]}"; do kill "$pid" 2>/dev/null || true; done
   for pid in "${started[@]}"; do wait "$pid" 2>/dev/null || true; done
   rm -rf "$work"
@@ -112,6 +120,7 @@ NodeName=$node NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
 PartitionName=all Nodes=$node Default=YES MaxTime=INFINITE State=UP
 CONF
   export SLURM_CONF=$slurm/slurm.conf
+  cluster=yes
   slurmctld -D -c >"$slurm/slurmctld.log" 2>&1 &
   started+=($!)
   slurmd -D -N "$node" >"$slurm/slurmd.log" 2>&1 &

@@ -70,6 +70,18 @@ TEST(TcpDoor, IsAPortElsewhereBySocat) {
   }
 }
 
+/// A host without a last word, behind a link that is gone: in network namespaces, where they are allowed. It
+/// waits for half a minute, so it runs where UNDERSTUDY_HEAVY_HOSTS=1 is set.
+TEST(TcpDoor, NoticesThatAHostHasVanished) {
+  const char* wanted = getenv("UNDERSTUDY_HEAVY_HOSTS");
+  if (wanted == nullptr || std::string(wanted) != "1") GTEST_SKIP() << "UNDERSTUDY_HEAVY_HOSTS=1 is not set";
+  Process hosts(
+      {"/usr/bin/python3", std::string(TEST_FACTS) + "/hosts/vanishing_hosts.py", UNDERSTUDY_BINARY});
+  const auto exit_code = hosts.wait(std::chrono::seconds(90));
+  if (exit_code == 77) GTEST_SKIP() << "network namespaces are not allowed here";
+  EXPECT_EQ(exit_code, 0) << hosts.output() << hosts.errors();
+}
+
 TEST(TcpDoor, SaysWhyItCannotListen) {
   const RunningUnderstudy served({"--listen", "rtu://:0"});
   const std::string taken = "rtu://127.0.0.1:" + std::to_string(listened_port(served));

@@ -47,6 +47,10 @@ ImportedDevice::ImportedDevice(const ImportedModel& model, const DeviceSettings&
       model_(model),
       edges_(model.description().axes.size()),
       is_restored_(edges_.size()) {
+  for (std::size_t i = 0; i < its().terminals.size(); ++i) {
+    const Terminal& terminal = its().terminals[i];
+    if (terminal.is_input && terminal.spot) set_input(static_cast<int>(i), level_at_rest(*terminal.spot));
+  }
   state_.eeprom = factory_memory(map());
   state_ = state_at_power_up();
   for (const Following& following : its().followings) {
@@ -56,6 +60,13 @@ ImportedDevice::ImportedDevice(const ImportedModel& model, const DeviceSettings&
 }
 
 const Description& ImportedDevice::its() const { return model_.description(); }
+
+/// What shows an input begins with the register's default, and so has the input to.
+std::int32_t ImportedDevice::level_at_rest(const Spot& spot) const {
+  const Value whole = its().registers[spot.number].factory;
+  if (!spot.is_whole()) return static_cast<std::int32_t>((whole >> spot.bit) & 1);
+  return static_cast<std::int32_t>(std::clamp<Value>(whole, INT32_MIN, INT32_MAX));
+}
 
 // --- what registers show ------------------------------------------------------------
 

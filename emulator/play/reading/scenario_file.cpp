@@ -378,7 +378,8 @@ FileKind kind_of_file(const std::string& path) {
   const world::YamlFields root = world::YamlFields::parse(
       *text, path, "file",
       "a bench (`lines:`), a scenario (`bench:` and `steps:`) or a model (`registers:`)");
-  if (root.has("registers") && !root.has("lines")) return FileKind::model;
+  const bool is_of_model = root.has("registers") || root.has("model");  // one of the two may be forgotten
+  if (is_of_model && !root.has("lines")) return FileKind::model;
   if (!root.has("steps"))
     return root.has("bench") && !root.has("lines") ? FileKind::scenario : FileKind::bench;
   return root.has("bench") || root.has("name") ? FileKind::scenario : FileKind::steps;

@@ -200,7 +200,9 @@ std::string Trial::value_to_write(const world::YamlFields& field, const Target& 
   if (!fitting && is_real) field.fail(world::number_text(number) + " is more than a 32-bit real can hold");
   if (!fitting) field.fail(world::number_text(number) + " is not a whole number; expected one");
   const bool is_judged = row != nullptr && row->ranged && target.place->bit < 0 &&
-                         target.place->place.part == Place::Part::whole && !is_refused;
+                         target.place->place.part == Place::Part::whole && !is_refused &&
+                         world_.device(target.device).register_bank()->map_policy().out_of_range ==
+                             MapPolicy::OutOfRange::refused;
   if (is_real) {
     const float real = real_of(*fitting);
     if (is_judged && (real < real_of(row->min) || real > real_of(row->max))) out_of(range_text(*row));

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -65,11 +66,23 @@ class JsonLines final : public ResultsFile {
   void finish() override {}
 
  private:
+  static constexpr std::string_view kBeginOfRow = "{\"file\":\"";
   // The lowest bit of what is held of a case; the others are of its hash.
   static constexpr std::uint64_t kFailed = 1;
 
   [[noreturn]] void refuse(const std::string& why) const {
     throw GrowingFileError("--results: " + path_ + " cannot be written: " + why);
+  }
+
+  [[noreturn]] void refuse_line(std::uint64_t number) const {
+    throw GrowingFileError("--results: " + path_ + ":" + std::to_string(number) +
+                           ": is not a row of results; expected what `--results` has written");
+  }
+
+  /// What was being written when the run was killed is dropped, but nobody else's file.
+  static bool begins_as_row(std::string_view line) {
+    const std::size_t both = std::min(line.size(), kBeginOfRow.size());
+    return line.substr(0, both) == kBeginOfRow.substr(0, both);
   }
 
   /// What was played before: 8 bytes a row. A line that has no end was being written when the run was killed.
@@ -78,13 +91,11 @@ class JsonLines final : public ResultsFile {
     std::uint64_t size = 0;
     std::string line;
     std::vector<std::uint64_t> failed_branches;
-    for (std::uint64_t number = 1; std::getline(before, line) && !before.eof(); ++number) {
+    std::uint64_t number = 1;
+    for (; std::getline(before, line) && !before.eof(); ++number) {
       size += line.size() + 1;
       const auto json = nlohmann::json::parse(line, nullptr, false);
-      if (!is_row(json)) {
-        throw GrowingFileError("--results: " + path_ + ":" + std::to_string(number) +
-                               ": is not a row of results; expected what `--results` has written");
-      }
+      if (!is_row(json)) refuse_line(number);
       const std::string verdict = json["verdict"];
       const std::uint64_t failed = verdict == "failed" ? kFailed : 0;
       const std::uint64_t hash = hash_of_key(json["file"], json["case_id"], json["made_of"]) & ~kFailed;
@@ -94,6 +105,7 @@ class JsonLines final : public ResultsFile {
         played_.push_back(hash | failed);
       }
     }
+    if (!begins_as_row(line)) refuse_line(number);
     std::sort(played_.begin(), played_.end());
     for (const std::uint64_t hash : failed_branches) {
       const auto it = std::lower_bound(played_.begin(), played_.end(), hash);

@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "emulator/device/device.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/text_blocks.h"
+#include "emulator/device/model.h"
 #include "emulator/play/reading/scenario_form.h"
 #include "emulator/play/reading/step_rows.h"
 #include "emulator/play/schema/bench_names.h"
@@ -29,8 +34,8 @@ constexpr const char* kParameter = "\\$\\{";
 class SchemaWriter {
  public:
   /// Where there are parameters any value may be a ${name}.
-  explicit SchemaWriter(bool has_parameters, bool has_names = false)
-      : has_parameters_(has_parameters), has_names_(has_names) {}
+  SchemaWriter(ModelList models, bool has_parameters, bool has_names = false)
+      : models_(models), has_parameters_(has_parameters), has_names_(has_names) {}
 
   Json of(const world::Form& form) const {
     switch (form.kind) {
@@ -73,6 +78,8 @@ class SchemaWriter {
     }
     Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
     if (!required.empty()) schema["required"] = required;
+    if (properties.contains(world::kModelKey.key) && properties.contains(world::kNvKey.key))
+      schema["allOf"] = memories();
     return schema;
   }
 
@@ -123,6 +130,38 @@ class SchemaWriter {
   }
 
  private:
+  /// What a device keeps depends on its model: which kinds of named texts, if any.
+  Json memories() const {
+    Json conditions = Json::array();
+    for (const Model* const model : models_) {
+      Json is_it{{"properties", {{world::kModelKey.key, {{"enum", {model->name}}}}}},
+                 {"required", {world::kModelKey.key}}};
+      Json values{{"type", "object"},
+                  {"properties", kinds_of_texts(*model)},
+                  {"additionalProperties", {{"anyOf", {of(world::kRegisterValueForm), of(world::kText)}}}}};
+      Json nv{{"anyOf", {of(world::kText), std::move(values)}}};
+      conditions.push_back(
+          Json{{"if", std::move(is_it)}, {"then", {{"properties", {{world::kNvKey.key, std::move(nv)}}}}}});
+    }
+    return conditions;
+  }
+
+  Json kinds_of_texts(const Model& model) const {
+    Json kinds = Json::object();
+    const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});  // only it knows
+    const KeptMemory* const memory = std::as_const(*device).memory();
+    const TextBlocks* const kept = memory == nullptr ? nullptr : memory->text_blocks();
+    if (kept == nullptr) return kinds;
+    for (const BlockKind& kind : kept->kinds()) {
+      Json texts = of(world::kTextByName);
+      texts["maxProperties"] = kind.most;
+      texts["description"] = "Texts by their names: " + std::to_string(kind.most) + " at most, of " +
+                             std::to_string(kind.longest) + " bytes at most.";
+      kinds[std::string(kind.name)] = std::move(texts);
+    }
+    return kinds;
+  }
+
   bool lists(const world::Form& form) const {
     return has_names_ && form.names_of != world::Form::Of::anything;
   }
@@ -168,6 +207,7 @@ class SchemaWriter {
     return schema;
   }
 
+  ModelList models_;
   bool has_parameters_;
   bool has_names_;
 };
@@ -186,21 +226,21 @@ std::string finished(const std::string& title, const Json& schema, Json definiti
 
 }  // namespace
 
-std::string bench_schema() {
-  return finished("Understudy bench", SchemaWriter(false).keys(world::kBenchKeys), Json::object());
+std::string bench_schema(ModelList models) {
+  return finished("Understudy bench", SchemaWriter(models, false).keys(world::kBenchKeys), Json::object());
 }
 
 std::string file_schema(const std::string& title, std::span<const world::KeyRow> keys) {
-  return finished(title, SchemaWriter(false).keys(keys), Json::object());
+  return finished(title, SchemaWriter({}, false).keys(keys), Json::object());
 }
 
-std::string scenario_schema() {
-  const SchemaWriter writer(true);
+std::string scenario_schema(ModelList models) {
+  const SchemaWriter writer(models, true);
   return finished("Understudy scenario", writer.keys(kScenarioKeys), step_definitions(writer));
 }
 
-std::string scenario_schema(const world::Bench& bench) {
-  const SchemaWriter writer(true, true);
+std::string scenario_schema(ModelList models, const world::Bench& bench) {
+  const SchemaWriter writer(models, true, true);
   Json definitions = step_definitions(writer);
   for (const auto sort : {world::Form::Of::devices, world::Form::Of::lines,
                           world::Form::Of::devices_and_lines, world::Form::Of::axes, world::Form::Of::inputs,

@@ -134,6 +134,16 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
        "line.functions[1]: 7 is not a function that can be served; expected one of 1, 2, 3, 4, 5, 6, "},
       {"line: { most: { 23: 5 } }\n", 1, 21,
        "line.most.23: '23' is not one of its functions; expected one of `functions`"},
+      {"line: { most: { 3: 126 } }\n", 1, 20,
+       "line.most.3: 126 is more than function 3 can have; expected 125 or fewer"},
+      {"line: { most: { 6: 2 } }\n", 1, 20,
+       "line.most.6: 2 is more than function 6 can have; expected 1 or fewer"},
+      {"line: { silence: 0ms }\n", 1, 18,
+       "line.silence: '0ms' is not possible; expected more than 0, up to 1s"},
+      {"outputs: { DO1: STATUS.3 }\nshows: { STATUS.2: SPEED > 5 }\n", 1, 17,
+       "outputs.DO1: 'STATUS.3' never changes; expected what hosts write, or what shows something"},
+      {"axes: { A: { stop: SPEED == 9001 } }\n", 1, 20,
+       "axes.A.stop: '9001' is never there; expected 0 to 9000"},
       {"line: { station_in: TARGET }\n", 1, 21,
        "line.station_in: 'TARGET' cannot hold it; expected a holding register of 16 bits"},
       {"line: { station_in: CONTROL }\n", 1, 21,
@@ -189,6 +199,15 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
 TEST(ModelReader, SaysWhatIsWrongWithTheWhole) {
   EXPECT_EQ(complaint_about(""),
             "m.yaml:1:1: model: the file is not a map; expected `understudy: 1`, `model:` and `registers:`");
+}
+
+/// What is stored as it comes may be beyond the range of the list, and so may what is shown.
+TEST(ModelReader, KnowsWhichValuesMayBeThere) {
+  EXPECT_EQ(complaint("axes: { A: { stop: SPEED == 9000 } }\n"), "");
+  EXPECT_EQ(complaint("map: { out_of_range: stored }\naxes: { A: { stop: SPEED == 9001 } }\n"), "");
+  EXPECT_NE(complaint("map: { out_of_range: clamped }\naxes: { A: { stop: SPEED == 9001 } }\n"), "");
+  EXPECT_EQ(complaint("line: { most: { 3: 125, 6: 1, 1: 2000 } }\n"), "");
+  EXPECT_EQ(complaint("outputs: { DO1: STATUS.3, DO2: CONTROL.3 }\nshows: { STATUS.3: SPEED > 5 }\n"), "");
 }
 
 TEST(ModelReader, TakesAnAxisWithEveryKey) {
@@ -274,7 +293,7 @@ TEST(ModelFiles, GiveTheSameModelForTheSameText) {
 
 TEST(ModelFiles, RefuseTheNameOfAModelThatThereIs) {
   EXPECT_EQ(complaint_about("understudy: 1\nmodel: slim\nregisters: \"address,name\\n0,A\\n\"\n"),
-            "m.yaml:1:1: model: 'slim' is a model of this program's own; expected another name");
+            "m.yaml:2:8: model: 'slim' is a model of this program's own; expected another name");
 }
 
 class ModelFilesInAFolder : public testing::Test {

@@ -97,6 +97,14 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
       {"address,name,width\n65535,A,32\n",
        "l.csv:2:1: address: has no room for 32 bits; expected 0xFFFE or below"},
       {"address,name\n0,\"A\n", "l.csv:2:3: registers: a quotation has no end; expected a second \""},
+      {"address,name,unit\n0,\"A\" B,mm\n",
+       "l.csv:2:6: registers: 'B' comes after a quotation; expected a separator"},
+      {"address,name,type,width\n0,A,u16,32\n",
+       "l.csv:2:9: width: '32' is not what the type 'u16' says; expected the same, or one of the two"},
+      {"address,name,type,signed\n0,A,u16,1\n",
+       "l.csv:2:9: signed: '1' is not what the type 'u16' says; expected the same, or one of the two"},
+      {"address,name,type,real\n0,A,u32,1\n",
+       "l.csv:2:9: real: '1' is not what the type 'u32' says; expected the same, or one of the two"},
       {"address,name\n0,A\xFF\n",
        "l.csv:2:1: registers: the line is not UTF-8; expected the list saved as CSV in UTF-8"},
   };
@@ -133,6 +141,33 @@ TEST(RegisterList, MayBeWrittenInSeveralWays) {
     EXPECT_TRUE(only.ranged && only.least == -5 && only.most == 5) << list;
     EXPECT_EQ(only.factory, 1) << list;
   }
+}
+
+TEST(RegisterList, MaySayATypeTwice) {
+  const auto registers = read_list_file(
+      "address,name,type,width,signed,real\n0,A,s32,32,1,0\n2,B,f32,32,0,yes\n4,C,u16,,,\n", "l.csv");
+  EXPECT_EQ(registers[0].type, Type::s32);
+  EXPECT_EQ(registers[1].type, Type::f32);
+  EXPECT_EQ(registers[2].type, Type::u16);
+}
+
+TEST(RegisterList, KnowsSeveralWordsForYes) {
+  for (const char* const word : {"1", "yes", "Y", "true", "X"})
+    EXPECT_TRUE(
+        read_list_file(std::string("address,name,persistent\n0,A,") + word + "\n", "l.csv")[0].persistent)
+        << word;
+  for (const char* const word : {"0", "no", "N", "false", ""})
+    EXPECT_FALSE(
+        read_list_file(std::string("address,name,persistent\n0,A,") + word + "\n", "l.csv")[0].persistent)
+        << word;
+}
+
+TEST(RegisterList, ARangeMayBeOneValue) {
+  const auto registers =
+      read_list_file("address,name,type,min,max\n0,A,f32,1.5,1.5\n2,B,f32,-2.5,-1.5\n4,C,u16,3,3\n", "l.csv");
+  EXPECT_EQ(real_of(registers[0].factory), 1.5F);
+  EXPECT_EQ(real_of(registers[1].factory), -2.5F) << "the lower end, where 0 is beyond it";
+  EXPECT_EQ(registers[2].factory, 3);
 }
 
 TEST(RegisterList, TakesTheNearestToZeroForAMissingDefault) {

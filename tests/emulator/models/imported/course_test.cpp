@@ -140,6 +140,35 @@ TEST(DescribedTerminals, AreWhatTheirRegistersSay) {
   EXPECT_FALSE(one.device().terminals()->output(4));
 }
 
+/// What shows an input has its register's default until somebody gives the input a level.
+TEST(DescribedTerminals, BeginAsTheirRegistersDo) {
+  const std::string list =
+      "address,name,access,type,default\n0,LEVEL,R,s16,-250\n1,STATES,R,u16,4\n2,SPARE,R/W,u16,0\n";
+  OneDescribed one(model_file::model_with(list, "inputs: { SENSOR: LEVEL, A: STATES.1, B: STATES.2 }\n"));
+  EXPECT_EQ(one.read("LEVEL"), -250);
+  EXPECT_EQ(one.read("STATES"), 4);
+  one.world.switch_power(0, false);
+  one.world.switch_power(0, true);
+  one.advance(1);
+  EXPECT_EQ(one.read("LEVEL"), -250);
+  one.world.set_external_input(0, 0, 7);
+  one.world.set_external_input(0, 2, 0);
+  one.advance(1);
+  EXPECT_EQ(one.read("LEVEL"), 7);
+  EXPECT_EQ(one.read("STATES"), 0);
+}
+
+TEST(DescribedTerminals, TheFirstIsShownLikeAnyOther) {
+  OneDescribed one(
+      model_file::model_with("address,name,access\n0,STATE,R\n",
+                             "inputs: { ALARM: nowhere }\n"
+                             "axes: { A: { alarm: STATE.0, ready: STATE.1, inputs: { alarm: ALARM } } }\n"));
+  EXPECT_EQ(one.read("STATE"), 2);
+  one.world.set_external_input(0, 0, 1);
+  one.advance(1);
+  EXPECT_EQ(one.read("STATE"), 1);
+}
+
 /// Whatever is written, nothing but a refusal comes of it.
 TEST(DescribedCourses, OutliveAnyNumbers) {
   std::mt19937_64 random(7);

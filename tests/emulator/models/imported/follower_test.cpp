@@ -59,6 +59,23 @@ const std::string kThermostat =
     "discrete,0,HEATS,R,bit,,,,0,0\n";
 
 /// A heater that is switched by its own temperature: between its two goals, at 10 a second.
+/// Without a word about it, it rests at the register's default, also where that is a real number.
+TEST(Following, RestsAtTheDefault) {
+  const std::string list =
+      "address,name,access,type,default\n0,GOAL,R/W,u16,0\n1,REAL,R,f32,1.5\n3,WHOLE,R,s16,-40\n";
+  OneDescribed one(
+      model_file::model_with(list,
+                             "follows:\n"
+                             "  REAL: { of: GOAL, while: GOAL == 7, time_constant: 100ms, every: 10ms }\n"
+                             "  WHOLE: { of: GOAL, while: GOAL == 7, time_constant: 100ms, every: 10ms }\n"));
+  for (const Value goal : {0, 7, 0}) {
+    one.write("GOAL", goal);
+    one.advance(5'000);
+    EXPECT_NEAR(real_of(one.read("REAL")), goal == 7 ? 7.0F : 1.5F, 1e-6);
+    EXPECT_EQ(one.read("WHOLE"), goal == 7 ? 7 : -40);
+  }
+}
+
 TEST(Following, MayDependOnWhatItShows) {
   OneDescribed one(model_file::model_with(
       kThermostat,

@@ -154,6 +154,23 @@ TEST_F(ScenarioErrors, WhatIsNoStep) {
   });
 }
 
+/// A value that the device would take in its own way can be written, to see which.
+TEST_F(ScenarioErrors, AreNotOfWhatADeviceTakes) {
+  for (const char* const option : {"exception_03", "clamped"}) {
+    const std::string text =
+        "understudy: 1\nbench: { lines: { a: { stations: [ { name: it, model: simple2-r3, choices: "
+        "{ write_out_of_range: " +
+        std::string(option) +
+        " } } ] } } }\n"
+        "steps: [ write: { it.Aaxis_AccTime: 3001 } ]\n";
+    if (std::string(option) == "clamped") {
+      EXPECT_NO_THROW(folder_.parse(text));
+    } else {
+      EXPECT_THROW(folder_.parse(text), FileError);
+    }
+  }
+}
+
 TEST_F(ScenarioErrors, Registers) {
   expect_step_complaints({
       {"write: {}", ".write: is empty; expected registers, as in `{ feeder.Aaxis_SVON: 1 }`"},

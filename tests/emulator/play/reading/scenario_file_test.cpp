@@ -175,6 +175,9 @@ TEST_F(ScenarioFile, KindsAreToldByTheirKeys) {
   EXPECT_EQ(kind("understudy: 1\nbench: x\n"), FileKind::scenario);
   EXPECT_EQ(kind("understudy: 1\nsteps: []\n"), FileKind::steps);
   EXPECT_EQ(kind("understudy: 1\n"), FileKind::bench);
+  EXPECT_EQ(kind("understudy: 1\nregisters: l.csv\n"), FileKind::model);
+  EXPECT_EQ(kind("understudy: 1\nmodel: x\naxes: {}\n"), FileKind::model) << "its list was forgotten";
+  EXPECT_EQ(kind("understudy: 1\nmodel: x\nlines: {}\n"), FileKind::bench);
 }
 
 }  // namespace scenario_file_test

@@ -175,8 +175,11 @@ TEST_P(Rows, OfSomebodyElseAreLeftAlone) {
   ASSERT_NE(before, "");
   EXPECT_THROW(open(true), GrowingFileError);
   EXPECT_EQ(text_of(path_), before);
-  std::ofstream(path_) << "no rows at all\n";
-  EXPECT_THROW(open(true), GrowingFileError);
+  for (const char* const other : {"no rows at all\n", "no row, and no end"}) {
+    std::ofstream(path_) << other;
+    EXPECT_THROW(open(true), GrowingFileError) << other;
+    EXPECT_EQ(text_of(path_), other);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Rows,

@@ -30,7 +30,8 @@ std::string complaint_of(const std::string& bench, const std::string& step) {
   static std::map<std::string, std::string> schemas;
   std::string& schema = schemas[bench];
   if (schema.empty())
-    schema = scenario_schema(world::parse_bench(models::all_models(), bench, "b.yaml", "."));
+    schema =
+        scenario_schema(models::all_models(), world::parse_bench(models::all_models(), bench, "b.yaml", "."));
   return schema_complaint(schema, "understudy: 1\nbench: b.yaml\nsteps: [ " + step + " ]\n");
 }
 
@@ -102,7 +103,9 @@ TEST(BenchNames, SuitEveryShippedScenario) {
     text << file.rdbuf();
     const auto scenarios = load_scenarios(models::all_models(), path, "/");
     ASSERT_FALSE(scenarios.empty()) << path;
-    EXPECT_EQ(schema_complaint(scenario_schema(scenarios.front().bench), text.str()), "") << path;
+    EXPECT_EQ(schema_complaint(scenario_schema(models::all_models(), scenarios.front().bench), text.str()),
+              "")
+        << path;
     ++count;
   }
   EXPECT_GE(count, 60U);

@@ -5,8 +5,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
+#include "emulator/device/describe/describe.h"
+#include "emulator/models/models.h"
 #include "emulator/play/reading/step_rows.h"
 #include "tests/emulator/play/performing/scenario_folder.h"
 #include "tests/emulator/play/schema/schema_check.h"
@@ -23,11 +26,11 @@ std::string contents(const std::string& path) {
 }
 
 std::string of_bench(const std::string& text) {
-  static const std::string schema = bench_schema();
+  static const std::string schema = bench_schema(models::all_models());
   return schema_complaint(schema, text);
 }
 std::string of_scenario(const std::string& text) {
-  static const std::string schema = scenario_schema();
+  static const std::string schema = scenario_schema(models::all_models());
   return schema_complaint(schema, text);
 }
 
@@ -153,8 +156,51 @@ TEST(JsonSchema, ParametersMayStandForAnyValueOfAScenario) {
       of_bench("understudy: 1\nlines: { a: { baud: \"${b}\", stations: [ { name: x, model: m } ] } }\n"), "");
 }
 
+std::set<std::string> kinds_of_texts(const Model& model) {
+  std::set<std::string> kinds;
+  const auto sheet = describe(model, "blocks", SheetFormat::csv);
+  for (const auto& row : sheet.value().rows) kinds.insert(row.front());
+  return kinds;
+}
+
+/// The kinds of named texts are those of the device's own table; what is not one of them is underlined.
+TEST(JsonSchema, KnowsTheKindsOfTextsOfEachModel) {
+  std::set<std::string> all{"filez"};
+  for (const Model* const model : models::all_models()) all.merge(kinds_of_texts(*model));
+  EXPECT_GE(all.size(), 8U);
+  for (const Model* const model : models::all_models()) {
+    const std::set<std::string> own = kinds_of_texts(*model);
+    for (const std::string& kind : all) {
+      const auto with = [&](const std::string& nv) {
+        return "understudy: 1\nlines: { a: { stations: [ { name: x, model: " + std::string(model->name) +
+               ", nv: { " + nv + " } } ] } }\n";
+      };
+      const bool is_known = own.contains(kind);
+      EXPECT_EQ(of_bench(with(kind + ": { \"1\": \"text\" }")).empty(), is_known)
+          << model->name << " " << kind;
+      EXPECT_EQ(of_bench(with(kind + ": text")).empty(), !is_known) << model->name << " " << kind;
+      EXPECT_EQ(of_scenario("understudy: 1\nname: n\nbench:\n  devices: { x: { model: " +
+                            std::string(model->name) + ", nv: { " + kind +
+                            ": { \"1\": t } } } }\n  lines: { a: { stations: [ { device: x } ] } }\n"
+                            "steps: [ advance: 1ms ]\n")
+                    .empty(),
+                is_known)
+          << model->name << " " << kind;
+    }
+    EXPECT_EQ(of_bench("understudy: 1\nlines: { a: { stations: [ { name: x, model: " +
+                       std::string(model->name) + ", nv: kept.json } ] } }\n"),
+              "");
+  }
+  // What a model of one's own keeps is not known.
+  EXPECT_EQ(
+      of_bench(
+          "understudy: 1\nlines: { a: { stations: [ { name: x, model: own.yaml, nv: { files: { a: b } } } "
+          "] } }\n"),
+      "");
+}
+
 TEST(JsonSchema, DescribesEveryKindOfStep) {
-  const std::string schema = scenario_schema();
+  const std::string schema = scenario_schema(models::all_models());
   for (const StepRow& row : step_rows()) {
     EXPECT_NE(schema.find("\"" + std::string(row.key.doc) + "\""), std::string::npos) << row.key.key;
     EXPECT_TRUE(row.key.doc.ends_with('.')) << row.key.key;

@@ -76,6 +76,12 @@ class Judge {
       return refuse_if(value.is_string() &&
                        !std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>())));
     }
+    if (keyword == "if") {
+      if (!schema.contains("then") || !complaint(rule, value, at).empty()) return "";
+      return complaint(schema["then"], value, at);
+    }
+    if (keyword == "then") return "";  // with its `if`
+    if (keyword == "maxProperties") return refuse_if(value.is_object() && value.size() > rule);
     if (keyword == "minimum") return refuse_if(value.is_number() && value < rule);
     if (keyword == "maximum") return refuse_if(value.is_number() && value > rule);
     if (keyword == "minItems") return refuse_if(value.is_array() && value.size() < rule);
