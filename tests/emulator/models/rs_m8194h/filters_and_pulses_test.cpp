@@ -123,6 +123,16 @@ TEST(RsM8194hPulses, LastAsLongAsPulseWidthSays) {
   }
 }
 
+TEST(RsM8194hPulses, AreCountedAtTheirTwoTerminalsAlone) {
+  OneRsm rsm;
+  rsm.send({"RSM_SYNC_ACTION X XY 0x20 0 0 0 1 0 0 0 0 0", "RSM_SET_V X 1000", "RSM_FIXED_MOVE X 5"});
+  rsm.run(500);
+  for (int i = 0; i < kFirstDo; ++i) {
+    const bool gives_pulses = i == kFirstOut || i == kFirstOut + 1;
+    EXPECT_EQ(rsm.rsm().output_pulses(i), gives_pulses ? 1 : 0) << i;
+  }
+}
+
 TEST(RsM8194hInit, IsAsPowerUpHasFoundIt) {
   OneRsm rsm({.program = "MP 1\nRSM_MACRO_SET_VAR VAR1 1\nEND\nTRIGGER 8.0 on MP1\n"});
   rsm.set("FRNET_EVENT", 1);
