@@ -293,7 +293,6 @@ bool RsM8194h::rests() const {
     if (unit.sent_pulses != 0 || state_.here[a].version != motor.seen_version) return false;
     if (is_filtering(unit)) return false;
     if (unit.held_drive.what != Drive::What::none && !unit.held) return false;
-    if (unit.paused_drive.what != Drive::What::none && !state_.paused) return false;
     if (state_.scans[a].running) return false;
   }
   return state_.scanning == 0 && !state_.paths.together.engaged && state_.paths.let_go == 0 &&

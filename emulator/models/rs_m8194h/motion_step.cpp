@@ -332,7 +332,6 @@ Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) 
     if (unit.has_encoder || is_filtering(unit)) return done + 1;
     if (unit.out.pulse_until > done) last = std::min(last, unit.out.pulse_until - 1);
     if (unit.held_drive.what != Drive::What::none && !unit.held) return done + 1;
-    if (unit.paused_drive.what != Drive::What::none && !state_.paused) return done + 1;
     const motion::Axis& motor = state_.motors[a];
     const PulseRoom room = ahead.room(static_cast<int>(a));
     last =

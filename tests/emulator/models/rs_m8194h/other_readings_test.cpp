@@ -151,6 +151,48 @@ TEST(RsM8194hOtherReadings, AnActionWithoutASpeedDrivesNothing) {
   }
 }
 
+TEST(RsM8194hOtherReadings, AScanAboveItsMaximumIsVoid) {
+  struct Case {
+    const char* speed;
+    const char* scan;
+    bool begins;
+  };
+  // 4,000,000 PPS by 40 pulses are 100 kHz.
+  constexpr Case kCases[] = {{"RSM_SET_V X 4000000", "RSM_LINE_SCAN X 0 0 0 -39", true},
+                             {"RSM_SET_V X 4000000", "RSM_LINE_SCAN X 0 0 0 -38", false},
+                             {"RSM_SET_V X 40000", "RSM_LINE_SCAN X 0 0 0 -9", true}};
+  for (const Case& each : kCases) {
+    OneRsm rsm({.choices = {{"scan_too_fast", "the_scan_is_void"}}});
+    rsm.send({"RSM_SET_MAX_V X 4000000", "RSM_SET_SV X 4000000", each.speed, each.scan,
+              "RSM_LINE_SCAN_START X 0 40000"});
+    EXPECT_EQ(rsm.get("DRIVING_AXIS") != 0, each.begins) << each.speed << " " << each.scan;
+  }
+}
+
+/// Pulses that a path goes on for behind a slow stop, along X alone.
+Value slowing_pulses(const Choices& choices, const char* const stop) {
+  SteadyRsm rsm(choices);
+  rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_VECTOR_SPEED 0", "RSM_SET_VSV 100", "RSM_SET_VV 10000",
+            "RSM_SET_VA 20000", "RSM_LINE_2D 100000 0"});
+  rsm.run(100);
+  const Value before = rsm.get("LP_X");
+  rsm.send(stop);
+  rsm.run(2000);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+  return rsm.get("LP_X") - before;
+}
+
+TEST(RsM8194hOtherReadings, AConstantPathSlowsDownByVaForEachSlowStop) {
+  const Choices by_va{{"slow_stop_without_ramps", "slows_down_by_va"}};
+  // From 10,000 PPS to 100 by 20,000 PPS/s.
+  constexpr double kWay = (10'000.0 * 10'000 - 100.0 * 100) / 2 / 20'000;
+  for (const char* const stop : {"RSM_STOP_SLOWLY X", "RSM_VSTOP_SLOWLY", "RSM_EMERGENCY_STOP 1"}) {
+    EXPECT_NEAR(static_cast<double>(slowing_pulses(by_va, stop)), kWay, 12) << stop;
+    EXPECT_LE(slowing_pulses({}, stop), 10) << stop;
+  }
+  EXPECT_EQ(slowing_pulses(by_va, "RSM_VSTOP_SUDDENLY"), 0);
+}
+
 TEST(RsM8194hOtherReadings, HomingTurnsRoundAtASoftLimitAndFindsHome) {
   SteadyRsm rsm(Choices{{"home_soft_limit", "turns_round"}});
   rsm.send({"RSM_SET_SLMT X 100 -10000 0", "RSM_SET_HV X 1000", "RSM_SET_HOME_MODE X 0 1 0 0 0",
