@@ -72,6 +72,7 @@ struct HomingProgram {
   std::array<HomingPhase, kMaxPhases> phases{};
   std::int8_t phase_count = 0;  // 0: home is where the axis is
   std::array<SpeedLaw, kMaxSpeeds> speeds{};
+  bool soft_limits_lead_on = false;  // where `if_limit` says; else homing fails at them
 
   bool operator==(const HomingProgram&) const = default;
 

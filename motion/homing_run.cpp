@@ -33,7 +33,11 @@ bool as_sought(const HomingPhase& row, Signals signals) {
   return ((signals & bit(row.until)) != 0) == row.until_on;
 }
 
-bool is_limit(Cause why) { return why == Cause::limit_plus || why == Cause::limit_minus; }
+/// Whether it is a limit that a row may lead on from.
+bool is_limit(const HomingProgram& program, Cause why) {
+  if (why == Cause::soft_limit_plus || why == Cause::soft_limit_minus) return program.soft_limits_lead_on;
+  return why == Cause::limit_plus || why == Cause::limit_minus;
+}
 
 }  // namespace
 
@@ -165,13 +169,13 @@ void Axis::mark_reference() {
 /// What a stop under way is for may get worse: a limit or a stop command while it slows down for home.
 void Axis::homing_slows(Cause why) {
   const bool goes_on =
-      why == Cause::arrived || (is_limit(why) && homing.row().if_limit != HomingPhase::kFail);
+      why == Cause::arrived || (is_limit(homing.program, why) && homing.row().if_limit != HomingPhase::kFail);
   if (!goes_on && homing.ended_by == Cause::none) homing.ended_by = why;
 }
 
 void Axis::homing_stands(Cause why, Instant at) {
   const HomingPhase& row = homing.row();
-  const bool limit_is_harmless = is_limit(why) && row.if_limit != HomingPhase::kFail;
+  const bool limit_is_harmless = is_limit(homing.program, why) && row.if_limit != HomingPhase::kFail;
   if (homing.ended_by != Cause::none) {
     end_homing(homing.ended_by);
   } else if (why != Cause::arrived && !limit_is_harmless) {
@@ -235,7 +239,7 @@ Cause Axis::enter_phase(std::int8_t number, Instant at, bool running) {
       continue;
     }
     const Cause refused = begin_phase(at);
-    if (!is_limit(refused) || row.if_limit == HomingPhase::kFail) return refused;
+    if (!is_limit(homing.program, refused) || row.if_limit == HomingPhase::kFail) return refused;
     number = row_number(homing, row.if_limit);
   }
   return Cause::homing_failed;

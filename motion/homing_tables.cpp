@@ -179,11 +179,11 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
   const auto& [way_1, way_2, way_3, way_4] = how.ways;
   constexpr std::int8_t kDrive = 0;
   constexpr std::int8_t kHome = 1;
-  HomingProgram program{.speeds = {how.drive, how.home}};
+  HomingProgram program{.speeds = {how.drive, how.home}, .soft_limits_lead_on = how.soft_limits_lead_on};
   if (way_1 != 0) {
     program.add({.way = sign(way_1),
                  .speed = kDrive,
-                 .until = Signal::near_home,
+                 .until = how.limit_is_near_home ? limit_towards(way_1) : Signal::near_home,
                  .then = kSlowDown,
                  .code = 3,
                  .if_limit = HomingPhase::kRowBelow});

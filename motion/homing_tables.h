@@ -49,11 +49,13 @@ HomingProgram super40nc_mark(const Super40ncMark& how);
 /// its own direction, or left out. Signals: near_home is IN0, home IN1, index IN2. A phase's code is what
 /// input 92 + a shows meanwhile.
 struct Rsm8194hHoming {
-  std::array<int, 4> ways{};       // of steps 1 to 4: +1, -1, or 0: skipped
-  SpeedLaw drive;                  // V: steps 1 and 4
-  SpeedLaw home;                   // HV: steps 2 and 3
-  std::int64_t offset_pulses = 0;  // of step 4, >= 0
-  bool limit_is_home = false;      // HOME_LIMIT 1: the limit in step 2's direction instead of HOME
+  std::array<int, 4> ways{};         // of steps 1 to 4: +1, -1, or 0: skipped
+  SpeedLaw drive;                    // V: steps 1 and 4
+  SpeedLaw home;                     // HV: steps 2 and 3
+  std::int64_t offset_pulses = 0;    // of step 4, >= 0
+  bool limit_is_home = false;        // HOME_LIMIT 1: the limit in step 2's direction instead of HOME,
+  bool limit_is_near_home = false;   // and that in step 1's instead of NHOME
+  bool soft_limits_lead_on = false;  // as hard ones do
 };
 HomingProgram rsm8194h_homing(const Rsm8194hHoming& how);
 

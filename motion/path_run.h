@@ -59,6 +59,7 @@ class PathRun {
   /// as motion/move.h's plan(), for a law that a chain of some length could not be planned with. Acceleration
   /// may be changed only at rest: else throws BadMotion(out_of_range).
   void set_speed(const SpeedLaw& speed, Tick now);
+  const SpeedLaw& speed() const { return law_; }
   /// Another top speed with the same ramps: at any time.
   void set_top_speed(double speed_u_s, Tick now);
   /// An open run is a stream of which more is to come: it does not slow down for the end of what is queued.

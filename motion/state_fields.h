@@ -199,9 +199,11 @@ struct StateOf<motion::HomingPhase> {
 
 template <>
 struct StateOf<motion::HomingProgram> {
-  static constexpr auto fields = FieldList{field("phases", &motion::HomingProgram::phases),
-                                           field("phase_count", &motion::HomingProgram::phase_count),
-                                           field("speeds", &motion::HomingProgram::speeds)};
+  static constexpr auto fields =
+      FieldList{field("phases", &motion::HomingProgram::phases),
+                field("phase_count", &motion::HomingProgram::phase_count),
+                field("speeds", &motion::HomingProgram::speeds),
+                field("soft_limits_lead_on", &motion::HomingProgram::soft_limits_lead_on)};
   static void check(const motion::HomingProgram& value) { motion::check_restored(value); }
 };
 

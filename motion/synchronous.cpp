@@ -1,8 +1,10 @@
 #include "motion/synchronous.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 
@@ -17,13 +19,17 @@ namespace {
 
 bool has(unsigned mask, std::size_t number) { return ((mask >> number) & 1U) != 0; }
 
+bool is_before(const Instant& one, const Instant& other) {
+  return one.tick < other.tick || (one.tick == other.tick && one.after_s < other.after_s);
+}
+
 /// When a trigger's event happened; of several the last.
 Instant moment(Events fired, const Axis& axis, Tick now) {
   std::optional<Instant> last;
   for (std::size_t i = 0; i < axis.event_at.size(); ++i) {
     if (!has(fired, i) || !is_to_the_pulse(static_cast<Event>(i))) continue;
     const Instant& at = axis.event_at[i];
-    if (!last || at.tick > last->tick || (at.tick == last->tick && at.after_s > last->after_s)) last = at;
+    if (!last || is_before(*last, at)) last = at;
   }
   return last.value_or(Instant{.tick = now});
 }
@@ -86,18 +92,27 @@ void drive(const SyncTable& table, std::size_t number, Axis& axis, Tick now) {
 
 }  // namespace
 
-SyncOutcome act(SyncTable& table, std::span<Axis> axes, Tick now) {
+SyncOutcome act(SyncTable& table, std::span<Axis> axes, Tick now, SyncOrder order) {
   SyncOutcome outcome;
   const std::size_t count = std::min(axes.size(), SyncTable::kAxes);
   // What fires is what happened in the tick: what the actions bring about is for the next.
   for (std::size_t trigger = 0; trigger < count; ++trigger) {
     outcome.fired[trigger] = static_cast<Events>(axes[trigger].events & table.triggers[trigger].factors);
   }
+  std::array<std::size_t, SyncTable::kAxes> triggers{};
+  std::iota(triggers.begin(), triggers.end(), std::size_t{0});
+  if (order == SyncOrder::by_moment) {
+    std::stable_sort(triggers.begin(), triggers.begin() + static_cast<std::ptrdiff_t>(count),
+                     [&](std::size_t one, std::size_t other) {
+                       return is_before(moment(outcome.fired[one], axes[one], now),
+                                        moment(outcome.fired[other], axes[other], now));
+                     });
+  }
   // Latches first: where an axis was in the tick can be told only until an action changes what it does.
-  for (std::size_t trigger = 0; trigger < count; ++trigger) {
+  for (const std::size_t trigger : std::span(triggers).first(count)) {
     if (outcome.fired[trigger] != 0) latch(table, trigger, outcome.fired[trigger], axes.first(count), now);
   }
-  for (std::size_t trigger = 0; trigger < count; ++trigger) {
+  for (const std::size_t trigger : std::span(triggers).first(count)) {
     if (outcome.fired[trigger] == 0) continue;
     for (std::size_t number = 0; number < count; ++number) {
       if (!has(table.triggers[trigger].activates, number)) continue;

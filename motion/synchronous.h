@@ -73,10 +73,14 @@ struct SyncOutcome {
   bool operator==(const SyncOutcome&) const = default;
 };
 
-/// Acts on the events of tick `now`, after all the axes have stepped it; triggers in order of axes, and for
-/// each trigger the activated axes in order. Latches are of the moment of the event, to the pulse; drives act
-/// from the end of the tick, and throw for speeds and distances that Axis::move() does not take. Axes beyond
-/// `axes` are left out. Counters are the owner's: latches give travel.
-SyncOutcome act(SyncTable& table, std::span<Axis> axes, Tick now);
+/// Which of several triggers acts first, in latches that follow each other: the later one's stays.
+enum class SyncOrder : std::uint8_t { by_axis, by_moment };
+
+/// Acts on the events of tick `now`, after all the axes have stepped it; triggers in the order that is given,
+/// at equal moments in order of axes, and for each trigger the activated axes in order. Latches are of the
+/// moment of the event, to the pulse; drives act from the end of the tick, and throw for speeds and distances
+/// that Axis::move() does not take. Axes beyond `axes` are left out. Counters are the owner's: latches give
+/// travel.
+SyncOutcome act(SyncTable& table, std::span<Axis> axes, Tick now, SyncOrder order = SyncOrder::by_axis);
 
 }  // namespace understudy::motion

@@ -56,6 +56,9 @@ struct CapturedPacket {
 std::string text_of(std::span<const Strike> strikes);
 /// Everything there is to say about it; may be empty.
 std::string comment_of(const CapturedPacket& packet);
+constexpr bool has_comment(const CapturedPacket& packet) {
+  return packet.remark != Remark::none || !packet.faults.empty() || !packet.command.empty();
+}
 
 /// A line of a capture.
 struct CapturedLine {

@@ -28,6 +28,7 @@ class CaptureFrames final : public LineObserver {
   void on_strike(const StruckMessage& message) override;
   std::optional<SimTime> due() const override { return framer_.due(); }  // none on a line of text
   void run(SimTime now) override;
+  std::size_t quiet_characters() const override { return is_text_ ? 0 : framer_.quiet_characters(); }
 
   /// Nothing more will come: what waits for its end is a packet now.
   void finish();

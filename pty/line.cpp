@@ -205,7 +205,7 @@ void Line::run(SimTime now) {
 void Line::handle(const Event& event) {
   switch (event.what) {
     case What::nothing: break;
-    case What::character_in: deliver_character(); break;
+    case What::character_in: deliver_characters(); break;
     case What::observer: observers_[event.member]->run(state_.edge.clock); break;
     case What::station: run_station(event.member); break;
     case What::character_out: {
@@ -261,15 +261,48 @@ void Line::begin_character(SimTime at) {
   for (LineObserver* observer : observers_) observer->on_start_bit(at);
 }
 
+/// Without wire time those of a lump come at one moment: as many of them at once as nobody has anything to do
+/// between.
+void Line::deliver_characters() {
+  const SimTime moment = state_.input.front().end;
+  deliver_character();
+  if (!is_instant()) return;
+  const auto is_departed = [this] { return state_.input.front().number <= state_.last_departed; };
+  const auto is_of_lump = [&] { return !state_.input.empty() && state_.input.front().end == moment; };
+  if (!is_of_lump()) return;
+  const bool begun_departed = is_departed();
+  for (std::size_t left = quiet_characters(); left > 0; --left) {
+    tell_character();
+    if (left > 1 && is_of_lump() && is_departed() == begun_departed) {
+      if (!state_.is_heard) ++state_.edge.counters.bytes_unheard;  // by the same ones as the one before
+      continue;
+    }
+    if (!state_.input.empty()) begin_character(state_.input.front().start);
+    return;
+  }
+}
+
+/// How many more come before somebody has to be asked what is due.
+std::size_t Line::quiet_characters() const {
+  std::size_t least = kInputCapacity;
+  for (const LineObserver* observer : observers_) least = std::min(least, observer->quiet_characters());
+  for (const Station* station : stations_) least = std::min(least, station->quiet_characters());
+  return least;
+}
+
 /// A character has wholly arrived; the next one, if there is any, begins at that very moment.
 void Line::deliver_character() {
+  tell_character();
+  if (!state_.input.empty()) begin_character(state_.input.front().start);
+}
+
+void Line::tell_character() {
   const TimedByte byte = state_.input.front();
   state_.input.pop_front();
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (!state_.members[i].is_deaf) stations_[i]->hear(byte);
   }
   for (LineObserver* observer : observers_) observer->on_character(byte, state_.is_heard);
-  if (!state_.input.empty()) begin_character(state_.input.front().start);
 }
 
 // --- from the stations -------------------------------------------------------------------------

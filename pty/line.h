@@ -179,7 +179,10 @@ class Line {
   void take(std::span<const std::uint8_t> bytes, SimTime now, bool is_departed);
   TimedByte place(Burst& burst, std::uint8_t value, SimTime now) const;
   void begin_character(SimTime at);
+  void deliver_characters();
   void deliver_character();
+  void tell_character();
+  std::size_t quiet_characters() const;
   void run_station(std::size_t index);
   void say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening);
   void put_on_wire(const TimedByte& character, bool& has_collided);

@@ -2,6 +2,7 @@
 // its stations do the same with or without it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -66,6 +67,8 @@ class LineObserver {
   /// answer follows what they were asked.
   virtual std::optional<SimTime> due() const = 0;
   virtual void run(SimTime now) = 0;
+  /// As Station::quiet_characters().
+  virtual std::size_t quiet_characters() const { return 0; }
 };
 
 }  // namespace understudy::pty

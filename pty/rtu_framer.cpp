@@ -270,6 +270,15 @@ std::optional<SimTime> RtuFramer::due() const {
   return state_.last_end + patience();
 }
 
+std::size_t RtuFramer::quiet_characters() const {
+  const bool may_be_due = framing_.strict || patience() == SimTime{0} || !state_.ready.empty();
+  if (may_be_due || used() == kCapacity) return 0;
+  // Only what search() finds is due at once.
+  const auto heard = static_cast<std::size_t>(used() - state_.candidate);
+  const std::size_t undecided_still = state_.look_again_at > heard ? state_.look_again_at - heard : 1;
+  return std::min(undecided_still, kCapacity - used());
+}
+
 std::optional<std::uint64_t> RtuFramer::first_open_character() const {
   if (used() == 0) return std::nullopt;
   return state_.characters.marks.front().number;

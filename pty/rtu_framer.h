@@ -60,6 +60,9 @@ class RtuFramer {
   /// an incomplete one. Nothing while the buffer is empty.
   std::optional<SimTime> due() const;
 
+  /// How many more characters may come at one moment before due() may be that moment (Station).
+  std::size_t quiet_characters() const;
+
   /// At due() or later: the next good frame, or nothing (noise, bad checksum: dropped and counted).
   /// Call again while it returns a frame or due() is not later than now.
   std::optional<RtuFrame> take(SimTime now);

@@ -1,6 +1,7 @@
 // What a line needs from a station: something that hears bytes, wakes up when it asked to, and may speak.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -45,6 +46,10 @@ class Station {
 
   /// A byte from the host has wholly arrived.
   virtual void hear(const TimedByte& byte) = 0;
+
+  /// How many more characters it may be given at one and the same moment before due() has to be asked again:
+  /// behind the last of them it may be due at that moment, before that it is not. 0: it may be due already.
+  virtual std::size_t quiet_characters() const { return 0; }
 
   /// Another station has begun to talk: the first character of its transmission is over. Once for a
   /// transmission; its bytes are not delivered (see Line).

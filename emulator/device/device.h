@@ -79,6 +79,8 @@ class Device {
   // --- lines -----------------------------------------------------------------------------------
   /// Of the line at one of its ports: its model's, at the speed that its settings say.
   virtual pty::LineSettings line_settings(std::size_t port) const;
+  /// Whether its ports have their own speed whatever a bench says of their lines: at another one it is deaf.
+  virtual bool keeps_its_speed() const { return false; }
   /// As its memory or its settings have it; nothing where its model has none.
   std::optional<int> station_number() const;
 

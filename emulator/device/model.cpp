@@ -320,7 +320,7 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
   device->switch_power(true);
   for (std::size_t port = 0; port < given.bauds.size(); ++port) {
     const int baud = device->line_settings(port).baud;
-    if (given.bauds[port] == 0 || baud == given.bauds[port]) continue;
+    if (given.bauds[port] == 0 || baud == given.bauds[port] || device->keeps_its_speed()) continue;
     throw SettingError("dip", "the switches say " + std::to_string(baud) + " baud, the line " +
                                   std::to_string(given.bauds[port]) + "; expected the same");
   }

@@ -33,6 +33,8 @@ struct CommandOptions {
   bool addresses_are_variables = false;
   /// The six codes that 12.3 gives otherwise than chapter 7.
   bool codes_of_12_3 = false;
+  /// FRNET_WAIT also as 12.3 counts its registers: its time is one of them.
+  bool frnet_wait_may_have_7 = false;
   /// Which of two faults answers.
   bool state_before_code = false;
 

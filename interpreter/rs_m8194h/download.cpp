@@ -66,8 +66,7 @@ Fault block_fault(const std::vector<Command>& lines, const Command& command) {
 }
 
 Fault line_fault(const Download& download, const Command& command, const DownloadOptions& options) {
-  const int room = capacity_of(download.name) - (options.close_takes_line ? 1 : 0);
-  if (lines_used(download.lines) + command.row().macro_lines() > room) return Fault::macro_memory;
+  if (command.row().macro_lines() > room_of(download, options)) return Fault::macro_memory;
   if (const Fault fault = operand_fault(command); fault != Fault::none) return fault;
   const bool is_twice =
       command.verb() == Verb::label && std::ranges::any_of(download.lines, [&command](const Command& other) {
@@ -95,6 +94,10 @@ const Command* lost_jump(const std::vector<Command>& lines) {
 }
 
 }  // namespace
+
+int room_of(const Download& download, const DownloadOptions& options) {
+  return capacity_of(download.name) - (options.close_takes_line ? 1 : 0) - lines_used(download.lines);
+}
 
 Fault add(Download& download, const Command& command, const DownloadOptions& options) {
   const Fault fault = line_fault(download, command, options);

@@ -46,6 +46,9 @@ struct Download {
   bool operator==(const Download&) const = default;
 };
 
+/// Lines that still fit.
+int room_of(const Download& download, const DownloadOptions& options);
+
 /// A line that decode() takes in this state. Anything but none is the reason of its refusal.
 Fault add(Download& download, const Command& command, const DownloadOptions& options = {});
 /// A line that decode() has refused: undefined commands are download errors.

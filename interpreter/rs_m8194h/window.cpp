@@ -85,11 +85,14 @@ Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, 
   command = {.code = meant_by(registers[0], options)};
   const CommandRow* row = find_code(command.code);
   if (row == nullptr) return Fault::undefined_command;
-  if (registers.size() != static_cast<std::size_t>(row->registers())) return Fault::register_count;
+  const auto wanted = static_cast<std::size_t>(row->registers());
+  const bool is_short = options.frnet_wait_may_have_7 && command.verb() == Verb::frnet_wait;
+  const bool is_one_short = is_short && registers.size() + 1 == wanted;
+  if (registers.size() != wanted && !is_one_short) return Fault::register_count;
   std::size_t at = 1;
   const std::size_t count = row->parameter_count();
   for (std::size_t i = 0; i < count; ++i) {
-    if (row->parameters[i].registers() == 1) {
+    if (row->parameters[i].registers() == 1 || (is_one_short && i + 1 == count)) {
       command.values[i] = registers[at];
     } else {
       command.values[i] = joined({registers[at], registers[at + 1]}, order);

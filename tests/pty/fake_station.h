@@ -19,7 +19,7 @@ class FakeSlave : public Station {
   FakeSlave(std::uint8_t address, Bytes reply,
             RtuFraming framing = {.silence = std::chrono::microseconds(750),
                                   .patience = std::chrono::milliseconds(10)})
-      : address_(address), reply_(std::move(reply)), framer_(framing) {}
+      : framer_(framing), address_(address), reply_(std::move(reply)) {}
 
   LineSettings settings() const override { return listens_to; }
   void hear_start_bit(SimTime at) override { framer_.start_bit(at); }
@@ -45,10 +45,12 @@ class FakeSlave : public Station {
   std::vector<SimTime> served_at;
   int others = 0;
 
+ protected:
+  RtuFramer framer_;
+
  private:
   std::uint8_t address_;
   Bytes reply_;
-  RtuFramer framer_;
 };
 
 /// Says what it was told to, at the times it was told to.

@@ -24,6 +24,8 @@ class ModbusStation {
   virtual bool knows(std::uint8_t /*function*/) const { return true; }
   /// The silence that ends a frame for it; the model's is the usual one.
   virtual pty::SimTime end_silence(pty::SimTime usual) const { return usual; }
+  /// How long after that silence it replies.
+  virtual pty::SimTime reply_delay() const { return pty::SimTime{0}; }
   /// Whether a request that it refuses gets an exception, or no answer.
   virtual bool answers_refusals() const { return true; }
   /// What came in by that port was not a frame; it gets no answer. Only while the device has power.

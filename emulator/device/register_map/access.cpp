@@ -215,7 +215,10 @@ void take_effect(RegisterBank& bank, const Change& change) {
 
 /// Stores everything, then lets it take effect, both in ascending order; or each register in its turn.
 void carry_out(RegisterBank& bank, Changes& changes) {
-  const std::span all = std::span(changes.all).first(changes.count);
+  std::span all = std::span(changes.all).first(changes.count);
+  const auto diverted = std::remove_if(
+      all.begin(), all.end(), [&](const Change& change) { return bank.diverts(change.place, change.bits); });
+  all = all.first(static_cast<std::size_t>(diverted - all.begin()));
   if (bank.map_policy().effects == MapPolicy::Effects::one_by_one) {
     for (Change& change : all) {
       store(bank, change);
@@ -271,8 +274,9 @@ Refusal words_for(const RegisterBank& bank, const NamedPlace& named, Value wante
 }  // namespace
 
 Objection write_request(RegisterBank& bank, Table table, std::uint16_t first,
-                        std::span<const std::uint16_t> words) {
-  const RegisterRequest request{.table = table, .first = first, .count = words.size(), .words = words};
+                        std::span<const std::uint16_t> words, bool is_single) {
+  const RegisterRequest request{
+      .table = table, .first = first, .count = words.size(), .words = words, .is_single = is_single};
   if (const Place window = window_at(bank, table, first)) return write_message(bank, window, request);
   return with_room_for(words.size(), [&](Changes& changes) {
     const Objection refused = gather(bank, request, changes);

@@ -16,7 +16,7 @@ namespace understudy::emulator {
 Objection read_request(const RegisterBank& bank, Table table, std::uint16_t first,
                        std::span<std::uint16_t> words);
 Objection write_request(RegisterBank& bank, Table table, std::uint16_t first,
-                        std::span<const std::uint16_t> words);
+                        std::span<const std::uint16_t> words, bool is_single = false);
 /// Consecutive bits, packed as the wire has them: the first is the lowest of the first byte.
 Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t first, std::size_t count,
                             std::span<std::uint8_t> packed);

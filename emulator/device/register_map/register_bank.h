@@ -19,6 +19,7 @@ struct RegisterRequest {
   std::uint16_t first = 0;
   std::size_t count = 0;
   std::span<const std::uint16_t> words{};  // that it writes, a bit each in tables of bits; none: it reads
+  bool is_single = false;                  // by a function that writes one register or bit
   bool is_write() const { return !words.empty(); }
 };
 
@@ -55,6 +56,11 @@ class RegisterBank {
   virtual DeviceAnswer admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
     return Refusal::none;
   }
+  /// Asked of each register of a good write before anything is stored, in ascending order: whether the device
+  /// makes something else of it. Then it is not stored, and has no effect.
+  virtual bool diverts(const Place& /*place*/, std::uint32_t /*bits*/) { return false; }
+  /// Its station has answered a request that reads: what was to be read once is gone now.
+  virtual void read_answered(const RegisterRequest& /*request*/) {}
   /// Its station has answered a request with an exception.
   virtual void exception_answered(const RefusedRequest& /*request*/) {}
 

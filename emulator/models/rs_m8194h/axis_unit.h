@@ -103,10 +103,12 @@ struct AxisUnit {
   std::int64_t encoder_zero = 0;  // raw count where the divided one was 0
   std::int64_t sent_pulses = 0;   // in the last tick
   std::uint16_t error_code = 0;
-  bool locked = false;       // by STOP_*
-  bool path_locked = false;  // by VSTOP_*
-  bool held = false;         // DRV_HOLD
-  Drive held_drive{};        // waits for DRV_START
+  bool locked = false;                // by STOP_*
+  bool path_locked = false;           // by VSTOP_*
+  bool held = false;                  // DRV_HOLD
+  Drive held_drive{};                 // waits for DRV_START
+  Drive paused_drive{};               // goes on when a trigger's pause is over,
+  std::int64_t paused_to_pulses = 0;  // to this travel, where it has an end
   FilteredPins pins{};
   bool emergency = false;  // the EMG input, as its filter lets it through
   motion::ExternalDrive external{};
@@ -224,6 +226,8 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
                                            field("path_locked", &Value::path_locked),
                                            field("held", &Value::held),
                                            field("held_drive", &Value::held_drive),
+                                           field("paused_drive", &Value::paused_drive),
+                                           field("paused_to_pulses", &Value::paused_to_pulses),
                                            field("pins", &Value::pins),
                                            field("emergency", &Value::emergency),
                                            field("external", &Value::external),

@@ -223,6 +223,17 @@ pty::SimTime RsM8194h::end_silence(pty::SimTime usual) const {
   return chose(option("silent_time", "10ms")) ? pty::SimTime(kOfTheUser) : usual;
 }
 
+pty::SimTime RsM8194h::reply_delay() const {
+  constexpr std::chrono::milliseconds kLater(5);
+  return chose(option("response_delay", "5ms_later")) ? pty::SimTime(kLater) : pty::SimTime{0};
+}
+
+pty::LineSettings RsM8194h::line_settings(std::size_t port) const {
+  pty::LineSettings settings = Device::line_settings(port);
+  if (keeps_its_speed()) settings.baud = model().line.ports[port].bauds.front();
+  return settings;
+}
+
 // --- the phases of a tick --------------------------------------------------------------------------------
 
 void RsM8194h::sample_inputs(Tick tick) {
@@ -253,6 +264,7 @@ void RsM8194h::step_motion(Tick tick) {
 }
 
 void RsM8194h::update_outputs(Tick tick) {
+  if (machine_.pause_holds_axes && !state_.paused) resume_motion();
   start_held();
   // Macros first; what they leave of the tick is the FIFO's.
   const bool ran_isr = isr_runs();

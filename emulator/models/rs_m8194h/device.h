@@ -46,6 +46,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::span<const std::uint32_t> image() const override { return state_.image; }
   bool low_word_first() const override { return state_.image[kWordOrderSlot] == 1; }
   DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override;
+  bool diverts(const Place& place, std::uint32_t bits) override;
+  void read_answered(const RegisterRequest& request) override;
   void exception_answered(const RefusedRequest& request) override;
   bool keeps(const RegisterRow& row) const override;
   void register_written(const RegisterRow& row, std::size_t slot) override;
@@ -100,6 +102,9 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   bool is_deaf() const { return state_.at_init && !chose(option("init_switch", "runs_all_the_same")); }
   bool is_resetting() const { return state_.resetting_until > now(); }
   pty::SimTime end_silence(pty::SimTime usual) const override;
+  pty::SimTime reply_delay() const override;
+  pty::LineSettings line_settings(std::size_t port) const override;
+  bool keeps_its_speed() const override { return chose(option("line_speeds", "115200_alone")); }
 
   bool are_calls_refused() const;
   /// A checked command from the window: at once, or into the FIFO.
@@ -107,6 +112,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   /// Why a request is refused, with the number that input 102 then shows.
   DeviceAnswer answer_of(lang::Fault fault) const;
   std::uint8_t reason_of(lang::Fault fault) const;
+  /// The fault of a command that there is no room for, in the FIFO or in the macro that is downloaded.
+  lang::Fault why_no_room(const lang::Command& command) const;
   /// Blocks of the FIFO that a command takes, and that are free.
   int fifo_blocks_of(const lang::Command& command) const;
   int free_blocks() const;
@@ -139,6 +146,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   bool waits_behind_held(AxisMask axes) const;
 
   void halt(AxisMask axes, const StopRow& row);
+  /// The path slows down to its end.
+  void slow_path(Tick tick, motion::Cause why = motion::Cause::stopped);
   void clear_stop(AxisMask axes);
   void clear_path_stop();
   void clear_emergency();
@@ -214,6 +223,11 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::int64_t scan_spacing(const LineScan& scan) const;
   void end_scan(std::size_t axis);
   bool rests() const;
+  void leave_path(std::size_t axis);
+  /// By choice, a drive at a speed that was never set.
+  bool lacks_speed(std::size_t axis, Drive::What what) const;
+  /// Of writes that become lines of the macro that is being downloaded.
+  DeviceAnswer admits_lines(const RegisterRequest& request) const;
   void start_held();
   std::array<std::uint8_t, 3> codes_of_path(const lang::Command& command) const;
   bool streams_need_initial() const;
@@ -241,6 +255,9 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void repeat_levels();
   void pause(int channel);
   void slow_down(AxisMask axes);
+  void pause_motion();
+  void resume_motion();
+  bool may_start_trigger() const;
   const lang::TriggerTable& triggers() const;
 
   State state_;

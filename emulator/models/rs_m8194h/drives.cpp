@@ -20,19 +20,30 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
+/// 7.4.12.
+constexpr double kMostScanTriggers_hz = 100'000;
+
 int way_of_step(std::uint8_t step) { return step == 1 ? +1 : step == 2 ? -1 : 0; }
 
-motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules,
-                                bool fails_at_limit_in_step_1) {
+/// What the manual leaves open about homing.
+struct HomingOptions {
+  bool fails_at_limit_in_step_1 = false;
+  bool limit_is_near_home = false;
+  bool turns_at_soft_limits = false;
+};
+
+motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules, const HomingOptions& options) {
   motion::Rsm8194hHoming how;
   for (std::size_t i = 0; i < how.ways.size(); ++i) how.ways[i] = way_of_step(unit.homing.steps[i]);
   how.drive = law_of(unit, rules);
   how.home = law_at(unit, unit.homing.home_pps, rules);
   how.offset_pulses = unit.homing.offset_pulses;
   how.limit_is_home = unit.homing.limit_is_home;
+  how.limit_is_near_home = unit.homing.limit_is_home && options.limit_is_near_home;
+  how.soft_limits_lead_on = options.turns_at_soft_limits;
   motion::HomingProgram program = motion::rsm8194h_homing(how);
   const bool has_step_1 = how.ways[0] != 0;
-  if (has_step_1 && fails_at_limit_in_step_1) program.phases[0].if_limit = motion::HomingPhase::kFail;
+  if (has_step_1 && options.fails_at_limit_in_step_1) program.phases[0].if_limit = motion::HomingPhase::kFail;
   return program;
 }
 
@@ -44,10 +55,10 @@ bool is_its_own(const AxisUnit& unit, const motion::Axis& motor, motion::Cause c
     case motion::Cause::limit_minus: return is_on(motion::Signal::limit_minus);
     case motion::Cause::alarm: return is_on(motion::Signal::alarm);
     case motion::Cause::soft_limit_plus:
-      return (motor.settings.soft_limit_plus && motor.travel_pulses >= *motor.settings.soft_limit_plus) ||
+      return (motor.settings.soft_limit_plus && motor.travel_pulses > *motor.settings.soft_limit_plus) ||
              soft_limit_by_encoder(unit, motor, +1) == cause;
     case motion::Cause::soft_limit_minus:
-      return (motor.settings.soft_limit_minus && motor.travel_pulses <= *motor.settings.soft_limit_minus) ||
+      return (motor.settings.soft_limit_minus && motor.travel_pulses < *motor.settings.soft_limit_minus) ||
              soft_limit_by_encoder(unit, motor, -1) == cause;
     case motion::Cause::none:
     case motion::Cause::arrived:
@@ -188,9 +199,14 @@ bool RsM8194h::waits_behind_held(AxisMask axes) const {
 
 Took RsM8194h::drive(AxisMask axes, const Drive& what) {
   const bool is_first_kept = chose(option("second_held_drive", "is_void"));
+  // Then one that moves takes it along, and starts with it when it stands.
+  const bool is_each_its_own = chose(option("mask_drive", "axis_by_axis")) && (axes & (axes - 1)) != 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     const Start mine = may_start(a, Starter::command);
+    const bool takes_it_along =
+        mine == Start::waits && is_each_its_own && state_.units[a].held_drive.what == Drive::What::none;
+    if (takes_it_along) continue;
     if (mine == Start::waits || (mine == Start::is_held && waits_behind_held(mask_of(a)))) return Took::waits;
   }
   if (chose(option("mask_drive", "is_void_if_one_is"))) {
@@ -213,7 +229,7 @@ Took RsM8194h::drive(AxisMask axes, const Drive& what) {
           state_.held_paths.clear();
         }
         break;
-      case Start::waits: break;
+      case Start::waits: state_.units[a].held_drive = what; break;  // takes it along
     }
   }
   return Took::done;
@@ -221,6 +237,12 @@ Took RsM8194h::drive(AxisMask axes, const Drive& what) {
 
 motion::SpeedLaw RsM8194h::law_of(std::size_t axis) const {
   return rs_m8194h::law_of(state_.units[axis], machine_.speed);
+}
+
+bool RsM8194h::lacks_speed(std::size_t axis, Drive::What what) const {
+  if (!machine_.zero_speeds_drive_nothing || what == Drive::What::endless) return false;
+  const AxisUnit& unit = state_.units[axis];
+  return unit.speed.drive_pps == 0 || (what == Drive::What::home && unit.homing.home_pps == 0);
 }
 
 void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
@@ -233,6 +255,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   std::int64_t distance = what.value;
   if (what.what == Drive::What::absolute) distance -= absolute_count(unit, motor);
   if (what.what != Drive::What::home && distance == 0) return;
+  if (lacks_speed(axis, what.what)) return;
   motion::SpeedLaw law = law_of(axis);
   if (what.what == Drive::What::endless) {
     const auto drive_pps = static_cast<std::uint32_t>(std::abs(distance));
@@ -240,10 +263,18 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
     if (chose(option("continue_move_speed", "yes"))) unit.speed.drive_pps = drive_pps;
   }
   if (without_ramps) law.start_speed_u_s = law.top_speed_u_s;
+  if (what.what == Drive::What::scan && chose(option("scan_too_fast", "the_scan_is_void"))) {
+    const LineScan& scan = state_.scans[axis];
+    const double spacing = static_cast<double>(scan_spacing(scan));
+    if (scan.set && law.top_speed_u_s / spacing > kMostScanTriggers_hz) return;
+  }
   const int way = distance < 0 ? -1 : +1;
   motion::Cause refused = motion::Cause::none;
   if (what.what == Drive::What::home) {
-    refused = motor.home(homing_of(unit, machine_.speed, chose(option("home_step_1_limit", "fails"))), now());
+    const HomingOptions options{.fails_at_limit_in_step_1 = chose(option("home_step_1_limit", "fails")),
+                                .limit_is_near_home = chose(option("home_limit", "home_and_near_home")),
+                                .turns_at_soft_limits = chose(option("home_soft_limit", "turns_round"))};
+    refused = motor.home(homing_of(unit, machine_.speed, options), now());
   } else if (const auto beyond = soft_limit_by_encoder(unit, motor, way); beyond != motion::Cause::none) {
     refused = beyond;
   } else if (what.what == Drive::What::endless) {

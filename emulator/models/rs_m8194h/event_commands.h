@@ -95,6 +95,7 @@ inline Took set_out(RsM8194h& it, const Command& command) {
 template <bool on>
 Took switch_interrupts(RsM8194h& it, const Command&) {
   it.state().interrupts = on;
+  if (on) it.state().rint &= static_cast<std::uint8_t>(~bit_of(Rint::user));
   return Took::done;
 }
 inline void forget_factor(RsM8194h& it, std::size_t axis, std::size_t factor) {

@@ -35,7 +35,8 @@ constexpr Tick kTickUnits = 100;
 Tick filter_ticks(const AxisUnit& unit, int pin, const MachineOptions& options) {
   const bool filters =
       options.filters_delay && (unit.basic.filtered >> kFilterBits[static_cast<std::size_t>(pin)] & 1) != 0;
-  return filters ? kFilterTicks[unit.basic.filter_time] : 0;
+  if (!filters) return 0;
+  return std::max<Tick>(kFilterTicks[unit.basic.filter_time], options.short_filters_take_a_tick ? 1 : 0);
 }
 
 /// A pin that tells the chip something, and the setting of its active level.

@@ -251,7 +251,9 @@ int RsM8194h::take_isr() {
     const IsrMark mark = state_.marks.front();
     state_.marks.erase(state_.marks.begin());
     const int number = options_.isrs_are_bound_at_the_event ? mark.number : isr_of(mark);
-    if (number >= 1 && number <= lang::kIsrCount && macro({true, number}) != nullptr) return number;
+    if (number < 1 || number > lang::kIsrCount || macro({true, number}) == nullptr) continue;
+    if (machine_.isrs_raise_user_rint) state_.rint |= bit_of(Rint::user);
+    return number;
   }
   return 0;
 }

@@ -26,15 +26,13 @@ namespace {
 // 2.0 and 3.0: the versions of the manual's answers and of the manual itself.
 constexpr std::array<Firmware, 2> kFirmwares{200, 300};
 
-constexpr std::array<std::string_view, 6> kGaps{
-    "Noise filters below 1.024 ms do not delay: a bench's inputs change at ticks, a machine's edges lie at "
-    "pulses.",
+constexpr std::array<std::string_view, 5> kGaps{
+    "Noise filters below 1.024 ms do not delay, or by choice a tick: a bench's inputs change at ticks, a "
+    "machine's edges lie at pulses.",
     "Pulses at OUT_X and OUT_Y below 1 ms are counted, and have no length: levels are those of ticks.",
     "The pulse modes of SET_PULSE_MODE are names (`rsm.pulse_format`): no levels on the pulse terminals.",
     "What is spoken at the switch's position Init is not documented: the box is deaf there.",
     "The IP settings from holding 20 on store, and do nothing.",
-    "A trigger's Pause holds macros and the FIFO; what moves goes on, or by choice slows down, and is not "
-    "taken up again.",
 };
 
 constexpr int kBauds[] = {115200, 57600, 38400, 19200, 9600, 4800, 2400, 1200};

@@ -63,7 +63,7 @@ void RsM8194h::step_axes(Tick tick) {
         is_watched ? soft_limit_by_encoder(state_.units[a], motor, static_cast<int>(motor.drive.direction))
                    : motion::Cause::none;
     if (together.takes(a)) {
-      if (beyond != motion::Cause::none && slows) together.slow_down(tick - 1, beyond);
+      if (beyond != motion::Cause::none && slows) slow_path(tick - 1, beyond);
       if (beyond != motion::Cause::none && !slows) together.stop(state_.motors, beyond);
       continue;
     }
@@ -100,12 +100,13 @@ void RsM8194h::heed_path_speed(Tick tick) {
   Paths& paths = state_.paths;
   const motion::Sample along = paths.together.engaged ? paths.together.run.sample(tick) : motion::Sample{};
   const bool is_constant = along.speed_u_s > 0 && along.acceleration_u_s2 == 0;
-  if (is_constant == (paths.constant_axis >= 0)) return;
+  const std::int8_t first = paths.together.axis_of[0];
+  if (is_constant == (paths.constant_axis >= 0) || (is_constant && first < 0)) return;
   const auto tell = [&](motion::Event event) {
     state_.motors[static_cast<std::size_t>(paths.constant_axis)].events |= motion::bit(event);
   };
   if (is_constant) {
-    paths.constant_axis = paths.together.axis_of[0];
+    paths.constant_axis = first;
     tell(motion::Event::constant_started);
   } else {
     tell(motion::Event::constant_ended);
@@ -122,8 +123,13 @@ void RsM8194h::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
   const bool is_lost = !options_.isr_requests_are_counted || state_.marks.size() >= kMostMarks;
   if (is_lost && std::any_of(state_.marks.begin(), state_.marks.end(), is_same)) return;
   IsrMark made{.tick = tick, .axis = static_cast<std::uint8_t>(axis), .source = source};
-  if (options_.isrs_are_bound_at_the_event) made.number = static_cast<std::uint8_t>(isr_of(made));
+  const bool needs_number = options_.isrs_are_bound_at_the_event || options_.isrs_go_by_number;
+  if (needs_number) made.number = static_cast<std::uint8_t>(isr_of(made));
   const auto is_before = [&](const IsrMark& one, const IsrMark& other) {
+    if (options_.isrs_go_by_number) {
+      return std::tie(one.tick, one.number, one.axis, one.source) <
+             std::tie(other.tick, other.number, other.axis, other.source);
+    }
     if (!options_.isrs_go_by_factor) return one < other;
     return std::tie(one.tick, one.source, one.axis) < std::tie(other.tick, other.source, other.axis);
   };
@@ -170,10 +176,14 @@ void RsM8194h::act_together(Tick tick) {
     const bool on_path = state_.paths.together.takes(a);
     slows_path[a] = on_path && action.drive == Action::slow_down;
     stops_path[a] = on_path && action.drive == Action::stop_at_once;
-    const bool is_void = starts_something(action.drive) && may_start(a, Starter::external) != Start::starts;
+    const bool sets_speed = action.preset == motion::SyncAction::Preset::speed && action.preset_value > 0;
+    const bool has_no_speed = !sets_speed && lacks_speed(a, Drive::What::fixed);
+    const bool is_void =
+        starts_something(action.drive) && (has_no_speed || may_start(a, Starter::external) != Start::starts);
     if (is_void || on_path) action.drive = Action::none;
   }
-  const motion::SyncOutcome outcome = motion::act(acting, state_.motors, tick);
+  const auto order = machine_.sync_goes_by_moment ? motion::SyncOrder::by_moment : motion::SyncOrder::by_axis;
+  const motion::SyncOutcome outcome = motion::act(acting, state_.motors, tick, order);
   state_.sync.distance_pulses = acting.distance_pulses;
 
   const bool shows_trigger = chose(option("sync_mask", "the_trigger_axis"));
@@ -199,7 +209,7 @@ void RsM8194h::act_together(Tick tick) {
       unit.speed.drive_pps = static_cast<std::uint32_t>(preset);
       if (!starts_something(action.drive)) change_speed(a);
     }
-    if (slows_path[a]) state_.paths.together.slow_down(tick);
+    if (slows_path[a]) slow_path(tick);
     if (stops_path[a]) state_.paths.together.stop(state_.motors);
     if (slows_path[a] || stops_path[a]) state_.paths.open = false;
     if (has(outcome.outputs, a)) give_pulse(a, tick);

@@ -18,19 +18,21 @@ LanguageOptions language_options(const DeviceSettings& settings) {
   const auto chose = [&chosen](const Option& option) { return chosen[option.choice] == option.number; };
   LanguageOptions options;
   using Letters = interpreter::rs_m8194h::CommandOptions::Letters;
-  options.command = {.rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")),
-                     .speeds_have_ends = chose(option("speed_ends", "exception_3")),
-                     .variables_have_ends = chose(option("variable_range", "exception_3")),
-                     .zero_moves_are_refused = chose(option("zero_move", "exception_3")),
-                     .helix_turns_forward_only = chose(option("helix_cycle", "exception_3")),
-                     .one_trigger_axis = chose(option("several_trigger_axes", "exception_3")),
-                     .outputs_are_of_x_and_y = chose(option("set_out_of_z_and_u", "exception_3")),
-                     .letters = chose(option("if_operator", "as_in_the_frame"))   ? Letters::as_in_the_frame
-                                : chose(option("if_operator", "as_in_the_table")) ? Letters::as_in_the_table
-                                                                                  : Letters::either,
-                     .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
-                     .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
-                     .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
+  options.command = {
+      .rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")),
+      .speeds_have_ends = chose(option("speed_ends", "exception_3")),
+      .variables_have_ends = chose(option("variable_range", "exception_3")),
+      .zero_moves_are_refused = chose(option("zero_move", "exception_3")),
+      .helix_turns_forward_only = chose(option("helix_cycle", "exception_3")),
+      .one_trigger_axis = chose(option("several_trigger_axes", "exception_3")),
+      .outputs_are_of_x_and_y = chose(option("set_out_of_z_and_u", "exception_3")),
+      .letters = chose(option("if_operator", "as_in_the_frame"))   ? Letters::as_in_the_frame
+                 : chose(option("if_operator", "as_in_the_table")) ? Letters::as_in_the_table
+                                                                   : Letters::either,
+      .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
+      .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
+      .frnet_wait_may_have_7 = chose(option("frnet_wait_registers", "8_or_7_with_a_time_of_one")),
+      .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
   options.download = {.close_takes_line = chose(option("close_line", "one_line")),
                       .shown_code = chose(option("download_command", "as_sent"))
                                         ? Download::ShownCode::as_sent
@@ -55,6 +57,8 @@ LanguageOptions language_options(const DeviceSettings& settings) {
   if (chose(option("steps_a_tick", "1000"))) options.steps_a_tick = 1000;
   if (chose(option("isr_delay", "same_tick"))) options.isr_delay_ticks = 0;
   options.isrs_go_by_factor = chose(option("isr_order", "by_factor"));
+  options.isrs_go_by_number = chose(option("isr_order", "by_isr_number"));
+  options.room_before_parameters = chose(option("check_order", "the_same_but_room_before_parameters"));
   options.isr_requests_are_counted = chose(option("isr_requests", "counted"));
   options.isrs_are_bound_at_the_event = chose(option("isr_binding", "at_the_event"));
   return options;
@@ -99,6 +103,15 @@ MachineOptions machine_options(const DeviceSettings& settings) {
   options.levels_repeat = chose(option("trigger_level_repeats", "again_when_it_has_ended"));
   options.finished_states_show = !chose(option("passing_states", "do_not_show"));
   if (chose(option("encoder_counts", "whole_cycles"))) options.edges_per_encoder_count = 4;
+  options.short_filters_take_a_tick = chose(option("filter_delay", "a_tick_at_least"));
+  options.table_writes_become_lines = chose(option("table_writes", "become_lines"));
+  options.constant_paths_slow_down = chose(option("slow_stop_without_ramps", "slows_down_by_va"));
+  options.sync_goes_by_moment = chose(option("sync_order", "by_moment"));
+  options.pause_holds_axes = chose(option("trigger_pause", "and_holds_all_axes"));
+  options.factors_clear_by_reading = chose(option("factors_clear", "by_reading_too"));
+  options.rint_clears_by_reading = chose(option("rint_clears", "by_reading_too"));
+  options.isrs_raise_user_rint = chose(option("rint_user", "an_isr_that_begins"));
+  options.zero_speeds_drive_nothing = chose(option("power_on_values", "0_and_no_drive"));
   return options;
 }
 

@@ -23,6 +23,8 @@ struct LanguageOptions {
   int steps_a_tick = 8;
   int isr_delay_ticks = 1;
   bool isrs_go_by_factor = false;
+  bool isrs_go_by_number = false;
+  bool room_before_parameters = false;
   bool isr_requests_are_counted = false;
   bool isrs_are_bound_at_the_event = false;
 };
@@ -56,6 +58,15 @@ struct MachineOptions {
   bool levels_repeat = false;
   bool finished_states_show = false;
   int edges_per_encoder_count = 1;
+  bool short_filters_take_a_tick = false;
+  bool table_writes_become_lines = false;
+  bool constant_paths_slow_down = false;
+  bool sync_goes_by_moment = false;
+  bool pause_holds_axes = false;
+  bool factors_clear_by_reading = false;
+  bool rint_clears_by_reading = false;
+  bool isrs_raise_user_rint = false;
+  bool zero_speeds_drive_nothing = false;
 };
 MachineOptions machine_options(const DeviceSettings& settings);
 

@@ -5,6 +5,7 @@
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/state.h"
+#include "emulator/models/rs_m8194h/unmodelled.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/window.h"
@@ -48,6 +49,11 @@ void RsM8194h::run_fifo(int& steps) {
   }
 }
 
-Took RsM8194h::carry_out(const lang::Command& command) { return action_of(command.verb())(*this, command); }
+Took RsM8194h::carry_out(const lang::Command& command) {
+  for (const UnmodelledRow& row : kUnmodelledRows) {
+    if (is_meant(row, command)) Device::mention_unmodelled(row.what, row.why);
+  }
+  return action_of(command.verb())(*this, command);
+}
 
 }  // namespace understudy::emulator::models::rs_m8194h

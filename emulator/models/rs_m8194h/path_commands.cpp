@@ -14,6 +14,7 @@
 #include "emulator/models/rs_m8194h/meetings.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/paths.h"
+#include "emulator/models/rs_m8194h/rectangle.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/commands.h"
@@ -126,26 +127,6 @@ bool is_one_each(const std::array<std::uint8_t, 3>& codes, int dimensions) {
 
 constexpr motion::ArcOptions kArcOptions{.plane = {0, 1}, .off_circle = motion::OffCircle::quadrant};
 
-/// The eight tangent points, Sp0 to Sp7, and the centre of the corner behind each odd one (the drawing of
-/// 7.4.1 is lost: counter-clockwise from the beginning of the lower side).
-struct RectanglePlan {
-  std::array<std::array<double, 2>, 8> points;
-  std::array<std::array<double, 2>, 4> centres;  // of the corners 1-2, 3-4, 5-6, 7-0
-};
-RectanglePlan rectangle_plan(double length, double width, double radius) {
-  const double right = length - radius;
-  const double top = width - radius;
-  return {.points = {{{radius, 0},
-                      {right, 0},
-                      {length, radius},
-                      {length, top},
-                      {right, width},
-                      {radius, width},
-                      {0, top},
-                      {0, radius}}},
-          .centres = {{{right, radius}, {right, top}, {radius, top}, {radius, radius}}}};
-}
-
 }  // namespace
 
 bool is_path(const lang::Command& command) {
@@ -249,6 +230,8 @@ Took RsM8194h::follow_path(const lang::Command& command) {
     }
     // There is one path at a time, whatever its axes.
     if (outcome == Start::waits || paths.together.engaged) return Took::waits;
+    const bool has_no_speed = row.runs == Paths::Runs::single && paths.vector.drive_pps == 0;
+    if (has_no_speed && machine_.zero_speeds_drive_nothing) return Took::done;
     if (outcome == Start::is_held && waits_behind_held(axes)) return Took::waits;
     if (outcome == Start::is_held) {
       for (std::size_t a = 0; a < kAxes; ++a) {
@@ -349,20 +332,25 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
       const bool is_clockwise = command.values[4] == 1;
       const RectanglePlan plan =
           rectangle_plan(number(5), number(6), std::min({number(7), number(5) / 2, number(6) / 2}));
+      const std::size_t start_point = command.values[3];
       const bool counts_back = chose(option("rectangle_start_points", "clockwise_from_the_left_side"));
-      const std::size_t from = counts_back ? 7 - command.values[3] : command.values[3];
+      const bool at_middles = chose(option("rectangle_start_points", "middles_from_the_lower_side"));
+      const std::size_t from =
+          at_middles ? 2 * start_point + 1 : 2 * (counts_back ? 7 - start_point : start_point);
       const auto at = [&](std::size_t i) {
         return Point{plan.points[i][0] - plan.points[from][0], plan.points[i][1] - plan.points[from][1], 0,
                      0};
       };
+      const std::size_t count = plan.points.size();
+      const std::size_t step = at_middles ? 1 : 2;
       std::size_t here = from;
-      for (int i = 0; i < 8; ++i) {
-        const std::size_t next = (here + (is_clockwise ? 7 : 1)) % 8;
-        const std::size_t earlier = is_clockwise ? next : here;
-        if (earlier % 2 == 0) {
+      for (std::size_t i = 0; i < count; i += step) {
+        const std::size_t next = (here + (is_clockwise ? count - step : step)) % count;
+        const std::size_t side = (is_clockwise ? next : here) / 2;
+        if (side % 2 == 0) {
           drawing.add(motion::line(drawing.at(), at(next)), now_tick);
         } else {
-          const auto& centre = plan.centres[earlier / 2];
+          const auto& centre = plan.centres[side / 2];
           const auto& origin = plan.points[from];
           drawing.add(
               motion::arc_by_centre(drawing.at(), {centre[0] - origin[0], centre[1] - origin[1], 0, 0},

@@ -1,4 +1,5 @@
 // Stops, locks and holds, and what takes them away (7.5): by the rows of meetings.h.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,8 +24,33 @@ bool clears_the_lock_alone(const RsM8194h& device) {
 
 }  // namespace
 
+/// It gets no more pulses; the others go on along the path.
+void RsM8194h::leave_path(std::size_t axis) {
+  for (std::int8_t& mine : state_.paths.together.axis_of) {
+    if (mine == static_cast<std::int8_t>(axis)) mine = motion::Coordinated::kNone;
+  }
+  state_.paths.axes &= static_cast<AxisMask>(~mask_of(axis));
+  state_.motors[axis].stop();
+}
+
+void RsM8194h::slow_path(Tick tick, motion::Cause why) {
+  Paths& paths = state_.paths;
+  motion::SpeedLaw law = paths.together.run.speed();
+  const bool has_no_ramps = law.start_speed_u_s >= law.top_speed_u_s;
+  if (paths.together.engaged && has_no_ramps && machine_.constant_paths_slow_down) {
+    const bool is_stream = paths.runs == Paths::Runs::stream;
+    const std::uint32_t start_pps =
+        is_stream ? paths.streams[static_cast<std::size_t>(paths.stream)].start_pps : paths.vector.start_pps;
+    law.start_speed_u_s = std::min(std::max(1.0, static_cast<double>(start_pps)), law.top_speed_u_s);
+    paths.together.run.set_speed(law, tick);
+  }
+  paths.together.slow_down(tick, why);
+}
+
 void RsM8194h::halt(AxisMask axes, const StopRow& row) {
   Paths& paths = state_.paths;
+  const bool leaves_others =
+      row.locks && (paths.axes & ~axes) != 0 && chose(option("stop_one_of_path", "it_alone_stops"));
   const bool locks_whole_path = chose(option("stop_one_of_path", "all_end_and_are_locked"));
   AxisMask locked_with_it = 0;
   const bool keeps_held =
@@ -35,9 +61,11 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
     motion::Axis& motor = state_.motors[a];
     const Going going_now = going(a);
     const Halt halt = row.halts[static_cast<std::size_t>(going_now)];
-    if (halt != Halt::goes_on && going_now == Going::path) {
+    if (halt != Halt::goes_on && going_now == Going::path && leaves_others) {
+      leave_path(a);
+    } else if (halt != Halt::goes_on && going_now == Going::path) {
       if (halt == Halt::slows) {
-        paths.together.slow_down(now());
+        slow_path(now());
       } else {
         paths.together.stop(state_.motors);
       }
@@ -48,6 +76,7 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
       motor.stop();
     }
     if (paths.open && !paths.together.engaged && has(paths.axes, a)) paths.open = false;
+    if (row.halts[static_cast<std::size_t>(Going::single)] != Halt::goes_on) unit.paused_drive = {};
     if (row.locks && halt != Halt::goes_on && going_now == Going::path && locks_whole_path) {
       locked_with_it |= paths.axes;
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/device.h"
@@ -81,7 +82,8 @@ void RsM8194h::fire(int channel, const lang::Trigger& trigger) {
       const auto number = static_cast<std::uint8_t>(channel);
       auto& queue = state_.queued_triggers;
       const bool has_no_room = !queue.empty() && chose(option("trigger_queue", "one_in_all"));
-      if (has_no_room) break;
+      const bool never_waits = chose(option("trigger_queue", "none"));
+      if (has_no_room || (never_waits && (!queue.empty() || !may_start_trigger()))) break;
       if (std::find(queue.begin(), queue.end(), number) == queue.end()) queue.push_back(number);
       break;
     }
@@ -114,7 +116,7 @@ void RsM8194h::fire(int channel, const lang::Trigger& trigger) {
 void RsM8194h::slow_down(AxisMask axes) {
   Paths& paths = state_.paths;
   if (paths.together.engaged && (paths.axes & axes) != 0) {
-    paths.together.slow_down(now());
+    slow_path(now());
     paths.open = false;
   }
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -129,6 +131,42 @@ void RsM8194h::pause(int channel) {
   state_.paused = !ends;
   state_.paused_by = number;
   if (state_.paused && machine_.pause_slows_axes) slow_down(kAllAxes);
+  if (state_.paused && machine_.pause_holds_axes) pause_motion();
+}
+
+/// What moves comes to rest, and goes on from there when the pause is over; homing goes on meanwhile.
+void RsM8194h::pause_motion() {
+  motion::Coordinated& together = state_.paths.together;
+  if (together.engaged && together.slowing_for == motion::Cause::none) together.run.pause(now());
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    motion::Axis& motor = state_.motors[a];
+    AxisUnit& unit = state_.units[a];
+    if (going(a) != Going::single || motor.slowing) continue;
+    const bool is_endless = motor.task == motion::Task::endless;
+    const double speed_pps = motor.law.top_speed_u_s * static_cast<double>(motor.drive.direction);
+    unit.paused_drive = {.what = is_endless ? Drive::What::endless : Drive::What::fixed,
+                         .value = is_endless ? static_cast<std::int32_t>(speed_pps) : 0};
+    unit.paused_to_pulses = motor.travel_pulses + motor.pulses_to_come();
+    motor.slow_down(now());
+  }
+}
+
+void RsM8194h::resume_motion() {
+  motion::Coordinated& together = state_.paths.together;
+  const bool is_held = together.engaged && together.run.paused();
+  if (is_held && together.slowing_for == motion::Cause::none) together.run.resume(now());
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    AxisUnit& unit = state_.units[a];
+    if (unit.paused_drive.what == Drive::What::none) continue;
+    const Start outcome = may_start(a, Starter::command);
+    if (outcome == Start::waits) continue;
+    Drive rest = std::exchange(unit.paused_drive, Drive{});
+    if (rest.what == Drive::What::fixed) {
+      rest.value = static_cast<std::int32_t>(unit.paused_to_pulses - state_.motors[a].travel_pulses);
+    }
+    // A hold is for drives that follow.
+    if (outcome != Start::is_void) start(a, rest);
+  }
 }
 
 /// A level that is still there calls its macro again.
@@ -143,11 +181,14 @@ void RsM8194h::repeat_levels() {
 }
 
 /// Nothing starts in a download or in the emergency state.
+bool RsM8194h::may_start_trigger() const {
+  return state_.rsm == lang::State::ready && !state_.emergency_state && !is_resetting() && !mp_runs() &&
+         !state_.paused;
+}
+
 void RsM8194h::start_queued_trigger() {
   auto& queue = state_.queued_triggers;
-  const bool may = state_.rsm == lang::State::ready && !state_.emergency_state && !is_resetting() &&
-                   !mp_runs() && !state_.paused;
-  if (queue.empty() || !may) return;
+  if (queue.empty() || !may_start_trigger()) return;
   const lang::Trigger& trigger = triggers()[queue.front()];
   queue.erase(queue.begin());
   if (trigger.event == lang::TriggerEvent::call_mp) start_mp(trigger.argument);

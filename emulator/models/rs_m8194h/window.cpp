@@ -1,6 +1,7 @@
 // Requests: what is admitted, what a message to the window becomes, and what of an exception is kept.
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "emulator/device/register_map/refusal.h"
@@ -13,6 +14,7 @@
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/download.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/verbs.h"
 #include "interpreter/rs_m8194h/window.h"
@@ -83,6 +85,39 @@ int commands_of(const RegisterRequest& request) {
   return commands;
 }
 
+/// Inputs that may be cleared by reading them: RINT as a word and bit by bit, then the factors.
+constexpr std::size_t kRintWord = 72;
+constexpr std::size_t kRintBits = 8;
+constexpr std::size_t kFirstFactor = 130;
+
+/// The macro line that a write of the tables stands for, where it has one.
+std::optional<lang::Command> line_at(Table table, std::size_t address, std::uint32_t value) {
+  constexpr std::size_t kFirstVar = 300;
+  constexpr std::size_t kVarWords = 2 * static_cast<std::size_t>(kVars);
+  if (table != Table::holding) return std::nullopt;
+  const auto line = [](lang::Verb verb, std::uint32_t first, std::uint32_t second) {
+    lang::Command made{.code = lang::macro_code(verb)};
+    made.values[0] = first;
+    made.values[1] = second;
+    return made;
+  };
+  if (address < static_cast<std::size_t>(kFrnetGroups)) {
+    return line(lang::Verb::frnet_out, static_cast<std::uint32_t>(address), value);
+  }
+  if (address == kCallMp) return line(lang::Verb::mp_call, value, 0);
+  if (address >= kFirstQueued && address <= kLastQueued && (address - kFirstQueued) % 2 == 0) {
+    constexpr lang::Verb kCounters[] = {lang::Verb::abs_set_position, lang::Verb::set_lp, lang::Verb::set_ep};
+    const std::size_t number = (address - kFirstQueued) / 2;
+    return line(kCounters[number / kAxes], mask_of(number % kAxes), value);
+  }
+  if (address >= kFirstVar && address < kFirstVar + kVarWords && (address - kFirstVar) % 2 == 0) {
+    const auto variable =
+        static_cast<std::uint32_t>(lang::kVariable0) + static_cast<std::uint32_t>((address - kFirstVar) / 2);
+    return line(lang::Verb::set_var, variable, value);
+  }
+  return std::nullopt;
+}
+
 /// Whether it gives a variable a value beyond the range of positions.
 bool writes_beyond(const RegisterRequest& request, bool low_word_first) {
   constexpr std::size_t kFirstVar = 300;
@@ -120,6 +155,10 @@ DeviceAnswer RsM8194h::answer_of(lang::Fault fault) const {
 }
 
 DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) const {
+  const bool is_window = request.table == Table::holding && request.first >= kWindow;
+  if (request.is_single && is_window && chose(option("sub_function_by_fc6", "exception_2"))) {
+    return answer_of(lang::Fault::address);
+  }
   if (chose(option("holes", "exception_2"))) {
     for (std::size_t i = 0; i < request.count; ++i) {
       if (!at(request.table, static_cast<std::uint16_t>(request.first + i)))
@@ -140,10 +179,11 @@ DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) c
     return answer_of(lang::Fault::parameter);
   }
   const bool is_downloading = state_.rsm != lang::State::ready;
-  const bool is_table = request.is_write() && !(request.table == Table::holding && request.first >= kWindow);
+  const bool is_table = request.is_write() && !is_window;
   if (is_downloading && is_table && chose(option("table_writes", "all_refused"))) {
     return answer_of(lang::Fault::real_time_in_macro);
   }
+  if (is_downloading && is_table && machine_.table_writes_become_lines) return admits_lines(request);
   const int commands = commands_of(request);
   if (commands == 0) return Refusal::none;
   if (is_downloading && !chose(option("table_writes", "all_allowed"))) {
@@ -152,6 +192,40 @@ DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) c
   if (checked != Checked::everything) return Refusal::none;
   if (calls_mp(request) && mp_runs() && are_calls_refused()) return answer_of(lang::Fault::macro_runs);
   return commands > free_blocks() ? answer_of(lang::Fault::fifo_full) : Refusal::none;
+}
+
+DeviceAnswer RsM8194h::admits_lines(const RegisterRequest& request) const {
+  int lines = 0;
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const auto line = line_at(request.table, request.first + i, 0);
+    if (!line) continue;
+    const lang::Fault not_here = lang::why_not_now(line->code, state_.rsm);
+    if (not_here != lang::Fault::none) return answer_of(not_here);
+    lines += line->row().macro_lines();
+  }
+  const bool fits = lines <= lang::room_of(state_.download, options_.download);
+  return fits ? DeviceAnswer(Refusal::none) : answer_of(lang::Fault::macro_memory);
+}
+
+bool RsM8194h::diverts(const Place& place, std::uint32_t bits) {
+  if (state_.rsm == lang::State::ready || !machine_.table_writes_become_lines) return false;
+  const auto line = line_at(place.row->table, place.address(), bits);
+  if (!line) return false;
+  lang::add(state_.download, *line, options_.download);
+  return true;
+}
+
+/// By choice; else reading clears nothing.
+void RsM8194h::read_answered(const RegisterRequest& request) {
+  if (request.table != Table::input) return;
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const std::size_t address = request.first + i;
+    const bool is_factor = address >= kFirstFactor && address < kFirstFactor + kFactors;
+    if (is_factor && machine_.factors_clear_by_reading) state_.factor_axes[address - kFirstFactor] = 0;
+    if (!machine_.rint_clears_by_reading || address < kRintWord || address > kRintWord + kRintBits) continue;
+    state_.rint &= address == kRintWord ? std::uint8_t{0}
+                                        : static_cast<std::uint8_t>(~(1U << (address - kRintWord - 1)));
+  }
 }
 
 void RsM8194h::exception_answered(const RefusedRequest& request) {
@@ -180,6 +254,14 @@ DeviceAnswer RsM8194h::take(const lang::Command& command) {
   return Refusal::none;
 }
 
+lang::Fault RsM8194h::why_no_room(const lang::Command& command) const {
+  if (state_.rsm == lang::State::ready) {
+    return fifo_blocks_of(command) > free_blocks() ? lang::Fault::fifo_full : lang::Fault::none;
+  }
+  const bool fits = command.row().macro_lines() <= lang::room_of(state_.download, options_.download);
+  return fits ? lang::Fault::none : lang::Fault::macro_memory;
+}
+
 void RsM8194h::queue(const lang::Command& command) {
   const bool is_alone = state_.fifo.waiting.empty();
   state_.fifo.waiting.push_back(command);
@@ -189,8 +271,13 @@ void RsM8194h::queue(const lang::Command& command) {
 DeviceAnswer take_message(RsM8194h& it, Cell, std::span<const std::uint16_t> words) {
   const bool is_low_first = it.low_word_first() && !it.chose(option("word_order_scope", "tables"));
   const auto order = is_low_first ? lang::WordOrder::low_first : lang::WordOrder::high_first;
-  const lang::Decoded decoded = lang::decode(words, it.state().rsm, order, it.language_options().command);
+  lang::Decoded decoded = lang::decode(words, it.state().rsm, order, it.language_options().command);
   const bool is_ready = it.state().rsm == lang::State::ready;
+  // By choice room comes before parameters.
+  if (decoded.fault == lang::Fault::parameter && it.language_options().room_before_parameters) {
+    const lang::Fault none_left = it.why_no_room(decoded.command);
+    if (none_left != lang::Fault::none) decoded.fault = none_left;
+  }
   if (!is_ready ||
       (decoded.fault == lang::Fault::none && lang::is_one_of(decoded.command.verb(), lang::kDownloadVerbs))) {
     return it.answer_of(it.take_download(decoded));

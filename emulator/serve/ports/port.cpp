@@ -55,6 +55,7 @@ class Port::Overflow final : public pty::LineObserver {
   void on_speech(const pty::Speech&) override {}
   std::optional<SimTime> due() const override { return std::nullopt; }
   void run(SimTime) override {}
+  std::size_t quiet_characters() const override { return pty::Line::kInputCapacity; }
 
  private:
   Port& port_;

@@ -37,17 +37,19 @@ void FrameLog::begin_anew() {
 
 void FrameLog::add(const pty::CapturedPacket& packet) {
   // The oldest one's room is used again: this is done for every frame of a run.
-  Frame frame;
   if (frames_.size() == kept_) {
-    frame = std::move(frames_.front());
+    frames_.push_back(std::move(frames_.front()));
     frames_.pop_front();
+  } else {
+    frames_.emplace_back();
   }
+  Frame& frame = frames_.back();
   frame.line = packet.line;
   frame.way = packet.way;
   frame.time = packet.time;
   frame.bytes.assign(packet.bytes.begin(), packet.bytes.end());
-  frame.comment = pty::comment_of(packet);
-  frames_.push_back(std::move(frame));
+  frame.comment.clear();
+  if (pty::has_comment(packet)) frame.comment = pty::comment_of(packet);
   ++next_number_;
 }
 

@@ -40,18 +40,17 @@ FrameFaults::Treatment FaultyWire::treatment_of(const HeardFrame& request) {
   return faults_ == nullptr ? FrameFaults::Treatment{} : faults_->on_serving(told(request));
 }
 
-void FaultyWire::answer(const HeardFrame& request, std::span<const std::uint8_t> bytes,
-                        pty::Transmitter& out) {
-  if (faults_ == nullptr) return end_.say(bytes, request.last_character, out);
+void FaultyWire::answer(const HeardFrame& request, std::span<const std::uint8_t> bytes, pty::Transmitter& out,
+                        pty::SimTime delay) {
+  const auto send = [&](std::span<const std::uint8_t> piece, pty::SimTime late) {
+    if (late == pty::SimTime{0}) return end_.say(piece, request.last_character, out);
+    keep({request.now + late, true, request.last_character, {piece.begin(), piece.end()}});
+  };
+  if (faults_ == nullptr) return send(bytes, delay);
   const std::vector<pty::WireFault> stages = faults_->on_reply(told(request));
-  if (stages.empty()) return end_.say(bytes, request.last_character, out);
-  for (pty::WirePiece& piece : pty::through_faults(bytes, stages)) {
-    if (piece.late == pty::SimTime{0}) {
-      end_.say(piece.bytes, request.last_character, out);
-    } else {
-      keep({request.now + piece.late, true, request.last_character, std::move(piece.bytes)});
-    }
-  }
+  if (stages.empty()) return send(bytes, delay);
+  for (const pty::WirePiece& piece : pty::through_faults(bytes, stages))
+    send(piece.bytes, piece.late + delay);
 }
 
 std::optional<pty::SimTime> FaultyWire::due() const {

@@ -71,7 +71,9 @@ class FaultyWire {
   // --- what it does and says -------------------------------------------------------------------
   /// What the device is made to do with a request that is for it.
   FrameFaults::Treatment treatment_of(const HeardFrame& request);
-  void answer(const HeardFrame& request, std::span<const std::uint8_t> bytes, pty::Transmitter& out);
+  /// `delay`: of the device itself.
+  void answer(const HeardFrame& request, std::span<const std::uint8_t> bytes, pty::Transmitter& out,
+              pty::SimTime delay = pty::SimTime{0});
 
   // --- time ------------------------------------------------------------------------------------
   std::optional<pty::SimTime> due() const;

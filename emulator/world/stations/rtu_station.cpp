@@ -113,7 +113,8 @@ void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::
   std::array<std::uint8_t, pty::kRtuMaxFrame> buffer;
   buffer[0] = address;
   std::copy_n(reply.pdu.begin(), reply.size, buffer.begin() + 1);
-  wire_.answer(request, std::span(buffer).first(pty::append_rtu_crc(buffer, reply.size + 1)), out);
+  wire_.answer(request, std::span(buffer).first(pty::append_rtu_crc(buffer, reply.size + 1)), out,
+               device_.modbus()->reply_delay());
 }
 
 void RtuStation::say(std::span<const std::uint8_t> bytes, std::uint64_t last_character,

@@ -35,6 +35,9 @@ class RtuStation final : public LineStation {
     tell_errors(state_.framer);
   }
   std::optional<pty::SimTime> due() const override;
+  std::size_t quiet_characters() const override {
+    return wire_.is_broken() ? 0 : state_.framer.quiet_characters();
+  }
   void run(pty::SimTime now, pty::Transmitter& out) override;
 
   void reset() override;

@@ -90,7 +90,7 @@ ModbusReply echo(Pdu pdu) {
   return reply;
 }
 
-ModbusReply read(const RegisterBank& bank, const Service& service, Pdu pdu) {
+ModbusReply read(RegisterBank& bank, const Service& service, Pdu pdu) {
   if (pdu.size() != 5) return exception(pdu, &service.row, bad_value(Cause::bad_length));
   const std::uint16_t first = pdu_word(pdu, 1);
   const std::size_t quantity = pdu_word(pdu, 3);
@@ -106,12 +106,14 @@ ModbusReply read(const RegisterBank& bank, const Service& service, Pdu pdu) {
     const Objection refused = read_bits_request(bank, service.table, first, quantity, packed);
     if (refused) return exception(pdu, &service.row, refused);
     reply.size += bytes;
+    bank.read_answered({.table = service.table, .first = first, .count = quantity});
     return reply;
   }
   std::array<std::uint16_t, kMostWordsRead> words;
   const Objection refused = read_request(bank, service.table, first, std::span(words).first(quantity));
   if (refused) return exception(pdu, &service.row, refused);
   for (std::size_t i = 0; i < quantity; ++i) put_word(reply, words[i]);
+  bank.read_answered({.table = service.table, .first = first, .count = quantity});
   return reply;
 }
 
@@ -122,7 +124,7 @@ ModbusReply write_one(RegisterBank& bank, const Service& service, Pdu pdu) {
     if (word != kOn && word != kOff) return exception(pdu, &service.row, bad_value(Cause::bad_bit));
     word = word == kOn ? 1 : 0;
   }
-  const Objection refused = write_request(bank, service.table, pdu_word(pdu, 1), std::span(&word, 1));
+  const Objection refused = write_request(bank, service.table, pdu_word(pdu, 1), std::span(&word, 1), true);
   return refused ? exception(pdu, &service.row, refused) : echo(pdu);
 }
 

@@ -98,6 +98,23 @@ TEST(RsM8194hEvents, WithInterruptsOffNoIsrIsCalledLaterEither) {
   EXPECT_EQ(rsm.get("VAR1"), 1);
 }
 
+TEST(RsM8194hEvents, AComparatorComparesTheCounterThatItNames) {
+  for (const int type : {0, 1}) {
+    SteadyRsm rsm;
+    rsm.send({"RSM_SET_LP X 500", "RSM_SET_EP X 1000", "RSM_INTFACTOR_ENABLE X 4 1"});
+    rsm.send("RSM_SET_COMPARE X 0 " + std::to_string(type) + (type == 0 ? " 550" : " 1050"));
+    rsm.send("RSM_FIXED_MOVE X 100");
+    Value at = 0;
+    for (int i = 0; i < 50 && at == 0; ++i) {
+      rsm.run(1);
+      if (rsm.input_word(134) != 0) at = rsm.get("LP_X");
+    }
+    // Within a millisecond's pulses of the 50th.
+    EXPECT_GE(at, 550) << type;
+    EXPECT_LE(at, 560) << type;
+  }
+}
+
 TEST(RsM8194hEvents, LatchesAndPresetsAreOfTheMomentOfTheEdge) {
   // 7.3.1's first example: IN3 latches EP and zeroes EP.
   SteadyRsm rsm;

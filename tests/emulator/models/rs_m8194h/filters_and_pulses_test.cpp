@@ -1,7 +1,9 @@
 // The filter of the EMG input, pulses at OUT_X that last, the switch INIT, and Pause (3.14, 7.3.9, 14.1, 10).
 #include <gtest/gtest.h>
 
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
@@ -119,6 +121,45 @@ TEST(RsM8194hPulses, LastAsLongAsPulseWidthSays) {
       }
       EXPECT_EQ(active, ticks) << code;
       EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 1);
+    }
+  }
+}
+
+TEST(RsM8194hPulses, AreCountedAtTheirTwoTerminalsAlone) {
+  OneRsm rsm;
+  rsm.send({"RSM_SYNC_ACTION X XY 0x20 0 0 0 1 0 0 0 0 0", "RSM_SET_V X 1000", "RSM_FIXED_MOVE X 5"});
+  rsm.run(500);
+  for (int i = 0; i < kFirstDo; ++i) {
+    const bool gives_pulses = i == kFirstOut || i == kFirstOut + 1;
+    EXPECT_EQ(rsm.rsm().output_pulses(i), gives_pulses ? 1 : 0) << i;
+  }
+}
+
+TEST(RsM8194hUnmodelled, MeaningsOfCommandsAreToldOnce) {
+  struct Case {
+    const char* command;
+    const char* told;  // begins so; empty: nothing is
+  };
+  constexpr Case kCases[] = {
+      {"RSM_SET_FILTER XY 1 2", "rsm: a filter below 1.024 ms is not modelled: "},
+      {"RSM_SET_FILTER XY 31 0", "rsm: a filter below 1.024 ms is not modelled: "},
+      {"RSM_SET_FILTER XY 0 0", ""},
+      {"RSM_SET_FILTER XY 1 3", ""},
+      {"RSM_SET_OUT X 0 3", "rsm: PulseWidth below 1 ms is not modelled: "},
+      {"RSM_SET_OUT X 1 4", ""},
+      {"RSM_LINE_SCAN X 0 0 3 -9", "rsm: PulseWidth below 1 ms is not modelled: "},
+      {"RSM_LINE_SCAN X 0 1 4 -9", ""},
+  };
+  for (const Case& each : kCases) {
+    OneRsm rsm;
+    std::vector<std::string> told;
+    rsm.device().set_log([&](const std::string& text) { told.push_back(text); });
+    rsm.send({each.command, each.command});
+    rsm.run(3);
+    const bool is_told = each.told[0] != 0;
+    ASSERT_EQ(told.size(), is_told ? 1U : 0U) << each.command;
+    if (is_told) {
+      EXPECT_TRUE(told[0].starts_with(each.told)) << told[0];
     }
   }
 }

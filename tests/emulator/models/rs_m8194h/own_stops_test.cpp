@@ -1,6 +1,8 @@
 // Stops by a synchronous action of the own axis, at full speed: to the pulse, and a path as a whole.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
 namespace understudy::emulator::models::rs_m8194h {
@@ -94,6 +96,31 @@ TEST(RsM8194hOwnStops, ASoftLimitOnAnEncoderStopsAPathToo) {
   EXPECT_EQ(rsm.get("ERROR_CODE_Y"), 0);
   EXPECT_NEAR(static_cast<double>(rsm.get("LP_X")), 501, 2);
   EXPECT_EQ(rsm.get("LP_Y"), rsm.get("LP_X"));
+}
+
+TEST(RsM8194hOwnStops, ASoftLimitThatIsJustReachedIsNotWhatStops) {
+  struct Case {
+    const char* x;
+    const char* y;
+    const char* path;
+    Value error_x, error_y;
+  };
+  // One pulse beyond X's limit a path ends, without ramps; there Y is on its own one, or beyond it as well.
+  constexpr Case kCases[] = {
+      {"RSM_SET_SLMT X 500 -2000 0", "RSM_SET_SLMT Y 501 -2000 0", "RSM_LINE_2D 1000 1000", 1, 0},
+      {"RSM_SET_SLMT X 500 -2000 0", "RSM_SET_SLMT Y 500 -2000 0", "RSM_LINE_2D 1000 1000", 1, 1},
+      {"RSM_SET_SLMT X 2000 -500 0", "RSM_SET_SLMT Y 2000 -501 0", "RSM_LINE_2D -1000 -1000", 2, 0},
+      {"RSM_SET_SLMT X 2000 -500 0", "RSM_SET_SLMT Y 2000 -500 0", "RSM_LINE_2D -1000 -1000", 2, 2},
+  };
+  for (const Case& each : kCases) {
+    OneRsm rsm;
+    rsm.send({each.x, each.y, "RSM_AXIS_ASSIGN X Y 0", "RSM_VECTOR_SPEED 0", "RSM_SET_VV 1000", each.path});
+    rsm.run(2000);
+    EXPECT_EQ(std::abs(rsm.get("LP_X")), 501) << each.path;
+    EXPECT_EQ(std::abs(rsm.get("LP_Y")), 501) << each.path;
+    EXPECT_EQ(rsm.get("ERROR_CODE_X"), each.error_x) << each.path;
+    EXPECT_EQ(rsm.get("ERROR_CODE_Y"), each.error_y) << each.path;
+  }
 }
 
 }  // namespace own_stops_test

@@ -160,32 +160,6 @@ TEST(RsM8194hPaths, MixedSegmentsFollowEachOther) {
   EXPECT_EQ(rsm.get("LP_Y"), 1000);
 }
 
-TEST(RsM8194hPaths, RectanglesCloseFromEachOfTheirPoints) {
-  // 7.4.1: 20000 by 10000 with corners of 1000.
-  const double length = 2 * (18000 + 8000) + 2 * kPi * 1000;
-  for (int point = 0; point < 8; ++point) {
-    for (int direction = 0; direction < 2; ++direction) {
-      OneRsm rsm;
-      rsm.send("RSM_SET_MAX_V XY 80000");
-      rsm.send("RSM_RECTANGLE X Y 0 " + std::to_string(point) + " " + std::to_string(direction) +
-               " 20000 10000 1000 10000 10000 5000 5000");
-      Value least_x = 0, most_x = 0, least_y = 0, most_y = 0;
-      const Tick begin = rsm.now();
-      do {
-        rsm.run(1);
-        least_x = std::min(least_x, rsm.get("LP_X"));
-        most_x = std::max(most_x, rsm.get("LP_X"));
-        least_y = std::min(least_y, rsm.get("LP_Y"));
-        most_y = std::max(most_y, rsm.get("LP_Y"));
-      } while (rsm.get("DRIVING_AXIS") != 0);
-      EXPECT_EQ(rsm.now() - begin, static_cast<Tick>(std::ceil(length / 10)) + 1);
-      EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 0, 0, 0}));
-      EXPECT_NEAR(static_cast<double>(most_x - least_x), 20000, 1) << point;
-      EXPECT_NEAR(static_cast<double>(most_y - least_y), 10000, 1) << point;
-    }
-  }
-}
-
 TEST(RsM8194hPaths, HelicesTurnAtTheSpeedOfTheirCircle) {
   OneRsm rsm;
   rsm.send({"RSM_SET_MAX_V XYZU 80000", "RSM_HELIX_3D Y Z U 1 10000 0 5000 3 -2000"});

@@ -1,6 +1,7 @@
 // Macros and triggers as text: checked, loaded, listed, and as the messages of their downloads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -54,6 +55,19 @@ TEST(RsM8194hLanguage, InstructionsAreThe229Codes) {
       for (const OperandRow& operand : row.operands) EXPECT_FALSE(operand.values.empty()) << row.mnemonic;
     }
   }
+}
+
+TEST(RsM8194hLanguage, MessagesHaveAsManyCellsAsTheLongestCommand) {
+  std::size_t longest = 0;
+  std::size_t shortest = 100;
+  for (const Fact& fact : read_facts(PROJECT_FOLDER "/tests/interpreter/rs_m8194h/commands.csv")) {
+    const auto count = static_cast<std::size_t>(std::stoi(fact.at("registers")));
+    longest = std::max(longest, count);
+    shortest = std::min(shortest, count);
+  }
+  const CellForm form = language().cells()->cell_form();
+  EXPECT_EQ(static_cast<std::size_t>(form.most), longest);
+  EXPECT_EQ(static_cast<std::size_t>(form.fewest), shortest);
 }
 
 TEST(RsM8194hLanguage, LoadingSaysWhatCheckingSays) {

@@ -187,5 +187,20 @@ TEST(RsM8194hTables, AlarmShowsOnceItIsEnabled) {
   EXPECT_EQ(rsm.get("DI_ALL_Z"), 0x03E0);
 }
 
+TEST(RsM8194hTerminals, GroupsAreNamedAsTheirChannels) {
+  const auto& groups = rs_m8194h::model().terminal_groups;
+  const auto& rows = rs_m8194h::model().terminals;
+  ASSERT_EQ(groups.size(), 16U);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const std::string name = (i < 8 ? "DI_" : "DO_") + std::to_string(i < 8 ? 8 + i : i - 8);
+    EXPECT_EQ(groups[i].name, name);
+    for (int channel = 0; channel < groups[i].count; ++channel) {
+      EXPECT_EQ(rows[static_cast<std::size_t>(groups[i].first + channel)].name,
+                name + "_" + std::to_string(channel));
+    }
+    EXPECT_EQ(groups[i].count, 16);
+  }
+}
+
 }  // namespace rs_m8194h_table_test
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,39 @@
+// RS-M8194H: what commands mean that is not modelled. They are answered and carried out all the same; the log
+// says it once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/verbs.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+struct UnmodelledRow {
+  interpreter::rs_m8194h::Verb verb;
+  std::size_t parameter;  // below `least` it is meant
+  std::uint32_t least;
+  std::string_view what;
+  std::string_view why;
+};
+inline constexpr std::string_view kShortPulses = "PulseWidth below 1 ms";
+inline constexpr std::string_view kWhyNoShortPulses =
+    "the levels of OUT_X and OUT_Y are those of ticks; such a pulse is counted, and has no length";
+inline constexpr UnmodelledRow kUnmodelledRows[] = {
+    {interpreter::rs_m8194h::Verb::set_filter, 2, 3, "a filter below 1.024 ms",
+     "inputs change at ticks, and edges of a machine lie at pulses; it does not delay, or a tick by the "
+     "choice "
+     "`filter_delay`"},
+    {interpreter::rs_m8194h::Verb::set_out, 2, 4, kShortPulses, kWhyNoShortPulses},
+    {interpreter::rs_m8194h::Verb::line_scan, 3, 4, kShortPulses, kWhyNoShortPulses},
+};
+
+constexpr bool is_meant(const UnmodelledRow& row, const interpreter::rs_m8194h::Command& command) {
+  // A filter of no input delays none.
+  const bool is_used = row.verb != interpreter::rs_m8194h::Verb::set_filter || command.values[1] != 0;
+  return row.verb == command.verb() && is_used && command.values[row.parameter] < row.least;
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

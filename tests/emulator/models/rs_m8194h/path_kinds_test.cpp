@@ -1,0 +1,130 @@
+// Which paths there are by modes, streams and start points of rectangles (7.2.2, 7.4.1, 7.4.8).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/emulator/models/rs_m8194h/one_rsm.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+namespace path_kinds_test {
+
+TEST(RsM8194hPathKinds, AStreamIsConstantWhereItsInitialSaysSo) {
+  struct Case {
+    const char* initial;
+    const char* segment;
+    bool is_constant;
+  };
+  // 10,000 pulses at 10,000 PPS: ramps of 10,000 PPS/s from 0 make a second of them two.
+  constexpr Case kCases[] = {
+      {"RSM_MIX_2D_INITIAL X Y 0 0 10000 10000", "RSM_MIX_2D_CONTINUE 1 1 0 0 10000 0", true},
+      {"RSM_MIX_2D_INITIAL X Y 1 0 10000 10000", "RSM_MIX_2D_CONTINUE 1 1 0 0 10000 0", false},
+      {"RSM_LINE_2D_INITIAL X Y 0 10000 10000", "RSM_LINE_2D_CONTINUE 1 10000 0", false},
+      {"RSM_LINE_3D_INITIAL X Y Z 0 10000 10000", "RSM_LINE_3D_CONTINUE 1 10000 0 0", false},
+  };
+  for (const Case& each : kCases) {
+    OneRsm rsm;
+    rsm.send({"RSM_SET_MAX_V XYZ 80000", each.initial, each.segment});
+    const Tick lasts = rsm.run_to_rest();
+    EXPECT_EQ(rsm.get("LP_X"), 10000) << each.initial;
+    EXPECT_NEAR(static_cast<double>(lasts), each.is_constant ? 1001 : 2001, 30) << each.initial;
+  }
+}
+
+/// What a mode of VECTOR_SPEED is for (7.2.2).
+struct Mode {
+  bool line_2d, arc, line_3d;
+};
+constexpr Mode kModes[12] = {{true, true, false},  {true, false, false}, {true, false, false},
+                             {true, false, false}, {true, false, false}, {false, true, false},
+                             {false, true, false}, {false, false, true}, {false, false, true},
+                             {false, false, true}, {false, false, true}, {false, false, true}};
+
+TEST(RsM8194hPathKinds, ByChoiceAModeIsForItsOwnShapesAlone) {
+  for (int mode = 0; mode < 12; ++mode) {
+    const Mode& fits = kModes[mode];
+    const std::pair<const char*, bool> kShapes[] = {{"RSM_LINE_2D 100 0", fits.line_2d},
+                                                    {"RSM_ARC_CW 100 0 100 100", fits.arc},
+                                                    {"RSM_CIRCLE_CCW 100 0", fits.arc},
+                                                    {"RSM_LINE_3D 100 0 0", fits.line_3d}};
+    for (const auto& [command, begins] : kShapes) {
+      OneRsm rsm({.choices = {{"unfit_profile", "void"}}});
+      rsm.send("RSM_VECTOR_SPEED " + std::to_string(mode));
+      rsm.send({"RSM_AXIS_ASSIGN X Y Z", "RSM_SET_VV 1000", command});
+      EXPECT_EQ(rsm.get("DRIVING_AXIS") != 0, begins) << mode << " " << command;
+      EXPECT_EQ(rsm.get("Module_Error"), begins ? 0 : 1) << mode << " " << command;
+    }
+  }
+}
+
+/// Where the start points of a rectangle of 20000 by 10000 are, seen from its lower left, with corners of
+/// 1000.
+struct StartPoints {
+  const char* option;
+  double places[8][2];
+};
+constexpr double kBend = 1000 * (1 - std::numbers::sqrt2 / 2);
+constexpr StartPoints kStartPoints[] = {
+    {"counter_clockwise_from_the_lower_side",
+     {{1000, 0},
+      {19000, 0},
+      {20000, 1000},
+      {20000, 9000},
+      {19000, 10000},
+      {1000, 10000},
+      {0, 9000},
+      {0, 1000}}},
+    {"clockwise_from_the_left_side",
+     {{0, 1000},
+      {0, 9000},
+      {1000, 10000},
+      {19000, 10000},
+      {20000, 9000},
+      {20000, 1000},
+      {19000, 0},
+      {1000, 0}}},
+    {"middles_from_the_lower_side",
+     {{10000, 0},
+      {20000 - kBend, kBend},
+      {20000, 5000},
+      {20000 - kBend, 10000 - kBend},
+      {10000, 10000},
+      {kBend, 10000 - kBend},
+      {0, 5000},
+      {kBend, kBend}}},
+};
+
+TEST(RsM8194hPathKinds, RectanglesCloseFromEachOfTheirPoints) {
+  // 7.4.1: 20000 by 10000 with corners of 1000.
+  const double length = 2 * (18000 + 8000) + 2 * std::numbers::pi * 1000;
+  for (int number = 0; number < 3 * 8 * 2; ++number) {
+    const StartPoints& starts = kStartPoints[number / 16];
+    const int point = number / 2 % 8;
+    OneRsm rsm({.choices = {{"rectangle_start_points", starts.option}}});
+    rsm.send("RSM_SET_MAX_V XY 80000");
+    rsm.send("RSM_RECTANGLE X Y 0 " + std::to_string(point) + " " + std::to_string(number % 2) +
+             " 20000 10000 1000 10000 10000 5000 5000");
+    Value least_x = 0, most_x = 0, least_y = 0, most_y = 0;
+    const Tick begin = rsm.now();
+    do {
+      rsm.run(1);
+      least_x = std::min(least_x, rsm.get("LP_X"));
+      most_x = std::max(most_x, rsm.get("LP_X"));
+      least_y = std::min(least_y, rsm.get("LP_Y"));
+      most_y = std::max(most_y, rsm.get("LP_Y"));
+    } while (rsm.get("DRIVING_AXIS") != 0);
+    EXPECT_EQ(rsm.now() - begin, static_cast<Tick>(std::ceil(length / 10)) + 1);
+    EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 0, 0, 0}));
+    EXPECT_NEAR(static_cast<double>(most_x - least_x), 20000, 1) << number;
+    EXPECT_NEAR(static_cast<double>(most_y - least_y), 10000, 1) << number;
+    EXPECT_NEAR(-static_cast<double>(least_x), starts.places[point][0], 1) << number;
+    EXPECT_NEAR(-static_cast<double>(least_y), starts.places[point][1], 1) << number;
+  }
+}
+
+}  // namespace path_kinds_test
+}  // namespace understudy::emulator::models::rs_m8194h
