@@ -68,6 +68,7 @@ struct State {
   bool path_is_held = false;
   Tick path_backlash_ticks = 0;     // for which backlash has come before the path
   std::int32_t path_feed_lu_s = 0;  // F as it was when the path began
+  double path_feed_scale = 1;       // LU along it to a unit of F
   double path_limit_lu_s = 1;       // where an axis comes to its highest speed
   interpreter::super_40nc::PlcState plc;
   Tick plc_quiet_scans = 0;  // that would do nothing but count, if nothing that they read changes

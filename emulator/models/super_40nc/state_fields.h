@@ -142,6 +142,7 @@ struct StateOf<emulator::models::super_40nc::State> {
                 field("path_is_held", &Value::path_is_held),
                 field("path_backlash_ticks", &Value::path_backlash_ticks),
                 field("path_feed_lu_s", &Value::path_feed_lu_s),
+                field("path_feed_scale", &Value::path_feed_scale),
                 field("path_limit_lu_s", &Value::path_limit_lu_s),
                 field("plc", &Value::plc),
                 field("plc_quiet_scans", &Value::plc_quiet_scans),
