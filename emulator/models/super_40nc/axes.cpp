@@ -237,27 +237,25 @@ void Super40nc::change_jog_speed() {
   }
 }
 
-/// Returns whether it runs for who asks.
-bool Super40nc::start_jog(int axis_number, int way, bool AxisState::*asked_by) {
+void Super40nc::start_jog(int axis_number, int way, bool AxisState::*asked_by) {
   AxisState& state = axis(axis_number);
   const Grant given = ask(axis_number, Request::jog);
   const motion::SpeedLaw law = jog_law(axis_number);
   if (given == Grant::same_or_no) {
     if (chip(axis_number).last_direction != way) {
       report(Code::axis_taken);
-      return false;
+      return;
     }
     chip(axis_number).resume(law, now());
     state.*asked_by = true;
-    return true;
+    return;
   }
-  if (given != Grant::starts) return false;
+  if (given != Grant::starts) return;
   prepare(axis_number);
   begun(axis_number, chip(axis_number).run(way, law, before_motion()), Holder::jog);
-  if (state.holder != Holder::jog) return false;
+  if (state.holder != Holder::jog) return;
   state.*asked_by = true;
   mirror_start(axis_number, kModeContinuous + (way < 0 ? kModeNegative : 0), 0, law);
-  return true;
 }
 
 /// By a ramp, when nobody asks for it any more.
@@ -330,7 +328,7 @@ void Super40nc::ended(int axis_number) {
   const bool is_at_target = has_arrived && state.rest.kind == RestKind::move;
   const bool shows_finish = has_arrived && state.shows_finish;
   let_go(axis_number);
-  state.stands_on_target = is_at_target;
+  state.stands_on_target = is_at_target && distance_to(axis_number, state.target_lu) == 0;
   if (shows_finish) show_finished(static_cast<std::size_t>(axis_number));
   const bool goes_on = held == Holder::home && chose(option("home_failure", "the_program_goes_on"));
   if (code != Code::none && mover < Mover::plc && !goes_on)

@@ -189,6 +189,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// By the table, as it is chosen.
   Grant granted(Holder holder, Request request) const { return grant(holder, request, lines_wait_); }
   std::int64_t relative_base_lu(int axis_number) const;
+  /// In pulses. Of a target that was reached, but is elsewhere since: by PSET, another D8x40, CMX.
   std::int64_t distance_to(int axis_number, std::int64_t target_lu) const;
   std::int64_t search_pulses(int axis) const;
   motion::SpeedLaw line_law(int axis, double rpm, Mover mover) const;
@@ -203,7 +204,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void stop_by_command(int axis_number);
   void start_home(int axis_number, int order = 0);
   void start_wheel(int axis_number, WheelSource source);
-  bool start_jog(int axis_number, int way, bool AxisState::*asked_by);
+  void start_jog(int axis_number, int way, bool AxisState::*asked_by);
   void release_jog(int axis_number, bool AxisState::*asked_by);
   void hold_axis(int axis_number);
   void go_on_axis(int axis_number);

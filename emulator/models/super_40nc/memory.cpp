@@ -14,6 +14,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
@@ -163,6 +164,8 @@ void Super40nc::power_up() {
   take_power_up_parameters();
   heed_all();
   make_programs_ready();
+  const bool has_c = state_.blocks.find(kPrograms, "C") != nullptr;
+  state_.file_is_left_out = !has_c && is_too_long(kFiles, std::to_string(state_.file));
   look_at_inputs();
 }
 

@@ -268,7 +268,7 @@ void Super40nc::path_ended() {
     state.has_ended = true;
     if (code != Code::none && chip(number).cause == why) fail(number, code);
     let_go(number);
-    state.stands_on_target = has_arrived;
+    state.stands_on_target = has_arrived && distance_to(number, state.target_lu) == 0;
   }
   state_.path = {};
   state_.path_is_held = false;

@@ -112,6 +112,7 @@ void Super40nc::load_program(std::string_view text) {
     const auto& area = checked.program->area(row.area);
     if (!area) continue;
     if (row.area != language::Area::plc) tell(language::Event::stop, row.area);
+    if (row.area == language::Area::c) state_.file_is_left_out = false;
     if (area->lines.empty()) {
       state_.blocks.erase(kPrograms, row.name);
     } else {
@@ -284,9 +285,9 @@ void Super40nc::change_file(std::int32_t number) {
   };
   // A file that was too long to be loaded stays as it is.
   const std::string left = std::to_string(state_.file);
-  const bool was_loaded = state_.blocks.find(kPrograms, c) != nullptr || !is_too_long(kFiles, left);
-  if (was_loaded) copy(kPrograms, c, kFiles, left);
-  if (is_too_long(kFiles, std::to_string(number))) {
+  if (!state_.file_is_left_out) copy(kPrograms, c, kFiles, left);
+  state_.file_is_left_out = is_too_long(kFiles, std::to_string(number));
+  if (state_.file_is_left_out) {
     state_.blocks.erase(kPrograms, c);
     report(Code::memory_full);
   } else {

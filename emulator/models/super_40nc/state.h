@@ -84,6 +84,7 @@ struct State {
   bool file_changed = false;  // M8023 is ON for the next scan
   bool shows_file_changed = false;
   std::int32_t file = 0;                                   // in memory, as D9001 has it
+  bool file_is_left_out = false;                           // of memory: it is too long, and stays as it is
   std::int32_t recipe = 0;                                 // as D9002 has it
   std::array<std::int32_t, kAxisCount> rpm_at_power_up{};  // X14
   std::int32_t logo_ms = 0;                                // C0, as it was at power-up

@@ -168,6 +168,7 @@ struct StateOf<emulator::models::super_40nc::State> {
                 field("file_changed", &Value::file_changed),
                 field("shows_file_changed", &Value::shows_file_changed),
                 field("file", &Value::file),
+                field("file_is_left_out", &Value::file_is_left_out),
                 field("recipe", &Value::recipe),
                 field("rpm_at_power_up", &Value::rpm_at_power_up),
                 field("logo_ms", &Value::logo_ms),
