@@ -64,9 +64,10 @@ void pack(std::span<const std::uint32_t> bits, std::size_t at, std::span<std::ui
   const auto one = [&] { packed[at / 8] |= static_cast<std::uint8_t>((bits[i++] & 1U) << at % 8); };
   for (; i < bits.size() && at % 8 != 0; ++at) one();
   for (; i + 8 <= bits.size(); i += 8, at += 8) {
-    std::uint32_t byte = 0;
-    for (std::size_t bit = 0; bit < 8; ++bit) byte |= (bits[i + bit] & 1U) << bit;
-    packed[at / 8] = static_cast<std::uint8_t>(byte);
+    const std::uint32_t* const of = &bits[i];  // written out: the compiler would not unroll it
+    const std::uint32_t low = (of[0] & 1U) | (of[1] & 1U) << 1 | (of[2] & 1U) << 2 | (of[3] & 1U) << 3;
+    const std::uint32_t high = (of[4] & 1U) | (of[5] & 1U) << 1 | (of[6] & 1U) << 2 | (of[7] & 1U) << 3;
+    packed[at / 8] = static_cast<std::uint8_t>(low | high << 4);
   }
   for (; i < bits.size(); ++at) one();
 }

@@ -148,7 +148,7 @@ bool Super40nc::counts_now(int axis_number) const {
 }
 
 bool Super40nc::counts_a_clock(int axis) const {
-  return registers().of(kept_x(25), axis) == 3 && chose(option("counter4_clock", "9_8304_mhz"));
+  return chose(option("counter4_clock", "9_8304_mhz")) && registers().of(kept_x(25), axis) == 3;
 }
 
 /// The machine's encoder, which has moved by what came out in this tick.
