@@ -73,7 +73,8 @@ enum class Count : std::uint8_t { command, encoder };
 /// A position compare: an event each time the relation becomes true, by motion or because a number was
 /// written. The relation is that of the count itself, so where the count wraps it changes, too.
 struct Comparator {
-  enum class Relation : std::uint8_t { off, at_least, below, equal };
+  /// The last two become true only where the count comes to the value by rising, or by falling.
+  enum class Relation : std::uint8_t { off, at_least, below, equal, equal_upwards, equal_downwards };
 
   Relation relation = Relation::off;
   Count count = Count::command;
@@ -83,6 +84,12 @@ struct Comparator {
   std::int64_t value = 0;
 
   bool operator==(const Comparator&) const = default;
+
+  /// The only way of the count that it becomes true by; 0: any, and a number that is written as well.
+  int way() const {
+    return relation == Relation::equal_upwards ? +1 : relation == Relation::equal_downwards ? -1 : 0;
+  }
+  bool asks_for_one_place() const { return relation == Relation::equal || way() != 0; }
 
   bool holds(std::int64_t travel) const;
   /// Pulses (1 ...) in `direction` until it may change; nothing if it will not.
@@ -321,9 +328,9 @@ struct alignas(64) Axis {
   Instant take_up_backlash(Tick tick);
   void run_until(Tick tick, Instant at, const Surroundings& here);
   void go_by(std::int64_t wanted, Instant at, const Surroundings& here);
-  void meet(const Surroundings& here, Instant at);
+  void meet(const Surroundings& here, Instant at, int way);  // by which it has come; 0: it has not moved
   void see(Signals now_on, Instant at);
-  void compare(Count count, std::int64_t value, Instant at);
+  void compare(Count count, std::int64_t value, Instant at, int way);
   void watch(const Surroundings& here);
   void raise(Event event, Instant at);
   void look_at_speed(std::int64_t sent_before, Instant from, Instant until);

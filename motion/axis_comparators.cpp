@@ -24,7 +24,9 @@ bool Comparator::holds(std::int64_t travel) const {
     case Relation::off: break;
     case Relation::at_least: return at >= value;
     case Relation::below: return at < value;
-    case Relation::equal: return at == value;
+    case Relation::equal:
+    case Relation::equal_upwards:
+    case Relation::equal_downwards: return at == value;
   }
   return false;
 }
@@ -35,11 +37,10 @@ std::optional<std::int64_t> Comparator::steps_until_change(std::int64_t travel, 
   // would have an edge at each pulse.
   const auto least = counter.least();
   const auto greatest = counter.greatest();
-  if (least &&
-      (value > *greatest || *least == *greatest || (relation != Relation::equal && value <= *least))) {
+  if (least && (value > *greatest || *least == *greatest || (!asks_for_one_place() && value <= *least))) {
     return std::nullopt;
   }
-  if (least && relation == Relation::equal && value < *least) return std::nullopt;
+  if (least && asks_for_one_place() && value < *least) return std::nullopt;
   std::optional<std::int64_t> nearest;
   const auto consider = [&](std::optional<std::int64_t> steps) {
     if (steps) nearest = nearest ? std::min(*nearest, *steps) : steps;
@@ -88,18 +89,18 @@ void Axis::follow_encoder_count(Instant at) {
       if (const auto change = mine.steps_until_change(encoder_seen, way)) steps = std::min(steps, *change);
     }
     encoder_seen += steps * way;
-    compare(Count::encoder, encoder_seen, at);
+    compare(Count::encoder, encoder_seen, at, way);
   }
   encoder_seen = encoder_pulses;
-  compare(Count::encoder, encoder_pulses, at);
+  compare(Count::encoder, encoder_pulses, at, way);
 }
 
-void Axis::compare(Count count, std::int64_t value, Instant at) {
+void Axis::compare(Count count, std::int64_t value, Instant at, int way) {
   for (std::size_t i = 0; i < comparators.size(); ++i) {
     Comparator& mine = comparators[i];
     if (mine.relation == Comparator::Relation::off || mine.count != count) continue;
     const bool holds = mine.holds(value);
-    if (holds && !mine.was_true) {
+    if (holds && !mine.was_true && (mine.way() == 0 || mine.way() == way)) {
       events_between |= bit(comparator_event(i));
       event_at[i] = at;
       mine.was_true = true;

@@ -28,7 +28,7 @@ std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
   Instant at{.tick = tick - 1};
   seen_version = here.version;
   attentive = false;
-  meet(here, at);
+  meet(here, at, 0);
   follow_encoder_count(at);
 
   if (task == Task::following) {
@@ -101,7 +101,7 @@ void Axis::run_until(Tick tick, Instant at, const Surroundings& here) {
     drive.sent_pulses = pulse;
     travel_pulses = edge;
     look_at_speed(sent_before, from, at);
-    meet(here, at);
+    meet(here, at, drive.direction);
   }
   if (drive.moving() && !in_backlash && drive.over_at(tick)) {
     if (comes_back) {
@@ -156,14 +156,14 @@ void Axis::go_by(std::int64_t wanted, Instant at, const Surroundings& here) {
     travel_pulses += now * way;
     base_pulses = travel_pulses;
     wanted -= now * way;
-    meet(here, at);
+    meet(here, at, way);
   }
   if (wanted != 0 && task == Task::coordinated) end(against(), at);
 }
 
 /// Everything that depends on the place, at the place the axis has come to.
-void Axis::meet(const Surroundings& here, Instant at) {
-  compare(Count::command, travel_pulses, at);
+void Axis::meet(const Surroundings& here, Instant at, int way) {
+  compare(Count::command, travel_pulses, at, way);
   see(here.at(travel_pulses, signals), at);
   if (settings.soft_limit_plus && travel_pulses > *settings.soft_limit_plus && drive.direction > 0) {
     react(settings.at_soft_limit, Cause::soft_limit_plus, at);

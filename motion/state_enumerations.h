@@ -33,7 +33,7 @@ struct StateOf<motion::Counter::Range> {
 
 template <>
 struct StateOf<motion::Comparator::Relation> {
-  static constexpr auto last = motion::Comparator::Relation::equal;
+  static constexpr auto last = motion::Comparator::Relation::equal_downwards;
 };
 
 template <>

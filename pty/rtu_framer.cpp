@@ -291,6 +291,7 @@ std::optional<RtuFrame> RtuFramer::take(SimTime now) {
 }
 
 std::optional<RtuFrame> RtuFramer::take_due(SimTime now) {
+  if (used() == 0) return std::nullopt;
   for (std::optional<SimTime> at = due(); at && *at <= now;) {
     if (const auto frame = take(now)) return frame;
     const std::optional<SimTime> before = std::exchange(at, due());

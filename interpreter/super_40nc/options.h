@@ -34,6 +34,7 @@ struct Options {
   /// Lines that the manual calls void in their area.
   enum class VoidLines : std::uint8_t { do_nothing, are_refused } void_lines = VoidLines::do_nothing;
   bool knows_mset = true;
+  bool labels_must_exist = false;  // those that are jumped to; else the program stops there
 
   // --- numbers --------------------------------------------------------------------------------------
   /// FMV beyond the end of its block.
@@ -66,9 +67,20 @@ struct Options {
   bool motions_need_edge = true;
   /// At RUN: PLS, ALT and the like fire once if their condition is ON, or see no edge.
   bool outputs_fire_at_run = true;
+  bool contacts_rise_at_run = false;  // those of edges whose bit is ON
+  bool timers_count_at_once = false;  // in the scan that turns them ON
+  bool kept_timers_hold = false;      // the latched ones, their value while OFF; else it is 0
+  /// Axes of C (C21): while M8000 is OFF, whenever they are free, or never.
+  enum class PlcMoves : std::uint8_t {
+    while_c_rests,
+    any_axis,
+    only_others
+  } plc_moves = PlcMoves::while_c_rests;
 
   // --- step programs ----------------------------------------------------------------------------------
-  int slice = 64;  // instructions of a program in a tick
+  int slice = 64;                      // instructions of a program in a tick
+  bool jumps_end_slice = true;         // those that are taken, CAL and RET
+  bool pointer_moves_running = false;  // D8000 and D8x00 written while the program runs
   int call_depth = 16;
   enum class LooseReturn : std::uint8_t {
     stops_program,

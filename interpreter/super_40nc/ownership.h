@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/options.h"
 
 namespace understudy::interpreter::super_40nc {
 
@@ -14,10 +15,14 @@ inline int axes_of_c(const Machine& machine) {
 
 /// C moves its own ones, an axis program its own one if it is not C's, and the PLC C's only while C does not
 /// run.
-inline bool may_move(const Machine& machine, Area by, int axis) {
+inline bool may_move(const Machine& machine, const Options& options, Area by, int axis) {
   const bool is_of_c = axis < axes_of_c(machine);
   if (by == Area::c) return is_of_c;
-  if (by == Area::plc) return !is_of_c || !machine.special_contact(row_of(Area::c).run_contact);
+  if (by == Area::plc) {
+    if (!is_of_c || options.plc_moves == Options::PlcMoves::any_axis) return true;
+    return options.plc_moves == Options::PlcMoves::while_c_rests &&
+           !machine.special_contact(row_of(Area::c).run_contact);
+  }
   return !is_of_c && axis == axis_of(by);
 }
 

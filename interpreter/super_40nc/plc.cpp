@@ -143,12 +143,15 @@ class Scan {
   void time(const LadderStep& step) {
     const bool is_on = result();
     const bool was_on = remember(step.memory, is_on);
-    if (!is_on || !was_on) put(step.c, 0, step.flags);
+    const bool holds_value = options_.kept_timers_hold && (step.flags & kKept) != 0;
+    if (!is_on && holds_value) return;
+    if ((!is_on || !was_on) && !holds_value) put(step.c, 0, step.flags);
     if (!is_on) return put(step.a, 0, step.flags);
     if (was_on) take_back(step);
+    const bool counts = was_on || options_.timers_count_at_once;
     const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
     auto present = static_cast<std::int32_t>(cells_[step.c]);
-    if (was_on && present < preset && a_unit_is_over_) {
+    if (counts && present < preset && a_unit_is_over_) {
       const bool had_changed = has_changed_;
       present = static_cast<std::int32_t>(std::min<std::int64_t>(preset, std::int64_t{present} + growth_));
       put(step.c, static_cast<std::uint32_t>(present), step.flags);
@@ -207,7 +210,7 @@ class Scan {
 
 }  // namespace
 
-void run(PlcState& plc, const Ladder& ladder, Machine& machine) {
+void run(PlcState& plc, const Ladder& ladder, Machine& machine, const Options& options) {
   const Access access(machine);
   plc.runs = true;
   plc.is_first_scan = true;
@@ -215,7 +218,9 @@ void run(PlcState& plc, const Ladder& ladder, Machine& machine) {
   plc.timed.clear();
   for (const LadderStep& step : ladder.steps()) {
     const bool is_edge = step.act >= Act::load_edge && step.act <= Act::parallel_edge;
-    if (is_edge) plc.memories[step.memory] = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
+    const bool sees_present = !options.contacts_rise_at_run;
+    if (is_edge && sees_present)
+      plc.memories[step.memory] = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
     // A timer goes on if it is still ON.
     if (step.act == Act::timer) plc.memories[step.memory] = machine.cells()[step.c] != 0 ? 1 : 0;
   }

@@ -42,7 +42,7 @@ struct Scanned {
 };
 
 /// To RUN, also at power-up and when another program is loaded meanwhile; X is up to date.
-void run(PlcState& plc, const Ladder& ladder, Machine& machine);
+void run(PlcState& plc, const Ladder& ladder, Machine& machine, const Options& options = {});
 /// To STOP: what it jogs stops by a ramp; all else goes on, and stays as it is.
 void stop(PlcState& plc, Machine& machine);
 

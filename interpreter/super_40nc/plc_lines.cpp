@@ -85,7 +85,7 @@ AxisValues PlcLines::movable(AxisValues values, int step) {
   bool is_void = false;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     auto& value = values[static_cast<std::size_t>(axis)];
-    if (!value || may_move(access_.machine(), Area::plc, axis)) continue;
+    if (!value || may_move(access_.machine(), options_, Area::plc, axis)) continue;
     value.reset();
     is_void = true;
   }

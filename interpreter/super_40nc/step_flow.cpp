@@ -59,7 +59,7 @@ StepPrograms::Slice StepPrograms::advance(Area area, const Instruction& line) {
 
 StepPrograms::Slice StepPrograms::jump(Area area, int step) {
   state(area).step = step;
-  return Slice::is_over;
+  return options_.jumps_end_slice ? Slice::is_over : Slice::goes_on;
 }
 
 StepPrograms::Slice StepPrograms::jump_to_label(Area area) {

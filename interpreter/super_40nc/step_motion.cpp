@@ -69,7 +69,7 @@ bool StepPrograms::drop_what_it_may_not_move(Area area, AxisValues& values) {
   bool is_void = false;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     auto& value = values[static_cast<std::size_t>(axis)];
-    if (!value || may_move(machine_, area, axis)) continue;
+    if (!value || may_move(machine_, options_, area, axis)) continue;
     value.reset();
     is_void = true;
   }

@@ -173,11 +173,26 @@ void StepPrograms::change_file(Area area) {
   if (line < 0 || code(area).line(line).op != Op::tmr) program.left_ms = 0;
 }
 
+/// Of a program that runs: behind its motion, or at once.
+void StepPrograms::move_pointer(StepState& program, int step) {
+  if (program.phase == Phase::moving || program.phase == Phase::homing) {
+    program.next_step = step;
+    return;
+  }
+  program.phase = Phase::executing;
+  program.waits_to_resume = false;
+  program.left_ms = 0;
+  program.step = step;
+}
+
 void StepPrograms::set_step(Area area, int step) {
   StepState& program = state(area);
   const bool is_at_rest =
       program.phase == Phase::idle || program.phase == Phase::paused || program.phase == Phase::held;
-  if (!is_at_rest) return;
+  if (!is_at_rest) {
+    if (options_.pointer_moves_running) move_pointer(program, step);
+    return;
+  }
   if (program.machine_holds) machine_.drop_held(area);
   program.machine_holds = false;
   if (program.phase == Phase::held) program.phase = Phase::paused;

@@ -82,6 +82,7 @@ class StepPrograms : public StepControl {
   Operand awaited(Area area) const;
 
  private:
+  static void move_pointer(StepState& program, int step);
   struct Stepping;  // what one instruction does to its slice
   enum class Slice : std::uint8_t { goes_on, is_over };
 

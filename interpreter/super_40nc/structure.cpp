@@ -36,11 +36,13 @@ class Structure {
       if (op != Op::nop) look_at_logic(op);
       look_at_pairs(op);
       if (op == Op::lab) look_at_label(lines[i].fields[0].number);
+      if (names_label(op)) jumps_.emplace_back(line_, lines[i].fields[0].number);
       if (op == Op::out || op == Op::out_tc) look_at_coil(lines[i].fields[0]);
       has_end_ |= op == Op::end;
       if (op != Op::nop) before_ = op;
     }
     look_at_end();
+    look_at_jumps();
     std::stable_sort(faults_.begin(), faults_.end(),
                      [](const Fault& a, const Fault& b) { return a.line < b.line; });
     return std::move(faults_);
@@ -140,6 +142,16 @@ class Structure {
                        first->second, options_.double_labels == Options::DoubleLabels::load});
   }
 
+  static bool names_label(Op op) { return op == Op::jmp || op == Op::cj || op == Op::cjn || op == Op::cal; }
+
+  void look_at_jumps() {
+    for (const auto& [line, label] : jumps_) {
+      if (!options_.labels_must_exist || labels_.contains(label)) continue;
+      faults_.push_back({line, Code::label_missing, "names a label that the area does not have",
+                         "LAB K" + std::to_string(label)});
+    }
+  }
+
   void look_at_coil(const Operand& coil) {
     if (options_.double_coils == Options::DoubleCoils::last_wins) return;
     if (!coils_.emplace(std::pair(static_cast<int>(coil.letter), coil.number), line_).second) {
@@ -172,6 +184,7 @@ class Structure {
   bool is_full_ = false;
   std::vector<OpenIf> ifs_;
   std::map<std::int32_t, int> labels_;
+  std::vector<std::pair<int, std::int32_t>> jumps_;  // lines, and the labels that they name
   std::map<std::pair<int, std::int32_t>, int> coils_;
 };
 

@@ -33,7 +33,7 @@ struct RelationCase {
 };
 
 TEST(AxisEvent, AComparatorFiresInTheTickItsRelationBecomesTrue) {
-  constexpr std::array<RelationCase, 12> kCases{{
+  constexpr std::array<RelationCase, 18> kCases{{
       {Relation::at_least, +1, 5, 6},
       {Relation::at_least, +1, 1, 2},
       {Relation::at_least, +1, 0, 0},  // is true already
@@ -45,6 +45,12 @@ TEST(AxisEvent, AComparatorFiresInTheTickItsRelationBecomesTrue) {
       {Relation::equal, +1, 5, 6},
       {Relation::equal, -1, -5, 6},
       {Relation::equal, +1, 0, 0},
+      {Relation::equal_upwards, +1, 5, 6},
+      {Relation::equal_upwards, -1, -5, 0},
+      {Relation::equal_upwards, +1, 0, 0},
+      {Relation::equal_downwards, -1, -5, 6},
+      {Relation::equal_downwards, +1, 5, 0},
+      {Relation::equal_downwards, -1, 0, 0},
       {Relation::off, +1, 5, 0},
   }};
   for (std::size_t number = 0; number < 4; ++number) {
@@ -213,7 +219,7 @@ TEST(AxisEvent, ComparatorsFireAsCountingPulseByPulseSays) {
     std::array<Comparator, 4> wanted;
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       Comparator& one = wanted[k];
-      one.relation = static_cast<Relation>(random.between(0, 3));
+      one.relation = static_cast<Relation>(random.between(0, 5));
       one.counter.range = random.between(0, 1) == 0 ? Range::linear : Range::ring;
       one.counter.ring_top = random.between(0, 50);
       one.counter.offset = random.between(-100, 100);
@@ -231,10 +237,12 @@ TEST(AxisEvent, ComparatorsFireAsCountingPulseByPulseSays) {
         course.step();
         Events fired = 0;
         while (travel != course.travel()) {
-          travel += travel < course.travel() ? 1 : -1;
+          const int way = travel < course.travel() ? +1 : -1;
+          travel += way;
           for (std::size_t k = 0; k < 4; ++k) {
             const bool holds = wanted[k].holds(travel);
-            if (holds && !was[k]) fired |= static_cast<Events>(bit(Event::comparator_0) << k);
+            const bool comes_by_it = wanted[k].way() == 0 || wanted[k].way() == way;
+            if (holds && !was[k] && comes_by_it) fired |= static_cast<Events>(bit(Event::comparator_0) << k);
             was[k] = holds;
           }
         }

@@ -110,7 +110,7 @@ class AxisScenario {
   }
 
   Comparator any_comparator() {
-    Comparator mine{.relation = static_cast<Comparator::Relation>(between(0, 3)),
+    Comparator mine{.relation = static_cast<Comparator::Relation>(between(0, 5)),
                     .count = static_cast<Count>(between(0, 1)),
                     .reaction = between(0, 2) == 0 ? static_cast<Reaction>(between(0, 2)) : Reaction::ignore,
                     .value = place()};

@@ -48,29 +48,14 @@ std::size_t stored_neighbours(const Place& place) {
   return static_cast<std::size_t>(row.stride == 1 ? row.count - place.index : 1);
 }
 
-/// Of a 32-bit register whose first word a place is: how many of its row stand one behind the other, if they
-/// are simply what the image holds; else 1.
-std::size_t stored_pairs(const Place& place) {
-  const RegisterRow& row = *place.row;
-  const bool is_plain = !row.is_view && row.reader == nullptr && row.fields.empty() && row.stride == 2;
-  return is_plain ? static_cast<std::size_t>(row.count - place.index) : 1;
+void put_pair(std::span<std::uint16_t> words, std::uint32_t bits, bool low_first) {
+  words[low_first ? 0 : 1] = static_cast<std::uint16_t>(bits);
+  words[low_first ? 1 : 0] = static_cast<std::uint16_t>(bits >> 16);
 }
 
-/// Whole 32-bit registers from the word that a place is; returns how many words. None if it is a second word,
-/// or the request ends with it.
-std::size_t read_pairs(const RegisterBank& bank, const Place& place, bool low_first,
-                       std::span<std::uint16_t> words) {
-  if (place.part == Place::Part::whole || place.is_second_word(low_first)) return 0;
-  const std::size_t count = std::min(stored_pairs(place), words.size() / 2);
-  const auto put = [&](std::size_t i, std::uint32_t bits) {
-    words[2 * i + (low_first ? 0 : 1)] = static_cast<std::uint16_t>(bits);
-    words[2 * i + (low_first ? 1 : 0)] = static_cast<std::uint16_t>(bits >> 16);
-  };
-  if (count == 1) put(0, present_bits(bank, place));
-  if (count <= 1) return 2 * count;
-  const auto stored = bank.image().subspan(static_cast<std::size_t>(place.slot), count);
-  for (std::size_t i = 0; i < count; ++i) put(i, stored[i]);
-  return 2 * count;
+/// Whether the word that a place is begins a 32-bit register, and the request brings both of its words.
+bool is_whole_pair(const Place& place, bool low_first, std::size_t words_left) {
+  return place.part != Place::Part::whole && !place.is_second_word(low_first) && words_left >= 2;
 }
 
 /// The lowest bit of each, from bit number `at` on; whole bytes at once.
@@ -79,9 +64,10 @@ void pack(std::span<const std::uint32_t> bits, std::size_t at, std::span<std::ui
   const auto one = [&] { packed[at / 8] |= static_cast<std::uint8_t>((bits[i++] & 1U) << at % 8); };
   for (; i < bits.size() && at % 8 != 0; ++at) one();
   for (; i + 8 <= bits.size(); i += 8, at += 8) {
-    std::uint32_t byte = 0;
-    for (std::size_t bit = 0; bit < 8; ++bit) byte |= (bits[i + bit] & 1U) << bit;
-    packed[at / 8] = static_cast<std::uint8_t>(byte);
+    const std::uint32_t* const of = &bits[i];  // written out: the compiler would not unroll it
+    const std::uint32_t low = (of[0] & 1U) | (of[1] & 1U) << 1 | (of[2] & 1U) << 2 | (of[3] & 1U) << 3;
+    const std::uint32_t high = (of[4] & 1U) | (of[5] & 1U) << 1 | (of[6] & 1U) << 2 | (of[7] & 1U) << 3;
+    packed[at / 8] = static_cast<std::uint8_t>(low | high << 4);
   }
   for (; i < bits.size(); ++at) one();
 }
@@ -93,8 +79,14 @@ Objection read_request(const RegisterBank& bank, Table table, std::uint16_t firs
   const bool low_first = bank.low_word_first();
   const bool pairs_whole = bank.map_policy().read_halves == MapPolicy::ReadHalves::come_whole;
   if (first + words.size() > 65536) return objection(Refusal::no_register, Cause::no_register, first);
+  const auto pairs = bank.map().stored_pairs(table);
+  const auto image = bank.image();
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::size_t address = first + i;
+    if (address < pairs.size() && pairs[address] != Place::kNoSlot && i + 1 < words.size()) {
+      put_pair(words.subspan(i++, 2), image[static_cast<std::size_t>(pairs[address])], low_first);
+      continue;
+    }
     Place place = bank.at(table, static_cast<std::uint16_t>(address), low_first);
     if (const Objection refused = readable(bank, table, address, place)) return refused;
     if (!place) {
@@ -105,14 +97,14 @@ Objection read_request(const RegisterBank& bank, Table table, std::uint16_t firs
       return objection(Refusal::no_register, Cause::cut_pair, address);
     }
     mention_if_missed(bank, place);
-    if (const std::size_t read = read_pairs(bank, place, low_first, words.subspan(i)); read > 0) {
-      i += read - 1;
+    if (is_whole_pair(place, low_first, words.size() - i)) {
+      put_pair(words.subspan(i++, 2), present_bits(bank, place), low_first);
       continue;
     }
     const std::size_t rest = stored_neighbours(place);
     if (rest > 1) {  // the rest of its row follows
       const std::size_t count = std::min(rest, words.size() - i);
-      const auto stored = bank.image().subspan(static_cast<std::size_t>(place.slot), count);
+      const auto stored = image.subspan(static_cast<std::size_t>(place.slot), count);
       std::transform(stored.begin(), stored.end(), words.begin() + static_cast<std::ptrdiff_t>(i),
                      [](std::uint32_t bits) { return static_cast<std::uint16_t>(bits); });
       i += count - 1;

@@ -46,6 +46,12 @@ constexpr std::array<std::pair<std::string_view, Table>, 4> kTables{{{"holding",
                                                                      {"input", Table::input},
                                                                      {"discrete", Table::discrete}}};
 
+/// Whether reading it asks for nothing but its value, in every firmware.
+bool reads_plainly(const RegisterRow& row) {
+  return row.since == 0 && row.unmodelled.empty() && row.fields.empty() && row.access != Access::write &&
+         row.message == nullptr;
+}
+
 }  // namespace
 
 RegisterMap::RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy)
@@ -63,6 +69,8 @@ RegisterMap::RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy)
   }
   for (const Table bits : {Table::coil, Table::discrete})
     find_bit_sources(tables_[static_cast<std::size_t>(bits)]);
+  for (const Table words : {Table::holding, Table::input})
+    find_stored_pairs(tables_[static_cast<std::size_t>(words)]);
   if (policy.word_order_in.empty()) return;
   const auto& holding = tables_[static_cast<std::size_t>(Table::holding)].names;
   if (!holding.contains(std::string(policy.word_order_in))) {
@@ -98,9 +106,7 @@ void RegisterMap::find_bit_sources(TableIndex& table) const {
     const Entry entry = table.entries[address];
     if (entry.row_number == 0) continue;
     const RegisterRow& row = rows_[entry.row_number - 1U];
-    const bool is_plain = row.since == 0 && row.unmodelled.empty() && row.fields.empty() &&
-                          row.access != Access::write && row.message == nullptr;
-    if (!is_plain) continue;
+    if (!reads_plainly(row)) continue;
     BitSource& source = table.bits[address];
     if (row.reader != nullptr) {
       source = {.how = How::reader,
@@ -114,6 +120,17 @@ void RegisterMap::find_bit_sources(TableIndex& table) const {
                            table.bits[address + 1].slot == source.slot + 1;
       if (goes_on) source.run = static_cast<std::uint16_t>(table.bits[address + 1].run + 1);
     }
+  }
+}
+
+void RegisterMap::find_stored_pairs(TableIndex& table) const {
+  for (std::size_t address = 0; address < static_cast<std::size_t>(table.end); ++address) {
+    const Entry entry = table.entries[address];
+    if (entry.row_number == 0 || entry.index_and_part % 2 != 0) continue;
+    const RegisterRow& row = rows_[entry.row_number - 1U];
+    if (!is_32_bit(row.type) || row.is_view || row.reader != nullptr || !reads_plainly(row)) continue;
+    table.pairs.resize(address + 1, Place::kNoSlot);
+    table.pairs[address] = first_slots_[entry.row_number - 1U] + entry.index_and_part / 2;
   }
 }
 

@@ -78,6 +78,12 @@ class RegisterMap {
     return tables_[static_cast<std::size_t>(table)].bits;
   }
 
+  /// By address: the slot of a 32-bit register that begins there and is simply what the image holds, for
+  /// every firmware; else Place::kNoSlot. Worked out once, too. May end before the table does.
+  std::span<const std::int32_t> stored_pairs(Table table) const {
+    return tables_[static_cast<std::size_t>(table)].pairs;
+  }
+
   bool has(Table table) const { return !tables_[static_cast<std::size_t>(table)].entries.empty(); }
   /// Behind the last address of a table.
   int end_of(Table table) const { return tables_[static_cast<std::size_t>(table)].end; }
@@ -113,8 +119,10 @@ class RegisterMap {
     int end = 0;
     std::unordered_map<std::string, Place> names{};  // looked up, never iterated
     std::vector<BitSource> bits{};                   // by address
+    std::vector<std::int32_t> pairs{};               // by address
   };
   void find_bit_sources(TableIndex& table) const;
+  void find_stored_pairs(TableIndex& table) const;
 
   std::vector<RegisterRow> rows_;
   std::vector<int> first_slots_;

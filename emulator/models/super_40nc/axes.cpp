@@ -122,7 +122,13 @@ Grant Super40nc::ask(int axis_number, Request request) {
   return given;
 }
 
-motion::AxisSettings Super40nc::motor_settings(int axis) const {
+motion::Cause Super40nc::blocked_both_ways(int axis) const {
+  if (!chose(option("limits_blocking", "both_ways_blocked"))) return motion::Cause::none;
+  if (has_signal(axis, motion::Signal::limit_plus)) return motion::Cause::limit_plus;
+  return has_signal(axis, motion::Signal::limit_minus) ? motion::Cause::limit_minus : motion::Cause::none;
+}
+
+motion::AxisSettings Super40nc::motor_settings(int axis, bool homes) const {
   const Settings its = registers();
   const auto reaction = [&](Kept kept) {
     return its.is_on(kept, axis) ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
@@ -132,7 +138,7 @@ motion::AxisSettings Super40nc::motor_settings(int axis) const {
   made.at_limit_plus = made.at_limit_minus = reaction(kept_x(1));
   made.at_alarm = reaction(kept_x(3));
   made.soft_limit_plus = made.soft_limit_minus = std::nullopt;
-  if (chip(axis).homing.active() && chose(option("home_soft_limits", "ignored"))) return made;
+  if (homes && chose(option("home_soft_limits", "ignored"))) return made;
   const std::int64_t counter_lead = machine_pulses(axis) - chip(axis).travel_pulses;
   constexpr Value kSoftLimit = 6;
   constexpr Value kRamp = 2;
@@ -161,10 +167,10 @@ motion::AxisSettings Super40nc::motor_settings(int axis) const {
 }
 
 /// What is taken from the parameters when a motion starts.
-void Super40nc::prepare(int axis_number) {
+void Super40nc::prepare(int axis_number, bool homes) {
   const Settings its = registers();
   AxisState& state = axis(axis_number);
-  motion::AxisSettings settings = motor_settings(axis_number);
+  motion::AxisSettings settings = motor_settings(axis_number, homes);
   constexpr Value kSlip = 2;
   const Value correction = its.of(kept_x(57), axis_number);
   settings.backlash_pulses = correction != 0 ? its.of(kept_x(56), axis_number) : 0;
@@ -194,11 +200,9 @@ void Super40nc::prepare(int axis_number) {
 
 void Super40nc::begun(int axis_number, motion::Cause why_not, Holder holder) {
   AxisState& state = axis(axis_number);
-  if (why_not == motion::Cause::none && holder != Holder::home &&
-      chose(option("limits_blocking", "both_ways_blocked"))) {
-    const bool is_at_plus = has_signal(axis_number, motion::Signal::limit_plus);
-    if (is_at_plus || has_signal(axis_number, motion::Signal::limit_minus)) {
-      why_not = is_at_plus ? motion::Cause::limit_plus : motion::Cause::limit_minus;
+  if (why_not == motion::Cause::none && holder != Holder::home) {
+    why_not = blocked_both_ways(axis_number);
+    if (why_not != motion::Cause::none) {
       chip(axis_number).stop(why_not);
       forget_end(axis_number);
     }
@@ -233,27 +237,25 @@ void Super40nc::change_jog_speed() {
   }
 }
 
-/// Returns whether it runs for who asks.
-bool Super40nc::start_jog(int axis_number, int way, bool AxisState::*asked_by) {
+void Super40nc::start_jog(int axis_number, int way, bool AxisState::*asked_by) {
   AxisState& state = axis(axis_number);
   const Grant given = ask(axis_number, Request::jog);
   const motion::SpeedLaw law = jog_law(axis_number);
   if (given == Grant::same_or_no) {
     if (chip(axis_number).last_direction != way) {
       report(Code::axis_taken);
-      return false;
+      return;
     }
     chip(axis_number).resume(law, now());
     state.*asked_by = true;
-    return true;
+    return;
   }
-  if (given != Grant::starts) return false;
+  if (given != Grant::starts) return;
   prepare(axis_number);
   begun(axis_number, chip(axis_number).run(way, law, before_motion()), Holder::jog);
-  if (state.holder != Holder::jog) return false;
+  if (state.holder != Holder::jog) return;
   state.*asked_by = true;
   mirror_start(axis_number, kModeContinuous + (way < 0 ? kModeNegative : 0), 0, law);
-  return true;
 }
 
 /// By a ramp, when nobody asks for it any more.
@@ -326,7 +328,7 @@ void Super40nc::ended(int axis_number) {
   const bool is_at_target = has_arrived && state.rest.kind == RestKind::move;
   const bool shows_finish = has_arrived && state.shows_finish;
   let_go(axis_number);
-  state.stands_on_target = is_at_target;
+  state.stands_on_target = is_at_target && distance_to(axis_number, state.target_lu) == 0;
   if (shows_finish) show_finished(static_cast<std::size_t>(axis_number));
   const bool goes_on = held == Holder::home && chose(option("home_failure", "the_program_goes_on"));
   if (code != Code::none && mover < Mover::plc && !goes_on)

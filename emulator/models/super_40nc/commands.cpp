@@ -118,6 +118,17 @@ bool Super40nc::has_errors_for_a_scan() const {
   return has_one && chose(option("serr_clears", "one_scan"));
 }
 
+/// As long as it is ON: a program is reset, or an axis' program pauses at its line.
+void Super40nc::stop_by_emergency(language::Area area, bool is_new) {
+  const language::Phase phase = state_.steps.programs[language::index_of(area)].phase;
+  const bool pauses =
+      area != language::Area::c && chose(option("emergency_of_axis_programs", "they_pause_at_their_line"));
+  if (!pauses || (is_new && phase == language::Phase::held)) return tell(language::Event::emergency, area);
+  if (!is_new) return;
+  tell(language::Event::limit_pauses, area);  // its motion is over
+  tell(language::Event::hold, area);          // a wait, or lines
+}
+
 void Super40nc::obey_stops() {
   using language::Area;
   using language::Event;
@@ -136,7 +147,7 @@ void Super40nc::obey_stops() {
     }
     state_.homing_by_key = state_.zeroing_by_key = {};
     for (const language::AreaRow& row : language::kAreas) {
-      if (row.area != Area::plc) tell(Event::emergency, row.area);
+      if (row.area != Area::plc) stop_by_emergency(row.area, is_new);
     }
   }
   state_.emergency_obeyed = state_.emergency;
@@ -189,10 +200,13 @@ void Super40nc::obey_pages() {
   if (rises(8501) && runs && state_.run_switch && !state_.plc.runs) plc_to_run();
 }
 
+bool Super40nc::acts_behind_reset(int axis) const {
+  return state_.were_held[static_cast<std::size_t>(axis)] && chose(option("level_after_stop", "act_at_once"));
+}
+
 /// A level that has stayed ON behind a stop, if that is chosen to act.
 bool Super40nc::is_level_again(int axis, int contact) const {
-  return state_.were_held[static_cast<std::size_t>(axis)] && is_on(contact) &&
-         chose(option("level_after_stop", "act_at_once"));
+  return is_on(contact) && acts_behind_reset(axis);
 }
 
 void Super40nc::obey_jogs(int axis) {
@@ -243,7 +257,7 @@ void Super40nc::obey_contacts() {
   obey_order_keys();
   for (int number = 0; number < kAxisCount; ++number) obey_jogs(number);
   obey_wheel();
-  set_contact(8005, false);
+  if (!chose(option("m8005_falls", "by_a_write_alone"))) set_contact(8005, false);
   hold_while_inhibited();
   for (int number = 0; number < kAxisCount; ++number) {
     state_.were_held[static_cast<std::size_t>(number)] = is_held_in_reset(number);

@@ -1,6 +1,6 @@
 // The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48). By COUNTER1 the chip's stop it to the
-// pulse: as soft limits (6), = (1), set > count (4) and set < count (5). By other numbers, or on the way up
-// (2) or down (3) alone, they do so when a tick is over.
+// pulse: as soft limits (6), = (1), on the way up (2) or down (3), set > count (4) and set < count (5). By
+// other numbers they do so when a tick is over.
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -35,6 +35,8 @@ motion::Comparator::Relation relation_of(Value method) {
   using Relation = motion::Comparator::Relation;
   switch (method) {
     case kEqual: return Relation::equal;
+    case kEqualUpwards: return Relation::equal_upwards;
+    case kEqualDownwards: return Relation::equal_downwards;
     case kSetAbove: return Relation::below;
     case kSetBelow: return Relation::at_least;
     default: return Relation::off;
@@ -72,10 +74,12 @@ std::int64_t Super40nc::compared_number(int axis, std::size_t which) const {
 bool Super40nc::comparator_holds(int axis, int number) const {
   const ComparatorRow& its = kComparatorRows[static_cast<std::size_t>(number)];
   const Settings settings = registers();
+  const Value method = settings.of(its.method, axis);
+  if (method == 0) return false;
   const std::int32_t value = settings.raw(its.value, axis);
   const std::int64_t present = compared_number(axis, static_cast<std::size_t>(number));
   const int way = chip(axis).last_direction;
-  switch (settings.of(its.method, axis)) {
+  switch (method) {
     case kEqual: return present == value;
     case kEqualUpwards: return present == value && way > 0;
     case kEqualDownwards: return present == value && way < 0;

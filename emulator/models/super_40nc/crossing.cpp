@@ -37,7 +37,7 @@ bool Super40nc::is_quiet(int axis_number) const {
   const motion::Axis& motor = chip(axis_number);
   const AxisState& state = axis(axis_number);
   return !motor.moving() && !motor.attentive && motor.events == 0 && motor.events_between == 0 &&
-         state.sent_pulses == 0 && state.followed_pulses == 0 &&
+         !counts_a_clock(axis_number) && state.sent_pulses == 0 && state.followed_pulses == 0 &&
          here(axis_number).version == motor.seen_version;
 }
 
@@ -65,7 +65,7 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead)
     const motion::Axis& motor = chip(number);
     const AxisState& state = axis(number);
     if (is_quiet(number)) continue;
-    if (state.masked || motor.homing.active() || state.compares_by_tick != 0 ||
+    if (counts_a_clock(number) || state.masked || motor.homing.active() || state.compares_by_tick != 0 ||
         state.holder == Holder::wheel || latches_by_comparator(registers(), number)) {
       return done + 1;
     }

@@ -131,6 +131,14 @@ language::Options Super40nc::chosen_options() const {
   set(option("str_running", "begins_anew"), made.start_begins_anew, true);
   set(option("mrk_speed", "by_x14_alone"), made.marks_by_rpm, false);
   set(option("mset", "refused_at_load"), made.knows_mset, false);
+  set(option("plc_moves_axes_of_c", "whenever_they_are_free"), made.plc_moves, Options::PlcMoves::any_axis);
+  set(option("plc_moves_axes_of_c", "never"), made.plc_moves, Options::PlcMoves::only_others);
+  set(option("missing_label", "refused_at_load"), made.labels_must_exist, true);
+  set(option("kept_timers", "keep_their_value"), made.kept_timers_hold, true);
+  set(option("timer_first_scan", "counts"), made.timers_count_at_once, true);
+  set(option("run_contact_edges", "those_that_are_on_rise"), made.contacts_rise_at_run, true);
+  set(option("pointer_write_running", "goes_on_there"), made.pointer_moves_running, true);
+  set(option("slice_end", "waits_and_the_64_lines_alone"), made.jumps_end_slice, false);
   return made;
 }
 
@@ -194,7 +202,7 @@ void Super40nc::sample_inputs(Tick) {
   // What is ON before the first scan is no edge, also where a listing came before the inputs did.
   if (state_.plc.runs && state_.plc.is_first_scan) {
     ProgramMachine machine(*this);
-    language::run(state_.plc, ladder_, machine);
+    language::run(state_.plc, ladder_, machine, options_);
   }
   if (was_emergency != state_.emergency) state_.touched = true;
 }
@@ -297,7 +305,9 @@ void Super40nc::update_outputs(Tick tick) {
   for (std::size_t i = 0; i < kSignalCount; ++i) {
     const FinishSignal& signal = kSignals[i];
     if (registers().of(signal.time, signal.axis) == 0) continue;
-    state_.image[signal.output.slot] = tick < state_.signal_until[i] ? 1 : 0;
+    const bool is_over = tick >= state_.signal_until[i];
+    if (tick > state_.signal_until[i] && shares_signals()) continue;
+    state_.image[signal.output.slot] = is_over ? 0 : 1;
   }
   if (tick >= state_.logo_at && !state_.logo_over) {
     if (!chose(option("logo_contact", "the_panel_alone"))) set_contact(8502, true);
@@ -314,7 +324,8 @@ Tick Super40nc::next_timed_tick(Tick done) const {
   for (std::size_t i = 0; i < kSignalCount; ++i) {
     const bool is_on = state_.image[kSignals[i].output.slot] != 0;
     const bool is_system = registers().of(kSignals[i].time, kSignals[i].axis) != 0;
-    if (is_system && is_on) next = std::min(next, std::max(done + 1, state_.signal_until[i]));
+    const bool is_plcs = shares_signals() && state_.signal_until[i] <= done;
+    if (is_system && is_on && !is_plcs) next = std::min(next, std::max(done + 1, state_.signal_until[i]));
   }
   return next;
 }

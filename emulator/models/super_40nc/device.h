@@ -153,16 +153,20 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::int32_t table_line() const;
   /// M8x49, M8x52, M8x53.
   bool gives_erc(int axis) const { return now() < state_.erc_until[static_cast<std::size_t>(axis)]; }
+  bool keeps_unlisted() const { return !chose(option("unlisted_contacts", "read_0")); }
   bool has_chip_pins() const { return chose(option("pins_fitted", "also_clr_ltc_and_erc")); }
   /// VR1 to VR3 in counts.
   std::int32_t analog_counts(int number) const;
-  void flash_written();
+  void flash_written(bool is_recipe);
   int first_of_recipe() const;
   /// M8022.
   bool is_pausing() const;
   /// D8000, D8x00; programs in the order of their areas.
   void set_pointer(int program, std::int32_t step);
-  int base_of_program(std::size_t program) const;
+  /// Beyond the area's own number of it, as D8000 and D8x00 count.
+  int shown_base(std::size_t program) const;
+  /// D8000, D8x00.
+  std::int32_t shown_step(std::size_t program) const;
   /// D9042, D9043, by D9045.
   void show_capacities();
 
@@ -175,6 +179,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void set_plc_step(int step) { plc_step_ = step; }
   /// The step of the line that a step program is at, as D8095 counts.
   int line_step(Mover mover) const;
+  const interpreter::super_40nc::Options& language_options() const { return options_; }
   /// What runs by hand, or nothing where a line of a program waits for it.
   std::optional<ManualMotion> manual_motion(int axis_number) const;
   /// What it does then (manual_motions.h).
@@ -184,8 +189,11 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// By the table, as it is chosen.
   Grant granted(Holder holder, Request request) const { return grant(holder, request, lines_wait_); }
   std::int64_t relative_base_lu(int axis_number) const;
+  /// In pulses. Of a target that was reached, but is elsewhere since: by PSET, another D8x40, CMX.
   std::int64_t distance_to(int axis_number, std::int64_t target_lu) const;
   std::int64_t search_pulses(int axis) const;
+  motion::SpeedLaw line_law(int axis, double rpm, Mover mover) const;
+  motion::SpeedLaw drive_law(int axis, std::int32_t rpm, Mover mover) const;
   // Each of these returns whether it has begun; if not, its error is reported.
   bool begin_drive(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover);
   bool begin_mark(int axis_number, std::int64_t distance, std::int64_t search, std::int32_t rpm, Mover mover);
@@ -196,7 +204,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void stop_by_command(int axis_number);
   void start_home(int axis_number, int order = 0);
   void start_wheel(int axis_number, WheelSource source);
-  bool start_jog(int axis_number, int way, bool AxisState::*asked_by);
+  void start_jog(int axis_number, int way, bool AxisState::*asked_by);
   void release_jog(int axis_number, bool AxisState::*asked_by);
   void hold_axis(int axis_number);
   void go_on_axis(int axis_number);
@@ -208,6 +216,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool is_held_in_reset(int axis) const;
   /// M8004, or one of those above: starts by hand are lost without a code.
   bool is_inhibited(int axis) const;
+  /// Whether levels that have stayed ON behind a reset act now.
+  bool acts_behind_reset(int axis) const;
   bool is_stopped_by_emergency() const;
   /// Begins the signal Y0 + `signal`, or begins it anew.
   void show_finished(std::size_t signal);
@@ -255,6 +265,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // --- memory.cpp
   void blank_state();
   Eeprom factory_memory() const;
+  bool keeps(const RegisterRow& row) const;
   std::uint32_t factory_bits(const RegisterRow& row) const;
   interpreter::super_40nc::Options chosen_options() const;
   MapPolicy chosen_map_policy() const;
@@ -276,6 +287,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// Errors of axes that fall at the next tick, where that is chosen.
   bool has_errors_for_a_scan() const;
   void obey_stops();
+  void stop_by_emergency(interpreter::super_40nc::Area area, bool is_new);
   void obey_jogs(int axis);
   void obey_wheel();
   bool is_wheel_locked(int axis) const;
@@ -283,10 +295,12 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void slow_by_hand(int axis);
   void obey_pages();
   bool is_level_again(int axis, int contact) const;
+  /// M8x97 to M8x99.
+  bool shows_running(bool is_by_contact) const;
   void see_contacts();
 
   // --- axes.cpp: what moves them
-  void prepare(int axis_number);
+  void prepare(int axis_number, bool homes = false);
   /// What a scan starts moves in its own tick.
   Tick before_motion() const { return now() - 1; }
   void begun(int axis_number, motion::Cause why_not, Holder holder);
@@ -306,12 +320,19 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts);
   void add_to_counter(int axis_number, int which, std::int64_t counts);
   bool counts_now(int axis_number) const;
+  /// COUNTER4, by a clock (D9x25 = 3).
+  bool counts_a_clock(int axis) const;
   void clear_counters(int axis_number);
   motion::SpeedLaw jog_law(int axis) const;
+  /// The limit that an axis stands on, where that blocks both ways.
+  motion::Cause blocked_both_ways(int axis) const;
   motion::Cause blocked_on_path(int axis_number, const motion::Path& path) const;
   void count_index(int axis_number, std::int8_t phase_before);
   void latch(int axis_number);
-  motion::AxisSettings motor_settings(int axis) const;
+  motion::AxisSettings motor_settings(int axis, bool homes) const;
+  motion::AxisSettings motor_settings(int axis) const {
+    return motor_settings(axis, chip(axis).homing.active());
+  }
 
   void rest_axis(int axis_number);
   /// What has ended between ticks has been dealt with.
@@ -324,10 +345,14 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void step_path_backlash(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
   void step_arc_backlash(const std::array<std::int8_t, kAxisCount>& ways_before,
                          std::array<std::int64_t, kAxisCount>& sent);
+  double override_percent() const;
   double path_feed() const;
+  double feed_scale(const motion::Path& path) const;
 
   void run_plc();
   void look_at_contacts();
+  /// The PLC may switch FSH and END outputs ON and OFF between their signals.
+  bool shares_signals() const { return chose(option("signal_outputs", "the_plc_has_them_between")); }
 
   // --- programs.cpp
   void make_programs_ready();
@@ -337,6 +362,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool programs_are_busy() const;
   void plc_to_run();
   void plc_to_stop();
+  void clear_timers();
 
   // --- crossing.cpp
   Tick quiet_scans(bool moves) const;
@@ -356,8 +382,13 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void look_at_inputs();
   void see_first_signals();
   void look_round(int axis_number);
+  /// X33, X34: 0 not in use, 1 NO, 2 NC.
+  Value limit_logic(int axis, int way) const;
+  /// D8x18 and D8x19 are what acts of X33 and X34.
+  bool has_limit_copies() const { return !chose(option("limit_copies", "plain_registers")); }
 
   // --- pins.cpp: those of the chip that are fitted by choice
+  bool has_voltage_inputs() const { return !chose(option("analog_counts", "in_counts_only")); }
   void see_pins();
   void hold_cleared();
   void clear_by_pin(int axis);

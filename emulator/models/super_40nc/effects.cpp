@@ -58,9 +58,7 @@ Value read_braking_distance(const Super40nc& device, Cell cell) {
 }
 
 Value read_pointer(const Super40nc& device, Cell cell) {
-  const auto program = static_cast<std::size_t>(cell.argument == 0 ? 0 : 1 + cell.index);
-  const bool is_absolute = device.chose(option("step_numbers_relative", "absolute"));
-  return device.state().steps.programs[program].step + (is_absolute ? device.base_of_program(program) : 0);
+  return device.shown_step(static_cast<std::size_t>(cell.argument == 0 ? 0 : 1 + cell.index));
 }
 Value read_table_line(const Super40nc& device, Cell) { return device.table_line(); }
 Value read_pausing(const Super40nc& device, Cell) { return device.is_pausing() ? 1 : 0; }
@@ -75,8 +73,7 @@ void write_command(Super40nc& device, Cell cell, Value level) {
 
 void write_pointer(Super40nc& device, Cell cell, Value step) {
   const int program = cell.argument == 0 ? 0 : 1 + cell.index;
-  const bool is_absolute = device.chose(option("step_numbers_relative", "absolute"));
-  const int base = is_absolute ? device.base_of_program(static_cast<std::size_t>(program)) : 0;
+  const int base = device.shown_base(static_cast<std::size_t>(program));
   device.set_pointer(program, static_cast<std::int32_t>(step) - base);
 }
 void write_nothing(Super40nc&, Cell, Value) {}

@@ -178,7 +178,7 @@ void Super40nc::change_recipe(std::int32_t number) {
     put({.slot = slot + i}, static_cast<std::int32_t>(fresh[i]));
   }
   state_.recipe = number;
-  flash_written();
+  flash_written(true);
 }
 
 void Super40nc::show_capacities() {

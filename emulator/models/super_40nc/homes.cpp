@@ -1,6 +1,5 @@
 // HOME and ZERO of a SUPER-40NC: how they begin, and what they leave (《X20.》 to 《X32.》, 《X26.》).
 #include <cstdint>
-#include <optional>
 
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
@@ -38,17 +37,21 @@ void Super40nc::start_home(int axis_number, int order) {
   const int way = its.is_on(kept_x(81), axis_number) ? -1 : +1;
   state.homed = false;
   state.order = static_cast<std::int8_t>(order);
-  const bool has_limit = its.of(way > 0 ? kept_d(8118) : kept_d(8119), axis_number) != 0;
-  if (motion::super40nc_homes_by_limit(mode) && !has_limit) {
+  const bool is_by_limit = motion::super40nc_homes_by_limit(mode);
+  const bool lacks_limit =
+      limit_logic(axis_number, way) == 0 && !chose(option("home_without_limit", "runs_until_it_is_stopped"));
+  if (is_by_limit && lacks_limit) {
     home_ended(axis_number, false, Code::home_failed);
     let_go(axis_number);
     return;
   }
-  prepare(axis_number);
-  if (chose(option("home_soft_limits", "ignored"))) {
-    motion::AxisSettings without = chip(axis_number).settings;
-    without.soft_limit_plus = without.soft_limit_minus = std::nullopt;
-    chip(axis_number).set(without);
+  prepare(axis_number, true);
+  // X25 = 0 never leads away from a DOG that is on.
+  if (!is_by_limit && has_signal(axis_number, motion::Signal::home) && its.of(kept_x(93), axis_number) == 0 &&
+      chose(option("home_leave_0", "the_search_fails"))) {
+    home_ended(axis_number, false, Code::home_failed);
+    let_go(axis_number);
+    return;
   }
   const bool limit_stops_at_once =
       chose(option("home_el_stop", "by_d9x01")) && !its.is_on(kept_x(1), axis_number);
@@ -123,7 +126,7 @@ void Super40nc::home_ended(int axis_number, bool found, Code code) {
   if ((cleared & 1) != 0) {
     set_counter(axis_number, 0, static_cast<std::int32_t>(home_pulses(scale, home_lu)));
     state.offset_lu = 0;
-  } else {
+  } else if (!chose(option("home_keeps_counter1", "the_display_stays"))) {
     set_work_lu(axis_number, home_lu);
   }
   state.clears = static_cast<std::uint8_t>(cleared & 0xE);

@@ -14,6 +14,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
@@ -62,12 +63,17 @@ std::uint32_t Super40nc::factory_bits(const RegisterRow& row) const {
   return static_cast<std::uint32_t>(row.factory);
 }
 
+bool Super40nc::keeps(const RegisterRow& row) const {
+  const bool is_of_timer_or_counter = row.table == Table::coil && row.address >= 600 && row.address < 1000;
+  return row.persistent && !(is_of_timer_or_counter && chose(option("latched_contacts", "values_alone")));
+}
+
 Eeprom Super40nc::factory_memory() const {
   std::array<std::uint32_t, kSlotCount> factory{};
   std::array<bool, kSlotCount> is_kept{};
   for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
     factory[slot] = factory_bits(row);
-    is_kept[slot] = row.persistent;
+    is_kept[slot] = keeps(row);
   });
   return Eeprom(factory, is_kept, is_kept);
 }
@@ -104,11 +110,11 @@ void Super40nc::set_contact(int number, bool on) {
 }
 
 void Super40nc::register_written(const RegisterRow& row, std::size_t slot) {
-  if (kIsUnlisted[slot] && chose(option("unlisted_contacts", "read_0"))) {
+  if (kIsUnlisted[slot] && !keeps_unlisted()) {
     state_.image[slot] = 0;
     return;
   }
-  if (row.persistent) state_.eeprom.write(slot, state_.image[slot], 0, now());
+  if (keeps(row)) state_.eeprom.write(slot, state_.image[slot], 0, now());
 }
 
 void Super40nc::mention_unmodelled(const RegisterRow& row) const {
@@ -143,8 +149,7 @@ void Super40nc::power_down() {
 void Super40nc::power_up() {
   blank_state();
   for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
-    state_.image[slot] =
-        row.persistent ? state_.eeprom.kept()[slot] : static_cast<std::uint32_t>(row.factory);
+    state_.image[slot] = keeps(row) ? state_.eeprom.kept()[slot] : static_cast<std::uint32_t>(row.factory);
   });
   take_parameters();
   const Settings its = registers();
@@ -152,19 +157,26 @@ void Super40nc::power_up() {
   put(kept_d(8007), its.raw(kept_d(9016)));
   state_.station = its.raw(kept_d(9000));
   if (chose(option("version_number", "0"))) put(kept_d(8099), 0);
+  if (chose(option("override_at_power_up", "0"))) put(kept_d(8005), 0);
   state_.file = its.raw(kept_d(9001));
   state_.recipe = its.raw(kept_d(9002));
   state_.wheel_edges = input(kWheelTerminal);
   take_power_up_parameters();
   heed_all();
   make_programs_ready();
+  const bool has_c = state_.blocks.find(kPrograms, "C") != nullptr;
+  state_.file_is_left_out = !has_c && is_too_long(kFiles, std::to_string(state_.file));
   look_at_inputs();
 }
 
 /// M8008. Another file and another recipe are changed to as if they were written.
 void Super40nc::reset_parameters() {
+  const bool leaves_some = chose(option("m8008_scope", "but_for_d9000_and_d9026"));
+  const auto stays = [&](const RegisterRow& row) {
+    return leaves_some && (row.address == data_address(9000) || row.address == data_address(9026));
+  };
   for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
-    if (is_parameter(row)) put({.slot = slot}, static_cast<std::int32_t>(factory_bits(row)));
+    if (is_parameter(row) && !stays(row)) put({.slot = slot}, static_cast<std::int32_t>(factory_bits(row)));
   });
   change_file(0);
   change_recipe(0);

@@ -26,9 +26,9 @@ namespace {
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
 constexpr std::array<std::string_view, 4> kGaps{
-    "Comparators meet COUNTER1 to the pulse by methods 1, 4, 5 and as soft limits, four of them at once; by "
-    "other "
-    "numbers, and by methods 2 and 3, they stop an axis when the tick is over.",
+    "Comparators meet COUNTER1 to the pulse, four of them at once and the soft limits beside them; a fifth, "
+    "and "
+    "those of other numbers, stop an axis when the tick is over.",
     "Behind the hand-wheel an axis goes by what it has turned in a tick: out and back within one is nothing.",
     "The chip's CSTA, CSTP, PCS, SD and DR are not brought out, nor are, but for the choice `pins_fitted`, "
     "its ERC, CLR and LTC.",

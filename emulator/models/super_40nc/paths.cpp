@@ -32,13 +32,28 @@ double pulses_per_lu(const Settings& its, int axis) { return its.scale(axis).pul
 
 }  // namespace
 
+/// D8005, as it is used.
+double Super40nc::override_percent() const {
+  constexpr double kMost = 100;
+  const auto percent = static_cast<double>(registers().of(kept_d(8005)));
+  return chose(option("override_range", "0_to_100")) ? std::min(percent, kMost) : percent;
+}
+
 /// F as D8005 scales it; a feed that is not above 0 is the least there is.
 double Super40nc::path_feed() const {
-  constexpr double kPercent = 100;
   const double feed = std::max<std::int32_t>(state_.path_feed_lu_s, 1);
-  auto percent = static_cast<double>(registers().of(kept_d(8005)));
-  if (chose(option("override_range", "0_to_100"))) percent = std::min(percent, kPercent);
-  return feed * percent / kPercent;
+  return feed * state_.path_feed_scale * override_percent() / 100;
+}
+
+/// LU along a path to a unit of F.
+double Super40nc::feed_scale(const motion::Path& path) const {
+  static constexpr std::array<double, 4> kUnits{0.001, 0.01, 0.1, 1};
+  const bool goes_by_decimals = chose(option("feed_unit", "0_001_mm_by_the_decimals_of_x"));
+  const double unit = goes_by_decimals ? kUnits[static_cast<std::size_t>(registers().of(kept_x(65)))] : 1.0;
+  const motion::Point way = path.end - path.begin;
+  const double of_xyz = way.head<3>().norm();
+  const bool carries_u = way[3] != 0 && of_xyz > 0 && chose(option("vector_feed", "u_is_carried_along"));
+  return carries_u ? unit * way.norm() / of_xyz : unit;
 }
 
 Grant Super40nc::ask_for_path(const std::array<bool, kAxisCount>& takes) {
@@ -55,10 +70,7 @@ Grant Super40nc::ask_for_path(const std::array<bool, kAxisCount>& takes) {
 
 /// Why an axis may not begin on a path: it stands on a limit that the path goes into.
 motion::Cause Super40nc::blocked_on_path(int axis_number, const motion::Path& path) const {
-  if (chose(option("limits_blocking", "both_ways_blocked"))) {
-    if (has_signal(axis_number, motion::Signal::limit_plus)) return motion::Cause::limit_plus;
-    if (has_signal(axis_number, motion::Signal::limit_minus)) return motion::Cause::limit_minus;
-  }
+  if (const motion::Cause why = blocked_both_ways(axis_number); why != motion::Cause::none) return why;
   constexpr double kFirstPart = 1e-3;  // an arc may begin at right angles to the axis
   const double ahead = path.at(path.length_u * kFirstPart)[axis_number] - path.begin[axis_number];
   if (ahead == 0) return chip(axis_number).forbidden_anywhere();
@@ -70,6 +82,7 @@ bool Super40nc::begin_path(const PathPlan& plan) {
   const bool takes_default = plan.feed_lu_per_s <= 0 && chose(option("feed_not_positive", "default_feed"));
   state_.path_feed_lu_s = takes_default ? its.raw(kept_d(9004)) : plan.feed_lu_per_s;
   motion::Coordinated path;
+  state_.path_feed_scale = feed_scale(plan.path);
   // What each axis allows along its own direction, in LU a second, and how it speeds up.
   motion::Point most;
   most.setConstant(std::numeric_limits<double>::infinity());
@@ -93,7 +106,7 @@ bool Super40nc::begin_path(const PathPlan& plan) {
     if (!goes_by_longest) target_lu_s = std::min(target_lu_s, slope_lu_s);
     if (goes_by_longest && share * ppu > longest) target_lu_s = slope_lu_s;
     longest = std::max(longest, share * ppu);
-    const double pps = share * std::max(state_.path_feed_lu_s, 1) * ppu;
+    const double pps = share * std::max(state_.path_feed_lu_s, 1) * state_.path_feed_scale * ppu;
     if (pps > fastest_pps) {
       fastest_pps = pps;
       fastest_ppu = ppu;
@@ -171,6 +184,7 @@ void Super40nc::join_path(const PathPlan& plan) {
     state.rest.travel = state_.path.travel_at(n, plan.path.end[number]);
   }
   state_.path_feed_lu_s = std::max<std::int32_t>(plan.feed_lu_per_s, 1);
+  state_.path_feed_scale = feed_scale(plan.path);
   state_.path_limit_lu_s = std::min(state_.path_limit_lu_s, motion::speed_within(plan.path, most));
   heed_override();
 }
@@ -181,6 +195,13 @@ std::int64_t Super40nc::path_base_lu(int axis_number) const {
 }
 
 void Super40nc::heed_override() {
+  if (chose(option("override_scope", "drv_as_well"))) {
+    for (int number = 0; number < kAxisCount; ++number) {
+      const AxisState& its = axis(number);
+      const bool drives = its.holder == Holder::move && its.rest.kind == RestKind::move && !its.is_held;
+      if (drives) chip(number).change_speed(drive_law(number, its.rest.rpm, its.mover), now());
+    }
+  }
   if (!state_.path.engaged) return;
   const double feed = path_feed();
   state_.path.run.set_override(feed > 0 ? 1 : 0, now());
@@ -247,7 +268,7 @@ void Super40nc::path_ended() {
     state.has_ended = true;
     if (code != Code::none && chip(number).cause == why) fail(number, code);
     let_go(number);
-    state.stands_on_target = has_arrived;
+    state.stands_on_target = has_arrived && distance_to(number, state.target_lu) == 0;
   }
   state_.path = {};
   state_.path_is_held = false;

@@ -29,13 +29,13 @@ enum ClearMode : std::uint8_t { kAtOn, kAtOff, kWhileOn, kWhileOff };
 bool Super40nc::has_terminal(int terminal) const {
   if (terminal < kFirstDogTerminal) return true;
   if (terminal < kFirstVoltageIn) return chose(option("dog_inputs", "terminals_of_their_own"));
-  if (terminal < kFirstServoTerminal) return !chose(option("analog_counts", "in_counts_only"));
+  if (terminal < kFirstServoTerminal) return has_voltage_inputs();
   if (terminal < kFirstChipPin) return chose(option("servo_on", "an_output_per_axis"));
   return has_chip_pins();
 }
 
 std::int32_t Super40nc::analog_counts(int number) const {
-  if (chose(option("analog_counts", "in_counts_only"))) return input(kFirstAnalogIn + number);
+  if (!has_voltage_inputs()) return input(kFirstAnalogIn + number);
   const std::int32_t full = chose(option("analog_counts", "5_v")) ? kMostMillivoltsIn : kMostMillivolts;
   const std::int32_t millivolts = std::min(input(kFirstVoltageIn + number), full);
   return (millivolts * kMostAnalogCount + full / 2) / full;

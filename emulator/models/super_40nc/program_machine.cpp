@@ -64,7 +64,7 @@ bool ProgramMachine::special_contact(int number) const {
 bool ProgramMachine::set_special_contact(int number, bool on) {
   const std::size_t slot = relay_slot(number);
   if (slot == kNotKept || special_contact(number) == on) return false;
-  if (kIsUnlisted[slot] && device_.chose(option("unlisted_contacts", "read_0"))) return false;
+  if (kIsUnlisted[slot] && !device_.keeps_unlisted()) return false;
   device_.set_contact(number, on);
   device_.state().contacts.overwrite(number);
   device_.keep_slot(slot);
@@ -332,11 +332,12 @@ void ProgramMachine::plc_home(const language::HomeSearch& search, int step) {
 
 bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogSteps& steps) {
   const bool stops_both = device_.chose(option("both_jogs", "both_stop_it"));
-  const bool acts_again = device_.chose(option("level_after_stop", "act_at_once"));
+  const bool swaps = device_.chose(option("x52_scope", "pjg_and_mjg_as_well"));
   for (int axis = 0; axis < kAxisCount; ++axis) {
     AxisState& state = device_.axis(axis);
-    const bool positive = (jogs.positive >> axis & 1) != 0;
-    const bool negative = (jogs.negative >> axis & 1) != 0;
+    const bool is_swapped = swaps && device_.registers().is_on(kept_x(97), axis);
+    const bool positive = ((is_swapped ? jogs.negative : jogs.positive) >> axis & 1) != 0;
+    const bool negative = ((is_swapped ? jogs.positive : jogs.negative) >> axis & 1) != 0;
     const int running = state.asked_by_plc ? device_.chip(axis).last_direction : 0;
     // Both at once: the one that runs goes on.
     const int of_both = stops_both ? 0 : running;
@@ -344,12 +345,11 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
     if (running != 0 && running != way) {
       device_.meet(axis, ManualMotion::plc_jog, ManualEvent::contact_off);
     }
-    const bool was_held = device_.state().were_held[static_cast<std::size_t>(axis)];
-    const bool is_new = way != 0 && (way != state.plc_jog_way || (acts_again && was_held));
+    const bool is_new = way != 0 && (way != state.plc_jog_way || device_.acts_behind_reset(axis));
     state.plc_jog_way = static_cast<std::int8_t>(way);
     if (!is_new || device_.is_inhibited(axis)) continue;
     const int step = steps[static_cast<std::size_t>(axis)];
-    if (!language::may_move(*this, Area::plc, axis)) {
+    if (!language::may_move(*this, device_.language_options(), Area::plc, axis)) {
       device_.report(Code::axis_not_owned, step);
       continue;
     }

@@ -67,6 +67,7 @@ class ProgramMachine final : public language::Machine {
   ArcFrame frame_of(language::Plane plane, language::Targets targets, const language::PlanePoint& end) const;
   std::int64_t target_of(const ArcFrame& frame, std::size_t i, language::Targets targets,
                          const std::optional<std::int32_t>& value) const;
+  double radius_for(std::int32_t radius_lu, const motion::Point& from, const motion::Point& to) const;
   motion::Turn turn_of(language::Turn turn, language::Plane plane) const;
 
   Super40nc& device_;

@@ -39,12 +39,25 @@ std::int64_t Super40nc::distance_to(int axis_number, std::int64_t target_lu) con
   return scale.to_pulses(target_lu - axis(axis_number).offset_lu).value_or(0) - machine_pulses(axis_number);
 }
 
+/// Of a line: by the axis' own times, whatever program it stands in.
+motion::SpeedLaw Super40nc::line_law(int axis, double rpm, Mover mover) const {
+  const bool is_by_times_of_c = mover == Mover::c && chose(option("drv_of_c", "c11_to_c14"));
+  const Settings its = registers();
+  return is_by_times_of_c ? its.law_of_c(axis, rpm) : its.law(axis, rpm);
+}
+
+/// Of DRV, which the feed's override does not scale.
+motion::SpeedLaw Super40nc::drive_law(int axis, std::int32_t rpm, Mover mover) const {
+  const bool is_scaled = chose(option("override_scope", "drv_as_well"));
+  return line_law(axis, is_scaled ? rpm * override_percent() / 100 : rpm, mover);
+}
+
 bool Super40nc::begin_drive(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
   AxisState& state = axis(axis_number);
   prepare(axis_number);
   state.mover = mover;  // whose line D8095 tells, if it cannot begin
   const std::int64_t distance = distance_to(axis_number, target_lu);
-  const motion::SpeedLaw law = registers().law(axis_number, rpm);
+  const motion::SpeedLaw law = drive_law(axis_number, rpm, mover);
   begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Holder::move);
   if (state.holder != Holder::move) {
     state.mover = Mover::hand;
@@ -59,7 +72,7 @@ bool Super40nc::begin_drive(int axis_number, std::int64_t target_lu, std::int32_
     return true;
   }
   state.shows_finish = true;
-  state.rest = {.kind = RestKind::move, .travel = chip(axis_number).travel_pulses + distance};
+  state.rest = {.kind = RestKind::move, .travel = chip(axis_number).travel_pulses + distance, .rpm = rpm};
   return true;
 }
 
@@ -89,12 +102,12 @@ bool Super40nc::begin_mark(int axis_number, std::int64_t distance, std::int64_t 
   state.mover = mover;
   look_round(axis_number);
   prepare(axis_number);
-  const motion::SpeedLaw fast = its.law(axis_number, rpm);
+  const motion::SpeedLaw fast = line_law(axis_number, rpm, mover);
   const motion::HomingProgram program = motion::super40nc_mark(
       {.distance_pulses = distance,
        .search_pulses = search,
        .fast = fast,
-       .creep = its.law(axis_number, static_cast<double>(its.of(kept_x(80), axis_number))),
+       .creep = line_law(axis_number, static_cast<double>(its.of(kept_x(80), axis_number)), mover),
        .slows_behind = chose(option("mrk_course", "slows_behind_the_target")),
        .looks_all_the_way = chose(option("mrk_course", "signal_before_it_counts")),
        .mark_slows = chose(option("mrk_course", "stops_by_a_ramp"))});
@@ -112,7 +125,7 @@ bool Super40nc::begin_turning(int axis_number, std::int32_t rpm, Mover mover) {
   AxisState& state = axis(axis_number);
   prepare(axis_number);
   state.mover = mover;
-  const motion::SpeedLaw law = registers().law(axis_number, std::abs(static_cast<double>(rpm)));
+  const motion::SpeedLaw law = line_law(axis_number, std::abs(static_cast<double>(rpm)), mover);
   begun(axis_number, chip(axis_number).run(way_of(rpm), law, before_motion()), Holder::vdrv);
   if (state.holder != Holder::vdrv) {
     state.mover = Mover::hand;
@@ -125,7 +138,7 @@ bool Super40nc::begin_turning(int axis_number, std::int32_t rpm, Mover mover) {
 
 void Super40nc::change_turning(int axis_number, std::int32_t rpm, Mover mover) {
   AxisState& state = axis(axis_number);
-  const motion::SpeedLaw law = registers().law(axis_number, std::abs(static_cast<double>(rpm)));
+  const motion::SpeedLaw law = line_law(axis_number, std::abs(static_cast<double>(rpm)), mover);
   if (!chip(axis_number).resume(law, now())) chip(axis_number).change_speed(law, now());
   state.mover = mover;
   state.rest.rpm = way_of(state.rest.rpm) * std::abs(rpm);
@@ -245,7 +258,9 @@ void Super40nc::go_on_axis(int axis_number) {
 /// X16, of MRK.
 std::int64_t Super40nc::search_pulses(int axis) const {
   const Settings its = registers();
-  return its.scale(axis).to_pulses(its.of(kept_x(90), axis)).value_or(0);
+  const Value distance = its.of(kept_x(90), axis);
+  const bool is_in_pulses = chose(option("mark_distance_unit", "pulses"));
+  return is_in_pulses ? distance : its.scale(axis).to_pulses(distance).value_or(0);
 }
 
 /// What has ended between ticks has been dealt with.

@@ -1,6 +1,7 @@
 // The geometry of LIN and arcs, as programs ask for it (《LIN 指令》, 《CW , CCW 指令》, 《C3P 指令》, 《CWR
 // , CCWR 指令》).
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -182,6 +183,16 @@ Begun ProgramMachine::begin(Area, const language::PointArc& arc) {
                    });
 }
 
+/// One that is too small for its chord becomes that of a half circle, where that is chosen.
+double ProgramMachine::radius_for(std::int32_t radius_lu, const motion::Point& from,
+                                  const motion::Point& to) const {
+  constexpr double kNoLess = 1 + 1e-12;  // than half the chord, as it is rounded
+  const auto radius = static_cast<double>(radius_lu);
+  const double least = (to - from).norm() / 2 * kNoLess;
+  const bool widens = std::abs(radius) < least && device_.chose(option("radius_too_small", "half_circle"));
+  return widens ? std::copysign(least, radius) : radius;
+}
+
 Begun ProgramMachine::begin(Area, const language::RadiusArc& arc) {
   const ArcFrame frame = frame_of(arc.plane, arc.targets, arc.end_lu);
   const motion::Turn turn = turn_of(arc.turn, arc.plane);
@@ -191,7 +202,7 @@ Begun ProgramMachine::begin(Area, const language::RadiusArc& arc) {
   options.radius_tolerance_u = 0;
   return begin_arc(
       frame, arc.feed_lu_per_s, mode, !goes_nowhere, [&](const motion::Point& from, const motion::Point& to) {
-        return motion::arc_by_radius(from, to, static_cast<double>(arc.radius_lu), turn, options);
+        return motion::arc_by_radius(from, to, radius_for(arc.radius_lu, from, to), turn, options);
       });
 }
 

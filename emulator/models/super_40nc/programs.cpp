@@ -112,6 +112,7 @@ void Super40nc::load_program(std::string_view text) {
     const auto& area = checked.program->area(row.area);
     if (!area) continue;
     if (row.area != language::Area::plc) tell(language::Event::stop, row.area);
+    if (row.area == language::Area::c) state_.file_is_left_out = false;
     if (area->lines.empty()) {
       state_.blocks.erase(kPrograms, row.name);
     } else {
@@ -168,8 +169,16 @@ bool Super40nc::is_pausing() const {
   return std::any_of(all.begin(), all.end(), pauses);
 }
 
-int Super40nc::base_of_program(std::size_t program) const {
-  return language::base_of(static_cast<language::Area>(program), options_);
+int Super40nc::shown_base(std::size_t program) const {
+  const bool is_absolute = chose(option("step_numbers_relative", "absolute"));
+  return is_absolute ? language::base_of(static_cast<language::Area>(program), options_) : 0;
+}
+
+std::int32_t Super40nc::shown_step(std::size_t program) const {
+  const language::StepState& its = state_.steps.programs[program];
+  const bool moves = its.phase == language::Phase::moving || its.phase == language::Phase::homing;
+  const bool shows_next = moves && chose(option("step_shown", "the_next_ones"));
+  return shown_base(program) + (shows_next ? its.next_step : its.step);
 }
 
 void Super40nc::set_pointer(int program, std::int32_t step) {
@@ -181,7 +190,7 @@ void Super40nc::set_pointer(int program, std::int32_t step) {
 /// "plc 初始": what does not run begins anew.
 void Super40nc::plc_to_run() {
   ProgramMachine machine(*this);
-  language::run(state_.plc, ladder_, machine);
+  language::run(state_.plc, ladder_, machine, options_);
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
   for (const language::AreaRow& row : language::kAreas) {
     if (row.area == language::Area::plc || chose(option("run_resets_steps", "stay"))) continue;
@@ -196,9 +205,19 @@ void Super40nc::plc_to_stop() {
   ProgramMachine machine(*this);
   language::stop(state_.plc, machine);
   for (int number = 0; number < kAxisCount; ++number) meet(number, ManualEvent::plc_stop);
+  if (chose(option("plc_stop_timers", "are_cleared"))) clear_timers();
   if (!chose(option("plc_stop_outputs", "off"))) return;
   const std::span outputs = std::span(state_.image).subspan(kept_y(0).slot, kOutputCount);
   std::fill(outputs.begin(), outputs.end(), 0U);
+}
+
+/// Values and contacts of those that are not latched.
+void Super40nc::clear_timers() {
+  constexpr int kTimers = 56;
+  for (int i = 0; i < kTimers; ++i) {
+    put({.slot = kept_at(Table::coil, 600).slot + static_cast<std::size_t>(i)}, 0);
+    put({.slot = kept_at(Table::holding, 2000).slot + static_cast<std::size_t>(i)}, 0);
+  }
 }
 
 int Super40nc::line_step(Mover mover) const {
@@ -216,17 +235,20 @@ void Super40nc::program_broken(Mover mover, int axis, bool is_awaited, motion::C
   const bool runs_on = !is_awaited && phase != language::Phase::idle;
   const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus;
   const bool is_soft = why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;
-  const bool pauses = (is_limit && chose(option("el_resets", "pauses_at_the_line"))) ||
-                      (is_soft && chose(option("soft_limit_resets", "pauses_at_the_line"))) ||
-                      (why == motion::Cause::alarm && chose(option("alm_resets", "pauses_at_the_line")));
+  const bool pauses =
+      (is_limit && chose(option("el_resets", "pauses_at_the_line"))) ||
+      (is_soft && chose(option("soft_limit_resets", "pauses_at_the_line"))) ||
+      (why == motion::Cause::alarm && chose(option("alm_resets", "pauses_at_the_line"))) ||
+      (why == motion::Cause::comparator && chose(option("comparator_resets", "pauses_at_the_line")));
   if (pauses && !runs_on) return tell(language::Event::limit_pauses, area);
   if (pauses) return;
   tell(runs_on ? language::Event::stop : language::Event::broken, area);
 }
 
-void Super40nc::flash_written() {
+void Super40nc::flash_written(bool is_recipe) {
   constexpr Tick kFlashTicks = 100;
-  state_.file_changed = state_.touched = true;
+  state_.touched = true;
+  if (!is_recipe || !chose(option("m8023_scope", "files_alone"))) state_.file_changed = true;
   if (chose(option("flash_time", "100_ms_without_a_scan"))) state_.flash_until = now() + 1 + kFlashTicks;
 }
 
@@ -263,9 +285,9 @@ void Super40nc::change_file(std::int32_t number) {
   };
   // A file that was too long to be loaded stays as it is.
   const std::string left = std::to_string(state_.file);
-  const bool was_loaded = state_.blocks.find(kPrograms, c) != nullptr || !is_too_long(kFiles, left);
-  if (was_loaded) copy(kPrograms, c, kFiles, left);
-  if (is_too_long(kFiles, std::to_string(number))) {
+  if (!state_.file_is_left_out) copy(kPrograms, c, kFiles, left);
+  state_.file_is_left_out = is_too_long(kFiles, std::to_string(number));
+  if (state_.file_is_left_out) {
     state_.blocks.erase(kPrograms, c);
     report(Code::memory_full);
   } else {
@@ -274,7 +296,7 @@ void Super40nc::change_file(std::int32_t number) {
   state_.file = number;
   make_programs_ready();
   tell(language::Event::file_changed, language::Area::c);
-  flash_written();
+  flash_written(false);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

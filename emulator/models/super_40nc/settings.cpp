@@ -42,12 +42,23 @@ double Settings::multiplier(int axis, double pps) const {
 }
 
 motion::SpeedLaw Settings::law(int axis, double rpm) const {
+  const auto number = [&](Kept kept) { return static_cast<double>(of(kept, axis)); };
+  return law_with(axis, rpm,
+                  {number(kept_x(66)), number(kept_x(67)), number(kept_x(68)), number(kept_x(69))});
+}
+
+motion::SpeedLaw Settings::law_of_c(int axis, double rpm) const {
+  const auto number = [&](Kept kept) { return static_cast<double>(of(kept)); };
+  return law_with(axis, rpm,
+                  {number(kept_d(9014)), number(kept_d(9015)), number(kept_d(9012)), number(kept_d(9013))});
+}
+
+motion::SpeedLaw Settings::law_with(int axis, double rpm, const Ramps& ramps) const {
   const double top = std::min(pps(axis, std::max(rpm, 1.0)), top_pps(axis));
   const double step = multiplier(axis, top);
-  const auto number = [&](Kept kept) { return static_cast<double>(of(kept, axis)); };
-  return law_by(pps(axis, number(kept_x(76))), top, pps(axis, static_cast<double>(of(kept_d(9011)))),
-                number(kept_x(66)), down_ms(number(kept_x(67)), number(kept_x(66))),
-                number(kept_x(68)) * step, number(kept_x(69)) * step);
+  return law_by(pps(axis, static_cast<double>(of(kept_x(76), axis))), top,
+                pps(axis, static_cast<double>(of(kept_d(9011)))), ramps.up_ms,
+                down_ms(ramps.down_ms, ramps.up_ms), ramps.up_steps * step, ramps.down_steps * step);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

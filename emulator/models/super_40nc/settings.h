@@ -60,11 +60,19 @@ class Settings {
   double multiplier(int axis, double pps) const;
   /// Of DRV, homing and all that is moved by hand. Below 1 rpm it is 1.
   motion::SpeedLaw law(int axis, double rpm) const;
+  /// The same by the times and the S sections of C's paths (C11 to C14).
+  motion::SpeedLaw law_of_c(int axis, double rpm) const;
   double down_ms(double down_ms, double up_ms) const {
     return readings_.limits_deceleration ? std::min(down_ms, 2 * up_ms) : down_ms;
   }
 
  private:
+  struct Ramps {
+    double up_ms, down_ms;
+    double up_steps, down_steps;  // S sections, in steps of the multiplier
+  };
+  motion::SpeedLaw law_with(int axis, double rpm, const Ramps& ramps) const;
+
   const Image& image_;
   std::span<const std::uint32_t> parameters_;
   Readings readings_;

@@ -18,10 +18,15 @@
 
 namespace understudy::emulator::models::super_40nc {
 
+Value Super40nc::limit_logic(int axis, int way) const {
+  if (!has_limit_copies()) return registers().of(way > 0 ? kept_x(63) : kept_x(64), axis);
+  return registers().of(way > 0 ? kept_d(8118) : kept_d(8119), axis);
+}
+
 void Super40nc::look_round(int axis_number) {
   const Settings its = registers();
-  const auto limit_level = [&](Kept logic) -> std::optional<bool> {  // of an active one; none: not in use
-    const Value how = its.of(logic, axis_number);
+  const auto limit_level = [&](int way) -> std::optional<bool> {  // of an active one; none: not in use
+    const Value how = limit_logic(axis_number, way);
     return how == 0 ? std::nullopt : std::optional(how == 1);
   };
   struct Function {
@@ -31,20 +36,20 @@ void Super40nc::look_round(int axis_number) {
   };
   // MRK looks for its mark on one of them, whatever it is as a limit.
   const Rest& rest = axis(axis_number).rest;
-  const auto limit_of_line = [&](Kept logic) {
-    const std::optional<bool> level = limit_level(logic);
+  const auto limit_of_line = [&](int way) {
+    const std::optional<bool> level = limit_level(way);
     return rest.limits_count ? level.value_or(true) : level;
   };
-  const auto limit_or_mark = [&](Kept logic, bool is_positive) {
-    const bool is_mark = rest.kind == RestKind::mark && rest.marks_positive == is_positive;
-    return is_mark ? std::optional(true) : limit_of_line(logic);
+  const auto limit_or_mark = [&](int way) {
+    const bool is_mark = rest.kind == RestKind::mark && rest.marks_positive == (way > 0);
+    return is_mark ? std::optional(true) : limit_of_line(way);
   };
   const bool dog_level = !its.is_on(kept_x(2), axis_number);
   const int dog =
       chose(option("dog_inputs", "x0_x3_x6_x9")) ? dog_input(axis_number) : kFirstDogTerminal + axis_number;
   const Function functions[] = {
-      {limit_plus_input(axis_number), motion::Signal::limit_plus, limit_or_mark(kept_d(8118), true)},
-      {limit_minus_input(axis_number), motion::Signal::limit_minus, limit_or_mark(kept_d(8119), false)},
+      {limit_plus_input(axis_number), motion::Signal::limit_plus, limit_or_mark(+1)},
+      {limit_minus_input(axis_number), motion::Signal::limit_minus, limit_or_mark(-1)},
       {dog, motion::Signal::home, dog_level},
       {dog, motion::Signal::mark, dog_level},  // for latches
       {pin_of(axis_number, kIndexPin), motion::Signal::index, true},
@@ -105,8 +110,12 @@ void Super40nc::heed_axis(int axis_number, int number) {
     return static_cast<std::int32_t>(wrapped);
   };
   switch (number) {
-    case 63: put(kept_d(8118), its.raw(kept_x(63), axis_number), axis_number); break;
-    case 64: put(kept_d(8119), its.raw(kept_x(64), axis_number), axis_number); break;
+    case 63:
+      if (has_limit_copies()) put(kept_d(8118), its.raw(kept_x(63), axis_number), axis_number);
+      break;
+    case 64:
+      if (has_limit_copies()) put(kept_d(8119), its.raw(kept_x(64), axis_number), axis_number);
+      break;
     case 71:
     case 72:
     case 85:

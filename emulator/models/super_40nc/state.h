@@ -68,6 +68,7 @@ struct State {
   bool path_is_held = false;
   Tick path_backlash_ticks = 0;     // for which backlash has come before the path
   std::int32_t path_feed_lu_s = 0;  // F as it was when the path began
+  double path_feed_scale = 1;       // LU along it to a unit of F
   double path_limit_lu_s = 1;       // where an axis comes to its highest speed
   interpreter::super_40nc::PlcState plc;
   Tick plc_quiet_scans = 0;  // that would do nothing but count, if nothing that they read changes
@@ -83,6 +84,7 @@ struct State {
   bool file_changed = false;  // M8023 is ON for the next scan
   bool shows_file_changed = false;
   std::int32_t file = 0;                                   // in memory, as D9001 has it
+  bool file_is_left_out = false;                           // of memory: it is too long, and stays as it is
   std::int32_t recipe = 0;                                 // as D9002 has it
   std::array<std::int32_t, kAxisCount> rpm_at_power_up{};  // X14
   std::int32_t logo_ms = 0;                                // C0, as it was at power-up

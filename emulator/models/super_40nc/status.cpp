@@ -43,6 +43,9 @@ struct CountedThisTick {
 
 bool is_bit(std::int32_t mask, int bit) { return (mask >> bit & 1) != 0; }
 
+/// Half the chip's clock of 19.6608 MHz: so many counts in so many ticks.
+std::int64_t clock_counts(Tick ticks) { return ticks * 49'152 / 5; }
+
 std::int32_t wrapped(std::int64_t number) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(number));
 }
@@ -87,17 +90,18 @@ bool Super40nc::status(int axis_number, AxisStatus what) const {
     case SRDY: return input(pin_of(axis_number, kReadyPin)) != 0;
     case HOME_DONE: return its.homed;
     case ZERO_DONE: return its.zeroed;
-    case HOME_RUNS:
-      return its.holder == Holder::home &&
-             (its.mover == Mover::hand || !chose(option("motion_flags_source", "contacts_alone")));
+    case HOME_RUNS: return its.holder == Holder::home && shows_running(its.mover == Mover::hand);
     case ZERO_RUNS: return its.holder == Holder::zero;
     case WHEEL_RUNS: {
       const bool is_by_contact = its.wheel >= WheelSource::contact_1 && its.wheel <= WheelSource::contact_100;
-      return its.holder == Holder::wheel &&
-             (is_by_contact || !chose(option("motion_flags_source", "contacts_alone")));
+      return its.holder == Holder::wheel && shows_running(is_by_contact);
     }
   }
   return false;
+}
+
+bool Super40nc::shows_running(bool is_by_contact) const {
+  return is_by_contact || !chose(option("motion_flags_source", "contacts_alone"));
 }
 
 std::int32_t Super40nc::operation_of(int axis_number) const {
@@ -141,6 +145,10 @@ void Super40nc::add_to_counter(int axis_number, int which, std::int64_t counts) 
 bool Super40nc::counts_now(int axis_number) const {
   const AxisState& its = axis(axis_number);
   return !registers().is_on(kept_x(26), axis_number) || its.moves() || its.followed_pulses != 0;
+}
+
+bool Super40nc::counts_a_clock(int axis) const {
+  return chose(option("counter4_clock", "9_8304_mhz")) && registers().of(kept_x(25), axis) == 3;
 }
 
 /// The machine's encoder, which has moved by what came out in this tick.
@@ -198,7 +206,8 @@ void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t 
   switch (its.of(kept_x(25), axis_number)) {
     case 0: add(3, pulses_for(3)); break;
     case 2: add(3, now_counted.wheel); break;
-    default: break;  // the encoder's, or a fixed frequency, which stands
+    case 3: add(3, counts_a_clock(axis_number) ? clock_counts(now()) - clock_counts(now() - 1) : 0); break;
+    default: break;  // the encoder's
   }
 }
 

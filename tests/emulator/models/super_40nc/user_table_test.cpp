@@ -31,6 +31,17 @@ void order(OneSuper40nc& one, Value command, const std::vector<Value>& data) {
   one.set("D8020", 100 + command);
 }
 
+/// By their addresses on the wire, of which those of special contacts lie behind a hole.
+TEST(Super40ncUserTable, SwitchesEveryKindOfCoil) {
+  OneSuper40nc one(chosen());
+  order(one, 9, {3, 1005, 2010});
+  one.run(5);
+  for (const char* coil : {"Y3", "M5", "M8010"}) EXPECT_TRUE(one.on(coil)) << coil;
+  order(one, 10, {3, 1005, 2010});
+  one.run(5);
+  for (const char* coil : {"Y3", "M5", "M8010"}) EXPECT_FALSE(one.on(coil)) << coil;
+}
+
 TEST(Super40ncUserTable, RunsItsLinesAndShowsWhich) {
   OneSuper40nc one(chosen());
   put_line(one, 0, 5, {20'000});                 // F
