@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -27,13 +28,21 @@ class EventLoop {
   /// Of everything that is ready, what is `later` is called last, one after the other in turn, and for at
   /// most kLaterSlice: however many there are, the others are looked at again soon.
   enum class Rank : std::uint8_t { first, later };
-  static constexpr WallTime kLaterSlice = std::chrono::milliseconds(1);
+  static constexpr WallTime kLaterSlice = std::chrono::microseconds(30);
+  /// What is `later` does not begin so shortly before something is due: it waits until that is done, once.
+  static constexpr WallTime kRoom = std::chrono::microseconds(100);
 
   /// Calls `ready` whenever the descriptor is ready for one of `interest` (or has hung up).
   void watch(int descriptor, std::uint32_t interest, std::function<void(std::uint32_t ready)> ready,
              Rank rank = Rank::first);
   void change_interest(int descriptor, std::uint32_t interest);
   void unwatch(int descriptor);
+
+  /// Work that is done piece by piece, in turn with what is `later`: `piece` is called again as long as it
+  /// returns true.
+  void do_in_pieces(std::function<bool()> piece);
+  /// Asked by what is `later`: whether it should leave what it can for another time.
+  bool slice_is_over() const;
 
   /// Waits until something is ready, or `until` has come (nothing: as long as it takes), and calls what is
   /// ready. With a moment in the past it does not wait.
@@ -47,13 +56,19 @@ class EventLoop {
   };
   void wake_at(WallTime moment);
   void call(int descriptor, std::uint32_t events);
-  void call_later_ones();
+  void mute_later_ones(bool are_muted);
+  void call_later_ones(bool are_ready);
 
   int epoll_ = -1;
   int later_ = -1;  // another epoll, in that one
   int timer_ = -1;
   WallTime alarm_{0};  // what the timer is set for, or was last set for
   std::map<int, Watch> watches_;
+  std::deque<std::function<bool()>> pieces_;
+  bool are_pieces_next_ = false;
+  WallTime slice_end_ = WallTime::max();  // of what is `later`; no end outside of it
+  bool puts_off_ = false;                 // what is `later` waits for something that is due soon
+  bool has_put_off_ = false;              // since it was last called
 };
 
 }  // namespace understudy::emulator::serve
