@@ -1,6 +1,7 @@
 // How long the devices of a bench of fifteen stations wait for an onlooker at a time: each message that may
 // be long, as the control socket gets it, and the longest piece of the work that it makes, in processor time.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -87,7 +88,7 @@ Cost cost_of(Daemon& daemon, const std::string& message) {
     });
     while (!is_answered) {
       const auto begin = processor_time_here();
-      daemon.loop().wait(emulator::serve::wall_now());
+      daemon.loop().wait(emulator::serve::wall_now() + std::chrono::hours(1));
       const double took = static_cast<double>((processor_time_here() - begin).count()) / 1'000;
       longest = std::max(longest, took);
       all += took;
@@ -114,7 +115,8 @@ void run() {
     const Cost cost = cost_of(daemon, message);
     longest = std::max(longest, median(cost.longest_us));
     std::printf("%-46s %9.1f %9.1f %9.1f %9.1f %8zu\n", what.c_str(), median(cost.longest_us),
-                percentile(cost.longest_us, 1.0), median(cost.all_us), cost.bytes);
+                percentile(cost.longest_us, 0.99), percentile(cost.longest_us, 1.0), median(cost.all_us),
+                cost.bytes);
   };
   judge("look, 120 names spelt out", R"({"do":"look","names":)" + names_of_a_page() + "}");
   judge("look, 120 names by their number", R"({"do":"look","look":1,"frames":0,"events":0})");

@@ -20,6 +20,8 @@ namespace understudy::emulator::serve {
 
 namespace {
 
+constexpr std::size_t kMostPieces = 64;  // that are in work
+
 std::uint32_t epoll_events(std::uint32_t interest) {
   return ((interest & EventLoop::readable) != 0 ? EPOLLIN : 0U) |
          ((interest & EventLoop::writable) != 0 ? EPOLLOUT : 0U) |
@@ -114,10 +116,11 @@ void EventLoop::mute_later_ones(bool are_muted) {
   epoll_ctl(epoll_, EPOLL_CTL_MOD, later_, &event);
 }
 
-void EventLoop::wait(std::optional<WallTime> until) {
+void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
   const auto is_due_soon = [&] { return until && *until - wall_now() < kRoom; };
   const bool is_due = until && *until <= wall_now();
-  const bool puts_off = std::exchange(puts_off_, false) && !is_due && is_due_soon();
+  const bool was_put_off = std::exchange(puts_off_, false);
+  const bool puts_off = was_put_off && !is_due && is_due_soon();
   // A timer that is still set for a moment nobody waits for any more wakes us once, for nothing.
   if (until && !is_due) wake_at(*until);
   if (puts_off) mute_later_ones(true);
@@ -134,13 +137,18 @@ void EventLoop::wait(std::optional<WallTime> until) {
       call(event.data.fd, event.events);
     }
   }
-  if (!later_ones && pieces_.empty()) return;
-  if (!is_due && !has_put_off_ && is_due_soon()) {
-    has_put_off_ = puts_off_ = true;
-  } else if (!puts_off) {
-    has_put_off_ = false;
-    call_later_ones(later_ones);
+  if (was_put_off && (puts_off || is_due)) {  // what they wait for is done first
+    puts_off_ = wall_now() < put_off_until_;
+    return;
   }
+  if (!later_ones && pieces_.empty()) return;
+  if (slice == kLaterSlice && !is_due && !has_put_off_ && is_due_soon()) {
+    has_put_off_ = puts_off_ = true;
+    put_off_until_ = *until;
+    return;
+  }
+  has_put_off_ = false;
+  call_later_ones(later_ones, slice);
 }
 
 void EventLoop::call(int descriptor, std::uint32_t events) {
@@ -156,10 +164,12 @@ void EventLoop::call(int descriptor, std::uint32_t events) {
 
 /// The kernel gives one at a time, and the next one next time: it puts what stays ready at the end of its
 /// list.
-void EventLoop::call_later_ones(bool are_ready) {
-  slice_end_ = wall_now() + kLaterSlice;
+void EventLoop::call_later_ones(bool are_ready, WallTime slice) {
+  slice_end_ = wall_now() + slice;
   do {
-    if (!pieces_.empty() && (are_pieces_next_ || !are_ready)) {
+    // Whoever begins more and more has to wait until some of it is done.
+    const bool are_many = pieces_.size() >= kMostPieces;
+    if (!pieces_.empty() && (are_pieces_next_ || !are_ready || are_many)) {
       are_pieces_next_ = false;
       const std::function<bool()> piece = std::move(pieces_.front());
       pieces_.pop_front();

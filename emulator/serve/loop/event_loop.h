@@ -26,10 +26,12 @@ class EventLoop {
   /// `departed`: the other side of a socket has closed its sending half, or the connection is broken.
   enum Readiness : std::uint32_t { readable = 1, writable = 2, departed = 4 };
   /// Of everything that is ready, what is `later` is called last, one after the other in turn, and for at
-  /// most kLaterSlice: however many there are, the others are looked at again soon.
+  /// most a slice of time: however many there are, the others are looked at again soon.
   enum class Rank : std::uint8_t { first, later };
   static constexpr WallTime kLaterSlice = std::chrono::microseconds(30);
-  /// What is `later` does not begin so shortly before something is due: it waits until that is done, once.
+  /// Where nothing can be late, as when simulated time goes by as fast as it can.
+  static constexpr WallTime kLongSlice = std::chrono::milliseconds(1);
+  /// What is `later` does not begin so shortly before something is due: it waits for that first.
   static constexpr WallTime kRoom = std::chrono::microseconds(100);
 
   /// Calls `ready` whenever the descriptor is ready for one of `interest` (or has hung up).
@@ -46,7 +48,7 @@ class EventLoop {
 
   /// Waits until something is ready, or `until` has come (nothing: as long as it takes), and calls what is
   /// ready. With a moment in the past it does not wait.
-  void wait(std::optional<WallTime> until);
+  void wait(std::optional<WallTime> until, WallTime slice = kLaterSlice);
 
  private:
   struct Watch {
@@ -57,7 +59,7 @@ class EventLoop {
   void wake_at(WallTime moment);
   void call(int descriptor, std::uint32_t events);
   void mute_later_ones(bool are_muted);
-  void call_later_ones(bool are_ready);
+  void call_later_ones(bool are_ready, WallTime slice);
 
   int epoll_ = -1;
   int later_ = -1;  // another epoll, in that one
@@ -68,7 +70,8 @@ class EventLoop {
   bool are_pieces_next_ = false;
   WallTime slice_end_ = WallTime::max();  // of what is `later`; no end outside of it
   bool puts_off_ = false;                 // what is `later` waits for something that is due soon
-  bool has_put_off_ = false;              // since it was last called
+  bool has_put_off_ = false;              // since it was last called,
+  WallTime put_off_until_{0};             // for something due then
 };
 
 }  // namespace understudy::emulator::serve

@@ -304,6 +304,74 @@ TEST(EventLoop, WhatMayWaitDoesSoWhileSomethingIsDueSoon) {
   EXPECT_EQ(too_soon, 0);
 }
 
+TEST(EventLoop, WhatMayWaitGoesOnWaitingThoughAHostSpeaks) {
+  EventLoop loop;
+  const Pair port;
+  const Pair client;
+  WallTime called{0};
+  int of_port = 0;
+  loop.watch(
+      client.near(), EventLoop::readable, [&](std::uint32_t) { called = wall_now(); },
+      EventLoop::Rank::later);
+  loop.watch(port.near(), EventLoop::readable, [&](std::uint32_t) { ++of_port; });
+  client.poke();
+  port.poke();  // and is ready again at once
+  for (int round = 0; round < 50; ++round) {
+    called = WallTime{0};
+    const WallTime due = wall_now() + EventLoop::kRoom * 9 / 10;
+    int turns = 0;
+    for (; wall_now() < due; ++turns) loop.wait(due);
+    if (turns > 1) {
+      EXPECT_EQ(called, WallTime{0}) << round;
+    }
+    for (int look = 0; look < 3 && called == WallTime{0}; ++look) loop.wait(wall_now() + 1h);
+    EXPECT_GE(called, due) << round;
+  }
+  EXPECT_GT(of_port, 100);
+}
+
+TEST(EventLoop, WhereNothingCanBeLateASliceIsLong) {
+  EventLoop loop;
+  int pieces = 0;
+  loop.do_in_pieces([&] {
+    ++pieces;
+    const WallTime until = wall_now() + EventLoop::kLaterSlice;
+    while (wall_now() < until) {
+    }
+    return true;
+  });
+  int most = 0;
+  for (int turn = 0; turn < 20; ++turn) {
+    const int before = pieces;
+    loop.wait(wall_now(), EventLoop::kLongSlice);
+    most = std::max(most, pieces - before);
+  }
+  EXPECT_GT(most, 5);
+}
+
+TEST(EventLoop, WorkInPiecesIsBegunOnlyWhileThereIsLittleOfIt) {
+  EventLoop loop;
+  const Pair client;
+  int begun = 0;
+  int under_way = 0;
+  int most = 0;
+  loop.watch(
+      client.near(), EventLoop::readable,
+      [&](std::uint32_t) {
+        ++begun;
+        most = std::max(most, ++under_way);
+        loop.do_in_pieces([&under_way, left = 20]() mutable {
+          if (--left > 0) return true;
+          --under_way;
+          return false;
+        });
+      },
+      EventLoop::Rank::later);
+  client.poke();  // and is ready again at once
+  while (begun < 1'000) loop.wait(std::nullopt);
+  EXPECT_LE(most, 64);
+}
+
 TEST(EventLoop, WhatMayWaitIsPutOffOnceAndNoMore) {
   EventLoop loop;
   const Pair client;
