@@ -27,6 +27,8 @@ class Daemon;
 class Telling {
  public:
   struct promise_type {
+    // Declared, so that it is not made of a coroutine's arguments, as an aggregate would be.
+    promise_type() = default;
     Telling get_return_object() { return Telling(Handle::from_promise(*this)); }
     std::suspend_always initial_suspend() noexcept { return {}; }
     std::suspend_always final_suspend() noexcept { return {}; }

@@ -52,7 +52,12 @@ struct OneSlim {
             models::all_models(),
             "understudy: 1\nlines: { a: { link: ./a.port, stations: [ { name: d, model: slim } ] } }\n",
             "bench.yaml", folder.path)),
-        daemon(bench, {.speed = {.kind = Speed::Kind::manual}}, {}) {}
+        daemon(bench, options(), [](const std::string&) {}) {}
+  static DaemonOptions options() {
+    DaemonOptions made;
+    made.speed = {.kind = Speed::Kind::manual};
+    return made;
+  }
   Json ask(const std::string& message) {
     std::string reply;
     handle_message(daemon, message, [&](const std::string& line) { reply = line; });
