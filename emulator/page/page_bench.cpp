@@ -62,6 +62,7 @@ void PageBench::want(Wanted wanted) {
     next_event_ = 0;
   }
   wanted_ = std::move(wanted);
+  divide_names();
   if (wanted_.anybody) plan(kTurn);
 }
 
@@ -112,23 +113,31 @@ void PageBench::send_asks() {
   }
 }
 
-/// One message, or several where there are many names: frames and events come with the first.
-void PageBench::look() {
-  asked_at_ = last_turn_;
-  std::vector<std::vector<std::string>> parts(1);
+void PageBench::divide_names() {
+  lists_.assign(1, std::make_shared<NameList>());
   std::size_t bytes = 0;
   for (const std::string& name : wanted_.names) {
-    if (parts.back().size() == kNamesAMessage || bytes + name.size() > kBytesAMessage) {
-      parts.emplace_back();
+    if (lists_.back()->names.size() == kNamesAMessage || bytes + name.size() > kBytesAMessage) {
+      lists_.push_back(std::make_shared<NameList>());
       bytes = 0;
     }
     bytes += name.size() + 8;
-    parts.back().push_back(name);
+    lists_.back()->names.push_back(name);
   }
-  looks_under_way_ = parts.size();
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+}
+
+/// One message, or several where there are many names: frames and events come with the first.
+void PageBench::look() {
+  asked_at_ = last_turn_;
+  looks_under_way_ = lists_.size();
+  for (std::size_t i = 0; i < lists_.size(); ++i) {
+    const auto& list = lists_[i];
     Json message{{"do", "look"}};
-    if (!parts[i].empty()) message["names"] = parts[i];
+    if (list->look) {
+      message["look"] = *list->look;
+    } else if (!list->names.empty()) {
+      message["names"] = list->names;
+    }
     if (i == 0) {
       if (wanted_.frames) message["frames"] = next_frame_;
       if (wanted_.events) message["events"] = next_event_;
@@ -137,26 +146,35 @@ void PageBench::look() {
         last_status_ = last_turn_;
       }
     }
-    const bool is_last = i + 1 == parts.size();
-    wire_->ask(text_of(message),
-               [this, names = std::move(parts[i]), is_last](std::optional<std::string> reply) {
-                 if (looks_under_way_ > 0) --looks_under_way_;
-                 if (!reply) return lose();
-                 take_look(*reply, names, is_last);
-               });
+    const bool is_last = i + 1 == lists_.size();
+    wire_->ask(text_of(message), [this, list, is_last](const std::optional<std::string>& reply) {
+      if (looks_under_way_ > 0) --looks_under_way_;
+      if (!reply) return lose();
+      take_look(*reply, list, is_last);
+    });
   }
 }
 
-void PageBench::take_look(const std::string& reply, const std::vector<std::string>& names, bool is_last) {
+void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameList>& list, bool is_last) {
   Json look;
+  const std::vector<std::string>& names = list->names;
   try {
     look = Json::parse(reply);
-    if (!look.at("ok").get<bool>()) return lose();
+    if (!look.at("ok").get<bool>()) {
+      // It keeps them no longer: they are spelt out again.
+      if (std::exchange(list->look, std::nullopt)) return;
+      return lose();
+    }
     const std::string time =
         "\"time_ns\":" + text_of(look.at("simulated_time_ns")) + ",\"paused\":" + text_of(look.at("paused")) +
         ",\"speed\":" + text_of(look.at("speed")) + ",\"advancing\":" + text_of(look.at("advancing"));
     const std::uint64_t who = look.at("pid").get<std::uint64_t>();
     if (who != who_) {
+      // Its numbers are another's.
+      const bool is_by_number = list->look.has_value();
+      for (const auto& one : lists_) one->look.reset();
+      list->look.reset();
+      if (is_by_number) return;
       who_ = who;
       ++epoch_;
       next_frame_ = next_event_ = 0;
@@ -171,6 +189,7 @@ void PageBench::take_look(const std::string& reply, const std::vector<std::strin
       time_text_ = time;
       time_changed_ = looks_;
     }
+    if (!names.empty() && look.contains("look")) list->look = look["look"].get<std::uint64_t>();
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto known = values_.find(names[i]);
       if (known == values_.end()) continue;
@@ -201,6 +220,7 @@ void PageBench::take_look(const std::string& reply, const std::vector<std::strin
 
 void PageBench::lose() {
   who_ = 0;
+  for (const auto& list : lists_) list->look.reset();
   be(State::gone);
 }
 

@@ -86,11 +86,18 @@ class PageBench {
     std::string text;
   };
 
+  /// Names of one message. Once the daemon keeps them, they are asked for by its number.
+  struct NameList {
+    std::vector<std::string> names;
+    std::optional<std::uint64_t> look;
+  };
+
   void turn();
   void plan(std::chrono::milliseconds time);
   void look();
   void send_asks();
-  void take_look(const std::string& reply, const std::vector<std::string>& names, bool is_last);
+  void take_look(const std::string& reply, const std::shared_ptr<NameList>& list, bool is_last);
+  void divide_names();
   void be(State state);
   void lose();
 
@@ -105,6 +112,7 @@ class PageBench {
   std::chrono::steady_clock::time_point last_status_{};
   std::chrono::steady_clock::time_point asked_at_{};
   std::size_t looks_under_way_ = 0;
+  std::vector<std::shared_ptr<NameList>> lists_;  // of all that is wanted
 
   std::uint64_t looks_ = 1;
   std::string time_text_;  // members that every update has

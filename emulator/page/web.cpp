@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -82,6 +83,35 @@ Response refusal_of(const Request& request, http::status status, const std::stri
   return answer_to(request, status, "text/plain; charset=utf-8", why + "\n");
 }
 
+/// A stranger's place, until it is welcome or gone.
+class Seat {
+ public:
+  explicit Seat(std::list<Seat*>& strangers) : strangers_(strangers) {
+    place_ = strangers_.insert(strangers_.end(), this);
+  }
+  ~Seat() { welcome(); }
+  Seat(const Seat&) = delete;
+  Seat& operator=(const Seat&) = delete;
+
+  void welcome() {
+    if (is_of_stranger_) strangers_.erase(place_);
+    is_of_stranger_ = false;
+  }
+  /// How whoever sits there is sent away; nothing: it is on its way out.
+  void set_end(std::function<void()> end) { end_ = std::move(end); }
+  /// For another.
+  void vacate() {
+    welcome();
+    if (const auto end = std::exchange(end_, {})) end();
+  }
+
+ private:
+  std::list<Seat*>& strangers_;
+  std::list<Seat*>::iterator place_;
+  bool is_of_stranger_ = true;
+  std::function<void()> end_;
+};
+
 }  // namespace
 
 // --- inside ----------------------------------------------------------------------------------------
@@ -97,30 +127,25 @@ class Web::Inside {
   WebLimits limits;
   WebEvents& events;
   WebAccess access;
-  std::size_t connections = 0;  // outlives `io`, whose handlers hold seats
+  std::list<Seat*> strangers;  // the oldest first; outlives `io`, whose handlers hold seats
   BrowserId last_browser = 0;
   net::io_context io{1};
   net::basic_socket_acceptor<Tcp, Executor> acceptor{io};
   std::map<BrowserId, std::shared_ptr<Browser>> browsers;
 };
 
-/// One of the connections that are counted.
-class Seat {
- public:
-  explicit Seat(std::size_t& taken) : taken_(taken) { ++taken_; }
-  ~Seat() { --taken_; }
-  Seat(const Seat&) = delete;
-  Seat& operator=(const Seat&) = delete;
-
- private:
-  std::size_t& taken_;
-};
-
 /// A browser's WebSocket.
 class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
  public:
   Browser(Inside& inside, TcpStream&& stream, std::shared_ptr<Seat> seat, BrowserId id)
-      : inside_(inside), seat_(std::move(seat)), socket_(std::move(stream)), id_(id) {}
+      : inside_(inside), seat_(std::move(seat)), socket_(std::move(stream)), id_(id) {
+    seat_->set_end([this] { cut(); });
+  }
+  ~Browser() { seat_->set_end({}); }
+  Browser(const Browser&) = delete;
+  Browser& operator=(const Browser&) = delete;
+
+  void welcome() { seat_->welcome(); }
 
   void open(const Request& request) {
     websocket::stream_base::timeout timeout{};
@@ -220,12 +245,20 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
  public:
   Visit(Inside& inside, net::basic_stream_socket<Tcp, Executor>&& socket)
       : inside_(inside),
-        seat_(std::make_shared<Seat>(inside.connections)),
+        seat_(std::make_shared<Seat>(inside.strangers)),
         stream_(std::move(socket)),
         input_(64 * 1024) {
+    seat_->set_end([this] { stream_.close(); });
     parser_.header_limit(static_cast<std::uint32_t>(inside.limits.request_bytes));
     parser_.body_limit(0);
   }
+
+  /// It may sit on as a browser.
+  ~Visit() {
+    if (!is_browser_) seat_->set_end({});
+  }
+  Visit(const Visit&) = delete;
+  Visit& operator=(const Visit&) = delete;
 
   void begin() {
     Error ignored;
@@ -267,6 +300,7 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
     if (is_upgrade) {
       if (target != "/ws") return say(refusal_of(request, http::status::not_found, "there is nothing here"));
       stream_.expires_never();
+      is_browser_ = true;
       const auto browser =
           std::make_shared<Browser>(inside_, std::move(stream_), seat_, ++inside_.last_browser);
       return browser->open(request);
@@ -290,6 +324,7 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
   TcpStream stream_;
   beast::flat_buffer input_;
   http::request_parser<http::empty_body> parser_;
+  bool is_browser_ = false;
   Response response_;
 };
 
@@ -320,8 +355,9 @@ void Web::Inside::accept() {
       auto rest = std::make_shared<Timer>(io, std::chrono::milliseconds(100));
       return rest->async_wait([this, rest](Error) { accept(); });
     }
-    // One that comes too many is closed here.
-    if (connections < limits.connections) std::make_shared<Visit>(*this, std::move(socket))->begin();
+    // Whoever holds places without a token would keep others out.
+    if (strangers.size() >= limits.strangers) strangers.front()->vacate();
+    std::make_shared<Visit>(*this, std::move(socket))->begin();
     accept();
   });
 }
@@ -350,6 +386,11 @@ void Web::run(bool watch_signals) {
 }
 
 void Web::stop() { inside_->io.stop(); }
+
+void Web::welcome(BrowserId browser) {
+  const auto found = inside_->browsers.find(browser);
+  if (found != inside_->browsers.end()) found->second->welcome();
+}
 
 void Web::send(BrowserId browser, std::shared_ptr<const std::string> text) {
   const auto found = inside_->browsers.find(browser);

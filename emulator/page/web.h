@@ -49,7 +49,7 @@ class WebEvents {
 };
 
 struct WebLimits {
-  std::size_t connections = 64;               // of all kinds; one more is closed at once
+  std::size_t strangers = 64;                 // connections of those who are not welcome yet
   std::size_t request_bytes = 8 * 1024;       // of a request's head; it has no body
   std::size_t message_bytes = 64 * 1024;      // of a browser's
   std::size_t waiting_bytes = 8 << 20;        // for a browser that does not read; it is closed then
@@ -83,6 +83,9 @@ class Web {
   /// From any thread.
   void stop();
 
+  /// Nobody takes its place any more. Before that it is a stranger, as every connection is at first: of those
+  /// there is a bounded number, and the newest one takes the place of the oldest.
+  void welcome(BrowserId browser);
   void send(BrowserId browser, std::shared_ptr<const std::string> text);
   /// Bytes that were sent and are not on their way yet.
   std::size_t waiting(BrowserId browser) const;

@@ -135,7 +135,8 @@ class World final : public WorldView {
   /// Throws ProgramError.
   void load_program(std::size_t device, std::string_view text);
   /// Gives a device a command by its name, past the line, as one message to its window
-  /// (emulator/device/command_window.h). Throws ProgramError for what is not one; says why it was refused.
+  /// (emulator/device/command_window.h), or a line of text, whose answer is kept from the line. Throws
+  /// ProgramError for what is not one; says why it was refused.
   Objection command(std::size_t device, std::string_view text);
   /// Between two ticks. What a device without power was saying ends at once. One whose power is cut has none
   /// until that is over, and then only if it is switched on.

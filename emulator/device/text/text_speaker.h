@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "emulator/device/model.h"
+#include "emulator/device/register_map/refusal.h"
 
 namespace understudy::emulator {
 
@@ -34,6 +35,10 @@ class TextSpeaker {
   virtual void hear_overlong() = 0;
   /// ESC, without any line's end. The unfinished line is forgotten.
   virtual void hear_escape() {}
+
+  /// A line that comes past the line, by hand: its answer is what this returns, and nothing is said. Refused
+  /// as busy where the device would not take a line for a command just now.
+  virtual DeviceAnswer take_command(std::string_view /*line*/) { return Refusal::failure; }
 
   // --- what it says ------------------------------------------------------------------------------
   /// Asked after anything that may have made it speak: a line, a tick, an act from outside.

@@ -87,6 +87,7 @@ class Slim final : public DeviceOf<Slim>,
   TextRules text_rules() const override;
   void hear_line(std::string_view line) override;
   void hear_overlong() override;
+  DeviceAnswer take_command(std::string_view line) override;
   void hear_escape() override;
   bool has_speech() const override { return !state_.speech.empty(); }
   std::string take_speech() override { return std::exchange(state_.speech, {}); }
@@ -186,7 +187,7 @@ class Slim final : public DeviceOf<Slim>,
   int remember(int module, Error error);
   void note_error(int module, Error error);
   void conclude();
-  void hear_command(std::string_view line);
+  Error hear_command(std::string_view line);
   bool is_heard_instead_of_number(std::string_view line) const;
   Error obey(lang::Command& command, std::vector<std::string>& lines);
 

@@ -103,6 +103,17 @@ void Slim::hear_line(std::string_view line) {
   conclude();
 }
 
+DeviceAnswer Slim::take_command(std::string_view line) {
+  wake();
+  const bool is_number = wants_number(state_.execution) && !is_heard_instead_of_number(line);
+  if (is_editing(state_.editor) || is_number) return Refusal::busy;
+  std::string before = std::exchange(state_.speech, {});
+  const Error error = hear_command(line);
+  state_.speech = std::move(before);
+  if (error == Error::none) return Refusal::none;
+  return {error == Error::not_allowed ? Refusal::busy : Refusal::bad_value, static_cast<int>(error)};
+}
+
 void Slim::hear_overlong() {
   wake();
   fail(0, Error::syntax);
@@ -114,34 +125,37 @@ void Slim::hear_escape() {
   state_.editor = {};
 }
 
-void Slim::hear_command(std::string_view line) {
+/// What became of it is said, and returned.
+Error Slim::hear_command(std::string_view line) {
   lang::ParseResult parsed = lang::parse_line(line, of_programs().dialect);
   if (parsed.error == Error::none && !parsed.line.command) {
     // A label belongs in a program.
-    if (!parsed.line.label.empty()) fail(0, Error::syntax);
-    return;
+    if (parsed.line.label.empty()) return Error::none;
+    fail(0, Error::syntax);
+    return Error::syntax;
   }
   if (parsed.error == Error::none && !parsed.line.label.empty()) parsed.error = Error::syntax;
   if (parsed.error != Error::none) {
     fail(0, parsed.error);
-    return;
+    return parsed.error;
   }
 
   lang::Command& command = *parsed.line.command;
   const lang::Place place = state_.execution.running ? lang::Place::external : lang::Place::immediate;
   if (!is_allowed(command, place, of_programs().columns)) {
     fail(0, Error::not_allowed);
-    return;
+    return Error::not_allowed;
   }
   std::vector<std::string> lines;
   const Error error = obey(command, lines);
-  if (is_silence(error)) return;
+  if (is_silence(error)) return Error::none;
   if (error != Error::none) {
     fail(command.module < 0 ? 0 : command.module, error);
-    return;
+    return error;
   }
   for (const std::string& text : lines) say(text);
   if (lines.empty() && powered()) acknowledge();
+  return Error::none;
 }
 
 /// A typed command. `lines` is what it has to say.

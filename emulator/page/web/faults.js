@@ -47,5 +47,5 @@ export function Faults() {
     <div class="scroll"><table class="events"><tbody>${store.events.slice(-100).reverse().map((event) => html`<tr key=${event.number}
       class=${event.what === 'exception' || event.what === 'dropped' ? 'bad' : ''}>
       <td class="figure">${seconds(event.time_ns)}</td><td>${event.what}</td><td>${event.by ?? ''}</td>
-      <td>${placeOf(event)}${event.value !== undefined ? ` = ${event.value}` : ''} ${event.text ?? ''}</td></tr>`)}</tbody></table></div>`;
+      <td>${placeOf(event)}${event.value !== undefined && !event.text ? ` = ${event.value}` : ''} ${event.text ?? ''}</td></tr>`)}</tbody></table></div>`;
 }

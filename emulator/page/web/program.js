@@ -1,6 +1,6 @@
 // The program: its listing with the line that runs, what it waits for, values beside it; started, stopped and loaded.
 import { html, useEffect, useRef, useState } from './preact.js';
-import { ask, askQuietly, complain, isReadOnly, store, unwant, valueOf, want } from './store.js';
+import { ask, askQuietly, isReadOnly, store, unwant, valueOf, want } from './store.js';
 import { Button, Choice, Field, grouped } from './small.js';
 
 const kLook_ms = 150;
@@ -30,14 +30,12 @@ function Waits({ device, program }) {
     ${program.why && html` <span class=${program.state === 'failed' ? 'bad' : ''}>${program.why}</span>`}</li>`;
 }
 
-/// What a host would do: write registers one after the other, give a command, or say a line of text.
+/// What a host would do: write registers one after the other, give a command, or a line of text. None of it touches the
+/// line, where a host may be.
 async function act(device, control, number) {
   const fill = (text) => text.replace('{}', number);
-  if (control.command) return ask({ do: 'command', device: device.name, text: fill(control.command) });
-  if (control.text) {
-    const line = store.bench.lines.find(({ stations }) => stations.some((station) => station.device === device.name));
-    return line ? ask({ do: 'send', line: line.name, text: fill(control.text) }) : complain('no line leads to it');
-  }
+  const text = control.command ?? control.text;
+  if (text) return ask({ do: 'command', device: device.name, text: fill(text) });
   for (const pair of fill(control.set).split(' ')) {
     const [name, value] = pair.split('=');
     if (!(await ask({ do: 'set', values: { [`${device.name}.${name}`]: Number(value) } })).ok) return;

@@ -72,10 +72,12 @@ export function Rail({ device, axis, press }) {
   const says = [`${name} at ${grouped(position)} pulses`, heads ? `on its way to ${grouped(target)}` : '',
                 differs(pulses) ? `commanded ${grouped(pulses)}` : '', isOff ? `encoder at ${grouped(Math.round(encoder))}` : '']
     .filter(Boolean).join(', ');
+  const marks = marksOf(stretch);
+  const anchor = (at) => (share(at) <= 8 ? 'start' : share(at) >= 92 ? 'end' : 'middle');  // at its ends a rail has half the room
   return html`<svg class="rail" role="img" aria-label=${says}>
     <rect class="bed" x="0" y="32" width="100%" height="8" />
-    ${marksOf(stretch).map((at) => html`<g key=${at}><rect class="tick" x=${x(at)} y="68" width="1" height="4" />
-      ${share(at) > 8 && share(at) < 92 && html`<text x=${x(at)} y="84">${grouped(at)}</text>`}</g>`)}
+    ${marks.map((at) => html`<g key=${at}><rect class="tick" x=${x(at)} y="68" width="1" height="4" />
+      ${(marks.length < 5 || anchor(at) === 'middle') && html`<text x=${x(at)} y="84" style=${{ textAnchor: anchor(at) }}>${grouped(at)}</text>`}</g>`)}
     ${machine.travel && html`
       <rect class="stop" x="0" y="20" width=${wide(stretch.low, machine.travel[0])} height="32"><title>hard stop</title></rect>
       <rect class="stop" x=${x(machine.travel[1])} y="20" width=${wide(machine.travel[1], stretch.high)} height="32"><title>hard stop</title></rect>`}

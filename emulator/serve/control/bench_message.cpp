@@ -1,12 +1,11 @@
 // What there is on a bench: for onlookers who know none of its models.
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/version.h"
 #include "emulator/device/axes.h"
@@ -18,14 +17,13 @@
 #include "emulator/device/terminals.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_text.h"
+#include "emulator/serve/control/telling.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/ports/port.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/fault_form.h"
-#include "emulator/world/bench_file/form.h"
-#include "emulator/world/faults/fault.h"
-#include "emulator/world/faults/kinds.h"
 #include "emulator/world/plant/plant.h"
+#include "emulator/world/stations/line_station.h"
 #include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
 #include "pty/line.h"
@@ -95,13 +93,12 @@ std::string_view name_of_terminal(const Model& model, int terminal) {
   return terminal < 0 ? std::string_view() : model.terminals[static_cast<std::size_t>(terminal)].name;
 }
 
-/// What the machines and drives use a terminal for: "A.home", "B.servo".
-void add_functions(Json& terminals, const Model& model, const world::World& world, std::size_t device) {
-  const auto add = [&](int terminal, const std::string& function) {
-    if (terminal < 0) return;
-    for (Json& entry : terminals) {
-      if (entry["name"] == name_of_terminal(model, terminal)) entry["functions"].push_back(function);
-    }
+/// What the machines and drives use each terminal for: "A.home", "B.servo".
+std::vector<std::vector<std::string>> functions_of(const Model& model, const world::World& world,
+                                                   std::size_t device) {
+  std::vector<std::vector<std::string>> functions(model.terminals.size());
+  const auto add = [&](int terminal, std::string function) {
+    if (terminal >= 0) functions[static_cast<std::size_t>(terminal)].push_back(std::move(function));
   };
   for (std::size_t a = 0; a < model.axes.size(); ++a) {
     const AxisRow& axis = model.axes[a];
@@ -115,6 +112,14 @@ void add_functions(Json& terminals, const Model& model, const world::World& worl
     add(axis.servo_output, name + "servo");
     add(axis.alarm_clear_output, name + "alarm_clear");
   }
+  return functions;
+}
+
+template <class Names>
+Json names_json(const Names& names) {
+  Json list = Json::array();
+  for (const std::string_view name : names) list.push_back(name);
+  return list;
 }
 
 Json sections_of(const Model& model) {
@@ -158,184 +163,156 @@ Json controls_of(const ProgramLanguage& language) {
   return controls;
 }
 
-Json device_of(const Daemon& daemon, std::size_t number) {
+Json axis_of(const world::World& world, std::size_t device, std::size_t place) {
+  const AxisRow& row = world.device(device).model().axes[place];
+  Json axis{{"name", row.name},
+            {"pulses_per_revolution", row.pulses_per_revolution},
+            {"machine", machine_of(world.machine(device, static_cast<int>(place)))}};
+  if (row.servo_output >= 0) axis["servo"] = name_of_terminal(world.device(device).model(), row.servo_output);
+  return axis;
+}
+
+Json terminal_of(const TerminalRow& row, const std::vector<std::string>& functions) {
+  Json terminal{{"name", row.name}, {"kind", kind_word(row.kind)}};
+  if (!has_two_levels(row.kind)) {
+    terminal["lowest"] = row.lowest;
+    terminal["highest"] = row.highest;
+  }
+  if (is_in_millivolts(row.kind)) terminal["unit"] = "mV";
+  for (const std::string& function : functions) terminal["functions"].push_back(function);
+  return terminal;
+}
+
+/// A device of a bench, in all that an onlooker needs to show it.
+Telling device_message(Daemon& daemon, std::size_t number) {
+  const Pause pause(daemon);
   const world::World& world = daemon.world();
   const Device& device = world.device(number);
   const Model& model = device.model();
-  Json axes = Json::array();
+  ReplyText text;
+  text.open_object("device");
+  text.member("name", device.name());
+  text.open_list("axes");
   for (std::size_t a = 0; a < model.axes.size(); ++a) {
     if (!device.axes()->has_axis(static_cast<int>(a))) continue;
-    axes.push_back({{"name", model.axes[a].name},
-                    {"pulses_per_revolution", model.axes[a].pulses_per_revolution},
-                    {"machine", machine_of(world.machine(number, static_cast<int>(a)))}});
-    if (model.axes[a].servo_output >= 0)
-      axes.back()["servo"] = name_of_terminal(model, model.axes[a].servo_output);
+    text.element(axis_of(world, number, a));
+    co_await pause;
   }
-  Json terminals = Json::array();
+  text.close_list();
+  const auto functions = functions_of(model, world, number);
+  text.open_list("terminals");
   for (std::size_t i = 0; i < model.terminals.size(); ++i) {
-    const TerminalRow& row = model.terminals[i];
     if (device.terminals() != nullptr && !device.terminals()->has_terminal(static_cast<int>(i))) continue;
-    terminals.push_back({{"name", row.name}, {"kind", kind_word(row.kind)}});
-    if (!has_two_levels(row.kind)) {
-      terminals.back()["lowest"] = row.lowest;
-      terminals.back()["highest"] = row.highest;
-    }
-    if (is_in_millivolts(row.kind)) terminals.back()["unit"] = "mV";
+    text.element(terminal_of(model.terminals[i], functions[i]));
+    co_await pause;
   }
-  add_functions(terminals, model, world, number);
-  Json groups = Json::array();
+  text.close_list();
+  text.open_list("groups");
   for (const TerminalGroup& group : model.terminal_groups) {
-    groups.push_back(
+    text.element(
         {{"name", group.name}, {"first", name_of_terminal(model, group.first)}, {"count", group.count}});
+    co_await pause;
   }
-  Json details{{"name", device.name()},
-               {"axes", std::move(axes)},
-               {"terminals", std::move(terminals)},
-               {"groups", std::move(groups)},
-               {"state_registers", Json::array()},
-               {"sections", sections_of(model)},
-               {"registers", model.registers != nullptr},
-               {"commands", !model.commands.empty() || model.window != nullptr}};
-  for (const std::string_view name : model.state_registers) details["state_registers"].push_back(name);
+  text.close_list();
+  text.member("state_registers", names_json(model.state_registers));
+  co_await pause;
+  text.member("sections", sections_of(model));
+  co_await pause;
+  text.member("registers", model.registers != nullptr);
+  text.member("commands", !model.commands.empty() || model.window != nullptr);
   if (model.language != nullptr) {
-    details["program"] = Json{{"language", model.language->name()},
-                              {"file_ending", model.language->file_ending()},
-                              {"controls", controls_of(*model.language)}};
+    text.member("program", Json{{"language", model.language->name()},
+                                {"file_ending", model.language->file_ending()},
+                                {"controls", controls_of(*model.language)}});
   }
-  details["gaps"] = Json::array();
-  for (const std::string_view gap : model.gaps) details["gaps"].push_back(gap);
-  return details;
+  text.member("gaps", names_json(model.gaps));
+  text.close_object();
+  co_return text.take();
 }
 
-}  // namespace
+Json line_of(const Daemon& daemon, const Port& port) {
+  const world::WorldLine& line = daemon.world().line(port.line_number());
+  return Json{{"name", line.line.name()},
+              {"pty", port.terminal() != nullptr ? port.terminal()->path() : port.place()},
+              {"link", port.place()},
+              {"tcp", port.tcp_places()},
+              {"settings", pty::to_string(line.line.options().settings)},
+              {"timing", line.line.options().timing == pty::Timing::wire ? "wire" : "instant"},
+              {"protocol", line.speech.protocol().name},
+              {"text", line.speech.carries_text()}};
+}
 
-Json bench_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "device"});
+Json station_of(const world::LineStation& station) {
+  const Device& device = station.device();
+  Json entry{{"device", device.name()}, {"port", device.model().line.ports[station.port()].name}};
+  if (const auto address = device.station_number()) entry["address"] = *address;
+  return entry;
+}
+
+Json device_in_short(const Device& device) {
+  Json axes = Json::array();
+  for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
+    if (device.axes()->has_axis(static_cast<int>(a))) axes.push_back(device.model().axes[a].name);
+  }
+  return Json{{"name", device.name()},         {"model", device.model().name},
+              {"title", device.model().title}, {"firmware", version_text(device.firmware())},
+              {"axes", std::move(axes)},       {"program", device.model().language != nullptr}};
+}
+
+Json wire_of(const world::World& world, const world::WireSetup& wire) {
+  const Model& from = world.device(wire.from_device).model();
+  const Model& to = world.device(wire.to_device).model();
+  const std::string source =
+      wire.from_axis < 0 ? std::string(name_of_terminal(from, wire.from_terminal))
+                         : std::string(from.axes[static_cast<std::size_t>(wire.from_axis)].name) + "." +
+                               std::string(world::kContactNames[static_cast<std::size_t>(wire.from_contact)]);
+  return Json{{"from", world.device(wire.from_device).name() + "." + source},
+              {"to", world.device(wire.to_device).name() + "." +
+                         std::string(name_of_terminal(to, wire.to_terminal))}};
+}
+
+Telling whole_bench_message(Daemon& daemon) {
+  const Pause pause(daemon);
   const world::World& world = daemon.world();
-  if (message.contains("device"))
-    return Json{{"ok", true}, {"device", device_of(daemon, demand_device(daemon, message))}};
-  Json lines = Json::array();
+  ReplyText text;
+  text.open_object("bench");
+  text.member("path", daemon.bench_path());
+  text.member("version", program_version());
+  text.open_list("lines");
   for (const auto& port : daemon.ports()) {
-    const world::WorldLine& line = world.line(port->line_number());
-    Json stations = Json::array();
-    for (const auto& station : line.stations) {
-      const Device& device = station->device();
-      Json entry{{"device", device.name()}, {"port", device.model().line.ports[station->port()].name}};
-      if (const auto address = device.station_number()) entry["address"] = *address;
-      stations.push_back(std::move(entry));
+    text.open_object();
+    text.members(line_of(daemon, *port));
+    text.open_list("stations");
+    for (const auto& station : world.line(port->line_number()).stations) {
+      text.element(station_of(*station));
+      co_await pause;
     }
-    lines.push_back({{"name", line.line.name()},
-                     {"pty", port->terminal() != nullptr ? port->terminal()->path() : port->place()},
-                     {"link", port->place()},
-                     {"tcp", port->tcp_places()},
-                     {"settings", pty::to_string(line.line.options().settings)},
-                     {"timing", line.line.options().timing == pty::Timing::wire ? "wire" : "instant"},
-                     {"protocol", line.speech.protocol().name},
-                     {"text", line.speech.carries_text()},
-                     {"stations", std::move(stations)}});
+    text.close_list();
+    text.close_object();
   }
-  Json devices = Json::array();
+  text.close_list();
+  text.open_list("devices");
   for (std::size_t i = 0; i < world.device_count(); ++i) {
-    const Device& device = world.device(i);
-    Json axes = Json::array();
-    for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
-      if (device.axes()->has_axis(static_cast<int>(a))) axes.push_back(device.model().axes[a].name);
-    }
-    devices.push_back({{"name", device.name()},
-                       {"model", device.model().name},
-                       {"title", device.model().title},
-                       {"firmware", version_text(device.firmware())},
-                       {"axes", std::move(axes)},
-                       {"program", device.model().language != nullptr}});
+    text.element(device_in_short(world.device(i)));
+    co_await pause;
   }
-  Json wires = Json::array();
+  text.close_list();
+  text.open_list("wires");
   for (const world::WireSetup& wire : world.wires()) {
-    const Model& from = world.device(wire.from_device).model();
-    const Model& to = world.device(wire.to_device).model();
-    const std::string source =
-        wire.from_axis < 0
-            ? std::string(name_of_terminal(from, wire.from_terminal))
-            : std::string(from.axes[static_cast<std::size_t>(wire.from_axis)].name) + "." +
-                  std::string(world::kContactNames[static_cast<std::size_t>(wire.from_contact)]);
-    wires.push_back({{"from", world.device(wire.from_device).name() + "." + source},
-                     {"to", world.device(wire.to_device).name() + "." +
-                                std::string(name_of_terminal(to, wire.to_terminal))}});
+    text.element(wire_of(world, wire));
+    co_await pause;
   }
-  return Json{{"ok", true},
-              {"bench",
-               {{"path", daemon.bench_path()},
-                {"version", program_version()},
-                {"lines", std::move(lines)},
-                {"devices", std::move(devices)},
-                {"wires", std::move(wires)}}}};
-}
-
-namespace {
-
-std::string_view place_word(world::FaultKindRow::Place place) {
-  switch (place) {
-    case world::FaultKindRow::Place::axis: return "axis";
-    case world::FaultKindRow::Place::wheel: return "wheel";
-    case world::FaultKindRow::Place::input: return "input";
-    case world::FaultKindRow::Place::device: return "device";
-    case world::FaultKindRow::Place::device_or_line: return "device_or_line";
-  }
-  return {};
-}
-
-std::string_view form_word(world::FaultFieldRow::Form form) {
-  using Form = world::FaultFieldRow::Form;
-  switch (form) {
-    case Form::number: return "number";
-    case Form::level: return "level";
-    case Form::duration:
-    case Form::ticks:
-    case Form::even_ticks: return "duration";
-    case Form::bytes: return "bytes";
-    case Form::side: return "side";
-  }
-  return {};
-}
-
-std::string_view doc_of(std::string_view key) {
-  for (const world::KeyRow& row : world::kFaultKeys) {
-    if (row.key == key) return row.doc;
-  }
-  return {};
+  text.close_list();
+  text.close_object();
+  co_return text.take();
 }
 
 }  // namespace
 
-Json faults_message(Daemon& /*daemon*/, const Json& message) {
-  demand_keys(message, {"do"});
-  Json kinds = Json::array();
-  for (const world::FaultKindRow& kind : world::fault_kinds()) {
-    Json fields = Json::array();
-    for (const world::FaultFieldRow& field : kind.fields) {
-      Json entry{{"name", field.name},
-                 {"form", form_word(field.form)},
-                 {"required", field.required},
-                 {"doc", doc_of(field.name)}};
-      if (field.form == world::FaultFieldRow::Form::number) {
-        entry["lowest"] = field.lowest;
-        entry["highest"] = field.highest;
-      }
-      fields.push_back(std::move(entry));
-    }
-    kinds.push_back({{"name", kind.name},
-                     {"place", place_word(kind.place)},
-                     {"doc", doc_of(kind.name)},
-                     {"of_frames", world::is_of_frames(kind.kind)},
-                     {"fields", std::move(fields)}});
-  }
-  // The trigger's fields stand behind those of the kinds, from "function" on.
-  Json trigger = Json::array();
-  const auto* const first = std::find_if(world::kFaultKeys.begin(), world::kFaultKeys.end(),
-                                         [](const world::KeyRow& row) { return row.key == "function"; });
-  for (const auto* row = first; row != world::kFaultKeys.end(); ++row) {
-    trigger.push_back({{"name", row->key}, {"doc", row->doc}});
-  }
-  return Json{{"ok", true}, {"kinds", std::move(kinds)}, {"trigger", std::move(trigger)}};
+Telling bench_message(Daemon& daemon, Json message) {
+  demand_keys(message, {"do", "device"});
+  if (message.contains("device")) return device_message(daemon, demand_device(daemon, message));
+  return whole_bench_message(daemon);
 }
 
 }  // namespace understudy::emulator::serve

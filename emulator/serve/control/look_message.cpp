@@ -1,16 +1,23 @@
 // Many values at once, with what has happened since.
 #include <unistd.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
+#include "emulator/serve/control/listing.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_text.h"
+#include "emulator/serve/control/status_parts.h"
+#include "emulator/serve/control/telling.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/loop/pacer.h"
@@ -24,15 +31,15 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMostListed = 200;  // frames or events in a reply, which the devices wait for
+constexpr std::size_t kMostListed = 200;  // frames or events in a reply
 constexpr std::size_t kMostNames = 2'000;
 
-Json json_of_looked(const world::LookedNames::Looked& looked) {
+void add_value(ReplyText& text, const world::LookedNames::Looked& looked) {
   if (const auto* number = std::get_if<world::Number>(&looked)) {
-    return number->is_whole() ? Json(number->whole()) : Json(number->real());
+    return number->is_whole() ? text.element(number->whole()) : text.element(Json(number->real()));
   }
-  if (const auto* text = std::get_if<std::string>(&looked)) return *text;
-  return nullptr;
+  const auto* drivers = std::get_if<world::TerminalDrivers>(&looked);
+  text.element(drivers != nullptr ? Json(world::to_text(*drivers)) : Json());
 }
 
 std::string hex_of(std::span<const std::uint8_t> bytes) {
@@ -57,102 +64,171 @@ std::uint64_t first_wanted(const Json& message, std::uint64_t next, std::size_t 
 
 }  // namespace
 
-Json frames_of(Daemon& daemon, std::uint64_t since, std::size_t most, bool raw, std::uint64_t& next) {
-  Json frames = Json::array();
-  next = since;
-  for (const world::FrameLog::Told& told : daemon.frames().since(since, most)) {
-    next = told.number + 1;
-    Json frame{{"number", told.number},
-               {"time_ns", told.time.count()},
-               {"line", told.line},
-               {"way", told.way == pty::Way::from_host ? "in" : "out"},
-               {"text", told.text}};
-    if (!told.remark.empty()) frame["remark"] = told.remark;
-    if (raw) {
-      frame["bytes"] = hex_of(told.bytes);
-      if (told.latency) frame["latency_ns"] = told.latency->count();
-      if (told.is_refusal) frame["exception"] = true;
-    }
-    frames.push_back(std::move(frame));
-  }
-  if (frames.empty()) next = daemon.frames().next_number();
-  return frames;
+bool Listing::add_next(ReplyText& text) {
+  if (count_ == kMostListed) return false;
+  return what_ == What::frames ? add_frame(text) : add_event(text);
 }
 
-Json events_of(Daemon& daemon, std::uint64_t since, std::size_t most, std::uint64_t& next) {
-  Json events = Json::array();
-  next = since;
-  for (const world::Event& event : daemon.onlookers().events.since(since, most)) {
-    next = event.number + 1;
-    Json told{{"number", event.number}, {"time_ns", event.time.count()}, {"what", event.what}};
-    const auto add = [&](const char* key, const std::string& text) {
-      if (!text.empty()) told[key] = text;
-    };
-    add("by", event.by);
-    add("line", event.line);
-    add("device", event.device);
-    add("name", event.name);
-    if (!event.value.empty()) told["value"] = json_of(std::stod(event.value));
-    add("text", event.text);
-    events.push_back(std::move(told));
+bool Listing::add_frame(ReplyText& text) {
+  const auto some = daemon_.frames().since(next_, 1);
+  if (some.empty()) {
+    if (count_ == 0) next_ = daemon_.frames().next_number();
+    return false;
   }
-  if (events.empty()) next = daemon.onlookers().events.next_number();
-  return events;
+  const world::FrameLog::Told& told = some.front();
+  Json frame{{"number", told.number},
+             {"time_ns", told.time.count()},
+             {"line", told.line},
+             {"way", told.way == pty::Way::from_host ? "in" : "out"},
+             {"text", told.text}};
+  if (!told.remark.empty()) frame["remark"] = told.remark;
+  if (is_raw_) {
+    frame["bytes"] = hex_of(told.bytes);
+    if (told.latency) frame["latency_ns"] = told.latency->count();
+    if (told.is_refusal) frame["exception"] = true;
+  }
+  text.element(frame);
+  next_ = told.number + 1;
+  ++count_;
+  return true;
 }
 
-Json events_message(Daemon& daemon, const Json& message) {
+bool Listing::add_event(ReplyText& text) {
+  world::EventLog& events = daemon_.onlookers().events;
+  if (events.collect(1)) return true;  // of many frames nothing but what they say may come
+  const auto some = events.since(next_, 1);
+  if (some.empty()) {
+    if (count_ == 0) next_ = events.next_number();
+    return false;
+  }
+  const world::Event& event = some.front();
+  Json told{{"number", event.number}, {"time_ns", event.time.count()}, {"what", event.what}};
+  const auto add = [&](const char* key, const std::string& what) {
+    if (!what.empty()) told[key] = what;
+  };
+  add("by", event.by);
+  add("line", event.line);
+  add("device", event.device);
+  add("name", event.name);
+  if (!event.value.empty()) told["value"] = json_of(std::stod(event.value));
+  add("text", event.text);
+  text.element(told);
+  next_ = event.number + 1;
+  ++count_;
+  return true;
+}
+
+namespace {
+
+/// Frames or events alone.
+Telling tell_listing(Daemon& daemon, Json message, Listing::What what) {
+  const Pause pause(daemon);
+  daemon.catch_up();
+  world::EventLog& events = daemon.onlookers().events;
+  const bool are_events = what == Listing::What::events;
+  while (are_events && events.collect(1)) co_await pause;
+  const std::uint64_t next = are_events ? events.next_number() : daemon.frames().next_number();
+  const bool is_raw = message.contains("raw") && message["raw"] == true;
+  Listing listing(daemon, what, first_wanted(message, next, kMostListed), is_raw);
+  ReplyText text;
+  text.open_list(are_events ? "events" : "frames");
+  while (listing.add_next(text)) co_await pause;
+  text.close_list();
+  text.member("next", listing.next());
+  co_return text.take();
+}
+
+}  // namespace
+
+Telling events_message(Daemon& daemon, Json message) {
   demand_keys(message, {"do", "since", "last"});
-  daemon.catch_up();
-  const std::uint64_t first = first_wanted(message, daemon.onlookers().events.next_number(), kMostListed);
-  std::uint64_t next = 0;
-  Json events = events_of(daemon, first, kMostListed, next);
-  return Json{{"ok", true}, {"events", std::move(events)}, {"next", next}};
+  return tell_listing(daemon, std::move(message), Listing::What::events);
 }
 
-Json frames_message(Daemon& daemon, const Json& message) {
+Telling frames_message(Daemon& daemon, Json message) {
   demand_keys(message, {"do", "since", "last", "raw"});
-  daemon.catch_up();
-  const std::uint64_t first = first_wanted(message, daemon.frames().next_number(), kMostListed);
-  const bool raw = message.contains("raw") && message["raw"] == true;
-  std::uint64_t next = 0;
-  Json frames = frames_of(daemon, first, kMostListed, raw, next);
-  return Json{{"ok", true}, {"frames", std::move(frames)}, {"next", next}};
+  return tell_listing(daemon, std::move(message), Listing::What::frames);
 }
 
-Json look_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "names", "frames", "events", "status"});
-  daemon.catch_up();
-  Json reply{{"ok", true},
-             {"pid", getpid()},
-             {"simulated_time_ns", daemon.world().now().count()},
-             {"paused", daemon.pacer().paused()},
-             {"speed", format_speed(daemon.pacer().speed())},
-             {"advancing", daemon.is_advancing()}};
-  if (message.contains("names")) {
-    const Json& names = message["names"];
-    if (!names.is_array() || names.size() > kMostNames) {
-      throw MessageError("names: expected a list of at most " + std::to_string(kMostNames) + " names");
-    }
-    Json values = Json::array();
-    for (const Json& name : names) {
-      if (!name.is_string()) throw MessageError("names: expected a list of names");
-      values.push_back(json_of_looked(daemon.onlookers().names.look(name.get_ref<const std::string&>())));
-    }
-    reply["values"] = std::move(values);
+namespace {
+
+/// The list of names that is meant, by its number or spelt out; nothing: none.
+std::optional<std::uint64_t> demand_list(world::LookedNames& known, const Json& message) {
+  if (message.contains("look")) {
+    if (message.contains("names"))
+      throw MessageError("look: is given together with names; expected one of them");
+    const std::uint64_t list = demand_count(message, "look");
+    if (!known.is_kept(list)) throw MessageError("look: these names are not kept any more; expected names");
+    return list;
   }
-  std::uint64_t next = 0;
+  if (!message.contains("names")) return std::nullopt;
+  const Json& names = message["names"];
+  if (!names.is_array() || names.size() > kMostNames) {
+    throw MessageError("names: expected a list of at most " + std::to_string(kMostNames) + " names");
+  }
+  std::vector<std::string> texts;
+  texts.reserve(names.size());
+  for (const Json& name : names) {
+    if (!name.is_string()) throw MessageError("names: expected a list of names");
+    texts.push_back(name.get_ref<const std::string&>());
+  }
+  return known.keep(texts);
+}
+
+}  // namespace
+
+/// The values are of the moment that the reply says; frames and events have their own.
+Telling look_message(Daemon& daemon, Json message) {
+  demand_keys(message, {"do", "look", "names", "frames", "events", "status"});
+  const std::uint64_t frames = message.contains("frames") ? demand_count(message, "frames") : 0;
+  const std::uint64_t events = message.contains("events") ? demand_count(message, "events") : 0;
+  const Pause pause(daemon);
+  world::LookedNames& known = daemon.onlookers().names;
+  const auto list = demand_list(known, message);
+  if (list) known.begin(*list);
+  while (list && known.look_up_next(*list)) co_await pause;
+
+  daemon.catch_up();
+  std::vector<world::LookedNames::Looked> values;
+  if (list && !known.look(*list, values)) {
+    throw MessageError("look: these names are not kept any more; expected names");
+  }
+  ReplyText text;
+  text.member("pid", getpid());
+  text.member("simulated_time_ns", daemon.world().now().count());
+  text.member("paused", daemon.pacer().paused());
+  text.member("speed", format_speed(daemon.pacer().speed()));
+  text.member("advancing", daemon.is_advancing());
+  if (list) {
+    text.member("look", *list);
+    text.open_list("values");
+    for (const auto& value : values) {
+      add_value(text, value);
+      co_await pause;
+    }
+    text.close_list();
+  }
   if (message.contains("frames")) {
-    reply["frames"] = frames_of(daemon, demand_count(message, "frames"), kMostListed, true, next);
-    reply["next_frame"] = next;
+    Listing listing(daemon, Listing::What::frames, frames, true);
+    text.open_list("frames");
+    while (listing.add_next(text)) co_await pause;
+    text.close_list();
+    text.member("next_frame", listing.next());
   }
   if (message.contains("events")) {
-    reply["events"] = events_of(daemon, demand_count(message, "events"), kMostListed, next);
-    reply["next_event"] = next;
+    Listing listing(daemon, Listing::What::events, events);
+    text.open_list("events");
+    while (listing.add_next(text)) co_await pause;
+    text.close_list();
+    text.member("next_event", listing.next());
   }
   if (message.contains("status") && message["status"] == true) {
-    reply["status"] = status_message(daemon, Json{{"do", "status"}})["status"];
+    StatusParts parts(daemon);
+    text.open_object("status");
+    while (parts.add_next(text)) co_await pause;
+    text.close_object();
   }
-  return reply;
+  co_return text.take();
 }
 
 }  // namespace understudy::emulator::serve

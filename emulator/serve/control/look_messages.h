@@ -3,30 +3,29 @@
 #pragma once
 
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/telling.h"
 
 namespace understudy::emulator::serve {
 
 /// {"do":"look","names":[...],"frames":17,"events":3,"status":true}: all that an onlooker wants at once,
-/// cheap to ask many times a second. A name that has no value is null.
-Json look_message(Daemon& daemon, const Json& message);
+/// cheap to ask many times a second. A name that has no value is null. {"do":"look","look":5,...}: the names
+/// of an earlier look, by its number.
+Telling look_message(Daemon& daemon, Json message);
 
 /// {"do":"bench"}: lines, devices, wires; {"do":"bench","device":"feeder"}: that device's axes and terminals
-Json bench_message(Daemon& daemon, const Json& message);
+Telling bench_message(Daemon& daemon, Json message);
 /// {"do":"registers","device":"feeder","section":2,"from":0,"find":"speed"}: rows of its tables, 200 at a
 /// time
-Json registers_message(Daemon& daemon, const Json& message);
+Telling registers_message(Daemon& daemon, Json message);
 /// {"do":"get","device":"feeder","section":2,"from":0}: values of a page of them
-Json get_page_message(Daemon& daemon, const Json& message);
+Telling get_page_message(Daemon& daemon, Json message);
 /// {"do":"choices","device":"feeder","from":0}
-Json choices_message(Daemon& daemon, const Json& message);
+Telling choices_message(Daemon& daemon, Json message);
 /// {"do":"faults"}: the kinds of faults, for a form
-Json faults_message(Daemon& daemon, const Json& message);
+Telling faults_message(Daemon& daemon, Json message);
 
 /// {"do":"events","since":17}, {"do":"events","last":10}
-Json events_message(Daemon& daemon, const Json& message);
-/// Of `log.since()`, with the number to ask for then.
-Json frames_of(Daemon& daemon, std::uint64_t since, std::size_t most, bool raw, std::uint64_t& next);
-Json events_of(Daemon& daemon, std::uint64_t since, std::size_t most, std::uint64_t& next);
+Telling events_message(Daemon& daemon, Json message);
 
 /// {"do":"where","device":"feeder"}: what its programs do
 Json where_message(Daemon& daemon, const Json& message);
@@ -35,7 +34,7 @@ Json speed_message(Daemon& daemon, const Json& message);
 /// {"do":"scope","names":[...],"condition":"...","before":"1s","after":"1s"} arms it; without names it tells
 /// how far it is;
 /// {"do":"scope","from":0} its samples; {"do":"scope","off":true}
-Json scope_message(Daemon& daemon, const Json& message);
+Telling scope_message(Daemon& daemon, Json message);
 /// {"do":"send","line":"rs485","bytes":"01 03 00 00 00 01","checksum":true}, or "text":"MA 100": to a line
 /// that no host has
 Json send_message(Daemon& daemon, const Json& message);

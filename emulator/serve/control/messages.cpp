@@ -3,15 +3,21 @@
 #include <array>
 #include <exception>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/text/one_line.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_text.h"
 #include "emulator/serve/control/server.h"
+#include "emulator/serve/control/telling.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/loop/event_loop.h"
 #include "emulator/world/strict_json.h"
 
 namespace understudy::emulator::serve {
@@ -20,15 +26,16 @@ namespace {
 
 constexpr int kDeepest = 8;  // far deeper than any message
 
-/// What to do: answered at once, or later.
+/// What to do: answered at once, or later, or told in pieces.
 struct Verb {
   std::string_view name;
   Json (*answer)(Daemon& daemon, const Json& message) = nullptr;
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
+  Telling (*tell)(Daemon& daemon, Json message) = nullptr;
 };
-constexpr std::array<Verb, 32> kVerbs{{{"status", status_message},
+constexpr std::array<Verb, 32> kVerbs{{{"status", nullptr, nullptr, status_message},
                                        {"identify", identify_message},
-                                       {"get", get_message},
+                                       {"get", nullptr, nullptr, get_message},
                                        {"eval", eval_message},
                                        {"set", set_message},
                                        {"input", input_message},
@@ -39,21 +46,21 @@ constexpr std::array<Verb, 32> kVerbs{{{"status", status_message},
                                        {"inject", inject_message},
                                        {"clear", clear_message},
                                        {"list", list_message},
-                                       {"frames", frames_message},
+                                       {"frames", nullptr, nullptr, frames_message},
                                        {"snapshot", nullptr, snapshot_message},
                                        {"restore", nullptr, restore_message},
                                        {"advance", nullptr, advance_message},
                                        {"run-until", nullptr, run_until_message},
                                        {"pause", pause_message},
                                        {"resume", resume_message},
-                                       {"look", look_message},
-                                       {"bench", bench_message},
-                                       {"registers", registers_message},
-                                       {"choices", choices_message},
-                                       {"faults", faults_message},
-                                       {"events", events_message},
+                                       {"look", nullptr, nullptr, look_message},
+                                       {"bench", nullptr, nullptr, bench_message},
+                                       {"registers", nullptr, nullptr, registers_message},
+                                       {"choices", nullptr, nullptr, choices_message},
+                                       {"faults", nullptr, nullptr, faults_message},
+                                       {"events", nullptr, nullptr, events_message},
                                        {"where", where_message},
-                                       {"scope", scope_message},
+                                       {"scope", nullptr, nullptr, scope_message},
                                        {"send", send_message},
                                        {"snapshots", snapshots_message},
                                        {"speed", speed_message},
@@ -83,22 +90,49 @@ std::string take_author(Json& message) {
 
 }  // namespace
 
-void answer(const ControlServer::Reply& reply, const std::function<Json()>& make) {
-  // Names and programs come from outside and may not be UTF-8.
-  const auto say = [&](const Json& made) {
-    reply(made.dump(-1, ' ', false, Json::error_handler_t::replace));
+namespace {
+
+/// `make` gives the reply as text, or nothing: there is none yet. What it throws is a refusal.
+template <class Make>
+bool say_or_refuse(const ControlServer::Reply& reply, const Make& make) {
+  const auto refuse = [&](const std::string& why) {
+    reply(text_of(Json{{"ok", false}, {"error", why}}));
+    return true;
   };
-  const auto refuse = [&](const std::string& why) { say(Json{{"ok", false}, {"error", why}}); };
   try {
-    const Json made = make();
-    if (!made.is_null()) say(made);
+    const std::optional<std::string> made = make();
+    if (made) reply(*made);
+    return made.has_value();
   } catch (const world::TooDeepJson&) {
-    refuse("the message is nested too deeply; expected one object on one line");
+    return refuse("the message is nested too deeply; expected one object on one line");
   } catch (const Json::exception&) {
-    refuse("the message is not JSON; expected one object on one line");
+    return refuse("the message is not JSON; expected one object on one line");
   } catch (const std::exception& error) {
-    refuse(error.what());
+    return refuse(error.what());
   }
+}
+
+/// The first piece at once; the others when there is time for them.
+void tell(Daemon& daemon, Telling telling, const ControlServer::Reply& reply) {
+  const auto whole = std::make_shared<Telling>(std::move(telling));
+  const auto go_on = [whole, reply] {
+    const bool is_over = say_or_refuse(reply, [&]() -> std::optional<std::string> {
+      if (!whole->go_on()) return std::nullopt;
+      return whole->take_reply();
+    });
+    return !is_over;
+  };
+  if (go_on()) daemon.loop().do_in_pieces(go_on);
+}
+
+}  // namespace
+
+void answer(const ControlServer::Reply& reply, const std::function<Json()>& make) {
+  say_or_refuse(reply, [&]() -> std::optional<std::string> {
+    const Json made = make();
+    if (made.is_null()) return std::nullopt;
+    return text_of(made);
+  });
 }
 
 void handle_message(Daemon& daemon, const std::string& line,
@@ -114,7 +148,11 @@ void handle_message(Daemon& daemon, const std::string& line,
     const std::string author = take_author(message);
     daemon.onlookers().events.set_author(author);
     if (verb.answer != nullptr) return verb.answer(daemon, message);
-    verb.answer_later(daemon, message, reply);
+    if (verb.tell != nullptr) {
+      tell(daemon, verb.tell(daemon, std::move(message)), reply);
+    } else {
+      verb.answer_later(daemon, message, reply);
+    }
     return nullptr;
   });
 }

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +21,8 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_text.h"
+#include "emulator/serve/control/telling.h"
 #include "emulator/serve/daemon/daemon.h"
 
 namespace understudy::emulator::serve {
@@ -95,7 +96,8 @@ std::vector<std::string> names_in_choices(const Model& model, const RegisterRow&
   bool is_of_parameter = false;
   const std::string plain = RegisterMap::name_of(row, index);
   for (const ParameterRow& parameter : model.parameters) {
-    for (int i = 0; i < (parameter.of_each_axis ? 1 : parameter.count); ++i)
+    const bool may_be_it = !parameter.letter.empty() && plain.starts_with(parameter.letter);
+    for (int i = 0; may_be_it && i < (parameter.of_each_axis ? 1 : parameter.count); ++i)
       is_of_parameter = is_of_parameter || parameter_name(parameter, i) == plain;
     if (parameter.register_name == row.name && !parameter.letter.empty())
       names.push_back(parameter_name(parameter, index));
@@ -185,16 +187,9 @@ bool is_found(const Listed& listed, const std::string& find) {
          in_lower_case(hex4(static_cast<unsigned>(address))) == find || std::to_string(address) == find;
 }
 
-/// Calls `take` for those of the page, and returns how many there are in all.
-std::uint64_t for_page(const Device& device, const WantedPage& wanted,
-                       const std::function<void(const Listed&)>& take) {
-  std::uint64_t place = 0;
-  const auto look = [&](const Listed& listed) {
-    if (wanted.section && *wanted.section != static_cast<std::uint64_t>(listed.section)) return;
-    if (!is_found(listed, wanted.find)) return;
-    if (place >= wanted.from && place < wanted.from + wanted.count) take(listed);
-    ++place;
-  };
+/// All that the device has; of one section, if only that is wanted.
+std::vector<Listed> all_listed(const Device& device, const WantedPage& wanted) {
+  std::vector<Listed> all;
   int section = -1;
   std::string_view last = "\n";
   for (const RegisterRow& row : register_rows(device.model())) {
@@ -202,99 +197,175 @@ std::uint64_t for_page(const Device& device, const WantedPage& wanted,
       last = row.section;
       ++section;
     }
-    if (!device.register_bank()->has_row(row)) continue;
     if (wanted.section && *wanted.section != static_cast<std::uint64_t>(section)) continue;
-    for (int index = 0; index < row.count; ++index) look({.row = &row, .index = index, .section = section});
+    if (!device.register_bank()->has_row(row)) continue;
+    for (int index = 0; index < row.count; ++index)
+      all.push_back({.row = &row, .index = index, .section = section});
   }
-  if (register_rows(device.model()).empty()) {
-    for (const NamedParameterRow& row : device.model().named_parameters) look({.parameter = &row});
+  if (register_rows(device.model()).empty() && wanted.section.value_or(0) == 0) {
+    for (const NamedParameterRow& row : device.model().named_parameters) all.push_back({.parameter = &row});
   }
-  return place;
+  return all;
 }
 
-Json page_reply(const WantedPage& wanted, std::uint64_t all) {
-  Json reply{{"ok", true}, {"of", all}};
-  if (wanted.from + wanted.count < all) reply["next"] = wanted.from + wanted.count;
-  return reply;
+/// The page, in steps: each looks at one.
+class PageWalk {
+ public:
+  PageWalk(const Device& device, WantedPage wanted)
+      : wanted_(std::move(wanted)), all_(all_listed(device, wanted_)) {}
+
+  /// False if there is none left.
+  bool step() {
+    is_on_page_ = false;
+    if (next_ == all_.size()) return false;
+    current_ = all_[next_++];
+    if (!is_found(current_, wanted_.find)) return true;
+    is_on_page_ = found_ >= wanted_.from && found_ < wanted_.from + wanted_.count;
+    ++found_;
+    return true;
+  }
+  /// Null: it is not on the page.
+  const Listed* current() const { return is_on_page_ ? &current_ : nullptr; }
+  /// How many there are in all, and where to go on.
+  void add_end(ReplyText& text) const {
+    text.member("of", found_);
+    if (wanted_.from + wanted_.count < found_) text.member("next", wanted_.from + wanted_.count);
+  }
+
+ private:
+  WantedPage wanted_;
+  std::vector<Listed> all_;
+  std::size_t next_ = 0;
+  Listed current_;
+  bool is_on_page_ = false;
+  std::uint64_t found_ = 0;
+};
+
+Json json_of_parameter(const NamedParameterRow& row) {
+  Json entry{{"name", row.name},       {"number", row.number},  {"access", "R/W"}, {"section", 0},
+             {"kept", row.persistent}, {"min", row.least},      {"max", row.most}, {"unit", row.unit},
+             {"factory", row.factory}, {"meaning", row.meaning}};
+  if (!row.unmodelled.empty()) entry["not_modelled"] = row.unmodelled;
+  return entry;
+}
+
+/// One of a page of values.
+struct PageValue {
+  std::string name;                 // the whole one
+  std::optional<NamedPlace> place;  // nothing: a parameter of a device without registers
+  std::string_view parameter{};
+  Value raw = 0;                   // of a register
+  std::optional<double> number{};  // of a parameter, if it has one now
+};
+
+/// Nothing for a window, which takes only messages.
+std::optional<PageValue> place_of(const Device& device, const Listed& listed) {
+  if (listed.row == nullptr) {
+    const std::string_view name = listed.parameter->name;
+    return PageValue{.name = device.name() + "." + std::string(name), .place = {}, .parameter = name};
+  }
+  const RegisterBank& bank = *device.register_bank();
+  const std::string name = bank.map().unique_name(*listed.row, listed.index);
+  const auto place = listed.row->message != nullptr ? std::nullopt : bank.find(name);
+  if (!place) return std::nullopt;
+  return PageValue{.name = device.name() + "." + name, .place = place};
+}
+
+void read_page_value(PageValue& value, const Device& device) {
+  if (value.place) {
+    value.raw = read_value(*device.register_bank(), *value.place);
+  } else {
+    value.number = device.named_values()->value_named(value.parameter);
+  }
+}
+
+Json json_of_page_value(const PageValue& value) {
+  if (!value.place) return value.number ? json_of(*value.number) : Json();
+  return value.place->is_real() ? json_of(number_of(*value.place, value.raw)) : Json(value.raw);
+}
+
+Telling tell_rows(Daemon& daemon, WantedPage wanted) {
+  const Device& device = daemon.world().device(wanted.device);
+  const Pause pause(daemon);
+  PageWalk walk(device, wanted);
+  ReplyText text;
+  text.open_list("registers");
+  while (walk.step()) {
+    if (const Listed* const listed = walk.current()) {
+      text.element(listed->row != nullptr ? json_of_row(device, *listed->row, listed->index, listed->section)
+                                          : json_of_parameter(*listed->parameter));
+    }
+    co_await pause;
+  }
+  text.close_list();
+  walk.add_end(text);
+  co_return text.take();
+}
+
+Telling tell_values(Daemon& daemon, WantedPage wanted) {
+  const Pause pause(daemon);
+  const Device& device = daemon.world().device(wanted.device);
+  // Which they are takes long, their values do not: those are of one moment.
+  std::vector<PageValue> page;
+  PageWalk walk(device, wanted);
+  while (walk.step()) {
+    const Listed* const listed = walk.current();
+    auto value = listed != nullptr ? place_of(device, *listed) : std::nullopt;
+    if (value) page.push_back(std::move(*value));
+    co_await pause;
+  }
+  daemon.catch_up();
+  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
+  for (PageValue& value : page) read_page_value(value, device);
+  ReplyText text;
+  text.member("simulated_time_ns", daemon.world().now().count());
+  text.open_object("values");
+  for (const PageValue& value : page) {
+    text.member(value.name, json_of_page_value(value));
+    co_await pause;
+  }
+  text.close_object();
+  walk.add_end(text);
+  co_return text.take();
 }
 
 }  // namespace
 
-Json registers_message(Daemon& daemon, const Json& message) {
-  const WantedPage wanted = wanted_page(daemon, message);
-  const Device& device = daemon.world().device(wanted.device);
-  Json rows = Json::array();
-  const std::uint64_t all = for_page(device, wanted, [&](const Listed& listed) {
-    if (listed.row != nullptr) {
-      rows.push_back(json_of_row(device, *listed.row, listed.index, listed.section));
-      return;
-    }
-    const NamedParameterRow& row = *listed.parameter;
-    rows.push_back({{"name", row.name},
-                    {"number", row.number},
-                    {"access", "R/W"},
-                    {"section", 0},
-                    {"kept", row.persistent},
-                    {"min", row.least},
-                    {"max", row.most},
-                    {"unit", row.unit},
-                    {"factory", row.factory},
-                    {"meaning", row.meaning}});
-    if (!row.unmodelled.empty()) rows.back()["not_modelled"] = row.unmodelled;
-  });
-  Json reply = page_reply(wanted, all);
-  reply["registers"] = std::move(rows);
-  return reply;
+Telling registers_message(Daemon& daemon, Json message) {
+  return tell_rows(daemon, wanted_page(daemon, message));
 }
 
-Json get_page_message(Daemon& daemon, const Json& message) {
-  const WantedPage wanted = wanted_page(daemon, message);
-  daemon.catch_up();
-  const Device& device = daemon.world().device(wanted.device);
-  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
-  Json values = Json::object();
-  const std::uint64_t all = for_page(device, wanted, [&](const Listed& listed) {
-    if (listed.row == nullptr) {
-      const auto value = device.named_values()->value_named(listed.parameter->name);
-      values[device.name() + "." + std::string(listed.parameter->name)] = value ? json_of(*value) : Json();
-      return;
-    }
-    const RegisterBank& bank = *device.register_bank();
-    const std::string name = bank.map().unique_name(*listed.row, listed.index);
-    if (listed.row->message != nullptr) return;
-    if (const auto place = bank.find(name)) {
-      const Value value = read_value(bank, *place);
-      values[device.name() + "." + name] = place->is_real() ? json_of(number_of(*place, value)) : Json(value);
-    }
-  });
-  Json reply = page_reply(wanted, all);
-  reply["values"] = std::move(values);
-  return reply;
+Telling get_page_message(Daemon& daemon, Json message) {
+  return tell_values(daemon, wanted_page(daemon, message));
 }
 
-Json choices_message(Daemon& daemon, const Json& message) {
+Telling choices_message(Daemon& daemon, Json message) {
   demand_keys(message, {"do", "device", "from"});
   const std::size_t from = message.contains("from") ? demand_count(message, "from") : 0;
   const Device& device = daemon.world().device(demand_device(daemon, message));
   const auto rows = device.model().choices;
   constexpr std::size_t kAtOnce = 100;
-  Json choices = Json::array();
-  for (std::size_t i = from; i < std::min(rows.size(), from + kAtOnce); ++i) {
+  const Pause pause(daemon);
+  ReplyText text;
+  text.open_list("choices");
+  for (std::size_t i = from; i < rows.size() && i - from < kAtOnce; ++i) {
     const ChoiceRow& row = rows[i];
     const auto options = options_of(row);
     Json all = Json::array();
     for (const std::string_view option : options) all.push_back(option);
-    choices.push_back({{"id", row.id},
-                       {"section", row.section},
-                       {"question", row.question},
-                       {"chosen", options[device.choice(i)]},
-                       {"options", std::move(all)},
-                       {"confidence", to_string(row.confidence)},
-                       {"why", row.why}});
+    text.element(Json{{"id", row.id},
+                      {"section", row.section},
+                      {"question", row.question},
+                      {"chosen", options[device.choice(i)]},
+                      {"options", std::move(all)},
+                      {"confidence", to_string(row.confidence)},
+                      {"why", row.why}});
+    co_await pause;
   }
-  Json reply{{"ok", true}, {"choices", std::move(choices)}, {"of", rows.size()}};
-  if (from + kAtOnce < rows.size()) reply["next"] = from + kAtOnce;
-  return reply;
+  text.close_list();
+  text.member("of", rows.size());
+  if (from < rows.size() && rows.size() - from > kAtOnce) text.member("next", from + kAtOnce);
+  co_return text.take();
 }
 
 }  // namespace understudy::emulator::serve

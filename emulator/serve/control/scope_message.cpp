@@ -13,6 +13,8 @@
 #include "base/text/one_line.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_text.h"
+#include "emulator/serve/control/telling.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/ports/port.h"
 #include "emulator/world/look/scope.h"
@@ -105,32 +107,57 @@ const Port& demand_port(const Daemon& daemon, const Json& message) {
 
 }  // namespace
 
-Json scope_message(Daemon& daemon, const Json& message) {
+namespace {
+
+Json scope_reply(const world::Scope* scope) {
+  return Json{{"ok", true}, {"scope", scope != nullptr ? course_of_scope(*scope) : Json()}};
+}
+
+/// All of one moment, put into words in pieces.
+Telling samples_message(Daemon& daemon, std::uint64_t from) {
+  const Pause pause(daemon);
+  const world::Scope& scope = *daemon.onlookers().scope;
+  const std::uint64_t count = scope.count();
+  const std::uint64_t end = std::min<std::uint64_t>(count, from + kMostSamples);
+  std::vector<std::vector<double>> samples(scope.setup().names.size());
+  for (std::size_t name = 0; name < samples.size(); ++name) {
+    for (std::uint64_t place = from; place < end; ++place) samples[name].push_back(scope.sample(name, place));
+  }
+  ReplyText text;
+  text.member("scope", course_of_scope(scope));
+  text.open_list("samples");
+  for (const std::vector<double>& of_name : samples) {
+    text.open_list();
+    for (const double sample : of_name) {
+      text.element(json_of(sample));
+      co_await pause;
+    }
+    text.close_list();
+  }
+  text.close_list();
+  if (end < count) text.member("next", end);
+  co_return text.take();
+}
+
+/// In one piece.
+Telling told(Json reply) { co_return text_of(reply); }
+
+}  // namespace
+
+Telling scope_message(Daemon& daemon, Json message) {
   auto& scope = daemon.onlookers().scope;
   if (message.contains("names")) {
     world::ScopeSetup setup = scope_setup(message);
     daemon.catch_up();
     auto armed = std::make_unique<world::Scope>(daemon.world(), std::move(setup));
     scope = std::move(armed);
-    return Json{{"ok", true}, {"scope", course_of_scope(*scope)}};
+    return told(scope_reply(scope.get()));
   }
   demand_keys(message, {"do", "from", "off"});
   daemon.catch_up();
   if (message.contains("off")) scope.reset();
-  if (!scope) return Json{{"ok", true}, {"scope", nullptr}};
-  Json reply{{"ok", true}, {"scope", course_of_scope(*scope)}};
-  if (!message.contains("from")) return reply;
-  const std::uint64_t from = demand_count(message, "from");
-  const std::uint64_t end = std::min<std::uint64_t>(scope->count(), from + kMostSamples);
-  Json samples = Json::array();
-  for (std::size_t name = 0; name < scope->setup().names.size(); ++name) {
-    Json row = Json::array();
-    for (std::uint64_t place = from; place < end; ++place) row.push_back(json_of(scope->sample(name, place)));
-    samples.push_back(std::move(row));
-  }
-  reply["samples"] = std::move(samples);
-  if (end < scope->count()) reply["next"] = end;
-  return reply;
+  if (!scope || !message.contains("from")) return told(scope_reply(scope.get()));
+  return samples_message(daemon, demand_count(message, "from"));
 }
 
 Json send_message(Daemon& daemon, const Json& message) {

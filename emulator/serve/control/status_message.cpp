@@ -23,12 +23,16 @@
 #include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_text.h"
+#include "emulator/serve/control/status_parts.h"
+#include "emulator/serve/control/telling.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/pacer.h"
 #include "emulator/serve/ports/port.h"
 #include "emulator/world/plant/plant.h"
+#include "emulator/world/stations/line_station.h"
 #include "emulator/world/view/world_view.h"
 #include "pty/line.h"
 #include "pty/line_settings.h"
@@ -39,11 +43,13 @@ namespace {
 
 double microseconds(WallTime time) { return static_cast<double>(time.count()) / 1000.0; }
 
+/// Without its stations.
 Json line_status(const Daemon& daemon, const Port& port) {
   const world::WorldLine& line = daemon.world().line(port.line_number());
   const pty::LineCounters& counters = line.line.counters();
   const pty::PseudoTerminal* const terminal = port.terminal();
   Json status{{"name", line.line.name()},
+              {"time_ns", daemon.world().now().count()},
               {"pty", terminal != nullptr ? terminal->path() : port.place()},
               {"link", port.place()},
               {"tcp", port.tcp_places()},
@@ -59,20 +65,20 @@ Json line_status(const Daemon& daemon, const Port& port) {
   status["bytes_unheard"] = counters.bytes_unheard;
   status["bytes_discarded"] = counters.bytes_discarded;
   status["collisions"] = counters.collisions;
-  status["stations"] = Json::array();
-  for (const auto& station : line.stations) {
-    Json entry{{"device", station->device().name()}};
-    const Device& device = station->device();
-    const auto& ports = device.model().line.ports;
-    if (ports.size() > 1) entry["port"] = ports[station->port()].name;
-    if (const auto number = device.station_number()) entry["address"] = *number;
-    entry["requests"] = station->counters().requests;
-    entry["replies"] = station->counters().replies;
-    entry["exceptions"] = station->counters().exceptions;
-    entry["bytes_dropped"] = station->dropped_bytes();
-    status["stations"].push_back(std::move(entry));
-  }
   return status;
+}
+
+Json station_status(const world::LineStation& station) {
+  const Device& device = station.device();
+  Json entry{{"device", device.name()}};
+  const auto& ports = device.model().line.ports;
+  if (ports.size() > 1) entry["port"] = ports[station.port()].name;
+  if (const auto number = device.station_number()) entry["address"] = *number;
+  entry["requests"] = station.counters().requests;
+  entry["replies"] = station.counters().replies;
+  entry["exceptions"] = station.counters().exceptions;
+  entry["bytes_dropped"] = station.dropped_bytes();
+  return entry;
 }
 
 /// Those that tell best what it is doing.
@@ -101,8 +107,10 @@ bool runs_program(const Device& device) {
 
 Json device_status(const world::World& world, std::size_t number) {
   const Device& device = world.device(number);
-  Json status{
-      {"name", device.name()}, {"model", device.model().name}, {"firmware", version_text(device.firmware())}};
+  Json status{{"name", device.name()},
+              {"time_ns", world.now().count()},
+              {"model", device.model().name},
+              {"firmware", version_text(device.firmware())}};
   status["power"] = device.powered() ? "on" : "off";
   status["runs"] = runs_program(device);
   if (device.memory() != nullptr) status["kept_writes"] = device.memory()->kept_revision();
@@ -141,28 +149,80 @@ Json device_status(const world::World& world, std::size_t number) {
 
 }  // namespace
 
-Json status_message(Daemon& daemon, const Json& message) {
+bool StatusParts::add_next(ReplyText& text) {
+  switch (part_) {
+    case Part::head: add_head(text); return true;
+    case Part::lines: add_of_line(text); return true;
+    case Part::devices:
+      if (next_ == daemon_.world().device_count()) {
+        text.close_list();
+        part_ = Part::faults;
+      } else {
+        text.element(device_status(daemon_.world(), next_++));
+      }
+      return true;
+    case Part::faults:
+      text.member("faults", faults_message_part(daemon_.world()));
+      part_ = Part::end;
+      return false;
+    case Part::end: break;
+  }
+  return false;
+}
+
+void StatusParts::add_head(ReplyText& text) {
+  daemon_.catch_up();
+  const world::World& world = daemon_.world();
+  const Pacer& pacer = daemon_.pacer();
+  text.member("simulated_time", format_duration(world.now()));
+  text.member("simulated_time_ns", world.now().count());
+  text.member("speed", format_speed(pacer.speed()));
+  text.member("paused", pacer.paused());
+  text.member("lateness", {{"wakes", pacer.lateness().count()},
+                           {"p50_us", microseconds(pacer.lateness().percentile(50))},
+                           {"p99_us", microseconds(pacer.lateness().percentile(99))},
+                           {"max_us", microseconds(pacer.lateness().greatest())},
+                           {"slips", pacer.slips()}});
+  text.member("ticks", {{"stepped", world.ticks_run()}, {"crossed", world.ticks_crossed()}});
+  text.open_list("lines");
+  part_ = Part::lines;
+}
+
+/// A line, or one of its stations.
+void StatusParts::add_of_line(ReplyText& text) {
+  if (next_ == daemon_.ports().size()) {
+    text.close_list();
+    text.open_list("devices");
+    next_ = 0;
+    part_ = Part::devices;
+    return;
+  }
+  const Port& port = *daemon_.ports()[next_];
+  if (!is_in_line_) {
+    text.open_object();
+    text.members(line_status(daemon_, port));
+    text.open_list("stations");
+    is_in_line_ = true;
+    return;
+  }
+  const auto& stations = daemon_.world().line(port.line_number()).stations;
+  if (next_station_ < stations.size()) return text.element(station_status(*stations[next_station_++]));
+  text.close_list();
+  text.close_object();
+  ++next_;
+  next_station_ = 0;
+  is_in_line_ = false;
+}
+
+Telling status_message(Daemon& daemon, Json message) {
   demand_keys(message, {"do"});
-  daemon.catch_up();
-  const world::World& world = daemon.world();
-  const Pacer& pacer = daemon.pacer();
-  Json status{{"simulated_time", format_duration(world.now())},
-              {"simulated_time_ns", world.now().count()},
-              {"speed", format_speed(pacer.speed())},
-              {"paused", pacer.paused()},
-              {"lateness",
-               {{"wakes", pacer.lateness().count()},
-                {"p50_us", microseconds(pacer.lateness().percentile(50))},
-                {"p99_us", microseconds(pacer.lateness().percentile(99))},
-                {"max_us", microseconds(pacer.lateness().greatest())},
-                {"slips", pacer.slips()}}},
-              {"ticks", {{"stepped", world.ticks_run()}, {"crossed", world.ticks_crossed()}}}};
-  status["lines"] = Json::array();
-  for (const auto& port : daemon.ports()) status["lines"].push_back(line_status(daemon, *port));
-  status["devices"] = Json::array();
-  for (std::size_t i = 0; i < world.device_count(); ++i) status["devices"].push_back(device_status(world, i));
-  status["faults"] = faults_message_part(world);
-  return Json{{"ok", true}, {"status", status}};
+  const Pause pause(daemon);
+  StatusParts parts(daemon);
+  ReplyText text;
+  text.open_object("status");
+  while (parts.add_next(text)) co_await pause;
+  text.close_object();
+  co_return text.take();
 }
 
 Json identify_message(Daemon& daemon, const Json& message) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,8 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_text.h"
+#include "emulator/serve/control/telling.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/expression/expression.h"
@@ -155,29 +158,54 @@ void demand_possible(const world::World& world,
 
 }  // namespace
 
-Json get_message(Daemon& daemon, const Json& message) {
-  for (const char* key : {"device", "section", "find", "from"}) {
-    if (message.contains(key)) return get_page_message(daemon, message);
-  }
+namespace {
+
+/// All that are named are looked up first, then read in one go.
+Telling get_names_message(Daemon& daemon, Json message) {
   demand_keys(message, {"do", "names"});
   const Json& names = demand(message, "names");
   if (!names.is_array() || names.empty()) throw MessageError("names: expected a list of names");
   daemon.catch_up();
+  const Pause pause(daemon);
   const world::World& world = daemon.world();
   const world::Probes probes(world);
-  Json values = Json::object();
-  Json units = Json::object();
+  std::vector<world::NamedNumber> found;
+  std::set<std::string> known;
+  std::vector<std::string> texts;
   for (const Json& entry : names) {
     if (!entry.is_string()) throw MessageError("names: expected a list of names");
-    const std::string name = entry.get<std::string>();
-    const world::NamedNumber found = resolve(world, probes, name);
-    if (const auto device = probes.device_read(found.handle)) demand_power(world.device(*device));
-    values[name] = json_number(probes.value(found.handle));
-    if (found.unit != world::Unit::none) units[name] = unit_word(found.unit);
+    std::string name = entry.get<std::string>();
+    if (!known.insert(name).second) continue;
+    found.push_back(resolve(world, probes, name));
+    texts.push_back(std::move(name));
+    co_await pause;
   }
-  Json reply{{"ok", true}, {"values", values}};
-  if (!units.empty()) reply["units"] = units;
-  return reply;
+  daemon.catch_up();
+  std::vector<world::Number> values;
+  for (const world::NamedNumber& one : found) {
+    if (const auto device = probes.device_read(one.handle)) demand_power(world.device(*device));
+    values.push_back(probes.value(one.handle));
+  }
+  ReplyText text;
+  text.open_object("values");
+  Json units = Json::object();
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    text.member(texts[i], json_number(values[i]));
+    if (found[i].unit != world::Unit::none) units[texts[i]] = unit_word(found[i].unit);
+    co_await pause;
+  }
+  text.close_object();
+  if (!units.empty()) text.member("units", units);
+  co_return text.take();
+}
+
+}  // namespace
+
+Telling get_message(Daemon& daemon, Json message) {
+  for (const char* key : {"device", "section", "find", "from"}) {
+    if (message.contains(key)) return get_page_message(daemon, std::move(message));
+  }
+  return get_names_message(daemon, std::move(message));
 }
 
 Json eval_message(Daemon& daemon, const Json& message) {

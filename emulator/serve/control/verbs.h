@@ -4,6 +4,7 @@
 
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/server.h"
+#include "emulator/serve/control/telling.h"
 
 namespace understudy::emulator::serve {
 
@@ -11,14 +12,14 @@ namespace understudy::emulator::serve {
 /// yet.
 void answer(const ControlServer::Reply& reply, const std::function<Json()>& make);
 
-Json status_message(Daemon& daemon, const Json& message);
+Telling status_message(Daemon& daemon, Json message);
 /// {"do":"identify"}: which daemon this is
 Json identify_message(Daemon& daemon, const Json& message);
 /// {"do":"frames","since":17}: those that went over the lines, from number 17 on; {"do":"frames","last":10}
-Json frames_message(Daemon& daemon, const Json& message);
+Telling frames_message(Daemon& daemon, Json message);
 
 /// {"do":"get","names":["feeder.Cord_A","feeder.A.position","time"]}: whatever conditions can name
-Json get_message(Daemon& daemon, const Json& message);
+Telling get_message(Daemon& daemon, Json message);
 /// {"do":"eval","expression":"feeder.Cord_A / 3200"}
 Json eval_message(Daemon& daemon, const Json& message);
 /// {"do":"set","values":{"feeder.Aaxis_Speed":200}}

@@ -401,7 +401,8 @@ void Daemon::wait() {
   if (door_) {
     if (const auto look = door_->next_look(); look && (!wake || *look < *wake)) wake = look;
   }
-  loop_.wait(wake);
+  const bool can_be_late = !makes_time_go() && !behind_since_;
+  loop_.wait(wake, can_be_late ? EventLoop::kLaterSlice : EventLoop::kLongSlice);
 }
 
 void Daemon::run() {

@@ -20,6 +20,8 @@ namespace understudy::emulator::serve {
 
 namespace {
 
+constexpr std::size_t kMostPieces = 64;  // that are in work
+
 std::uint32_t epoll_events(std::uint32_t interest) {
   return ((interest & EventLoop::readable) != 0 ? EPOLLIN : 0U) |
          ((interest & EventLoop::writable) != 0 ? EPOLLOUT : 0U) |
@@ -102,12 +104,30 @@ void EventLoop::wake_at(WallTime moment) {
   timerfd_settime(timer_, TFD_TIMER_ABSTIME, &setting, nullptr);
 }
 
-void EventLoop::wait(std::optional<WallTime> until) {
-  const bool only_look = until && *until <= wall_now();
+void EventLoop::do_in_pieces(std::function<bool()> piece) { pieces_.push_back(std::move(piece)); }
+
+bool EventLoop::slice_is_over() const { return slice_end_ != WallTime::max() && wall_now() >= slice_end_; }
+
+/// So that it does not wake us.
+void EventLoop::mute_later_ones(bool are_muted) {
+  epoll_event event{};
+  event.events = are_muted ? 0U : EPOLLIN;
+  event.data.fd = later_;
+  epoll_ctl(epoll_, EPOLL_CTL_MOD, later_, &event);
+}
+
+void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
+  const auto is_due_soon = [&] { return until && *until - wall_now() < kRoom; };
+  const bool is_due = until && *until <= wall_now();
+  const bool was_put_off = std::exchange(puts_off_, false);
+  const bool puts_off = was_put_off && !is_due && is_due_soon();
   // A timer that is still set for a moment nobody waits for any more wakes us once, for nothing.
-  if (until && !only_look) wake_at(*until);
+  if (until && !is_due) wake_at(*until);
+  if (puts_off) mute_later_ones(true);
+  const bool only_looks = is_due || (!pieces_.empty() && !puts_off);
   std::array<epoll_event, 32> events{};
-  const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), only_look ? 0 : -1);
+  const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), only_looks ? 0 : -1);
+  if (puts_off) mute_later_ones(false);
   bool later_ones = false;
   for (int i = 0; i < count; ++i) {
     const epoll_event& event = events[static_cast<std::size_t>(i)];
@@ -117,7 +137,18 @@ void EventLoop::wait(std::optional<WallTime> until) {
       call(event.data.fd, event.events);
     }
   }
-  if (later_ones) call_later_ones();
+  if (was_put_off && (puts_off || is_due)) {  // what they wait for is done first
+    puts_off_ = wall_now() < put_off_until_;
+    return;
+  }
+  if (!later_ones && pieces_.empty()) return;
+  if (slice == kLaterSlice && !is_due && !has_put_off_ && is_due_soon()) {
+    has_put_off_ = puts_off_ = true;
+    put_off_until_ = *until;
+    return;
+  }
+  has_put_off_ = false;
+  call_later_ones(later_ones, slice);
 }
 
 void EventLoop::call(int descriptor, std::uint32_t events) {
@@ -133,13 +164,26 @@ void EventLoop::call(int descriptor, std::uint32_t events) {
 
 /// The kernel gives one at a time, and the next one next time: it puts what stays ready at the end of its
 /// list.
-void EventLoop::call_later_ones() {
-  const WallTime until = wall_now() + kLaterSlice;
-  epoll_event event{};
+void EventLoop::call_later_ones(bool are_ready, WallTime slice) {
+  slice_end_ = wall_now() + slice;
   do {
-    if (epoll_wait(later_, &event, 1, 0) != 1) return;
-    call(event.data.fd, event.events);
-  } while (wall_now() < until);
+    // Whoever begins more and more has to wait until some of it is done.
+    const bool are_many = pieces_.size() >= kMostPieces;
+    if (!pieces_.empty() && (are_pieces_next_ || !are_ready || are_many)) {
+      are_pieces_next_ = false;
+      const std::function<bool()> piece = std::move(pieces_.front());
+      pieces_.pop_front();
+      if (piece()) pieces_.push_back(piece);
+    } else if (are_ready) {
+      are_pieces_next_ = true;
+      epoll_event event{};
+      are_ready = epoll_wait(later_, &event, 1, 0) == 1;
+      if (are_ready) call(event.data.fd, event.events);
+    } else {
+      break;
+    }
+  } while (!slice_is_over());
+  slice_end_ = WallTime::max();
 }
 
 }  // namespace understudy::emulator::serve

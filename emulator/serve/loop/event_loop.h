@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -25,9 +26,13 @@ class EventLoop {
   /// `departed`: the other side of a socket has closed its sending half, or the connection is broken.
   enum Readiness : std::uint32_t { readable = 1, writable = 2, departed = 4 };
   /// Of everything that is ready, what is `later` is called last, one after the other in turn, and for at
-  /// most kLaterSlice: however many there are, the others are looked at again soon.
+  /// most a slice of time: however many there are, the others are looked at again soon.
   enum class Rank : std::uint8_t { first, later };
-  static constexpr WallTime kLaterSlice = std::chrono::milliseconds(1);
+  static constexpr WallTime kLaterSlice = std::chrono::microseconds(30);
+  /// Where nothing can be late, as when simulated time goes by as fast as it can.
+  static constexpr WallTime kLongSlice = std::chrono::milliseconds(1);
+  /// What is `later` does not begin so shortly before something is due: it waits for that first.
+  static constexpr WallTime kRoom = std::chrono::microseconds(100);
 
   /// Calls `ready` whenever the descriptor is ready for one of `interest` (or has hung up).
   void watch(int descriptor, std::uint32_t interest, std::function<void(std::uint32_t ready)> ready,
@@ -35,9 +40,15 @@ class EventLoop {
   void change_interest(int descriptor, std::uint32_t interest);
   void unwatch(int descriptor);
 
+  /// Work that is done piece by piece, in turn with what is `later`: `piece` is called again as long as it
+  /// returns true.
+  void do_in_pieces(std::function<bool()> piece);
+  /// Asked by what is `later`: whether it should leave what it can for another time.
+  bool slice_is_over() const;
+
   /// Waits until something is ready, or `until` has come (nothing: as long as it takes), and calls what is
   /// ready. With a moment in the past it does not wait.
-  void wait(std::optional<WallTime> until);
+  void wait(std::optional<WallTime> until, WallTime slice = kLaterSlice);
 
  private:
   struct Watch {
@@ -47,13 +58,20 @@ class EventLoop {
   };
   void wake_at(WallTime moment);
   void call(int descriptor, std::uint32_t events);
-  void call_later_ones();
+  void mute_later_ones(bool are_muted);
+  void call_later_ones(bool are_ready, WallTime slice);
 
   int epoll_ = -1;
   int later_ = -1;  // another epoll, in that one
   int timer_ = -1;
   WallTime alarm_{0};  // what the timer is set for, or was last set for
   std::map<int, Watch> watches_;
+  std::deque<std::function<bool()>> pieces_;
+  bool are_pieces_next_ = false;
+  WallTime slice_end_ = WallTime::max();  // of what is `later`; no end outside of it
+  bool puts_off_ = false;                 // what is `later` waits for something that is due soon
+  bool has_put_off_ = false;              // since it was last called,
+  WallTime put_off_until_{0};             // for something due then
 };
 
 }  // namespace understudy::emulator::serve

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -56,13 +57,36 @@ void Lateness::record(WallTime lateness) {
   greatest_ = std::max(greatest_, lateness);
 }
 
+namespace {
+
+/// Times in the order of these: all below 16, then sixteen of them from each power of two to the next one.
+std::size_t bucket_of(WallTime time) {
+  const auto value = static_cast<std::uint64_t>(std::max<std::int64_t>(time.count(), 0));
+  if (value < 16) return value;
+  const auto power = static_cast<unsigned>(std::bit_width(value)) - 5;
+  return std::size_t{power} * 16 + (value >> power);
+}
+
+}  // namespace
+
+/// All of them sorted would take as long as the devices may wait: so only those near the one in question.
 WallTime Lateness::percentile(int percent) const {
   const std::size_t kept = std::min<std::size_t>(count_, recent_.size());
   if (kept == 0) return WallTime{0};
-  std::vector<WallTime> sorted(recent_.begin(), recent_.begin() + static_cast<std::ptrdiff_t>(kept));
   const std::size_t rank = std::min(kept - 1, kept * static_cast<std::size_t>(percent) / 100);
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank), sorted.end());
-  return sorted[rank];
+  std::array<std::uint16_t, 64 * 16> counts{};
+  for (std::size_t i = 0; i < kept; ++i) ++counts[bucket_of(recent_[i])];
+  std::size_t bucket = 0;
+  std::size_t below = 0;
+  while (below + counts[bucket] <= rank) below += counts[bucket++];
+  std::vector<WallTime> near;
+  near.reserve(counts[bucket]);
+  for (std::size_t i = 0; i < kept; ++i) {
+    if (bucket_of(recent_[i]) == bucket) near.push_back(recent_[i]);
+  }
+  const auto place = near.begin() + static_cast<std::ptrdiff_t>(rank - below);
+  std::nth_element(near.begin(), place, near.end());
+  return *place;
 }
 
 SimTime Pacer::target(WallTime wall) const {

@@ -29,6 +29,8 @@ namespace understudy::emulator::world {
 
 namespace {
 
+constexpr std::size_t kFramesAtOnce = 256;
+
 std::string real_text(double value) { return number_text(finite_number(value)); }
 
 /// Of one request that writes: the function code and what stands behind it.
@@ -238,38 +240,33 @@ void EventLog::take_frame(const FrameLog::Told& frame) {
   }
 }
 
-/// Makes events of all that has come since, in its order.
-void EventLog::collect() {
+/// In the order in which it has come.
+bool EventLog::collect(std::size_t frames) {
   const std::uint64_t end = frames_.next_number();
-  constexpr std::size_t kAtOnce = 256;
-  while (next_frame_ < end || !noted_.empty()) {
-    while (!noted_.empty() && noted_.front().next_frame <= next_frame_) {
+  const auto add_noted_before = [&](std::uint64_t frame) {
+    for (; !noted_.empty() && noted_.front().next_frame <= frame; noted_.pop_front())
       add(std::move(noted_.front().event));
-      noted_.pop_front();
-    }
-    if (next_frame_ >= end) {
-      if (noted_.empty()) return;
-      next_frame_ = std::max(next_frame_, noted_.front().next_frame);
-      continue;
-    }
-    const auto some = frames_.since(next_frame_, kAtOnce);
+  };
+  std::size_t taken = 0;
+  while (next_frame_ < end && taken < frames) {
+    const auto some = frames_.since(next_frame_, std::min(frames - taken, kFramesAtOnce));
     if (some.empty()) {
       next_frame_ = end;
-      continue;
+      break;
     }
     for (const FrameLog::Told& frame : some) {
-      while (!noted_.empty() && noted_.front().next_frame <= frame.number) {
-        add(std::move(noted_.front().event));
-        noted_.pop_front();
-      }
+      add_noted_before(frame.number);
       take_frame(frame);
       next_frame_ = frame.number + 1;
     }
+    taken += some.size();
   }
+  add_noted_before(next_frame_);
+  return next_frame_ < end;
 }
 
 std::vector<Event> EventLog::since(std::uint64_t number, std::size_t most) {
-  collect();
+  collect(SIZE_MAX);
   std::vector<Event> some;
   const std::uint64_t first = next_number_ - events_.size();
   for (std::uint64_t next = std::max(number, first); next < next_number_ && some.size() < most; ++next) {
@@ -279,7 +276,7 @@ std::vector<Event> EventLog::since(std::uint64_t number, std::size_t most) {
 }
 
 std::uint64_t EventLog::next_number() {
-  collect();
+  collect(SIZE_MAX);
   return next_number_;
 }
 

@@ -48,6 +48,9 @@ class EventLog final : private OutsideListener {
   /// The world has another state.
   void restored();
 
+  /// Makes events of what has come since, of so many frames at most; whether some are left. The others below
+  /// do so with all.
+  bool collect(std::size_t frames);
   /// At most `most` of those kept, from that number on.
   std::vector<Event> since(std::uint64_t number, std::size_t most);
   /// Of the event that comes next.
@@ -72,7 +75,6 @@ class EventLog final : private OutsideListener {
 
   void note(Event event);
   void add(Event event);
-  void collect();
   void take_frame(const FrameLog::Told& frame);
   void add_writes(const FrameLog::Told& request, SimTime at);
   std::string fault_text_of(std::size_t number) const;

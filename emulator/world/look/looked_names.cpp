@@ -1,9 +1,13 @@
 #include "emulator/world/look/looked_names.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
@@ -62,42 +66,121 @@ TerminalDrivers drivers_of(const World& world, std::size_t device, int terminal)
           .wire = input.wired};
 }
 
-std::optional<LookedNames::Known> LookedNames::find(const std::string& name) {
-  if (name.ends_with(kDriver)) {
-    const auto place =
-        find_place(world_.known(), std::string_view(name).substr(0, name.size() - kDriver.size()));
-    if (!place) return std::nullopt;
-    return Known{.is_driver = true, .device = place->device, .terminal = place->terminal};
+LookedNames::List* LookedNames::find_list(std::uint64_t list) {
+  const auto found =
+      std::find_if(lists_.begin(), lists_.end(), [&](const List& one) { return one.number == list; });
+  return found == lists_.end() ? nullptr : &*found;
+}
+
+const LookedNames::List* LookedNames::find_list(std::uint64_t list) const {
+  const auto found =
+      std::find_if(lists_.begin(), lists_.end(), [&](const List& one) { return one.number == list; });
+  return found == lists_.end() ? nullptr : &*found;
+}
+
+bool LookedNames::is_kept(std::uint64_t list) const { return find_list(list) != nullptr; }
+
+/// For a list of so many names.
+void LookedNames::make_room(std::size_t names) {
+  // The probes forget nothing by themselves.
+  if (!probes_ || resolved_ + names > 4 * kMostKept) {
+    lists_.clear();
+    probes_.emplace(world_);
+    resolved_ = 0;
   }
-  try {
-    return Known{.handle = probes_->resolve(name).handle};
-  } catch (const NameError&) {
-    return std::nullopt;
+  const auto kept = [&] {
+    std::size_t sum = 0;
+    for (const List& list : lists_) sum += list.names.size();
+    return sum;
+  };
+  while (!lists_.empty() && (lists_.size() >= kMostLists || kept() + names > kMostKept)) {
+    lists_.erase(std::min_element(lists_.begin(), lists_.end(),
+                                  [](const List& a, const List& b) { return a.looked_at < b.looked_at; }));
   }
 }
 
-LookedNames::Looked LookedNames::look(const std::string& name) {
-  if (!probes_ || known_.size() >= kMost) {
-    known_.clear();
-    probes_.emplace(world_);
+std::uint64_t LookedNames::keep(const std::vector<std::string>& names) {
+  const auto same =
+      std::find_if(lists_.begin(), lists_.end(), [&](const List& one) { return one.names == names; });
+  if (same != lists_.end()) return same->number;
+  make_room(names.size());
+  List& list = lists_.emplace_back();
+  list.number = ++last_number_;
+  list.looked_at = ++looks_;
+  list.names = names;
+  list.known.resize(names.size());
+  return last_number_;
+}
+
+void LookedNames::begin(std::uint64_t number) {
+  List* const list = find_list(number);
+  if (list == nullptr) return;
+  list->looked_at = ++looks_;
+  list->left.clear();
+  std::vector<bool> power(world_.device_count());
+  for (std::size_t i = 0; i < power.size(); ++i) power[i] = world_.device(i).powered();
+  const bool tries_all = power != list->power;
+  const auto is_unknown = [&](std::size_t i) { return list->known[i].what == Known::What::nothing; };
+  if (tries_all) {
+    list->power = std::move(power);
+    for (std::size_t i = list->names.size(); i-- > 0;) {
+      if (is_unknown(i)) list->left.push_back(i);
+    }
+    return;
   }
-  auto found = known_.find(name);
-  if (found == known_.end()) {
-    // One that is unknown may be known later: a device that speaks text has its names only while it has
-    // power.
-    const auto known = find(name);
-    if (!known) return {};
-    found = known_.emplace(name, *known).first;
+  for (std::size_t looked = 0; looked < list->names.size() && list->left.size() < kTriedAgain; ++looked) {
+    list->next_again = (list->next_again + 1) % list->names.size();
+    if (is_unknown(list->next_again)) list->left.push_back(list->next_again);
   }
-  const Known& known = found->second;
-  if (known.is_driver) return to_text(drivers_of(world_, known.device, known.terminal));
-  const auto device = probes_->device_read(known.handle);
-  if (device && !world_.device(*device).powered()) return {};
+}
+
+bool LookedNames::look_up_next(std::uint64_t number) {
+  List* const list = find_list(number);
+  if (list == nullptr || list->left.empty()) return false;
+  const std::size_t place = list->left.back();
+  list->left.pop_back();
+  list->known[place] = find(list->names[place]);
+  return true;
+}
+
+LookedNames::Known LookedNames::find(const std::string& name) {
+  if (name.ends_with(kDriver)) {
+    const auto place =
+        find_place(world_.known(), std::string_view(name).substr(0, name.size() - kDriver.size()));
+    if (!place) return {};
+    return {.what = Known::What::driver, .device = place->device, .terminal = place->terminal};
+  }
   try {
-    return probes_->value(known.handle);
+    Known known{.what = Known::What::value, .handle = probes_->resolve(name).handle};
+    ++resolved_;
+    static_cast<void>(probes_->value(known.handle));  // one that only scenarios keep has none here
+    if (const auto device = probes_->device_read(known.handle)) {
+      known.needs_power = true;
+      known.device = *device;
+    }
+    return known;
   } catch (const NameError&) {
     return {};
   }
+}
+
+LookedNames::Looked LookedNames::value_of(const Known& known) const {
+  switch (known.what) {
+    case Known::What::nothing: return {};
+    case Known::What::driver: return drivers_of(world_, known.device, known.terminal);
+    case Known::What::value: break;
+  }
+  if (known.needs_power && !world_.device(known.device).powered()) return {};
+  return probes_->value(known.handle);
+}
+
+bool LookedNames::look(std::uint64_t number, std::vector<Looked>& values) const {
+  const List* const list = find_list(number);
+  if (list == nullptr) return false;
+  values.clear();
+  values.reserve(list->known.size());
+  for (const Known& known : list->known) values.push_back(value_of(known));
+  return true;
 }
 
 }  // namespace understudy::emulator::world

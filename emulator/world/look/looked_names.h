@@ -1,13 +1,13 @@
-// Values by name, again and again: for onlookers who ask for hundreds of them many times a second.
+// Values by name, again and again: for onlookers who ask for hundreds of them many times a second. A list of
+// names is looked up once, and its values are then read in one go.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <unordered_map>
 #include <variant>
+#include <vector>
 
 #include "emulator/world/probe/probes.h"
 #include "emulator/world/world.h"
@@ -28,29 +28,58 @@ TerminalDrivers drivers_of(const World& world, std::size_t device, int terminal)
 
 class LookedNames {
  public:
+  static constexpr std::size_t kMostKept = 32'768;  // names, of all lists together
+  static constexpr std::size_t kMostLists = 64;
+
   /// Nothing: there is no such name, or it has no value now (no power).
-  using Looked = std::variant<std::monostate, Number, std::string>;
+  using Looked = std::variant<std::monostate, Number, TerminalDrivers>;
 
   explicit LookedNames(const World& world) : world_(world) {}
 
-  /// "feeder.Cord_A" and all other names of probe_names.h; "feeder.DIN_3@by": who drives a terminal.
-  Looked look(const std::string& name);
-  /// Names that nobody has asked for lately are forgotten when there are too many.
-  std::size_t size() const { return known_.size(); }
+  /// Keeps a list of names, "feeder.Cord_A" and all others of probe_names.h, and "feeder.DIN_3@by": who
+  /// drives a terminal. Returns its number, which the same list has again. Where there are too many, those
+  /// that have not been looked at for longest are forgotten.
+  std::uint64_t keep(const std::vector<std::string>& names);
+  bool is_kept(std::uint64_t list) const;
+  /// Before a look: which names are to be looked up, if any. Those that were not there before are tried again
+  /// when a device was switched on or off, else some at each look: a device may have new ones at any time.
+  void begin(std::uint64_t list);
+  /// Looks the next one up; false if there is none left. False as well if the list is forgotten.
+  bool look_up_next(std::uint64_t list);
+  /// Their values at this moment, in the order of the list; false if the list is forgotten.
+  bool look(std::uint64_t list, std::vector<Looked>& values) const;
+  std::size_t lists() const { return lists_.size(); }
 
  private:
-  static constexpr std::size_t kMost = 8'192;
+  static constexpr std::size_t kTriedAgain = 2;  // at a look, of those that are unknown
   struct Known {
-    bool is_driver = false;
-    std::size_t device = 0;
+    enum class What : std::uint8_t { nothing, value, driver } what = What::nothing;
+    std::size_t device = 0;  // the terminal's; of a value, that whose power it needs, if it does
+    bool needs_power = false;
     int terminal = 0;
     std::int32_t handle = 0;
   };
-  std::optional<Known> find(const std::string& name);
+  struct List {
+    std::uint64_t number = 0;
+    std::uint64_t looked_at = 0;  // counts looks
+    std::vector<std::string> names;
+    std::vector<Known> known;
+    std::optional<std::vector<bool>> power;  // of all devices, when all names were last tried
+    std::vector<std::size_t> left;           // to be tried now, the next one last
+    std::size_t next_again = 0;
+  };
+  Known find(const std::string& name);
+  Looked value_of(const Known& known) const;
+  List* find_list(std::uint64_t list);
+  const List* find_list(std::uint64_t list) const;
+  void make_room(std::size_t names);
 
   const World& world_;
   std::optional<Probes> probes_;
-  std::unordered_map<std::string, Known> known_;  // looked up, never iterated
+  std::size_t resolved_ = 0;  // by these probes, which remember them
+  std::vector<List> lists_;
+  std::uint64_t last_number_ = 0;
+  std::uint64_t looks_ = 0;
 };
 
 }  // namespace understudy::emulator::world

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -44,13 +45,16 @@ bool has_name(const KnownDevice& device, std::string_view name) {
 }  // namespace
 
 NamedNumber ProbeNames::resolve(std::string_view name) const {
-  for (std::size_t i = 0; i < probes_.size(); ++i) {
-    if (probes_[i].name == name) return {static_cast<std::int32_t>(i), probes_[i].unit};
+  std::string whole(name);
+  if (const auto known = handles_.find(whole); known != handles_.end()) {
+    return {known->second, probe(known->second).unit};
   }
-  Probe probe = find(name);
-  probe.name = name;
-  probes_.push_back(probe);
-  return {static_cast<std::int32_t>(probes_.size() - 1), probe.unit};
+  Probe found = find(name);
+  found.name = name;
+  const auto handle = static_cast<std::int32_t>(probes_.size());
+  probes_.push_back(found);
+  handles_.emplace(std::move(whole), handle);
+  return {handle, found.unit};
 }
 
 bool ProbeNames::find_of_axis(std::string_view rest, Probe& probe) const {

@@ -31,6 +31,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "emulator/world/expression/expression.h"
@@ -101,7 +102,8 @@ class ProbeNames final : public NameResolver {
   bool find_of_terminal(const Model& model, std::string_view rest, Probe& probe) const;
 
   const Inventory& inventory_;
-  mutable std::vector<Probe> probes_;  // by handle
+  mutable std::vector<Probe> probes_;                              // by handle
+  mutable std::unordered_map<std::string, std::int32_t> handles_;  // by name; looked up, never iterated
 };
 
 }  // namespace understudy::emulator::world

@@ -42,6 +42,16 @@ std::string counting(const TestJson& message) {
   return reply.dump();
 }
 
+/// Whether the page has hung up; what it said before that does not matter.
+bool is_closed(TestBrowser& browser) {
+  pollfd one{browser.descriptor(), POLLIN, 0};
+  char bytes[4096];
+  while (poll(&one, 1, 100) > 0) {
+    if (recv(browser.descriptor(), bytes, sizeof(bytes), 0) <= 0) return true;
+  }
+  return false;
+}
+
 TEST(PageFiles, AreServedWithTheirTypesAndAStrictPolicy) {
   PageRig rig;
   const std::string at = std::to_string(rig.page.port());
@@ -187,6 +197,80 @@ TEST(PageConnections, ByTheThousandLeaveItAlive) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(20));
+}
+
+TEST(PageConnections, OfStrangersDoNotKeepOthersOut) {
+  PageRig rig;  // a stranger may take its time: 5 s
+  std::vector<std::unique_ptr<TestBrowser>> strangers;
+  const auto come = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      strangers.push_back(std::make_unique<TestBrowser>(rig.page.port()));
+      if (i % 3 == 0) strangers.back()->write("GET / HTTP/1.1\r\nHost: 127");
+      if (i % 3 == 1) {
+        EXPECT_TRUE(strangers.back()->open_socket(rig.page.port()));
+      }
+    }
+  };
+  const auto begin = Clock::now();
+  come(64);
+  const auto owner = rig.browser();  // is let in at once
+  TestBrowser reader(rig.page.port());
+  EXPECT_EQ(reader.ask("GET / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(rig.page.port()) + "\r\n"),
+            "HTTP/1.1 200");
+  come(200);
+  EXPECT_EQ(rig.browser()->why(), "");
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(4)) << "nobody was waited for";
+  // The oldest have made room, the newest are still there, and so is whoever had the token.
+  EXPECT_TRUE(is_closed(*strangers.front()));
+  EXPECT_FALSE(is_closed(*strangers.back()));
+  owner->say({{"do", "nonsense"}});
+  EXPECT_EQ(owner->hear()["is"], "error");
+}
+
+TEST(PageLooks, AskForNamesByTheNumberThatTheBenchGaveThem) {
+  PageRig rig;
+  std::atomic<int> spelt_out = 0;
+  std::atomic<int> by_number = 0;
+  std::atomic<int> pid = 7;
+  std::atomic<bool> is_forgotten = false;
+  const auto answer = [&](const TestJson& message) {
+    if (message["do"] != "look") return std::string(R"({"ok":true})");
+    if (is_forgotten && message.contains("look")) return std::string(R"({"ok":false,"error":"not kept"})");
+    is_forgotten = false;
+    ++(message.contains("names") ? spelt_out : by_number);
+    // Another daemon has other names behind the same number.
+    const int value = message.contains("names") || pid == 7 ? 5 : 999;
+    return TestJson{{"ok", true},      {"pid", pid.load()}, {"simulated_time_ns", 1},
+                    {"paused", false}, {"speed", "real"},   {"advancing", false},
+                    {"look", 3},       {"values", {value}}}
+        .dump();
+  };
+  MadeUpBench bench(rig.socket(), answer);
+  const auto browser = rig.browser();
+  browser->say({{"do", "watch"}, {"bench", 0}, {"names", {"it"}}});
+  EXPECT_EQ(browser->hear_one("look")["values"]["it"], 5);
+  const auto wait_for = [](const std::atomic<int>& count, int least) {
+    for (int i = 0; i < 300 && count < least; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_GE(count, least);
+  };
+  wait_for(by_number, 5);
+  EXPECT_EQ(spelt_out, 1);
+  // Names that were forgotten are spelt out again; nothing is lost by it.
+  is_forgotten = true;
+  wait_for(spelt_out, 2);
+  wait_for(by_number, 10);
+  // So are those of another daemon; what it said by a number that was not its own is not shown.
+  pid = 8;
+  wait_for(spelt_out, 3);
+  while (true) {
+    const TestJson message = browser->hear();
+    ASSERT_FALSE(message.is_null());
+    EXPECT_NE(message.value("state", ""), "gone");
+    if (message.contains("values")) {
+      EXPECT_EQ(message["values"]["it"], 5);
+      break;
+    }
+  }
 }
 
 TEST(PageLooks, AreOneForAllBrowsersAndAtMostThirtyASecond) {

@@ -45,6 +45,29 @@ struct LookRig : DaemonRig {
 
 using Texts = std::vector<std::string>;
 
+/// A device whose names are there only while it has power.
+struct OneSlim {
+  OneSlim()
+      : bench(world::parse_bench(
+            models::all_models(),
+            "understudy: 1\nlines: { a: { link: ./a.port, stations: [ { name: d, model: slim } ] } }\n",
+            "bench.yaml", folder.path)),
+        daemon(bench, options(), [](const std::string&) {}) {}
+  static DaemonOptions options() {
+    DaemonOptions made;
+    made.speed = {.kind = Speed::Kind::manual};
+    return made;
+  }
+  Json ask(const std::string& message) {
+    std::string reply;
+    handle_message(daemon, message, [&](const std::string& line) { reply = line; });
+    return Json::parse(reply);
+  }
+  TestFolder folder;
+  world::Bench bench;
+  Daemon daemon;
+};
+
 TEST(BenchMessage, TellsLinesDevicesWiresAndMachines) {
   LookRig rig;
   const Json bench = rig.ask(R"({"do":"bench"})")["bench"];
@@ -213,6 +236,66 @@ TEST(LookMessage, TellsValuesFramesEventsAndTime) {
             (Json{nullptr, 0}));
   EXPECT_EQ(rig.ask(R"({"do":"look","names":7})")["ok"], false);
   EXPECT_EQ(rig.ask(R"({"do":"look","frames":-1})")["ok"], false);
+}
+
+TEST(LookMessage, KeepsNamesForTheirNumber) {
+  LookRig rig;
+  const Json first = rig.ask(R"({"do":"look","names":["feeder.Aaxis_Speed","time"]})");
+  const Json number = first["look"];
+  rig.ask(R"({"do":"set","values":{"feeder.Aaxis_Speed":123}})");
+  const Json again = rig.ask(Json{{"do", "look"}, {"look", number}}.dump());
+  EXPECT_EQ(again["values"], (Json{123, 0}));
+  EXPECT_EQ(again["look"], number);
+  EXPECT_EQ(rig.ask(R"({"do":"look","names":["feeder.Aaxis_Speed","time"]})")["look"], number);
+  EXPECT_NE(rig.ask(R"({"do":"look","names":["time","feeder.Aaxis_Speed"]})")["look"], number);
+  for (const Json& wrong : {Json(99), Json(0), Json(-1), Json("1"), Json(nullptr)}) {
+    EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", wrong}}.dump())["ok"], false) << wrong;
+  }
+  EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", number}, {"names", {"time"}}}.dump())["ok"], false);
+  // Where there are too many, those go that nobody has looked at for longest.
+  for (int i = 0; i < 70; ++i) {
+    rig.ask(Json{{"do", "look"}, {"names", {"n" + std::to_string(i)}}}.dump());
+    if (i < 60) {
+      EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", number}}.dump())["ok"], true) << i;
+    }
+  }
+  EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", number}}.dump())["ok"], true);
+  EXPECT_EQ(rig.daemon.onlookers().names.lists(), world::LookedNames::kMostLists);
+  for (int i = 0; i < 70; ++i) rig.ask(Json{{"do", "look"}, {"names", {"m" + std::to_string(i)}}}.dump());
+  EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", number}}.dump())["ok"], false);
+}
+
+TEST(LookMessage, KeepsABoundedNumberOfNames) {
+  LookRig rig;
+  Json numbers = Json::array();
+  for (int i = 0; i < 20; ++i) {
+    Json names = Json::array();
+    for (int n = 0; n < 2'000; ++n) names.push_back(n == 0 ? "first" + std::to_string(i) : "feeder.Cord_A");
+    const Json reply = rig.ask(Json{{"do", "look"}, {"names", names}}.dump());
+    ASSERT_EQ(reply["values"].size(), 2'000U);
+    EXPECT_EQ(reply["values"][1999], 0);
+    numbers.push_back(reply["look"]);
+  }
+  EXPECT_EQ(rig.daemon.onlookers().names.lists(), world::LookedNames::kMostKept / 2'000);
+  EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", numbers.back()}}.dump())["ok"], true);
+  EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", numbers.front()}}.dump())["ok"], false);
+}
+
+TEST(LookMessage, FindsNamesThatComeLater) {
+  // Many that never come, and one that comes with the power.
+  OneSlim slim;
+  Json names = Json::array();
+  for (int i = 0; i < 100; ++i) names.push_back("none" + std::to_string(i));
+  names.push_back("d.VM");
+  slim.ask(R"({"do":"power","to":"off"})");
+  const Json off = slim.ask(Json{{"do", "look"}, {"names", names}}.dump());
+  EXPECT_TRUE(off["values"][100].is_null());
+  slim.ask(R"({"do":"power","to":"on"})");
+  const Json on = slim.ask(Json{{"do", "look"}, {"look", off["look"]}}.dump());
+  EXPECT_EQ(on["values"][100], slim.ask(R"({"do":"get","names":["d.VM"]})")["values"]["d.VM"]);
+  EXPECT_FALSE(on["values"][100].is_null());
+  slim.ask(R"({"do":"power","to":"off"})");
+  EXPECT_TRUE(slim.ask(Json{{"do", "look"}, {"look", off["look"]}}.dump())["values"][100].is_null());
 }
 
 TEST(StepMessage, EndsAtTheEndOfTicks) {

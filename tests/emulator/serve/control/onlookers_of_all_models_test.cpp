@@ -180,7 +180,7 @@ void press(OneDevice& bench, const Json& control, int number) {
     return text;
   };
   if (control.contains("command")) return bench.act("command " + filled("command"));
-  if (control.contains("text")) return bench.act("text " + filled("text"));
+  if (control.contains("text")) return bench.act("command " + filled("text"));
   std::istringstream pairs(filled("set"));
   for (std::string pair; pairs >> pair;) bench.act("set " + pair);
 }
@@ -202,6 +202,37 @@ TEST(ProgramControls, StartAndStopTheProgramsOfEveryModel) {
       EXPECT_FALSE(runs()) << round;
     }
   }
+}
+
+TEST(LineByHand, IsObeyedWithoutAWordOnTheLine) {
+  OneDevice bench("slim");
+  const auto refusal_of = [&](const char* text) {
+    std::string why;
+    handle_message(bench.daemon, Json{{"do", "command"}, {"text", text}}.dump(),
+                   [&](const std::string& line) { why = Json::parse(line).value("error", ""); });
+    return why;
+  };
+  const auto frames = [&] { return bench.ask({{"do", "frames"}})["frames"].size(); };
+  bench.act("program WI 3\nN1=GETI\nRET\n");
+  const std::size_t before = frames();
+  EXPECT_EQ(refusal_of("VM=321"), "");
+  EXPECT_EQ(bench.value("d.VM"), 321);
+  EXPECT_EQ(refusal_of("G"), "");
+  EXPECT_EQ(refusal_of("G"), "d does not take it: it is busy (reason 3)") << "it runs already";
+  EXPECT_EQ(refusal_of("nonsense"), "d does not take it: the command does not suit it now (reason 1)");
+  bench.run(20);
+  EXPECT_EQ(frames(), before) << "its answers are nobody's";
+  // A number is the program's.
+  bench.ask({{"do", "input"}, {"values", {{"d.IN3", 1}}}});
+  bench.run(20);
+  EXPECT_EQ(refusal_of("VM=322"), "d does not take it: it is busy");
+  EXPECT_EQ(refusal_of("EXIT"), "");
+  EXPECT_EQ(refusal_of("VM=322"), "");
+  // What a host is typing into the editor is its own.
+  bench.act("text PA");
+  bench.run(100);
+  EXPECT_EQ(refusal_of("VM=323"), "d does not take it: it is busy");
+  EXPECT_EQ(bench.value("d.VM"), 322);
 }
 
 TEST(ProgramControls, AreThereForEveryLanguage) {

@@ -4,6 +4,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <fstream>
 #include <thread>
 
@@ -53,6 +54,63 @@ TEST(RunningDaemon, AnAdvanceEndsExactlyWhereItWasToEnd) {
               (Json{{"ok", true}, {"simulated_time_ns", time}}));
     EXPECT_EQ(daemon.ask(R"({"do":"status"})")["status"]["simulated_time_ns"], time);
   }
+}
+
+TEST(RunningDaemon, SaysTheSameInPiecesAsAtOnce) {
+  Running daemon;
+  Json names = Json::array();
+  for (int i = 0; i < 32; ++i) {
+    for (const char* half : {"", "_RegL", "_RegH"})
+      names.push_back("feeder.PROG_MEM" + std::to_string(i) + half);
+  }
+  const std::vector<Json> messages{{{"do", "registers"}, {"device", "feeder"}},
+                                   {{"do", "get"}, {"device", "turner"}, {"from", 100}},
+                                   {{"do", "get"}, {"names", names}},
+                                   {{"do", "look"}, {"names", names}, {"status", true}, {"events", 0}},
+                                   {{"do", "choices"}, {"device", "feeder"}},
+                                   {{"do", "faults"}},
+                                   {{"do", "bench"}},
+                                   {{"do", "bench"}, {"device", "feeder"}}};
+  for (int i = 0; i < 100; ++i) daemon.ask(Json{{"do", "set"}, {"values", {{"feeder.PROG_MEM7", i}}}}.dump());
+  for (const Json& message : messages) {
+    Json in_pieces = daemon.ask(message.dump());
+    std::string whole;
+    std::atomic<bool> is_done = false;
+    daemon.rig.daemon.post([&] {
+      handle_message(daemon.rig.daemon, message.dump(), [&](const std::string& line) { whole = line; });
+      is_done = true;
+    });
+    while (!is_done) std::this_thread::yield();
+    Json at_once = Json::parse(whole);
+    for (Json* reply : {&in_pieces, &at_once}) {
+      EXPECT_EQ((*reply)["ok"], true) << message;
+      if (reply->contains("status")) (*reply)["status"].erase("lateness");
+    }
+    EXPECT_EQ(in_pieces, at_once) << message;
+    EXPECT_GT(whole.size(), 500U) << message;
+  }
+}
+
+TEST(RunningDaemon, ServesOthersBetweenThePiecesOfAReply) {
+  Running daemon(Speed{});
+  // Whoever asks for much, again and again, and goes away before the end.
+  std::atomic<bool> is_over = false;
+  std::vector<std::thread> greedy;
+  for (int i = 0; i < 4; ++i) {
+    greedy.emplace_back([&] {
+      while (!is_over) {
+        try {
+          ask_control(daemon.rig.folder.path + "/control", R"({"do":"registers","device":"feeder"})",
+                      std::chrono::milliseconds(1));
+        } catch (const ControlError&) {
+        }
+      }
+    });
+  }
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(daemon.ask(R"({"do":"get","names":["time"]})")["ok"], true);
+  is_over = true;
+  for (std::thread& one : greedy) one.join();
+  EXPECT_EQ(daemon.ask(R"({"do":"registers","device":"feeder"})")["registers"].size(), 200U);
 }
 
 TEST(RunningDaemon, AMoveTakesTheTimeThatTheManualComputes) {

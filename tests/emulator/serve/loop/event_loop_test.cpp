@@ -232,5 +232,158 @@ TEST(EventLoop, WhatMayWaitGetsASliceAndEachItsTurn) {
       << "they take turns";
 }
 
+TEST(EventLoop, WorkInPiecesIsDoneInTurnWithClients) {
+  EventLoop loop;
+  std::string order;
+  const Pair client;
+  loop.watch(
+      client.near(), EventLoop::readable, [&](std::uint32_t) { order += 'c'; }, EventLoop::Rank::later);
+  client.poke();  // and is ready again at once
+  const auto work = [&](char name) {
+    loop.do_in_pieces([&order, name, left = 3]() mutable {
+      order += name;
+      return --left > 0;
+    });
+  };
+  work('a');
+  work('b');
+  while (order.size() < 14) loop.wait(std::nullopt);
+  const std::string work_done = [&] {
+    std::string pieces = order;
+    std::erase(pieces, 'c');
+    return pieces;
+  }();
+  EXPECT_EQ(work_done, "ababab") << "each its turn, and no more than there is of it";
+  EXPECT_LE(order.find_last_of('b'), 12U) << order;
+  for (std::size_t i = 1; i < 12; ++i) EXPECT_NE(order[i] == 'c', order[i - 1] == 'c') << order;
+}
+
+TEST(EventLoop, APieceKnowsWhenItsTimeIsOver) {
+  EventLoop loop;
+  EXPECT_FALSE(loop.slice_is_over()) << "nobody else waits";
+  bool was_over_at_once = true;
+  bool was_over_later = false;
+  loop.do_in_pieces([&] {
+    was_over_at_once = loop.slice_is_over();
+    const WallTime until = wall_now() + EventLoop::kLaterSlice;
+    while (wall_now() < until) {
+    }
+    was_over_later = loop.slice_is_over();
+    return false;
+  });
+  loop.wait(std::nullopt);  // does not wait for anything else
+  EXPECT_FALSE(was_over_at_once && !was_over_later);
+  EXPECT_TRUE(was_over_later);
+  EXPECT_FALSE(loop.slice_is_over());
+}
+
+TEST(EventLoop, WhatMayWaitDoesSoWhileSomethingIsDueSoon) {
+  EventLoop loop;
+  const Pair client;
+  WallTime due{0};
+  std::vector<WallTime> begins;
+  loop.watch(
+      client.near(), EventLoop::readable, [&](std::uint32_t) { begins.push_back(wall_now()); },
+      EventLoop::Rank::later);
+  client.poke();
+  int pieces = 0;
+  loop.do_in_pieces([&] {
+    begins.push_back(wall_now());
+    return ++pieces < 50;
+  });
+  // Due again and again, sooner than there is room: what waits is called after each, and not before it.
+  int too_soon = 0;
+  for (int turn = 0; turn < 50; ++turn) {
+    due = wall_now() + EventLoop::kRoom / 2;
+    begins.clear();
+    while (wall_now() < due) loop.wait(due);
+    for (const WallTime begin : begins) too_soon += begin < due ? 1 : 0;
+    loop.wait(due);  // it is past: the others have their turn
+    EXPECT_FALSE(begins.empty()) << turn;
+  }
+  EXPECT_EQ(too_soon, 0);
+}
+
+TEST(EventLoop, WhatMayWaitGoesOnWaitingThoughAHostSpeaks) {
+  EventLoop loop;
+  const Pair port;
+  const Pair client;
+  WallTime called{0};
+  int of_port = 0;
+  loop.watch(
+      client.near(), EventLoop::readable, [&](std::uint32_t) { called = wall_now(); },
+      EventLoop::Rank::later);
+  loop.watch(port.near(), EventLoop::readable, [&](std::uint32_t) { ++of_port; });
+  client.poke();
+  port.poke();  // and is ready again at once
+  for (int round = 0; round < 50; ++round) {
+    called = WallTime{0};
+    const WallTime due = wall_now() + EventLoop::kRoom * 9 / 10;
+    int turns = 0;
+    for (; wall_now() < due; ++turns) loop.wait(due);
+    if (turns > 1) {
+      EXPECT_EQ(called, WallTime{0}) << round;
+    }
+    for (int look = 0; look < 3 && called == WallTime{0}; ++look) loop.wait(wall_now() + 1h);
+    EXPECT_GE(called, due) << round;
+  }
+  EXPECT_GT(of_port, 100);
+}
+
+TEST(EventLoop, WhereNothingCanBeLateASliceIsLong) {
+  EventLoop loop;
+  int pieces = 0;
+  loop.do_in_pieces([&] {
+    ++pieces;
+    const WallTime until = wall_now() + EventLoop::kLaterSlice;
+    while (wall_now() < until) {
+    }
+    return true;
+  });
+  int most = 0;
+  for (int turn = 0; turn < 20; ++turn) {
+    const int before = pieces;
+    loop.wait(wall_now(), EventLoop::kLongSlice);
+    most = std::max(most, pieces - before);
+  }
+  EXPECT_GT(most, 5);
+}
+
+TEST(EventLoop, WorkInPiecesIsBegunOnlyWhileThereIsLittleOfIt) {
+  EventLoop loop;
+  const Pair client;
+  int begun = 0;
+  int under_way = 0;
+  int most = 0;
+  loop.watch(
+      client.near(), EventLoop::readable,
+      [&](std::uint32_t) {
+        ++begun;
+        most = std::max(most, ++under_way);
+        loop.do_in_pieces([&under_way, left = 20]() mutable {
+          if (--left > 0) return true;
+          --under_way;
+          return false;
+        });
+      },
+      EventLoop::Rank::later);
+  client.poke();  // and is ready again at once
+  while (begun < 1'000) loop.wait(std::nullopt);
+  EXPECT_LE(most, 64);
+}
+
+TEST(EventLoop, WhatMayWaitIsPutOffOnceAndNoMore) {
+  EventLoop loop;
+  const Pair client;
+  int calls = 0;
+  loop.watch(
+      client.near(), EventLoop::readable, [&](std::uint32_t) { ++calls; }, EventLoop::Rank::later);
+  client.poke();
+  // Something is due soon at every look, as in a world whose time goes by fast.
+  int looks = 0;
+  for (; looks < 300 && calls < 100; ++looks) loop.wait(wall_now() + EventLoop::kRoom / 2);
+  EXPECT_GE(calls, 100);
+}
+
 }  // namespace event_loop_test
 }  // namespace understudy::emulator::serve

@@ -191,6 +191,24 @@ TEST(Lateness, PercentilesSplitTheRecordedOnes) {
   EXPECT_EQ(lateness.percentile(100).count() / 1000, shuffled.back());
 }
 
+TEST(Lateness, PercentilesAreExactHoweverFarApartTheTimesAre) {
+  Lateness lateness;
+  std::vector<WallTime> all;
+  std::uint64_t state = 7;
+  for (int i = 0; i < 4'000; ++i) {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    // From nanoseconds to minutes, and some again and again.
+    const auto ns = static_cast<std::int64_t>(i % 5 == 0 ? i % 40 : (state >> 24U) >> (state >> 58U) % 40);
+    all.emplace_back(ns);
+    lateness.record(all.back());
+  }
+  std::sort(all.begin(), all.end());
+  for (int percent = 0; percent <= 100; ++percent) {
+    const std::size_t rank = std::min(all.size() - 1, all.size() * static_cast<std::size_t>(percent) / 100);
+    EXPECT_EQ(lateness.percentile(percent), all[rank]) << percent;
+  }
+}
+
 TEST(Lateness, ForgetsAllButTheLast4096ExceptTheGreatest) {
   Lateness lateness;
   lateness.record(9s);

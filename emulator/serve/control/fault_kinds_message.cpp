@@ -1,0 +1,94 @@
+// What may be broken, and what is to be said of it: for a form.
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "emulator/serve/control/look_messages.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_text.h"
+#include "emulator/serve/control/telling.h"
+#include "emulator/world/bench_file/fault_form.h"
+#include "emulator/world/bench_file/form.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/faults/kinds.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+std::string_view place_word(world::FaultKindRow::Place place) {
+  switch (place) {
+    case world::FaultKindRow::Place::axis: return "axis";
+    case world::FaultKindRow::Place::wheel: return "wheel";
+    case world::FaultKindRow::Place::input: return "input";
+    case world::FaultKindRow::Place::device: return "device";
+    case world::FaultKindRow::Place::device_or_line: return "device_or_line";
+  }
+  return {};
+}
+
+std::string_view form_word(world::FaultFieldRow::Form form) {
+  using Form = world::FaultFieldRow::Form;
+  switch (form) {
+    case Form::number: return "number";
+    case Form::level: return "level";
+    case Form::duration:
+    case Form::ticks:
+    case Form::even_ticks: return "duration";
+    case Form::bytes: return "bytes";
+    case Form::side: return "side";
+  }
+  return {};
+}
+
+std::string_view doc_of(std::string_view key) {
+  for (const world::KeyRow& row : world::kFaultKeys) {
+    if (row.key == key) return row.doc;
+  }
+  return {};
+}
+
+Json kind_of(const world::FaultKindRow& kind) {
+  Json fields = Json::array();
+  for (const world::FaultFieldRow& field : kind.fields) {
+    Json entry{{"name", field.name},
+               {"form", form_word(field.form)},
+               {"required", field.required},
+               {"doc", doc_of(field.name)}};
+    if (field.form == world::FaultFieldRow::Form::number) {
+      entry["lowest"] = field.lowest;
+      entry["highest"] = field.highest;
+    }
+    fields.push_back(std::move(entry));
+  }
+  return Json{{"name", kind.name},
+              {"place", place_word(kind.place)},
+              {"doc", doc_of(kind.name)},
+              {"of_frames", world::is_of_frames(kind.kind)},
+              {"fields", std::move(fields)}};
+}
+
+}  // namespace
+
+Telling faults_message(Daemon& daemon, Json message) {
+  demand_keys(message, {"do"});
+  const Pause pause(daemon);
+  ReplyText text;
+  text.open_list("kinds");
+  for (const world::FaultKindRow& kind : world::fault_kinds()) {
+    text.element(kind_of(kind));
+    co_await pause;
+  }
+  text.close_list();
+  // The trigger's fields stand behind those of the kinds, from "function" on.
+  text.open_list("trigger");
+  const auto* const first = std::find_if(world::kFaultKeys.begin(), world::kFaultKeys.end(),
+                                         [](const world::KeyRow& row) { return row.key == "function"; });
+  for (const auto* row = first; row != world::kFaultKeys.end(); ++row) {
+    text.element({{"name", row->key}, {"doc", row->doc}});
+  }
+  text.close_list();
+  co_return text.take();
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,37 @@
+// Frames or events in a reply, one after the other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/serve/control/reply_text.h"
+
+namespace understudy::emulator::serve {
+
+class Daemon;
+
+class Listing {
+ public:
+  enum class What : std::uint8_t { frames, events };
+
+  /// From that number on. `is_raw`: frames with their bytes and latency.
+  Listing(Daemon& daemon, What what, std::uint64_t first, bool is_raw = false)
+      : daemon_(daemon), what_(what), is_raw_(is_raw), next_(first) {}
+
+  /// Works on, and may have added one; false if there are none left, or enough for a reply.
+  bool add_next(ReplyText& text);
+  /// The number to ask for then.
+  std::uint64_t next() const { return next_; }
+
+ private:
+  bool add_frame(ReplyText& text);
+  bool add_event(ReplyText& text);
+
+  Daemon& daemon_;
+  What what_;
+  bool is_raw_;
+  std::uint64_t next_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,33 @@
+// How a bench is doing, part by part: a line, one of its stations, a device. Each is of one moment, which
+// lines and devices tell ("time_ns"); where the clock stands, all are of the same one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/serve/control/reply_text.h"
+
+namespace understudy::emulator::serve {
+
+class Daemon;
+
+class StatusParts {
+ public:
+  explicit StatusParts(Daemon& daemon) : daemon_(daemon) {}
+
+  /// Adds the members of an object, one after the other; false if there is nothing left.
+  bool add_next(ReplyText& text);
+
+ private:
+  enum class Part : std::uint8_t { head, lines, devices, faults, end };
+  void add_head(ReplyText& text);
+  void add_of_line(ReplyText& text);
+
+  Daemon& daemon_;
+  Part part_ = Part::head;
+  std::size_t next_ = 0;  // line or device
+  std::size_t next_station_ = 0;
+  bool is_in_line_ = false;
+};
+
+}  // namespace understudy::emulator::serve
