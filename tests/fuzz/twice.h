@@ -33,7 +33,8 @@ void play(Stage& stage, std::span<const Act> acts, Tick ticks_after) {
 
 /// `stepped` goes by single ticks; `in_bulk` has played the acts already.
 template <class Stage, class Act>
-void demand_same_by_single_ticks(Stage& stepped, Stage& in_bulk, std::span<const Act> acts, Tick ticks_after) {
+void demand_same_by_single_ticks(Stage& stepped, Stage& in_bulk, std::span<const Act> acts,
+                                 Tick ticks_after) {
   namespace world = emulator::world;
   stepped.begin_anew();
   const std::size_t half = acts.size() / 2;
