@@ -57,6 +57,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
   void register_written(const RegisterRow& row, std::size_t slot) override;
+  bool keeps(const RegisterRow& row) const override;
   void registers_written() override { state_.touched = true; }
   void mention_unmodelled(const RegisterRow& row) const override;
   const MapPolicy& map_policy() const override { return map_policy_; }
@@ -265,7 +266,6 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // --- memory.cpp
   void blank_state();
   Eeprom factory_memory() const;
-  bool keeps(const RegisterRow& row) const;
   std::uint32_t factory_bits(const RegisterRow& row) const;
   interpreter::super_40nc::Options chosen_options() const;
   MapPolicy chosen_map_policy() const;
