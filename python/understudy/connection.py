@@ -1,17 +1,23 @@
 """One line of JSON there, one back: docs/control.md."""
 import json
 import socket
+import struct
 from typing import Any, Dict, Optional
 
 from .errors import NotThere, Refused
 
 MOST_REPLY_BYTES = 16 << 20  # messages are at most 4 MiB; a reply that does not end is not waited for
+_encode = json.JSONEncoder(separators=(",", ":")).encode  # made once: a control loop asks at every millisecond
 
 
 class Connection:
     def __init__(self, path: str, timeout_s: Optional[float] = 60.0) -> None:
         self._socket = socket.socket(socket.AF_UNIX)
-        self._socket.settimeout(timeout_s)
+        if timeout_s is not None:
+            # The kernel's own timeouts: with `settimeout` Python asks `poll` before each call.
+            time = struct.pack("@ll", int(timeout_s), max(1, int(timeout_s % 1 * 1e6)))
+            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, time)
+            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, time)
         self._rest = b""
         try:
             self._socket.connect(path)
@@ -21,15 +27,16 @@ class Connection:
 
     def ask(self, do: str, **fields: Any) -> Dict[str, Any]:
         """The reply to a message; raises Refused with the program's words."""
-        message = json.dumps({"do": do, **fields}, separators=(",", ":")).encode() + b"\n"
+        message = _encode({"do": do, **fields}).encode() + b"\n"
         try:
             self._socket.sendall(message)
             line = self._line()
         except OSError as error:
             self.close()  # a late reply would be taken for the next message's
-            raise NotThere(f"no answer to {do!r}: {error}") from error
+            why = "timed out" if isinstance(error, BlockingIOError) else error
+            raise NotThere(f"no answer to {do!r}: {why}") from error
         try:
-            reply = json.loads(line)
+            reply = json.loads(line.decode())
         except ValueError as error:
             self.close()
             raise NotThere(f"the answer to {do!r} is not JSON") from error

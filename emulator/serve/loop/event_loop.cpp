@@ -65,7 +65,7 @@ EventLoop::~EventLoop() {
 void EventLoop::watch(int descriptor, std::uint32_t interest, std::function<void(std::uint32_t)> ready,
                       Rank rank) {
   const int epoll = rank == Rank::first ? epoll_ : later_;
-  watches_[descriptor] = {epoll, interest,
+  watches_[descriptor] = {epoll, interest, interest,
                           std::make_shared<std::function<void(std::uint32_t)>>(std::move(ready))};
   epoll_event event{};
   event.events = epoll_events(interest);
@@ -80,10 +80,21 @@ void EventLoop::change_interest(int descriptor, std::uint32_t interest) {
   const auto it = watches_.find(descriptor);
   if (it == watches_.end() || it->second.interest == interest) return;
   it->second.interest = interest;
-  epoll_event event{};
-  event.events = epoll_events(interest);
-  event.data.fd = descriptor;
-  epoll_ctl(it->second.epoll, EPOLL_CTL_MOD, descriptor, &event);
+  changed_.push_back(descriptor);
+}
+
+/// Not before the kernel is asked: an interest that is back by then, as after a reply at once, costs nothing.
+void EventLoop::tell_interests() {
+  for (const int descriptor : changed_) {
+    const auto it = watches_.find(descriptor);
+    if (it == watches_.end() || it->second.told == it->second.interest) continue;
+    it->second.told = it->second.interest;
+    epoll_event event{};
+    event.events = epoll_events(it->second.interest);
+    event.data.fd = descriptor;
+    epoll_ctl(it->second.epoll, EPOLL_CTL_MOD, descriptor, &event);
+  }
+  changed_.clear();
 }
 
 void EventLoop::unwatch(int descriptor) {
@@ -125,6 +136,7 @@ void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
   if (until && !is_due) wake_at(*until);
   if (puts_off) mute_later_ones(true);
   const bool only_looks = is_due || (!pieces_.empty() && !puts_off);
+  tell_interests();
   std::array<epoll_event, 32> events{};
   const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), only_looks ? 0 : -1);
   if (puts_off) mute_later_ones(false);
@@ -176,6 +188,7 @@ void EventLoop::call_later_ones(bool are_ready, WallTime slice) {
       if (piece()) pieces_.push_back(piece);
     } else if (are_ready) {
       are_pieces_next_ = true;
+      tell_interests();
       epoll_event event{};
       are_ready = epoll_wait(later_, &event, 1, 0) == 1;
       if (are_ready) call(event.data.fd, event.events);

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace understudy::emulator::serve {
 
@@ -54,9 +55,11 @@ class EventLoop {
   struct Watch {
     int epoll = -1;  // that it is in
     std::uint32_t interest = 0;
+    std::uint32_t told = 0;  // the interest that the kernel knows of
     std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside
   };
   void wake_at(WallTime moment);
+  void tell_interests();
   void call(int descriptor, std::uint32_t events);
   void mute_later_ones(bool are_muted);
   void call_later_ones(bool are_ready, WallTime slice);
@@ -66,6 +69,7 @@ class EventLoop {
   int timer_ = -1;
   WallTime alarm_{0};  // what the timer is set for, or was last set for
   std::map<int, Watch> watches_;
+  std::vector<int> changed_;  // whose interest the kernel may not know of yet
   std::deque<std::function<bool()>> pieces_;
   bool are_pieces_next_ = false;
   WallTime slice_end_ = WallTime::max();  // of what is `later`; no end outside of it
