@@ -135,7 +135,9 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
       continue;
     }
     if (source.how == BitSource::How::constant) {
-      put(i++, static_cast<std::uint32_t>(source.slot));
+      const std::size_t end = std::min<std::size_t>(i + source.run, count);
+      for (; source.slot != 0 && i < end; ++i) put(i, 1);
+      i = end;
       continue;
     }
     if (source.how == BitSource::How::reader) {

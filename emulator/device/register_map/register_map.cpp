@@ -112,13 +112,15 @@ void RegisterMap::find_bit_sources(TableIndex& table) const {
       source = {.how = How::reader,
                 .run = static_cast<std::uint16_t>(entry.index_and_part / 2),
                 .slot = entry.row_number - 1};
-    } else if (row.is_view) {
-      source = {.how = How::constant, .slot = static_cast<std::int32_t>(row.factory & 1)};
     } else {
-      source = {.how = How::stored, .slot = first_slots_[entry.row_number - 1U] + entry.index_and_part / 2};
-      const bool goes_on = address + 1 < table.bits.size() && table.bits[address + 1].how == How::stored &&
-                           table.bits[address + 1].slot == source.slot + 1;
-      if (goes_on) source.run = static_cast<std::uint16_t>(table.bits[address + 1].run + 1);
+      const bool is_constant = row.is_view;
+      source.how = is_constant ? How::constant : How::stored;
+      source.slot = is_constant ? static_cast<std::int32_t>(row.factory & 1)
+                                : first_slots_[entry.row_number - 1U] + entry.index_and_part / 2;
+      if (address + 1 == table.bits.size()) continue;
+      const BitSource& next = table.bits[address + 1];
+      const bool goes_on = next.how == source.how && next.slot == source.slot + (is_constant ? 0 : 1);
+      if (goes_on) source.run = static_cast<std::uint16_t>(next.run + 1);
     }
   }
 }

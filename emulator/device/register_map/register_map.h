@@ -52,7 +52,8 @@ struct BitSource {
     stored,    // in the image
     constant,  // 0 or 1, in `slot`
   } how = How::asks;
-  std::uint16_t run = 1;  // of stored bits: so many, in neighbouring slots, begin here
+  // So many begin here: of stored bits in neighbouring slots, of equal constants.
+  std::uint16_t run = 1;
   std::int32_t slot = 0;
 };
 

@@ -242,10 +242,10 @@ void Daemon::catch_up_for_bytes() { catch_up(kWorkForBytes); }
 
 void Daemon::catch_up(WallTime longest) {
   const WallTime now = wall_now();
-  judge_stall();
+  judge_stall(now);
   const bool is_free = pacer_.speed().kind == Speed::Kind::free;
   const SimTime target = std::max(world_.now(), pacer_.target(now));
-  work_towards(target, is_free ? kWorkSlice : longest);
+  work_towards(target, now + (is_free ? kWorkSlice : longest));
   if (world_.now() >= target) {
     behind_since_.reset();
   } else if (is_free) {
@@ -256,10 +256,10 @@ void Daemon::catch_up(WallTime longest) {
 }
 
 /// Before anything catches up with the time that has passed: was it a stall?
-void Daemon::judge_stall() {
+void Daemon::judge_stall(WallTime now) {
   if (!planned_) return;
   const WallTime planned = *std::exchange(planned_, std::nullopt);
-  const WallTime left_out = pacer_.woke(planned, wall_now());
+  const WallTime left_out = pacer_.woke(planned, now);
   if (behind_since_) *behind_since_ += left_out;
   // Every real stall is told; a machine that never keeps up slips by little again and again, and would fill
   // the log.
@@ -270,19 +270,18 @@ void Daemon::judge_stall() {
   }
 }
 
-/// For this much wall time at most; quiet spans are crossed in ever larger steps.
-void Daemon::work_towards(SimTime target, WallTime longest) {
-  const WallTime until = wall_now() + longest;
+/// Until then at most; quiet spans are crossed in ever larger steps.
+void Daemon::work_towards(SimTime target, WallTime until) {
   for (SimTime step = kSimSlice; world_.now() < target; step *= 2) {
     step = std::min(step, longest_step());
     world_.advance_to(target - world_.now() > step ? world_.now() + step : target);
-    if (wall_now() >= until || waits_for_hosts()) return;
+    if (world_.now() >= target || wall_now() >= until || waits_for_hosts()) return;
   }
 }
 
 void Daemon::pause() {
   if (advance_done_) advance_target_ = world_.now();  // it ends here, and says so
-  judge_stall();
+  judge_stall(wall_now());
   pacer_.pause(wall_now());
   catch_up();                                 // to the moment at which the clock stopped,
   pacer_.moved_to(world_.now(), wall_now());  // or as far as the world has come
@@ -291,7 +290,7 @@ void Daemon::pause() {
 
 bool Daemon::set_speed(const Speed& speed) {
   if (advance_done_) return false;
-  judge_stall();
+  judge_stall(wall_now());
   catch_up();
   pacer_.set_speed(speed, wall_now());
   pacer_.moved_to(world_.now(), wall_now());  // what it could not do at the speed before is not a debt
@@ -351,7 +350,7 @@ void Daemon::work_on_advance() {
   if (advance_is_there_) {
     work_towards_condition();
   } else {
-    work_towards(advance_target_, kWorkSlice);
+    work_towards(advance_target_, wall_now() + kWorkSlice);
   }
   pacer_.moved_to(world_.now(), wall_now());
   if (world_.now() < advance_target_) return;

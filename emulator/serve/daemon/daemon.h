@@ -118,9 +118,9 @@ class Daemon {
   void make_ports(const world::Bench& bench);
   void make_doors(const world::Bench& bench);
   void open_files(const world::Bench& bench, const DaemonOptions& options);
-  void judge_stall();
+  void judge_stall(WallTime now);
   void catch_up(WallTime longest);
-  void work_towards(SimTime target, WallTime longest);
+  void work_towards(SimTime target, WallTime until);
   void work_on_advance();
   bool makes_time_go() const;
   bool waits_for_hosts();
