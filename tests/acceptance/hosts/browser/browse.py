@@ -22,6 +22,7 @@ def browser(width, height, dark, folder):
     for flag in ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--hide-scrollbars',
                  f'--user-data-dir={folder}', f'--window-size={width},{height}', '--force-device-scale-factor=1']:
         options.add_argument(flag)
+    options.add_experimental_option('prefs', {'download.default_directory': folder})  # and not in the user's own
     if dark:
         options.add_argument('--force-dark-mode')
     options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
