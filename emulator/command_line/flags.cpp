@@ -135,25 +135,27 @@ struct CommandLine {
     command->add_option("--until", replay.until, "Stop at this simulated time and serve from there [the end]")
         ->check(kNotEmpty);
     command
-        ->add_option("--control", replay.control, "Path of the control socket, with --until [a private one]")
+        ->add_option("--control", replay.control,
+                     "Path of the control socket, with --until or --page [a private one]")
         ->check(kNotEmpty);
-    command
-        ->add_option("--trace", replay.trace,
-                     "Write what moved and switched to this file: FILE.csv, or FILE.vcd for GTKWave")
-        ->check(kNotEmpty);
-    command->add_option("--trace-also", replay.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
+    CLI::Option* const trace =
+        command->add_option("--trace", replay.trace,
+                            "Write what moved and switched to this file: FILE.csv, or FILE.vcd for GTKWave");
+    CLI::Option* const trace_also = command->add_option("--trace-also", replay.trace_also, kTraceAlsoHelp);
+    CLI::Option* const capture = command->add_option(
+        "--capture", replay.capture,
+        "Write what went over the lines to this file: FILE.pcapng for Wireshark, else a text log");
+    CLI::Option* const report =
+        command->add_option("--report", replay.report, "Write a page about it to this file, as HTML");
+    for (CLI::Option* const file : {trace, trace_also, capture, report}) file->check(kNotEmpty);
+    trace_also->delimiter(',');
     command
         ->add_option(
-            "--capture", replay.capture,
-            "Write what went over the lines to this file: FILE.pcapng for Wireshark, else a text log")
-        ->check(kNotEmpty);
-    command->add_option("--report", replay.report, "Write a page about it to this file, as HTML")
-        ->check(kNotEmpty);
-    command
-        ->add_option("--page", replay.page,
-                     "Open it in a browser, to go to and fro in it, at this port [any]")
+            "--page", replay.page,
+            "Open it in a browser, to go to and fro in it, at this port [any]; with --until, at that time")
         ->expected(0, 1)
-        ->default_str("0");
+        ->default_str("0")
+        ->excludes(trace, trace_also, capture, report);
     command->callback([this] {
       replay.version = UNDERSTUDY_VERSION;
       chosen = [this] { return replay_recording(models, replay); };

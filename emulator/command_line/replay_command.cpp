@@ -1,5 +1,6 @@
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -78,8 +79,18 @@ class Rememberer final : public world::ReplayWatcher {
   std::vector<world::RecordedEvent>& events_;
 };
 
-/// The whole of it, and then any moment of it; one that differs as far as it goes.
-int travel_in(ModelList models, const ReplayArguments& arguments) {
+/// The world of a recording that was the same up to there, as it was then.
+world::WorldState state_at(ModelList models, const std::string& recording, SimTime time) {
+  std::ifstream file(recording, std::ios::binary);
+  std::optional<world::WorldState> state;
+  world::replay(models, file, recording, time, {},
+                [&](const world::World& world) { state = world::save(world); });
+  return *state;
+}
+
+/// The whole of it, and then any moment of it, first `until` or its begin; one that differs as far as it
+/// goes.
+int travel_in(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> until) {
   std::ifstream file(arguments.recording, std::ios::binary);
   std::optional<world::WorldState> begin;
   std::vector<world::RecordedEvent> events;
@@ -89,7 +100,9 @@ int travel_in(ModelList models, const ReplayArguments& arguments) {
   if (!replayed.result.difference.empty())
     log_line(arguments.recording + ": differs: " + replayed.result.difference);
   const auto door = serve::timeline_door(arguments.control, *begin, events, replayed.result.reached);
-  return serve_from(replayed, *begin, arguments.recording, door, arguments.page);
+  const world::WorldState at_first =
+      until ? state_at(models, arguments.recording, std::min(*until, replayed.result.reached)) : *begin;
+  return serve_from(replayed, at_first, arguments.recording, door, arguments.page);
 }
 
 }  // namespace
@@ -105,7 +118,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
     throw world::RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");
   }
-  if (arguments.page) return travel_in(models, arguments);
+  if (arguments.page) return travel_in(models, arguments, until);
   FileClaims claims;
   claims.add({arguments.recording, "the recording itself"});
   demand_looks(arguments, claims);

@@ -33,14 +33,19 @@ class PageOfAFailure : public testing::Test {
     const std::string scenario = folder_.write("failing.yaml", kFailing);
     const Finished run = understudy({"run", scenario, "--record", folder_.path()});
     ASSERT_EQ(run.exit_code, 1) << run.errors;
-    std::string recording;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
-      if (entry.path().string().find("jsonl") != std::string::npos) recording = entry.path();
+      if (entry.path().string().find("jsonl") != std::string::npos) recording_ = entry.path();
     }
-    ASSERT_NE(recording, "") << run.output;
-    EXPECT_EQ(understudy({"replay", recording}).exit_code, 0);
-    process_ = std::make_unique<Process>(
-        Words{UNDERSTUDY_BINARY, "replay", recording, "--page", "--control", folder_ / "control"});
+    ASSERT_NE(recording_, "") << run.output;
+    EXPECT_EQ(understudy({"replay", recording_}).exit_code, 0);
+    open_page({});
+  }
+  void open_page(const Words& more) {
+    browser_.reset();
+    process_.reset();
+    Words words{UNDERSTUDY_BINARY, "replay", recording_, "--page", "--control", folder_ / "control"};
+    words.insert(words.end(), more.begin(), more.end());
+    process_ = std::make_unique<Process>(words);
     ASSERT_TRUE(eventually([&] {
       return process_->output().find("#") != std::string::npos &&
              process_->output().find('\n', process_->output().find('#')) != std::string::npos;
@@ -65,6 +70,7 @@ class PageOfAFailure : public testing::Test {
   }
 
   const PrivateFolder folder_;
+  std::string recording_;
   std::unique_ptr<Process> process_;
   std::unique_ptr<TestBrowser> browser_;
 };
@@ -90,6 +96,24 @@ TEST_F(PageOfAFailure, GoesToAndFro) {
   const TestJson one_back = ask({{"do", "seek"}, {"by", "tick"}, {"steps", -1}});
   EXPECT_LE(end / 2 - one_back["simulated_time_ns"].get<std::int64_t>(), 1'000'000);
   EXPECT_LT(one_back["simulated_time_ns"], end / 2);
+}
+
+TEST_F(PageOfAFailure, OpensAtTheTimeOfUntilOrAtItsEnd) {
+  const std::int64_t half_way = position_at(250'000'000);
+  open_page({"--until", "250ms"});
+  EXPECT_EQ(ask({{"do", "timeline"}})["timeline"]["at_ns"], 250'000'000);
+  EXPECT_EQ(position_at(250'000'000), half_way);
+  open_page({"--until", "10h"});
+  const TestJson timeline = ask({{"do", "timeline"}})["timeline"];
+  EXPECT_EQ(timeline["at_ns"], timeline["end_ns"]);
+}
+
+TEST_F(PageOfAFailure, WritesNoFilesOfAReplayBesideIt) {
+  for (const char* const flag : {"--trace", "--capture", "--report"}) {
+    const Finished run = understudy({"replay", recording_, "--page", flag, folder_ / "file.csv"});
+    EXPECT_EQ(run.exit_code, 2) << flag;
+    EXPECT_NE(run.errors.find(flag), std::string::npos) << run.errors;
+  }
 }
 
 }  // namespace page_recording_test

@@ -40,13 +40,15 @@ class Travel {
  public:
   Travel(Daemon& daemon, const world::WorldState& begin, std::vector<world::RecordedEvent> events,
          SimTime end)
-      : daemon_(daemon), timeline_(daemon.world(), begin, std::move(events), end, [this] { collect(); }) {
+      : daemon_(daemon),
+        at_first_(daemon.world().now()),
+        timeline_(daemon.world(), begin, std::move(events), end, [this] { collect(); }) {
     std::sort(moments_.begin(), moments_.end());
     for (const world::RecordedEvent& event : timeline_.events()) {
       if (event.failed.empty()) continue;
       marks_.push_back(Json{{"time_ns", event.at.count()}, {"what", "failed"}, {"text", event.failed}});
     }
-    go_to(timeline_.begin());
+    go_to(std::clamp(at_first_, timeline_.begin(), timeline_.end()));
   }
 
   Json timeline(const Json& message) {
@@ -139,6 +141,7 @@ class Travel {
   }
 
   Daemon& daemon_;
+  SimTime at_first_;
   std::uint64_t next_frame_ = 1;
   std::uint64_t next_event_ = 1;
   std::vector<SimTime> moments_;

@@ -11,7 +11,7 @@
 namespace understudy::emulator::serve {
 
 /// The door of a daemon whose world is of the recording's bench and stands. It plays the recording once, when
-/// it is made, and goes to its begin. `path` as of control_door().
+/// it is first asked for it, and goes back to where the world stood. `path` as of control_door().
 DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
                         const std::vector<world::RecordedEvent>& events, SimTime end);
 

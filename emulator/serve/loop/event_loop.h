@@ -55,7 +55,7 @@ class EventLoop {
   struct Watch {
     int epoll = -1;  // that it is in
     std::uint32_t interest = 0;
-    std::uint32_t told = 0;  // the interest that the kernel knows of
+    std::uint32_t told = 0;                                     // the interest that the kernel knows of
     std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside
   };
   void wake_at(WallTime moment);
