@@ -293,7 +293,7 @@ void World::step_plant(std::size_t number) {
     PlantAxis& plant = plants_[number][a];
     const AxisRow& axis = axes[a];
     const std::int64_t pulses = driven_axes.pulses_this_tick(static_cast<int>(a));
-    sent_pulses_[number][a] += pulses;
+    count_sent(sent_pulses_[number][a], pulses);
     if (plant.step_quietly(pulses)) {
       const bool has_turned = pulses != 0 && plant.has_encoder();
       if (has_turned) driven_axes.set_encoder(static_cast<int>(a), plant.quiet_encoder_counts());

@@ -225,6 +225,10 @@ class World final : public WorldView {
   void run_device(std::size_t number);
   void prefetch_device(std::size_t number) const;
   void step_plant(std::size_t number);
+  /// It wraps: a forged snapshot may hold any count.
+  static void count_sent(std::int64_t& sent, std::int64_t pulses) {
+    sent = static_cast<std::int64_t>(static_cast<std::uint64_t>(sent) + static_cast<std::uint64_t>(pulses));
+  }
   void latch_wires();
   // Edges between ticks: world_edges.cpp.
   MachineEdges edges_of(std::size_t device, std::size_t axis) const;

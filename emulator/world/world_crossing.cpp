@@ -66,7 +66,7 @@ void World::cross_to(Tick tick) {
     pulses.assign(plants_[d].size(), 0);
     if (devices_[d]->powered()) devices_[d]->cross_to(done_, tick, Machines(plants_[d]), pulses);
     for (std::size_t a = 0; a < pulses.size(); ++a) {
-      sent_pulses_[d][a] += pulses[a];
+      count_sent(sent_pulses_[d][a], pulses[a]);
       plants_[d][a].cross(pulses[a]);
     }
     devices_[d]->set_now(tick);

@@ -125,7 +125,7 @@ Parsed parse_strictly(const std::string& text) {
     if (depth == 2 && outermost == "reals") parsed.reals.push_back(key);
     if (outermost != "blocks" || depth < 2) return true;
     if (depth == 2) parsed.blocks.push_back({.kind = key, .name = {}, .line = lines.at(seen)});
-    if (depth == 3) {
+    if (depth == 3 && !parsed.blocks.empty()) {  // without a kind it is in a list, which is refused later
       parsed.blocks.push_back({.kind = parsed.blocks.back().kind, .name = key, .line = lines.at(seen)});
     }
     return true;
