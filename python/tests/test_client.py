@@ -3,6 +3,7 @@ import os
 import pathlib
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -64,6 +65,17 @@ def test_refusals_have_the_programs_words(bench):
         bench.get("Cord_A")
     with pytest.raises(understudy.NotThere, match="nosuch"):
         understudy.start("nosuch.yaml")
+
+
+def test_a_daemon_that_never_answers_is_given_up(tmp_path):
+    path = str(tmp_path / "silent")
+    with socket.socket(socket.AF_UNIX) as silent:
+        silent.bind(path)
+        silent.listen()
+        begin = time.monotonic()
+        with pytest.raises(understudy.NotThere, match="timed out"):
+            understudy.Bench(path, timeout_s=0.3)
+        assert 0.25 < time.monotonic() - begin < 10
 
 
 def test_a_second_client_attaches(bench):

@@ -14,7 +14,7 @@ class Connection:
     def __init__(self, path: str, timeout_s: Optional[float] = 60.0) -> None:
         self._socket = socket.socket(socket.AF_UNIX)
         if timeout_s is not None:
-            # The kernel's own timeouts: with `settimeout` Python asks `poll` before each call.
+            # The kernel's own timeouts: with `settimeout` Python asks `poll` before each call. One of 0 would be none.
             time = struct.pack("@ll", int(timeout_s), max(1, int(timeout_s % 1 * 1e6)))
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, time)
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, time)

@@ -109,7 +109,7 @@ TEST_F(PageOfAFailure, OpensAtTheTimeOfUntilOrAtItsEnd) {
 }
 
 TEST_F(PageOfAFailure, WritesNoFilesOfAReplayBesideIt) {
-  for (const char* const flag : {"--trace", "--capture", "--report"}) {
+  for (const char* const flag : {"--trace", "--trace-also", "--capture", "--report"}) {
     const Finished run = understudy({"replay", recording_, "--page", flag, folder_ / "file.csv"});
     EXPECT_EQ(run.exit_code, 2) << flag;
     EXPECT_NE(run.errors.find(flag), std::string::npos) << run.errors;

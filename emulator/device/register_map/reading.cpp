@@ -121,8 +121,8 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
   std::fill(packed.begin(), packed.end(), std::uint8_t{0});
   const auto sources = bank.map().bit_sources(table);
   const auto image = bank.image();
-  const auto put = [&](std::size_t i,
-                       std::uint32_t bit) {  // most are 0: a byte is not written for each of them
+  // Most are 0: a byte is not written for each of them.
+  const auto put = [&](std::size_t i, std::uint32_t bit) {
     if ((bit & 1U) != 0) packed[i / 8] |= static_cast<std::uint8_t>(1U << i % 8);
   };
   for (std::size_t i = 0; i < count;) {

@@ -119,7 +119,8 @@ void RegisterMap::find_bit_sources(TableIndex& table) const {
                                 : first_slots_[entry.row_number - 1U] + entry.index_and_part / 2;
       if (address + 1 == table.bits.size()) continue;
       const BitSource& next = table.bits[address + 1];
-      const bool goes_on = next.how == source.how && next.slot == source.slot + (is_constant ? 0 : 1);
+      const bool goes_on =
+          next.how == source.how && next.slot == source.slot + (is_constant ? 0 : 1) && next.run < UINT16_MAX;
       if (goes_on) source.run = static_cast<std::uint16_t>(next.run + 1);
     }
   }

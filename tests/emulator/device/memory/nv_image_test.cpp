@@ -161,6 +161,11 @@ TEST(NvImage, RefusesWhatIsNoImage) {
        "line 1: 'understudy': appears twice; expected it once"},
       {"a register twice", with_registers(R"({"A": 1, "B": 2, "A": 1})"),
        "line 1: 'A': appears twice; expected it once"},
+      {"a list of kinds of blocks",
+       head + R"("firmware": "1.52", "registers": {}, "blocks": [{"files": {}}]})",
+       "blocks: is not an object; expected kinds of blocks"},
+      {"a list of blocks, cut off", R"({"blocks": [{"files": {"f1": "a)",
+       "line 1: is torn or not JSON; expected an NV image"},
       {"a key with a newline, twice", R"({"a\nb": 1, "a\nb": 1})", "'a?b': appears twice; expected it once"},
   };
   for (const Refused& c : cases) {

@@ -111,6 +111,48 @@ TEST(Policy, TheLastAddressIsOneLikeOthers) {
   }
 }
 
+TEST(Policy, ATableOfBitsMayBeFullFromItsFirstAddressOn) {
+  const RegisterRow stored[] = {coil(0, "A{}").times(32768, 1, 0), coil(32768, "B{}").times(32768, 1, 0)};
+  const RegisterRow constant[] = {discrete(0, "A{}").always(1).times(32768, 1, 0),
+                                  discrete(32768, "B{}").always(1).times(32768, 1, 0)};
+  Toy changing(stored);
+  EXPECT_EQ(write_words(changing.device, Table::coil, 1, world::Words{1, 0, 1}), Refusal::none);
+  Toy standing(constant);
+  std::array<std::uint8_t, 1> packed{};
+  EXPECT_EQ(read_bits_request(changing.device, Table::coil, 0, 8, packed), Objection{});
+  EXPECT_EQ(packed[0], 0x0A);
+  for (const std::uint16_t first : {0, 1, 32764, 65528}) {
+    EXPECT_EQ(read_bits_request(standing.device, Table::discrete, first, 7, packed), Objection{});
+    EXPECT_EQ(packed[0], 0x7F) << first;
+  }
+}
+
+TEST(Policy, NeighboursThatNeverChangeAreReadAloneAndTogether) {
+  const RegisterRow rows[] = {discrete(0, "A{}").always(1).times(3, 1, 0),
+                              discrete(3, "B{}").always(0).times(4, 1, 0),
+                              discrete(7, "C{}").always(1).times(5, 1, 0), coil(0, "D")};
+  Toy toy(rows);
+  constexpr int kBits = 0b111110000111;
+  for (int first = 0; first < 12; ++first) {
+    for (int count = 1; first + count <= 12; ++count) {
+      std::array<std::uint8_t, 2> packed{};
+      EXPECT_EQ(read_bits_request(toy.device, Table::discrete, static_cast<std::uint16_t>(first),
+                                  static_cast<std::size_t>(count), packed),
+                Objection{});
+      EXPECT_EQ(packed[0] | packed[1] << 8, kBits >> first & ((1 << count) - 1)) << first << ' ' << count;
+    }
+  }
+}
+
+TEST(Policy, WhatChangesIsNotTakenForTheConstantBeforeIt) {
+  const RegisterRow rows[] = {coil(0, "A", Access::read).always(0), coil(1, "B")};
+  Toy toy(rows);
+  EXPECT_EQ(write_words(toy.device, Table::coil, 1, world::Words{1}), Refusal::none);
+  std::array<std::uint8_t, 1> packed{};
+  EXPECT_EQ(read_bits_request(toy.device, Table::coil, 0, 2, packed), Objection{});
+  EXPECT_EQ(packed[0], 2);
+}
+
 TEST(Policy, WhatCanOnlyBeWrittenMayRefuseToBeRead) {
   Toy open(kToyRows);
   EXPECT_EQ(world::read(open.device, 0x0015, 3), (world::Words{0, 0, 0x8421}));

@@ -296,9 +296,11 @@ TEST(EventLoop, WhatMayWaitDoesSoWhileSomethingIsDueSoon) {
   for (int turn = 0; turn < 50; ++turn) {
     due = wall_now() + EventLoop::kRoom / 2;
     begins.clear();
-    while (wall_now() < due) loop.wait(due);
+    int waits = 0;  // one that puts them off, and one until the moment comes
+    for (; wall_now() < due; ++waits) loop.wait(due);
     for (const WallTime begin : begins) too_soon += begin < due ? 1 : 0;
-    loop.wait(due);  // it is past: the others have their turn
+    if (waits == 1) loop.wait(due);  // the machine has held us up: what is due is still to come first
+    loop.wait(due);                  // it is past: the others have their turn
     EXPECT_FALSE(begins.empty()) << turn;
   }
   EXPECT_EQ(too_soon, 0);
