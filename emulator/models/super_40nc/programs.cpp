@@ -72,13 +72,27 @@ void Super40nc::make_programs_ready() {
     }
   }
   if (state_.table.runs != UserTable::Runs::nothing) put_table_in_place();
+  show_line_counts();
+}
+
+/// D9036 to D9042, where they are chosen to tell what there is, not what there is room for.
+void Super40nc::show_line_counts() {
+  if (!shows_line_counts()) return;
+  const Kept shown[] = {kept_d(9042), kept_d(9037), kept_d(9038), kept_d(9039), kept_d(9040), kept_d(9036)};
+  for (const language::AreaRow& row : language::kAreas) {
+    const auto program = stored_area(state_.blocks, kPrograms, row.name, row.area, options_);
+    std::int32_t count = 0;
+    for (const language::Instruction& line : program.value_or(language::AreaProgram{}).lines) {
+      count += language::steps_of(line);
+    }
+    put(shown[language::index_of(row.area)], count);
+  }
 }
 
 /// D9042 is the room of C and of each file.
 language::Options Super40nc::options_with_room() const {
   language::Options options = options_;
-  const std::int32_t room = registers().raw(kept_d(9042));
-  if (room > 0) options.c_capacity = room;  // it is 0 before power-up
+  if (registers().raw(kept_d(9045)) > 0) options.c_capacity = room_of_c();  // it is 0 before power-up
   return options;
 }
 
