@@ -119,7 +119,8 @@ class Checker {
     const auto number = tokens.size() < 2 ? std::optional<std::int64_t>{} : decimal(tokens[1].text);
     const Token& at = tokens[std::min<std::size_t>(1, tokens.size() - 1)];
     if (!number || *number < 0 || *number > kGreatestFile) {
-      return fail(at, Code::no_such_file, "FILE has no number", "0 to " + std::to_string(kGreatestFile));
+      const std::string what = tokens.size() < 2 ? "FILE has no number" : quoted(at.text) + " is not a file";
+      return fail(at, Code::no_such_file, what, "0 to " + std::to_string(kGreatestFile));
     }
     if (program_.files.contains(static_cast<int>(*number))) {
       return fail(at, Code::unknown, "file " + std::to_string(*number) + " appears twice", "each file once");

@@ -62,6 +62,8 @@ class StepPrograms : public StepControl {
   void take(Event event, Area area);
   void start(Area area) override;
   void stop(Area area) override { take(Event::stop, area); }
+  /// Another one is to take its place; the machine has stopped what it moves.
+  void unload(Area area) { forget(area); }
 
   /// The slice of a tick of one program; of all, in the order of the areas. Their contacts (M8000, M8x00) are
   /// looked at first: one that is ON starts what does not run, one that is OFF pauses it.

@@ -365,6 +365,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool shows_line_counts() const { return chose(option("line_counts", "steps_of_the_programs")); }
   bool is_too_long(std::string_view kind, std::string_view name) const;
   void tell(interpreter::super_40nc::Event event, interpreter::super_40nc::Area area);
+  void give_up_program(interpreter::super_40nc::Area area);
   bool programs_are_busy() const;
   void plc_to_run();
   void plc_to_stop();
