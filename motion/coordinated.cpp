@@ -25,6 +25,13 @@ std::int64_t nearest(double value) {
   return value < 0 ? -whole : whole;
 }
 
+/// Towards zero; what is short of a pulse by rounding errors alone is one.
+std::int64_t whole(double value) {
+  constexpr double kAlmost = 1e-6;
+  const double size = std::min(std::abs(value) + kAlmost, 1e18);
+  return static_cast<std::int64_t>(value < 0 ? -size : size);
+}
+
 /// Nothing for kNone, and for an axis that the span does not have.
 Axis* axis_at(std::int8_t number, std::span<Axis> axes) {
   const bool there = number >= 0 && static_cast<std::size_t>(number) < axes.size();
@@ -43,8 +50,8 @@ std::int64_t Coordinated::travel_at(std::size_t i, double place_u) const {
   const UnitScale& by = scale[i];
   // A unit is a pulse for most, and dividing by 1 takes its time all the same.
   if (by.multiplier == 1 && by.divider == 1) return zero_pulses[i] + nearest(place_u);
-  return zero_pulses[i] +
-         nearest(place_u * static_cast<double>(by.multiplier) / static_cast<double>(by.divider));
+  const double pulses = place_u * static_cast<double>(by.multiplier) / static_cast<double>(by.divider);
+  return zero_pulses[i] + (by.truncates ? whole(pulses) : nearest(pulses));
 }
 
 bool Coordinated::takes(std::size_t axis) const {

@@ -102,6 +102,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
                  .again_while = bit(Signal::home),
                  .distance_pulses = back * std::max<std::int64_t>(how.leave_pulses, 1)});
   }
+  const std::int8_t search = program.phase_count;
   const bool at_once = mode.at == At::limit && how.limit_stops_at_once;
   // Behind the switch it would look for the index from a wrong place (《X32.》 note). Modes 0 and 9 do not.
   const bool must_stay = mode.then == kSlowDown && mode.after != After::nothing;
@@ -140,6 +141,17 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   const std::int8_t last = how.offset_creeps ? kCreep : kFast;
   if (mode.zero) program.add({.does = Does::go_back, .speed = last});
   program.add({.does = Does::go, .speed = last, .distance_pulses = how.offset_pulses});
+  if (mode.at != At::dog || !how.turns_at_limit) return program;
+  // Behind the last row: past the DOG, and look again. Home is found below it.
+  const std::int8_t past = program.phase_count;
+  program.phases[static_cast<std::size_t>(search)].if_limit = past;
+  program.phases[static_cast<std::size_t>(past - 1)].next = static_cast<std::int8_t>(past + 1);
+  program.add({.way = back,
+               .speed = kFast,
+               .until = Signal::home,
+               .until_on = false,
+               .next = search,
+               .if_already = HomingPhase::kAwait});
   return program;
 }
 
@@ -169,6 +181,7 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
                .then = how.mark_slows ? kSlowDown : kStop,
                .marks = true,
                .within_pulses = search - behind,
+               .if_already = how.needs_edge ? HomingPhase::kAwait : HomingPhase::kNext,
                .if_far = HomingPhase::kRowBelow});
   return program;
 }

@@ -23,6 +23,7 @@ struct Super40ncHoming {
   bool leaves_fast = false;          // the DOG that is on at the start
   bool offset_creeps = false;        // the way back to the reference, and the offset
   bool plate_may_be_short = false;   // a DOG that is off behind the stop does not matter
+  bool turns_at_limit = false;       // ahead of the DOG: back past it, and again; else it fails
 };
 /// The reference is the DOG's edge (0, 1, 9), the limit's (6), else the last EZ counted.
 /// Throws BadMotion(out_of_range) for a mode that does not exist.
@@ -41,6 +42,7 @@ struct Super40ncMark {
   bool slows_behind = false;       // the target, and looks once it creeps
   bool looks_all_the_way = false;  // a mark before the target ends it as well
   bool mark_slows = false;         // it stops by its ramp
+  bool needs_edge = false;         // one that is on when it begins to look does not count
 };
 /// Throws BadMotion(out_of_range) for a search of 0.
 HomingProgram super40nc_mark(const Super40ncMark& how);

@@ -112,7 +112,8 @@ struct StateOf<motion::Counter> {
 template <>
 struct StateOf<motion::UnitScale> {
   static constexpr auto fields = FieldList{field("multiplier", &motion::UnitScale::multiplier),
-                                           field("divider", &motion::UnitScale::divider)};
+                                           field("divider", &motion::UnitScale::divider),
+                                           field("truncates", &motion::UnitScale::truncates)};
   static void check(const motion::UnitScale& value) { motion::check_restored(value); }
 };
 

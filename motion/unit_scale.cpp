@@ -31,7 +31,10 @@ UnitScale UnitScale::of(std::int64_t multiplier, std::int64_t divider) {
 }
 
 std::optional<std::int64_t> UnitScale::to_pulses(std::int64_t units) const {
-  return rounded_quotient(units, multiplier, divider);
+  if (!truncates) return rounded_quotient(units, multiplier, divider);
+  const Wide quotient = Wide{units} * multiplier / divider;
+  const auto result = static_cast<std::int64_t>(quotient);
+  return Wide{result} == quotient ? std::optional(result) : std::nullopt;
 }
 
 std::optional<std::int64_t> UnitScale::to_units(std::int64_t pulses) const {

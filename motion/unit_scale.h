@@ -7,10 +7,12 @@
 namespace understudy::motion {
 
 /// pulses = units * multiplier / divider, both 1 .. 2^31 - 1 (SUPER-40NC CMX/CDV, SLIM PN45/PN46). Rounds
-/// half away from zero; always convert absolute positions, so that roundings do not pile up.
+/// half away from zero, or pulses towards zero; always convert absolute positions, so that roundings do not
+/// pile up.
 struct UnitScale {
   std::int64_t multiplier = 1;
   std::int64_t divider = 1;
+  bool truncates = false;  // pulses, towards zero
 
   bool operator==(const UnitScale&) const = default;
 

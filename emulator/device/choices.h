@@ -43,9 +43,8 @@ std::vector<std::uint8_t> resolve_choices(std::span<const ChoiceRow> rows,
 
 /// Where a row stands in its table. If there is none, that is a compile error in a constant expression; not
 /// consteval, because clang 14 does not let one such function call another with its own arguments.
-template <std::size_t N>
-constexpr std::size_t choice_number(const ChoiceRow (&rows)[N], std::string_view id) {
-  for (std::size_t i = 0; i < N; ++i) {
+constexpr std::size_t choice_number(std::span<const ChoiceRow> rows, std::string_view id) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].id == id) return i;
   }
   throw "no such choice";
@@ -58,8 +57,7 @@ struct Option {
 };
 
 /// A row or an option that does not exist.
-template <std::size_t N>
-constexpr Option option_of(const ChoiceRow (&rows)[N], std::string_view id, std::string_view name) {
+constexpr Option option_of(std::span<const ChoiceRow> rows, std::string_view id, std::string_view name) {
   const std::size_t row = choice_number(rows, id);
   std::string_view rest = rows[row].options;
   for (std::uint8_t number = 0;; ++number) {

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/error.h"
@@ -22,46 +21,10 @@
 #include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/program.h"
 #include "interpreter/super_40nc/structure.h"
+#include "interpreter/super_40nc/tokens.h"
 
 namespace understudy::interpreter::super_40nc {
 namespace {
-
-struct Token {
-  std::string_view text;
-  int line = 0;
-  int column = 0;
-};
-
-constexpr bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
-constexpr char upper(char letter) {
-  return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
-}
-std::string upper_case(std::string_view text) {
-  std::string made(text);
-  std::transform(made.begin(), made.end(), made.begin(), upper);
-  return made;
-}
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
-
-std::vector<Token> tokens_of(std::string_view text, int line) {
-  text = text.substr(0, text.find(';'));
-  constexpr std::string_view kBlanks = " \t\r\f\v,";
-  std::vector<Token> tokens;
-  std::size_t at = 0;
-  while ((at = text.find_first_not_of(kBlanks, at)) != std::string_view::npos) {
-    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-    tokens.push_back({text.substr(at, end - at), line, static_cast<int>(at) + 1});
-    at = end;
-  }
-  return tokens;
-}
-
-/// Digits with a sign perhaps; nothing if 64 bits do not hold it.
-std::optional<std::int64_t> decimal(std::string_view text) {
-  const std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
-  if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return {};
-  return parse_integer(text);
-}
 
 const InstructionRow* find_mnemonic(const std::string& word) {
   for (const InstructionRow& row : kInstructions) {
@@ -156,7 +119,8 @@ class Checker {
     const auto number = tokens.size() < 2 ? std::optional<std::int64_t>{} : decimal(tokens[1].text);
     const Token& at = tokens[std::min<std::size_t>(1, tokens.size() - 1)];
     if (!number || *number < 0 || *number > kGreatestFile) {
-      return fail(at, Code::no_such_file, "FILE has no number", "0 to " + std::to_string(kGreatestFile));
+      const std::string what = tokens.size() < 2 ? "FILE has no number" : quoted(at.text) + " is not a file";
+      return fail(at, Code::no_such_file, what, "0 to " + std::to_string(kGreatestFile));
     }
     if (program_.files.contains(static_cast<int>(*number))) {
       return fail(at, Code::unknown, "file " + std::to_string(*number) + " appears twice", "each file once");
@@ -292,7 +256,8 @@ class Checker {
       const Slot slot = row.slots[i];
       const std::string name = "field " + std::to_string(i + 1) + " of " + std::string(row.mnemonic);
       if (!field.is_set()) {
-        if (!may_be_unset(slot)) fail(token, Code::unknown, name + " is unset", names_of(allowed(slot)));
+        if (!may_be_unset(slot) && !is_skipped_unset(row.op, i))
+          fail(token, Code::unknown, name + " is unset", names_of(allowed(slot)));
       } else if (slot == Slot::none) {
         fail(token, Code::unknown, name + " has no meaning",
              i == 0 ? "no field" : std::to_string(i) + " at most");
@@ -303,19 +268,30 @@ class Checker {
              "K0 to K" + std::to_string(kGreatestLabel));
       }
     }
+    const bool lacks_one = std::any_of(instruction.fields.begin(), instruction.fields.end(),
+                                       [](const Operand& field) { return !field.is_set(); });
+    if (row.op == Op::c3p && lacks_one && !options_.c3p_may_lack_fields) {
+      fail(tokens[at], Code::unknown, "C3P lacks a field", "all four");
+    }
     if (row.op == Op::zrst && checked_.errors.size() == errors) look_at_range(instruction, tokens[at]);
   }
   static constexpr std::int32_t kGreatestLabel = 9999999;
 
+  bool is_skipped_unset(Op op, std::size_t field) const {
+    return options_.unset_lines_are_skipped && field == place_of_needed(op);
+  }
+
   Letters allowed(Slot slot) const {
     const Letters some = letters_of(slot);
+    if (slot == Slot::preset && !options_.presets_may_be_registers) return letters(Letter::k);
     const bool may_reset = options_.timers_can_be_reset || (slot != Slot::resettable && slot != Slot::range);
     return may_reset ? some : static_cast<Letters>(some & ~letters(Letter::t, Letter::c));
   }
 
   void look_at_range(const Instruction& zrst, const Token& token) {
     const auto& [first, last, unused, unused2] = zrst.fields;
-    if (first.letter != last.letter || first.number > last.number || block_of(first) != block_of(last)) {
+    const bool is_swapped = first.number > last.number && options_.swapped == Options::Swapped::is_refused;
+    if (first.letter != last.letter || is_swapped || block_of(first) != block_of(last)) {
       fail(token, Code::out_of_range, text_of(first) + " to " + text_of(last) + " is not a range",
            "two of one kind, the lower one first, without a hole between them");
     }

@@ -179,6 +179,13 @@ constexpr bool may_be_unset(Slot slot) {
   return slot == Slot::none || slot == Slot::times || slot == Slot::amount;
 }
 
+/// Of F, TMR, CWR and CCWR the field without which the line means nothing; of all others none.
+constexpr std::size_t place_of_needed(Op op) {
+  constexpr std::size_t kNone = 4;
+  if (op == Op::f || op == Op::tmr) return 0;
+  return op == Op::cwr || op == Op::ccwr ? 2 : kNone;
+}
+
 /// How the condition of an instruction counts in the PLC.
 enum class InPlc : std::uint8_t {
   nothing,  // not there, or without a condition

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -15,6 +17,7 @@
 #include "interpreter/super_40nc/numbers.h"
 #include "interpreter/super_40nc/operand.h"
 #include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/plc_lines.h"
 #include "interpreter/super_40nc/program.h"
 #include "interpreter/super_40nc/structure.h"
 
@@ -25,10 +28,6 @@ constexpr bool is_edge_contact(Op op) {
   return op == Op::ldp || op == Op::ldf || op == Op::orp || op == Op::orf || op == Op::anp || op == Op::anf;
 }
 constexpr bool is_falling(Op op) { return op == Op::ldf || op == Op::orf || op == Op::anf; }
-constexpr bool has_memory(Op op) {
-  const InPlc how = row_of(op).in_plc;
-  return how == InPlc::rising_edge || how == InPlc::falling_edge;
-}
 constexpr bool is_plain(Operand operand) { return !is_special(operand); }
 
 /// Those that have a step of their own, if what they switch or write is plain.
@@ -72,6 +71,16 @@ class LadderMaker {
 
  private:
   std::uint16_t new_memory() { return static_cast<std::uint16_t>(ladder_.memory_count_++); }
+  std::uint16_t memory_of(Operand bit) {
+    if (!options_.bits_remember_edges) return new_memory();
+    const auto [known, is_new] = memories_.try_emplace({bit.letter, bit.number});
+    if (is_new) known->second = new_memory();
+    return known->second;
+  }
+  bool has_memory(Op op) const {
+    const InPlc how = row_of(op).in_plc;
+    return how == InPlc::rising_edge || how == InPlc::falling_edge || needs_edge(op, options_);
+  }
 
   std::uint32_t constant(std::int32_t value) {
     ladder_.constants_.push_back(static_cast<std::uint32_t>(value));
@@ -105,7 +114,7 @@ class LadderMaker {
       step.act = at(place, Act::load_edge);
       step.flags = is_falling(line.op) ? kFalling : 0;
       std::tie(step.bank_a, step.a) = contact(first);
-      step.memory = new_memory();
+      step.memory = memory_of(first);
     } else if (is_contact(line.op)) {
       step.act = at(place, Act::load);
       step.flags = is_inverted(line.op) ? kInverted : 0;
@@ -180,7 +189,9 @@ class LadderMaker {
       const bool is_value = slot == Slot::source && line.fields[i].letter == Letter::t;
       if (is_value) timers_read_.insert(value_cell(layout_, line.fields[i]));
     }
-    if (line.op == Op::zrst) note(first, std::int64_t{second.number} - first.number + 1);
+    if (line.op == Op::zrst)
+      note(first.number < second.number ? first : second,
+           std::abs(std::int64_t{second.number} - first.number) + 1);
     if (line.op == Op::div) note(third, 2);
     if (line.op == Op::fmv) note(second, third.letter == Letter::k ? third.number : INT32_MAX);
   }
@@ -198,7 +209,8 @@ class LadderMaker {
   const CellLayout& layout_;
   const Options& options_;
   std::set<std::pair<Letter, std::int32_t>> reads_;
-  std::set<std::uint32_t> timers_read_;  // cells of values
+  std::map<std::pair<Letter, std::int32_t>, std::uint16_t> memories_;  // of edges, by bit
+  std::set<std::uint32_t> timers_read_;                                // cells of values
 };
 
 Ladder::Ladder(const AreaProgram& program, const CellLayout& layout, const Options& options)

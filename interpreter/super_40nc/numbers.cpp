@@ -38,6 +38,7 @@ Calculated divide(const Instruction& line, Access& access, const Options& option
   if (divisor == 0 && options.division_by_zero == Options::DivisionByZero::changes_nothing) {
     return {false, Code::division_by_zero};
   }
+  if (options.remainder_needs_room && !next_to(line.fields[2]).is_set()) return {false, Code::out_of_range};
   Calculated result;
   if (divisor == 0) result.code = Code::division_by_zero;
   std::int64_t quotient = divisor == 0 ? 0 : dividend / divisor;  // to 0
@@ -71,9 +72,13 @@ Calculated fill(const Instruction& line, Access& access, const Options& options)
   return result;
 }
 
-Calculated clear(const Instruction& line, Access& access) {
+/// ZRST. The higher end stands first only where that is chosen.
+Calculated clear(const Instruction& line, Access& access, const Options& options) {
+  const auto [first, last] = std::minmax(line.fields[0].number, line.fields[1].number);
+  const bool is_alone =
+      line.fields[0].number > line.fields[1].number && options.swapped == Options::Swapped::clears_first;
   Calculated result;
-  for (Operand at = line.fields[0]; at.number <= line.fields[1].number; ++at.number) {
+  for (Operand at{line.fields[0].letter, is_alone ? last : first}; at.number <= last; ++at.number) {
     result.has_changed |= at.letter == Letter::d ? access.write(at, 0) : access.reset(at);
   }
   return result;
@@ -101,7 +106,8 @@ using Calculation = Calculated (*)(const Instruction& line, Access& access, cons
 constexpr HandlerRow<Op, Calculation> kCalculationRows[] = {
     {Op::mov, [](const auto& line, auto& access,
                  const auto&) { return gives(line, 1, value(line, 0, access), access); }},
-    {Op::zrst, [](const auto& line, auto& access, const auto&) { return clear(line, access); }},
+    {Op::zrst,
+     [](const auto& line, auto& access, const auto& options) { return clear(line, access, options); }},
     {Op::fmv, fill},
     {Op::add,
      [](const auto& line, auto& access, const auto& options) {

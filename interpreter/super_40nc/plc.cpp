@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "interpreter/super_40nc/access.h"
 #include "interpreter/super_40nc/areas.h"
@@ -143,7 +144,8 @@ class Scan {
   void time(const LadderStep& step) {
     const bool is_on = result();
     const bool was_on = remember(step.memory, is_on);
-    const bool holds_value = options_.kept_timers_hold && (step.flags & kKept) != 0;
+    const bool holds_value =
+        options_.all_timers_hold || (options_.kept_timers_hold && (step.flags & kKept) != 0);
     if (!is_on && holds_value) return;
     if ((!is_on || !was_on) && !holds_value) put(step.c, 0, step.flags);
     if (!is_on) return put(step.a, 0, step.flags);
@@ -151,13 +153,14 @@ class Scan {
     const bool counts = was_on || options_.timers_count_at_once;
     const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
     auto present = static_cast<std::int32_t>(cells_[step.c]);
-    if (counts && present < preset && a_unit_is_over_) {
+    if (counts && (present < preset || options_.timers_count_on) && a_unit_is_over_) {
       const bool had_changed = has_changed_;
-      present = static_cast<std::int32_t>(std::min<std::int64_t>(preset, std::int64_t{present} + growth_));
+      const std::int32_t most = options_.timers_count_on ? INT32_MAX : preset;
+      present = static_cast<std::int32_t>(std::min<std::int64_t>(most, std::int64_t{present} + growth_));
       put(step.c, static_cast<std::uint32_t>(present), step.flags);
       if ((step.flags & kValueIsRead) == 0 && present < preset) has_changed_ = had_changed;
     }
-    put(step.a, present >= preset ? 1 : 0, step.flags);
+    put(step.a, closes(present, preset) ? 1 : 0, step.flags);
     if (options_.timers_ignore_writes) timed(step) = present;
     if (present < preset) {
       timers_run_ |= was_on;
@@ -165,6 +168,10 @@ class Scan {
       quiet_scans_ = std::min(quiet_scans_, options_.timer_unit_ms <= 1 && options_.scan_ms == 1 ? left : 0);
       if ((step.flags & kValueIsRead) != 0) quiet_scans_ = 0;
     }
+  }
+
+  bool closes(std::int32_t present, std::int32_t preset) const {
+    return present >= preset && (preset > 0 || options_.empty_presets_close);
   }
 
   std::int32_t& timed(const LadderStep& step) {
@@ -186,8 +193,8 @@ class Scan {
     const bool counts = is_on && !was_on && !plc_.is_first_scan && may_count;
     if (counts) put(step.c, static_cast<std::uint32_t>(++present), step.flags);
     if (options_.counter_contact == Options::CounterContact::compares) {
-      put(step.a, present >= preset ? 1 : 0, step.flags);
-    } else if (counts && present >= preset) {
+      put(step.a, closes(present, preset) ? 1 : 0, step.flags);
+    } else if (counts && closes(present, preset)) {
       put(step.a, 1, step.flags);
     }
   }
@@ -224,6 +231,7 @@ void run(PlcState& plc, const Ladder& ladder, Machine& machine, const Options& o
     // A timer goes on if it is still ON.
     if (step.act == Act::timer) plc.memories[step.memory] = machine.cells()[step.c] != 0 ? 1 : 0;
   }
+  if (options.modes_stay_at_run && std::exchange(plc.has_modes, true)) return;
   plc.targets = machine.parameter_in_force(named::kTargetsOfC) == 0 ? Targets::absolute : Targets::relative;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     plc.rpm[static_cast<std::size_t>(axis)] = machine.rpm_at_power_up(axis);

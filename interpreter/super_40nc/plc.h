@@ -19,6 +19,7 @@ struct PlcState {
   std::vector<std::uint8_t> memories;  // of edges: what each has seen last
   Targets targets = Targets::absolute;
   std::array<std::int32_t, kAxisCount> rpm{};
+  bool has_modes = false;                // of a RUN before, where they stay
   Jogs jogs;                             // of the last scan
   std::int32_t unit_ms = 0;              // of the present unit, while timers run that count in larger ones
   std::vector<std::int32_t> timed = {};  // by memory: values of timers, where writes to them are ignored

@@ -44,6 +44,11 @@ bool PlcLines::carry_out(const LadderStep& step, bool is_on) {
     }
     return has_changed;
   }
+  if (needs_edge(line.op, options_)) {
+    bool fires = false;
+    const bool has_changed = count_as_edge(step, is_on, fires);
+    if (!fires) return has_changed;
+  }
   if (line.op == Op::out) return access_.switch_contact(line.fields[0], is_on);
   if (!is_on) return false;
   if (line.op == Op::set) return access_.switch_contact(line.fields[0], true);

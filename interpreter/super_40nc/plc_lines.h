@@ -7,6 +7,12 @@
 
 namespace understudy::interpreter::super_40nc {
 
+/// Whether it acts at the edge of its condition only because that is chosen.
+constexpr bool needs_edge(Op op, const Options& options) {
+  const bool is_mode = op == Op::absc || op == Op::incc || op == Op::rpm || op == Op::pset || op == Op::mset;
+  return options.modes_need_edge && (is_mode || op == Op::stp);
+}
+
 class PlcLines {
  public:
   PlcLines(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl& programs,

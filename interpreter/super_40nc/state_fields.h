@@ -31,8 +31,9 @@ struct StateOf<interpreter::super_40nc::PlcState> {
   static constexpr auto fields =
       FieldList{field("runs", &Value::runs),         field("is_first_scan", &Value::is_first_scan),
                 field("memories", &Value::memories), field("targets", &Value::targets),
-                field("rpm", &Value::rpm),           field("jogs", &Value::jogs),
-                field("unit_ms", &Value::unit_ms),   field("timed", &Value::timed)};
+                field("rpm", &Value::rpm),           field("has_modes", &Value::has_modes),
+                field("jogs", &Value::jogs),         field("unit_ms", &Value::unit_ms),
+                field("timed", &Value::timed)};
   static void check(const Value& state) { demand_reach(state.unit_ms); }
 };
 
@@ -54,6 +55,7 @@ struct StateOf<interpreter::super_40nc::StepState> {
                                            field("step", &Value::step),
                                            field("next_step", &Value::next_step),
                                            field("left_ms", &Value::left_ms),
+                                           field("wait_ms", &Value::wait_ms),
                                            field("calls", &Value::calls),
                                            field("blocks", &Value::blocks),
                                            field("has_modes", &Value::has_modes),

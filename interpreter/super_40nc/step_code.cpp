@@ -21,6 +21,13 @@ StepCode::StepCode(const AreaProgram& program, const std::set<std::int32_t>& oth
   find_blocks();
 }
 
+int StepCode::next_step(int step) const {
+  for (int at = step; at >= 0 && at < length(); ++at) {
+    if (line_at(at) >= 0) return at;
+  }
+  return -1;
+}
+
 void StepCode::find_labels(const std::set<std::int32_t>& others) {
   std::map<std::int32_t, int> labels;
   for (std::size_t i = 0; i < program_.lines.size(); ++i) {

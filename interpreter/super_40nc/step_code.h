@@ -23,6 +23,10 @@ class StepCode {
     const bool is_there = step >= 0 && step < static_cast<int>(lines_.size());
     return is_there ? lines_[static_cast<std::size_t>(step)] : -1;
   }
+  /// Of the first line behind a step that is in the midst of one; -1: there is none.
+  int next_step(int step) const;
+  /// Behind the last line.
+  int length() const { return static_cast<int>(lines_.size()); }
   int step_of(int line) const { return steps_[static_cast<std::size_t>(line)]; }
   /// JMP, CJ, CJN, CAL: the step of the first such label; -1: there is none. IF: of the line behind ELSE, or
   /// of ENDI. ELSE: of ENDI.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/error.h"
@@ -11,6 +12,8 @@
 #include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/machine.h"
 #include "interpreter/super_40nc/numbers.h"
+#include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/program.h"
 #include "interpreter/super_40nc/requests.h"
 #include "interpreter/super_40nc/step_programs.h"
@@ -19,6 +22,8 @@
 namespace understudy::interpreter::super_40nc {
 
 StepPrograms::Slice StepPrograms::execute(Area area, const Instruction& line) {
+  const std::size_t needed = place_of_needed(line.op);
+  if (needed < line.fields.size() && !line.fields[needed].is_set()) return advance(area, line);
   if (is_contact(line.op) || joins_blocks(line.op)) return read_contact(area, line);
   if (is_calculation(line.op)) {
     const Calculated result = calculate(line, access_, options_);
@@ -116,15 +121,27 @@ StepPrograms::Slice StepPrograms::wait(Area area, const Instruction& line, bool 
   return Slice::is_over;
 }
 
+/// Whether it waits by a register that is read in each scan.
+bool StepPrograms::follows_register(Area area) const {
+  const int line = code(area).line_at(state(area).step);
+  return options_.waits_follow_registers && line >= 0 && code(area).line(line).fields[0].letter == Letter::d;
+}
+
 /// Reads its time once. It goes on so many ticks after the one that has reached it.
 StepPrograms::Slice StepPrograms::wait_for_time(Area area, const Instruction& line) {
   StepState& program = state(area);
   if (program.left_ms > 0) {
+    if (options_.waits_stand_inhibited && is_inhibited()) return wait(area, line, false);
+    if (follows_register(area)) {
+      const std::int32_t ms = access_.value(line.fields[0]);
+      program.left_ms += std::int64_t{ms} - std::exchange(program.wait_ms, ms);
+    }
     program.left_ms = std::max<std::int64_t>(program.left_ms - options_.scan_ms, 0);
     return wait(area, line, program.left_ms == 0);
   }
   const std::int32_t ms = access_.value(line.fields[0]);
   if (ms > 0) program.left_ms = ms;
+  program.wait_ms = follows_register(area) ? ms : 0;
   return wait(area, line, ms <= 0);
 }
 

@@ -13,6 +13,7 @@
 #include "interpreter/super_40nc/instruction_row.h"
 #include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/operand.h"
 #include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/ownership.h"
 #include "interpreter/super_40nc/program.h"
@@ -59,8 +60,10 @@ StepPrograms::Slice StepPrograms::set_mode(Area area, const Instruction& line) {
 AxisValues StepPrograms::values_of(Area area, const Instruction& line) const {
   if (area == Area::c) return axis_values(line, access_);
   AxisValues values;
-  if (line.fields[0].is_set())
-    values[static_cast<std::size_t>(axis_of(area))] = access_.value(line.fields[0]);
+  const auto own = static_cast<std::size_t>(axis_of(area));
+  const bool is_own = line.op == Op::mrk && options_.mark_is_by_own_field;
+  const Operand field = line.fields[is_own ? own : 0];
+  if (field.is_set()) values[own] = access_.value(field);
   return values;
 }
 
@@ -111,7 +114,9 @@ StepPrograms::Slice StepPrograms::begin_motion(Area area, const Instruction& lin
     case Begun::done: break;
   }
   advance(area, line);
-  if (row_of(line.op).ends_single_step && is_single_step(area)) {
+  const bool ends_single_step =
+      row_of(line.op).ends_single_step || (line.op == Op::mpg && options_.wheel_ends_single_step);
+  if (ends_single_step && is_single_step(area)) {
     take(Event::single_step, area);
     return Slice::is_over;
   }

@@ -237,10 +237,26 @@ void StepPrograms::run_slice(Area area) {
     if (program.phase != Phase::executing && program.phase != Phase::waiting) return;
     if (is_stopped_short(area)) return;  // the contacts are obeyed before the next slice
     if (!contact_is_on(area)) return take(Event::contact_off, area);
-    const int line = code(area).line_at(program.step);
-    if (line < 0) return fail(area, Code::unknown);
-    if (execute(area, code(area).line(line)) == Slice::is_over) return;
+    if (!finds_line(area)) return;
+    if (execute(area, code(area).line(code(area).line_at(program.step))) == Slice::is_over) return;
   }
+}
+
+/// Whether an instruction begins at its step; else the program is over.
+bool StepPrograms::finds_line(Area area) {
+  StepState& program = state(area);
+  if (code(area).line_at(program.step) >= 0) return true;
+  if (options_.end_may_be_missing && program.step == code(area).length()) {
+    end(area);
+    return false;
+  }
+  const int next = options_.starts_inside_lines ? code(area).next_step(program.step) : -1;
+  if (next >= 0) {
+    program.step = next;
+    return true;
+  }
+  fail(area, Code::unknown);
+  return false;
 }
 
 Operand StepPrograms::awaited(Area area) const {
@@ -264,7 +280,9 @@ std::int64_t StepPrograms::quiet_ms(Area area) const {
     case Phase::waiting: break;
   }
   if (!contact_is_on(area)) return 0;
-  if (program.left_ms > 0) return program.left_ms - 1;
+  if (program.left_ms > 0 && follows_register(area)) return 0;
+  if (program.left_ms > 0)
+    return options_.waits_stand_inhibited && is_inhibited() ? kForEver : program.left_ms - 1;
   if (program.waits_to_resume) return is_inhibited() ? kForEver : 0;
   const Operand contact = awaited(area);
   if (!contact.is_set())
@@ -275,6 +293,7 @@ std::int64_t StepPrograms::quiet_ms(Area area) const {
 
 void StepPrograms::cross(Area area, std::int64_t ticks) {
   StepState& program = state(area);
+  if (options_.waits_stand_inhibited && is_inhibited()) return;
   if (program.phase == Phase::waiting && program.left_ms > 0) program.left_ms -= ticks;
 }
 

@@ -32,6 +32,7 @@ struct StepState {
   int step = 0;                      // about to be executed, or at work; from the begin of its area
   int next_step = 0;                 // behind a motion
   std::int64_t left_ms = 0;          // of TMR; 0: it has not begun
+  std::int32_t wait_ms = 0;          // what TMR has read last, where it goes on reading
   std::vector<Call> calls = {};
   std::uint64_t blocks = 0;  // the result of the last contacts
   // Modal: loaded at a fresh start, kept by any other. F and the plane are D8006 and D8007.
@@ -61,6 +62,8 @@ class StepPrograms : public StepControl {
   void take(Event event, Area area);
   void start(Area area) override;
   void stop(Area area) override { take(Event::stop, area); }
+  /// Another one is to take its place; the machine has stopped what it moves.
+  void unload(Area area) { forget(area); }
 
   /// The slice of a tick of one program; of all, in the order of the areas. Their contacts (M8000, M8x00) are
   /// looked at first: one that is ON starts what does not run, one that is OFF pauses it.
@@ -115,6 +118,7 @@ class StepPrograms : public StepControl {
   void resume(Area area);
   void change_file(Area area);
   void end_of_motion(Area area);
+  bool finds_line(Area area);
 
   // step_flow.cpp
   Slice execute(Area area, const Instruction& line);
@@ -129,6 +133,7 @@ class StepPrograms : public StepControl {
   Slice read_contact(Area area, const Instruction& line);
   Slice control(Area area, const Instruction& line);
   bool is_in_group(Area area) const;
+  bool follows_register(Area area) const;
 
   // step_motion.cpp
   Slice set_mode(Area area, const Instruction& line);

@@ -165,7 +165,7 @@ class Structure {
     const bool is_open = area_ != Area::plc && (is_contact(before_) || joins_blocks(before_));
     if (is_open && !is_loose_allowed())
       fault(Code::logic, "is the last of contacts", "CJ, CJN or IF behind it");
-    if (!has_end_) fault(Code::no_end, "is the last line", "END");
+    if (!has_end_ && !options_.end_may_be_missing) fault(Code::no_end, "is the last line", "END");
     for (const OpenIf& open : ifs_) {
       faults_.push_back({open.line, Code::pairing, "has no partner", "ENDI behind it"});
     }

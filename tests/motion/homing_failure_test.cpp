@@ -235,6 +235,35 @@ TEST(HomingFailure, WithoutALimitMode6RunsUntilStopped) {
   expect_ended(bench, {.by = Cause::stopped, .in_row = 0});
 }
 
+/// From behind the DOG, by the limit ahead, where that is chosen: the end is that from before it.
+TEST(HomingFailure, MayTurnRoundAtTheLimitAndPassTheDog) {
+  for (int mode = 0; mode <= 12; ++mode) {
+    if (super40nc_homes_by_limit(mode)) continue;
+    for (const bool turned : {false, true}) {
+      SCOPED_TRACE("mode " + std::to_string(mode) + (turned ? ", mirrored" : ""));
+      Super40ncHoming how = super40nc_factory(mode);
+      how.offset_pulses = 700;
+      how.turns_at_limit = true;
+      const Surroundings here = super40nc_machine();
+      std::int64_t ends[2];
+      for (const bool is_behind : {false, true}) {
+        const std::int64_t start = is_behind ? 70'000 : 0;
+        HomingBench bench(turned ? mirrored(here) : here, turned ? -start : start);
+        ASSERT_EQ(bench.home(super40nc_homing(turned ? mirrored(how) : how)), Cause::none);
+        ASSERT_TRUE(bench.run());
+        expect_ended(bench, {});
+        ends[is_behind ? 1 : 0] = bench.axis.travel_pulses;
+      }
+      EXPECT_EQ(ends[0], ends[1]);
+      how.turns_at_limit = false;
+      HomingBench fails(turned ? mirrored(here) : here, turned ? -70'000 : 70'000);
+      ASSERT_EQ(fails.home(super40nc_homing(turned ? mirrored(how) : how)), Cause::none);
+      ASSERT_TRUE(fails.run());
+      EXPECT_NE(fails.axis.homing.ended_by, Cause::arrived);
+    }
+  }
+}
+
 TEST(HomingFailure, ADogThatNeverEndsIsLeftStepByStepUntilTheLimit) {
   Surroundings here = super40nc_machine();
   here.set_steady(Signal::home, true);

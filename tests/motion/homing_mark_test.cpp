@@ -104,6 +104,22 @@ TEST(HomingMark, OnlyWhatIsSeenFromTheTargetOnCounts) {
   }
 }
 
+/// One that is on at the target has to come anew, where that is asked for.
+TEST(HomingMark, MayDemandAnEdge) {
+  struct Row {
+    std::int64_t from, to, end;
+  };
+  for (const auto& [from, to, end] :
+       {Row{4'000, 5'050, 5'100}, Row{-10, 9'000, 5'100}, Row{5'020, 5'050, 5'020}}) {
+    HomingBench bench(eye_at(from, to), 0);
+    Super40ncMark how = mark(5'000, 100);
+    how.needs_edge = true;
+    bench.home(super40nc_mark(how));
+    ASSERT_TRUE(bench.run());
+    EXPECT_EQ(bench.axis.travel_pulses, end) << from;
+  }
+}
+
 TEST(HomingMark, TheOtherLimitIsALimit) {
   HomingBench bench(eye_at(-kFar, -2'000, Signal::limit_minus), 0);
   bench.home(super40nc_mark(mark(-5'000, 500)));

@@ -36,6 +36,24 @@ TEST(UnitScale, GivesTheManualsExamples) {
   }
 }
 
+TEST(UnitScale, MayCutPulsesOff) {
+  struct Row {
+    std::int64_t multiplier, divider, units, pulses;
+  };
+  for (const auto& [multiplier, divider, units, pulses] :
+       {Row{8, 5, 3, 4}, Row{8, 5, 5, 8}, Row{1, 36, 35, 0}, Row{1, 36, 36, 1},
+        Row{2, 3, INT64_MAX / 2, INT64_MAX / 2 / 3 * 2}}) {
+    UnitScale scale = UnitScale::of(multiplier, divider);
+    scale.truncates = true;
+    EXPECT_EQ(scale.to_pulses(units), pulses);
+    EXPECT_EQ(scale.to_pulses(-units), -pulses);
+  }
+  UnitScale scale = UnitScale::of(INT32_MAX, 1);
+  scale.truncates = true;
+  EXPECT_EQ(scale.to_pulses(INT64_MAX), std::nullopt);
+  EXPECT_EQ(scale.to_units(INT32_MAX / 2 + 1), 1) << "what is shown is the nearest one";
+}
+
 TEST(UnitScale, RoundsHalfAwayFromZero) {
   constexpr std::array<ScaleCase, 12> kCases{{
       {1, 2, 0, 0},

@@ -190,7 +190,8 @@ void Super40nc::prepare(int axis_number, bool homes) {
   const motion::Signals seen = here(axis_number).at(motor.travel_pulses, motor.signals);
   motor.signals = static_cast<motion::Signals>((seen & ~mark) | (motor.signals & mark));
   // A host may have written the high half alone, by the manual's wrong example: the low one counts.
-  const std::int32_t direction = its.raw(kept_x(0), axis_number) & 0xFFFF;
+  const bool is_whole = chose(option("motor_direction", "whole_value"));
+  const std::int32_t direction = its.raw(kept_x(0), axis_number) & (is_whole ? -1 : 0xFFFF);
   const bool inverted = direction == 3 || direction == 6;
   if (inverted != chip(axis_number).inverted) {
     chip(axis_number).inverted = inverted;

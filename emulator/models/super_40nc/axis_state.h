@@ -63,9 +63,10 @@ struct AxisState {
   bool shows_finish = false;            // Y0 to Y3 when it arrives
   bool is_held = false;                 // by a pause
   Rest rest;
-  std::int8_t plc_jog_way = 0;  // that the PLC asked for in its last scan
-  bool asked_by_plc = false;    // the same by PJG or MJG
-  bool masked = false;          // of the motion that runs: pulses do not come out
+  std::array<std::int8_t, 2> jog_keys{};  // the keys + and - that are down: which way each jogs
+  std::int8_t plc_jog_way = 0;            // that the PLC asked for in its last scan
+  bool asked_by_plc = false;              // the same by PJG or MJG
+  bool masked = false;                    // of the motion that runs: pulses do not come out
   bool homed = false;
   bool zeroed = false;
   bool has_ended = false;  // a motion, since the last start

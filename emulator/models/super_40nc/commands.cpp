@@ -263,7 +263,7 @@ void Super40nc::obey_contacts() {
     state_.were_held[static_cast<std::size_t>(number)] = is_held_in_reset(number);
   }
   if (!chose(option("edge_contacts_fall", "when_served"))) return;
-  set_contact(8008, false);
+  for (const int contact : {8006, 8008}) set_contact(contact, false);
   for (int number = 0; number < kAxisCount; ++number) {
     for (const int contact : {kHome, kZero, kZeroSet}) set_contact(of_axis(number, contact), false);
   }

@@ -62,7 +62,9 @@ Super40nc::Super40nc(const DeviceSettings& given)
   map_policy_ = chosen_map_policy();
   lines_wait_ = chose(option("axis_conflicts", "programs_always_wait"));
   readings_ = {.multiplies_by_x12 = chose(option("multiplier", "from_x12")),
-               .limits_deceleration = chose(option("long_deceleration", "limited_to_2_x2"))};
+               .limits_deceleration = chose(option("long_deceleration", "limited_to_2_x2")),
+               .starts_as_fast = chose(option("slow_speeds", "the_start_speed")),
+               .truncates = chose(option("rounding", "towards_0"))};
   parameters_wait_ = !chose(option("parameter_moment", "by_kind"));
   state_.eeprom = factory_memory();
   state_.blocks = TextBlocks(block_kinds());
@@ -77,69 +79,9 @@ MapPolicy Super40nc::chosen_map_policy() const {
     policy.halves = MapPolicy::Halves::low_gives_the_sign;
   }
   if (chose(option("range_checks", "exception_3"))) policy.out_of_range = MapPolicy::OutOfRange::refused;
+  if (chose(option("frame_effects", "each_in_its_turn"))) policy.effects = MapPolicy::Effects::one_by_one;
   if (chose(option("range_checks", "nearest_one"))) policy.out_of_range = MapPolicy::OutOfRange::clamped;
   return policy;
-}
-
-language::Options Super40nc::chosen_options() const {
-  using Options = language::Options;
-  Options made;
-  const auto set = [&](const Option& chosen, auto& field, auto value) {
-    if (chose(chosen)) field = value;
-  };
-  set(option("area_bases", "older"), made.bases, Options::Bases::older);
-  set(option("stack_depth", "8"), made.stack_depth, 8);
-  set(option("stack_depth", "11"), made.stack_depth, 11);
-  set(option("cal_depth", "8"), made.call_depth, 8);
-  set(option("counter_contact", "closed_by_the_last_count"), made.counter_contact,
-      Options::CounterContact::is_latched);
-  set(option("timer_unit", "10ms"), made.timer_unit_ms, 10);
-  set(option("timer_unit", "1s"), made.timer_unit_ms, 1000);
-  set(option("run_edges", "not_at_all"), made.outputs_fire_at_run, false);
-  set(option("counter_past_preset", "counts_on"), made.counts_beyond_preset, true);
-  set(option("fmv_end", "nothing"), made.fill_beyond, Options::FillBeyond::does_nothing);
-  set(option("division_by_zero", "zero"), made.division_by_zero, Options::DivisionByZero::gives_zero);
-  set(option("product_size", "saturates"), made.product, Options::Product::saturates);
-  set(option("instruction_edges", "every_scan"), made.motions_need_edge, false);
-  set(option("fresh_start", "every_start"), made.fresh_start, Options::FreshStart::every_start);
-  set(option("slice_length", "1_line"), made.slice, 1);
-  set(option("c21_zero", "stops_the_program"), made.not_owned, Options::NotOwned::stops_program);
-  set(option("ret_without_cal", "ignored"), made.loose_return, Options::LooseReturn::is_ignored);
-  set(option("cal_count", "endless"), made.no_passes, Options::NoPasses::mean_endless);
-  set(option("empty_program", "is_an_error"), made.empty_program, Options::EmptyProgram::is_an_error);
-  set(option("vdrv_zero_wait", "goes_on"), made.rotation_0_waits, false);
-  set(option("continuous", "m8007_alone"), made.continuous_by_key, false);
-  set(option("scan_time", "2_ms"), made.scan_ms, 2);
-  set(option("scan_time", "5_ms"), made.scan_ms, 5);
-  set(option("capacity_unit", "lines"), made.capacity, Options::Capacity::lines);
-  set(option("reset_timers_counters", "refused_at_load"), made.timers_can_be_reset, false);
-  set(option("double_coils", "refused_at_load"), made.double_coils, Options::DoubleCoils::are_refused);
-  set(option("void_lines", "refused_at_load"), made.void_lines, Options::VoidLines::are_refused);
-  set(option("duplicate_label", "refused_at_load"), made.double_labels, Options::DoubleLabels::are_refused);
-  set(option("cj_without_group", "takes_the_last_result"), made.loose_groups,
-      Options::LooseGroups::take_last_result);
-  set(option("if_depth", "1"), made.if_depth, 1);
-  set(option("continuous_path", "corners_are_run_through"), made.joins_paths, true);
-  set(option("block_stack", "each_output_leaves_the_result_alone"), made.outputs_clear_blocks, true);
-  set(option("timer_write", "ignored"), made.timers_ignore_writes, true);
-  set(option("label_scope", "the_first_area_has_it"), made.labels_are_common, true);
-  set(option("c3p_plane", "always_xy"), made.c3p_is_in_xy, true);
-  set(option("sum_size", "saturates"), made.sums_saturate, true);
-  set(option("division_rounding", "downwards"), made.quotient, Options::Quotient::downwards);
-  set(option("rpm_not_positive", "keeps_the_speed"), made.rpm_0_keeps_speed, true);
-  set(option("axis_contact_off", "stops_the_program"), made.contact_off_stops, true);
-  set(option("str_running", "begins_anew"), made.start_begins_anew, true);
-  set(option("mrk_speed", "by_x14_alone"), made.marks_by_rpm, false);
-  set(option("mset", "refused_at_load"), made.knows_mset, false);
-  set(option("plc_moves_axes_of_c", "whenever_they_are_free"), made.plc_moves, Options::PlcMoves::any_axis);
-  set(option("plc_moves_axes_of_c", "never"), made.plc_moves, Options::PlcMoves::only_others);
-  set(option("missing_label", "refused_at_load"), made.labels_must_exist, true);
-  set(option("kept_timers", "keep_their_value"), made.kept_timers_hold, true);
-  set(option("timer_first_scan", "counts"), made.timers_count_at_once, true);
-  set(option("run_contact_edges", "those_that_are_on_rise"), made.contacts_rise_at_run, true);
-  set(option("pointer_write_running", "goes_on_there"), made.pointer_moves_running, true);
-  set(option("slice_end", "waits_and_the_64_lines_alone"), made.jumps_end_slice, false);
-  return made;
 }
 
 Addressing Super40nc::addressing(std::uint8_t address) const {
@@ -166,6 +108,16 @@ bool Super40nc::knows(std::uint8_t function) const {
 pty::SimTime Super40nc::end_silence(pty::SimTime usual) const {
   if (chose(option("frame_gap", "10_ms"))) return std::chrono::milliseconds(10);
   return chose(option("frame_gap", "1_5_characters")) ? usual * 3 / 7 : usual;
+}
+
+DeviceAnswer Super40nc::admits(const RegisterRequest& request, Checked checked) const {
+  constexpr std::size_t kMostRegisters = 64;
+  constexpr std::size_t kMostBits = 1024;
+  const bool is_of_bits = request.table == Table::coil || request.table == Table::discrete;
+  const bool is_too_long = request.count > (is_of_bits ? kMostBits : kMostRegisters);
+  const bool is_limited =
+      checked == Checked::everything && chose(option("request_counts", "64_registers_1024_bits"));
+  return is_limited && is_too_long ? Refusal::bad_value : Refusal::none;
 }
 
 bool Super40nc::answers_refusals() const { return !chose(option("exceptions", "no_answer")); }

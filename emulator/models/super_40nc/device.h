@@ -64,6 +64,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   Addressing addressing(std::uint8_t address) const override;
   bool knows(std::uint8_t function) const override;
   bool answers_refusals() const override;
+  DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override;
   pty::SimTime end_silence(pty::SimTime usual) const override;
   void receive_failed(std::size_t port, pty::ReceiveError error) override;
 
@@ -160,6 +161,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::int32_t analog_counts(int number) const;
   void flash_written(bool is_recipe);
   int first_of_recipe() const;
+  void take_recipe(std::int32_t number);
   /// M8022.
   bool is_pausing() const;
   /// D8000, D8x00; programs in the order of their areas.
@@ -272,6 +274,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void reset_parameters();
   void take_parameters();
   void take_power_up_parameters();
+  void read_files_again();
 
   // --- commands.cpp, keys.cpp: the scan's step of contacts
   bool is_on(int contact_number) const;
@@ -357,8 +360,12 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // --- programs.cpp
   void make_programs_ready();
   interpreter::super_40nc::Options options_with_room() const;
+  std::int32_t room_of_c() const;
+  void show_line_counts();
+  bool shows_line_counts() const { return chose(option("line_counts", "steps_of_the_programs")); }
   bool is_too_long(std::string_view kind, std::string_view name) const;
   void tell(interpreter::super_40nc::Event event, interpreter::super_40nc::Area area);
+  void give_up_program(interpreter::super_40nc::Area area);
   bool programs_are_busy() const;
   void plc_to_run();
   void plc_to_stop();

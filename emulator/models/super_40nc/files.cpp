@@ -97,6 +97,8 @@ std::string why_not_listing(const std::string& text) {
   language::Options options;
   options.loose_groups = language::Options::LooseGroups::take_last_result;
   options.capacity = language::Options::Capacity::lines;
+  options.end_may_be_missing = options.unset_lines_are_skipped = true;
+  options.swapped = language::Options::Swapped::clears_all;
   const language::Checked checked = language::check(text, options);
   if (checked.program) return "";
   const language::Complaint& first = checked.errors.front();
@@ -155,6 +157,29 @@ int Super40nc::first_of_recipe() const {
   return chose(option("recipe_range", "d900_to_d999")) ? 900 : kFirstOfRecipe;
 }
 
+/// Into its registers; one that was never stored is all 0.
+void Super40nc::take_recipe(std::int32_t number) {
+  const int first = first_of_recipe();
+  const auto count = static_cast<std::size_t>(kLastOfRecipe - first) + 1;
+  const std::size_t slot = kept_d(kFirstOfRecipe).slot + (kRecipeRegisters - count);
+  const SharedText* const stored = state_.blocks.find(kRecipes, recipe_name(number));
+  std::array<std::uint32_t, kRecipeRegisters> fresh{};
+  if (stored != nullptr) read_recipe(stored->text(), fresh, first);
+  for (std::size_t i = 0; i < count; ++i) {
+    put({.slot = slot + i}, static_cast<std::int32_t>(fresh[i]));
+  }
+}
+
+/// At power-up, where that is chosen: those that have been stored.
+void Super40nc::read_files_again() {
+  const std::string number = std::to_string(state_.file);
+  const SharedText* const c = state_.blocks.find(kFiles, number);
+  if (c != nullptr && !is_too_long(kFiles, number)) {
+    state_.blocks.put(kPrograms, "C", SharedText(*c));
+  }
+  if (state_.blocks.find(kRecipes, recipe_name(state_.recipe)) != nullptr) take_recipe(state_.recipe);
+}
+
 void Super40nc::change_recipe(std::int32_t number) {
   if (number < 0 || number >= kRecipeCount) {
     put(kept_d(9002), state_.recipe);
@@ -171,27 +196,28 @@ void Super40nc::change_recipe(std::int32_t number) {
   } else {
     state_.blocks.put(kRecipes, recipe_name(state_.recipe), SharedText(text));
   }
-  const SharedText* const stored = state_.blocks.find(kRecipes, recipe_name(number));
-  std::array<std::uint32_t, kRecipeRegisters> fresh{};
-  if (stored != nullptr) read_recipe(stored->text(), fresh, first);
-  for (std::size_t i = 0; i < count; ++i) {
-    put({.slot = slot + i}, static_cast<std::int32_t>(fresh[i]));
-  }
+  take_recipe(number);
   state_.recipe = number;
   flash_written(true);
 }
 
 void Super40nc::show_capacities() {
   constexpr std::int32_t kAllSteps = 30000;
-  constexpr std::int32_t kStepsOfC = 1500;
   const auto lines = static_cast<std::int32_t>(registers().of(kept_d(9045)));
   constexpr std::int32_t kLinesOfAPage = 256;
   if (chose(option("flash_pages", "lines_by_256"))) {
     put(kept_d(9044), (lines + kLinesOfAPage - 1) / kLinesOfAPage);
   }
   if (chose(option("file_layout", "always_20_files"))) return;
-  put(kept_d(9042), std::min(lines, kStepsOfC));
+  if (!shows_line_counts()) put(kept_d(9042), room_of_c());
   put(kept_d(9043), kAllSteps / lines);
+}
+
+/// Of C and of each file.
+std::int32_t Super40nc::room_of_c() const {
+  constexpr std::int32_t kStepsOfC = 1500;
+  if (chose(option("file_layout", "always_20_files"))) return kStepsOfC;
+  return std::min(static_cast<std::int32_t>(registers().of(kept_d(9045))), kStepsOfC);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -53,6 +53,12 @@ void Super40nc::start_home(int axis_number, int order) {
     let_go(axis_number);
     return;
   }
+  const motion::Signal ahead = way > 0 ? motion::Signal::limit_plus : motion::Signal::limit_minus;
+  if (is_by_limit && has_signal(axis_number, ahead) && chose(option("home_on_its_limit", "fails"))) {
+    home_ended(axis_number, false, Code::home_failed);
+    let_go(axis_number);
+    return;
+  }
   const bool limit_stops_at_once =
       chose(option("home_el_stop", "by_d9x01")) && !its.is_on(kept_x(1), axis_number);
   const motion::SpeedLaw fast = its.law(axis_number, rpm(kept_x(79)));
@@ -67,7 +73,8 @@ void Super40nc::start_home(int axis_number, int order) {
        .limit_stops_at_once = limit_stops_at_once,
        .leaves_fast = chose(option("home_leave_speed", "home_speed")),
        .offset_creeps = chose(option("home_offset_speed", "creep")),
-       .plate_may_be_short = chose(option("home_short_plate", "goes_on_all_the_same"))});
+       .plate_may_be_short = chose(option("home_short_plate", "goes_on_all_the_same")),
+       .turns_at_limit = chose(option("home_meets_limit", "turns_round_and_passes_the_dog"))});
   if (chip(axis_number).home(program, before_motion()) != motion::Cause::none) {
     home_ended(axis_number, false, Code::home_failed);
     let_go(axis_number);
@@ -113,6 +120,8 @@ void Super40nc::set_zero(int axis_number) {
 void Super40nc::home_ended(int axis_number, bool found, Code code) {
   AxisState& state = axis(axis_number);
   const Settings its = registers();
+  const bool ends_contact = chose(option("edge_contacts_fall", "m8x05_behind_its_search"));
+  if (ends_contact) set_contact(8105 + 100 * axis_number, false);
   if (!found) {
     if (code != Code::none) fail(axis_number, code);
     if (state.order != 0) state_.homing_by_key.has_failed = true;

@@ -3,6 +3,7 @@
 #include "emulator/models/super_40nc/keys.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "emulator/models/super_40nc/axis_state.h"
@@ -49,25 +50,31 @@ bool Super40nc::is_locked(const Key& key) const {
                       : has_digit(its.raw(kept_x(98), key.axis), kAxisLockDigits, key.lock);
 }
 
-/// A jog key writes its contact in each scan while it is down, and clears it when it is let go.
+/// A jog key writes its contact in each scan while it is down, and clears it when it is let go. Its lock and
+/// X52 count when it is pressed: whatever becomes of them meanwhile, the axis stops with the key.
 void Super40nc::read_jog_keys() {
+  const bool knows_older = !chose(option("jog_aliases", "plain_contacts"));
   for (int number = 0; number < kAxisCount; ++number) {
     const int sense = registers().is_on(kept_x(97), number) ? -1 : +1;
-    for (const int way : {+1, -1}) {
+    auto& driven = axis(number).jog_keys;
+    for (std::size_t i = 0; i < driven.size(); ++i) {
+      const int way = i == 0 ? +1 : -1;
       bool is_down = false;
-      bool was_down = false;
+      bool is_pressed = false;
       for (const Key& key : kKeys) {
-        const bool is_older = key.contact < kFirstJogKey;
-        if (key.does != KeyDoes::jog || key.axis != number || key.way * sense != way || is_locked(key) ||
-            (is_older && chose(option("jog_aliases", "plain_contacts")))) {
-          continue;
-        }
+        const bool is_unknown = key.contact < kFirstJogKey && !knows_older;
+        if (key.does != KeyDoes::jog || key.axis != number || key.way != way || is_unknown) continue;
         is_down = is_down || is_on(key.contact);
-        was_down = was_down || state_.contacts.was_seen_on(key.contact);
+        is_pressed = is_pressed || (rises(key.contact) && !is_locked(key));
       }
-      const int target = jog_contact(number, way);
-      if (is_down || was_down) set_contact(target, is_down);
-      if (is_down) state_.contacts.write(target, true);
+      if (!is_down && driven[i] != 0) set_contact(jog_contact(number, driven[i]), false);
+      if (!is_down) driven[i] = 0;
+      if (is_pressed && driven[i] == 0) driven[i] = static_cast<std::int8_t>(way * sense);
+    }
+    for (const std::int8_t way : driven) {
+      if (way == 0) continue;
+      set_contact(jog_contact(number, way), true);
+      state_.contacts.write(jog_contact(number, way), true);
     }
   }
 }

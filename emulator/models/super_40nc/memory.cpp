@@ -65,6 +65,8 @@ std::uint32_t Super40nc::factory_bits(const RegisterRow& row) const {
 
 bool Super40nc::keeps(const RegisterRow& row) const {
   const bool is_of_timer_or_counter = row.table == Table::coil && row.address >= 600 && row.address < 1000;
+  const bool is_of_user_buffer = row.table == Table::holding && row.address >= 3000 && row.address < 7000;
+  if (is_of_user_buffer) return chose(option("user_buffer", "is_kept"));
   return row.persistent && !(is_of_timer_or_counter && chose(option("latched_contacts", "values_alone")));
 }
 
@@ -162,6 +164,7 @@ void Super40nc::power_up() {
   state_.recipe = its.raw(kept_d(9002));
   state_.wheel_edges = input(kWheelTerminal);
   take_power_up_parameters();
+  if (chose(option("power_up_files", "read_from_file_and_recipe_again"))) read_files_again();
   heed_all();
   make_programs_ready();
   const bool has_c = state_.blocks.find(kPrograms, "C") != nullptr;
@@ -180,6 +183,7 @@ void Super40nc::reset_parameters() {
   });
   change_file(0);
   change_recipe(0);
+  show_line_counts();
   heed_all();
 }
 

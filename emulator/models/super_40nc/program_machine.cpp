@@ -32,13 +32,6 @@ constexpr std::uint32_t cell_of_slot(Kept kept) { return static_cast<std::uint32
 
 Mover mover_of(Area area) { return static_cast<Mover>(area); }
 
-bool is_set(const language::AxisValues& values, int axis) {
-  return values[static_cast<std::size_t>(axis)].has_value();
-}
-std::int32_t value_of_axis(const language::AxisValues& values, int axis) {
-  return values[static_cast<std::size_t>(axis)].value_or(0);
-}
-
 }  // namespace
 
 // ---- contacts and registers
@@ -205,7 +198,8 @@ Begun ProgramMachine::begin(Area by, const language::Rotation& rotation) {
     if (!is_set(rotation.rpm, axis)) continue;
     const std::int32_t rpm = value_of_axis(rotation.rpm, axis);
     if (rpm == 0) {
-      device_.end_by_ramp(axis, mover_of(by));
+      const bool is_at_once = device_.chose(option("vdrv_zero_stop", "at_once"));
+      is_at_once ? device_.stop_axis(axis) : void(device_.end_by_ramp(axis, mover_of(by)));
       continue;
     }
     const Grant given = device_.granted(device_.axis(axis).holder, Request::vdrv);
@@ -300,67 +294,6 @@ language::Areas ProgramMachine::stop(Area area) {
     device_.stop_all_of(mover);
   }
   return lost;
-}
-
-// ---- the PLC
-
-void ProgramMachine::plc_drive(const language::Drive& drive, int step) {
-  device_.set_plc_step(step);
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    if (!is_set(drive.target_lu, axis) || device_.is_inhibited(axis)) continue;
-    if (device_.ask(axis, Request::plc_drv) != Grant::starts) continue;
-    const std::int64_t base =
-        drive.targets == language::Targets::relative ? device_.relative_base_lu(axis) : 0;
-    device_.begin_drive(axis, base + value_of_axis(drive.target_lu, axis),
-                        drive.rpm[static_cast<std::size_t>(axis)], Mover::plc);
-  }
-  device_.set_plc_step(0);
-}
-
-void ProgramMachine::plc_home(const language::HomeSearch& search, int step) {
-  device_.set_plc_step(step);
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    if ((search.axes >> axis & 1) == 0 || device_.is_inhibited(axis)) continue;
-    AxisState& state = device_.axis(axis);
-    const bool is_free = state.holder == Holder::nobody;
-    if (is_free) state.mover = Mover::plc;  // as long as it begins
-    device_.start_home(axis);
-    if (state.holder != Holder::home) state.mover = is_free ? Mover::hand : state.mover;
-  }
-  device_.set_plc_step(0);
-}
-
-bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogSteps& steps) {
-  const bool stops_both = device_.chose(option("both_jogs", "both_stop_it"));
-  const bool swaps = device_.chose(option("x52_scope", "pjg_and_mjg_as_well"));
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    AxisState& state = device_.axis(axis);
-    const bool is_swapped = swaps && device_.registers().is_on(kept_x(97), axis);
-    const bool positive = ((is_swapped ? jogs.negative : jogs.positive) >> axis & 1) != 0;
-    const bool negative = ((is_swapped ? jogs.positive : jogs.negative) >> axis & 1) != 0;
-    const int running = state.asked_by_plc ? device_.chip(axis).last_direction : 0;
-    // Both at once: the one that runs goes on.
-    const int of_both = stops_both ? 0 : running;
-    const int way = positive && negative ? of_both : positive ? +1 : negative ? -1 : 0;
-    if (running != 0 && running != way) {
-      device_.meet(axis, ManualMotion::plc_jog, ManualEvent::contact_off);
-    }
-    const bool is_new = way != 0 && (way != state.plc_jog_way || device_.acts_behind_reset(axis));
-    state.plc_jog_way = static_cast<std::int8_t>(way);
-    if (!is_new || device_.is_inhibited(axis)) continue;
-    const int step = steps[static_cast<std::size_t>(axis)];
-    if (!language::may_move(*this, device_.language_options(), Area::plc, axis)) {
-      device_.report(Code::axis_not_owned, step);
-      continue;
-    }
-    device_.set_plc_step(step);
-    const bool is_free = state.holder == Holder::nobody;
-    if (is_free) state.mover = Mover::plc;  // as long as it begins
-    device_.start_jog(axis, way, &AxisState::asked_by_plc);
-    if (is_free) state.mover = Mover::hand;
-    device_.set_plc_step(0);
-  }
-  return true;
 }
 
 // ---- both

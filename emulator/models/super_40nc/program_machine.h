@@ -12,6 +12,14 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace language = interpreter::super_40nc;
 
+/// A field of a line.
+inline bool is_set(const language::AxisValues& values, int axis) {
+  return values[static_cast<std::size_t>(axis)].has_value();
+}
+inline std::int32_t value_of_axis(const language::AxisValues& values, int axis) {
+  return values[static_cast<std::size_t>(axis)].value_or(0);
+}
+
 class ProgramMachine final : public language::Machine {
  public:
   explicit ProgramMachine(Super40nc& device) : device_(device) {}
@@ -51,6 +59,7 @@ class ProgramMachine final : public language::Machine {
   bool set_positions(const language::SetPositions& positions) override;
 
  private:
+  bool plc_takes_none(language::AxisSet axes, Request request);
   /// What all axes of a line get; taken if one has to wait.
   template <class Start>
   language::Begun begin_each(language::Area by, const language::AxisValues& values, Request request,

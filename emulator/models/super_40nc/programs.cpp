@@ -72,13 +72,27 @@ void Super40nc::make_programs_ready() {
     }
   }
   if (state_.table.runs != UserTable::Runs::nothing) put_table_in_place();
+  show_line_counts();
+}
+
+/// D9036 to D9042, where they are chosen to tell what there is, not what there is room for.
+void Super40nc::show_line_counts() {
+  if (!shows_line_counts()) return;
+  const Kept shown[] = {kept_d(9042), kept_d(9037), kept_d(9038), kept_d(9039), kept_d(9040), kept_d(9036)};
+  for (const language::AreaRow& row : language::kAreas) {
+    const auto program = stored_area(state_.blocks, kPrograms, row.name, row.area, options_);
+    std::int32_t count = 0;
+    for (const language::Instruction& line : program.value_or(language::AreaProgram{}).lines) {
+      count += language::steps_of(line);
+    }
+    put(shown[language::index_of(row.area)], count);
+  }
 }
 
 /// D9042 is the room of C and of each file.
 language::Options Super40nc::options_with_room() const {
   language::Options options = options_;
-  const std::int32_t room = registers().raw(kept_d(9042));
-  if (room > 0) options.c_capacity = room;  // it is 0 before power-up
+  if (registers().raw(kept_d(9045)) > 0) options.c_capacity = room_of_c();  // it is 0 before power-up
   return options;
 }
 
@@ -108,10 +122,15 @@ void Super40nc::load_program(std::string_view text) {
     throw ProgramError(mistakes_of(checked));
   }
   const bool runs = state_.plc.runs;
+  const bool has_plc = checked.program->area(language::Area::plc).has_value();
+  if (has_plc) {  // what it jogs stops, also where the new one never scans
+    ProgramMachine machine(*this);
+    language::stop(state_.plc, machine);
+  }
   for (const language::AreaRow& row : language::kAreas) {
     const auto& area = checked.program->area(row.area);
     if (!area) continue;
-    if (row.area != language::Area::plc) tell(language::Event::stop, row.area);
+    if (row.area != language::Area::plc) give_up_program(row.area);
     if (row.area == language::Area::c) state_.file_is_left_out = false;
     if (area->lines.empty()) {
       state_.blocks.erase(kPrograms, row.name);
@@ -123,7 +142,6 @@ void Super40nc::load_program(std::string_view text) {
     state_.blocks.put(kFiles, std::to_string(number), SharedText(text_of_area(language::Area::c, file)));
   }
   make_programs_ready();
-  const bool has_plc = checked.program->area(language::Area::plc).has_value();
   if (has_plc && runs) plc_to_run();
   // Labels may be those of areas that the text does not name.
   const language::Checked all =
@@ -150,6 +168,13 @@ std::string Super40nc::program_text() const {
     }
   }
   return language::list(all);
+}
+
+/// What is loaded takes its place: the axes that it moves stop, and no others.
+void Super40nc::give_up_program(language::Area area) {
+  stop_all_of(static_cast<Mover>(area));
+  ProgramMachine machine(*this);
+  language::StepPrograms(state_.steps, codes_, machine, options_).unload(area);
 }
 
 void Super40nc::tell(language::Event event, language::Area area) {

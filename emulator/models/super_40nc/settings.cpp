@@ -54,10 +54,11 @@ motion::SpeedLaw Settings::law_of_c(int axis, double rpm) const {
 }
 
 motion::SpeedLaw Settings::law_with(int axis, double rpm, const Ramps& ramps) const {
-  const double top = std::min(pps(axis, std::max(rpm, 1.0)), top_pps(axis));
+  const auto start_rpm = static_cast<double>(of(kept_x(76), axis));
+  const double least_rpm = readings_.starts_as_fast ? start_rpm : 1.0;
+  const double top = std::min(pps(axis, std::max(rpm, least_rpm)), top_pps(axis));
   const double step = multiplier(axis, top);
-  return law_by(pps(axis, static_cast<double>(of(kept_x(76), axis))), top,
-                pps(axis, static_cast<double>(of(kept_d(9011)))), ramps.up_ms,
+  return law_by(pps(axis, start_rpm), top, pps(axis, static_cast<double>(of(kept_d(9011)))), ramps.up_ms,
                 down_ms(ramps.down_ms, ramps.up_ms), ramps.up_steps * step, ramps.down_steps * step);
 }
 

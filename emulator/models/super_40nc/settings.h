@@ -27,6 +27,8 @@ inline constexpr std::size_t kParameterCount = kSlotCount - kFirstParameterSlot;
 struct Readings {
   bool multiplies_by_x12 = false;
   bool limits_deceleration = false;  // to twice the acceleration
+  bool starts_as_fast = false;       // no speed is below X13
+  bool truncates = false;            // lengths, to whole pulses
 };
 
 class Settings {
@@ -49,7 +51,9 @@ class Settings {
   bool is_on(Kept kept, int axis = 0) const { return raw(kept, axis) != 0; }
 
   motion::UnitScale scale(int axis) const {
-    return {.multiplier = of(kept_x(71), axis), .divider = of(kept_x(72), axis)};
+    return {.multiplier = of(kept_x(71), axis),
+            .divider = of(kept_x(72), axis),
+            .truncates = readings_.truncates};
   }
   double pps(int axis, double rpm) const { return rpm * static_cast<double>(of(kept_x(70), axis)) / 60.0; }
   /// No motion of the axis is faster.

@@ -102,6 +102,7 @@ struct StateOf<emulator::models::super_40nc::AxisState> {
                                            field("shows_finish", &Value::shows_finish),
                                            field("is_held", &Value::is_held),
                                            field("rest", &Value::rest),
+                                           field("jog_keys", &Value::jog_keys),
                                            field("plc_jog_way", &Value::plc_jog_way),
                                            field("asked_by_plc", &Value::asked_by_plc),
                                            field("masked", &Value::masked),

@@ -240,5 +240,82 @@ TEST(Super40ncCorners, TheOriginKeyObeysItsLock) {
   }
 }
 
+/// Lock (D9198) and X52 (D9197) count when a key is pressed: the axis stops with the key, whatever they are
+/// by then.
+TEST(Super40ncCorners, AJogKeyThatIsLetGoAlwaysStops) {
+  for (const auto& [parameter, value] : {std::pair{"D9197", 1}, std::pair{"D9198", 11000000}}) {
+    for (const char* key : {"M8560", "M8561", "M8519"}) {
+      OneSuper40nc one;
+      one.set(key, 1);
+      one.run(100);
+      const bool is_back = key == std::string("M8561");
+      one.set(parameter, value);
+      one.run(100);
+      EXPECT_TRUE(one.on("M8120")) << key << " " << parameter;
+      EXPECT_EQ(one.on("M8144"), is_back) << key << " " << parameter;
+      one.set(key, 0);
+      one.run(100);
+      EXPECT_FALSE(one.on("M8120")) << key << " " << parameter;
+      EXPECT_FALSE(one.on("M8103") || one.on("M8104")) << key << " " << parameter;
+      one.set(key, 1);
+      one.run(100);
+      const bool is_locked = parameter == std::string("D9198");
+      EXPECT_EQ(one.on("M8120"), !is_locked) << key;
+      EXPECT_EQ(one.on("M8144"), is_locked ? is_back : !is_back) << key;
+    }
+  }
+  // The other key of the axis goes on with its own.
+  OneSuper40nc one;
+  one.set("M8560", 1);
+  one.run(100);
+  one.set("D9197", 1);
+  one.set("M8561", 1);  // jogs + as well now
+  one.run(10);
+  one.set("M8560", 0);
+  one.run(100);
+  EXPECT_TRUE(one.on("M8120"));
+  one.set("M8561", 0);
+  one.run(100);
+  EXPECT_FALSE(one.on("M8120"));
+}
+
+/// A program that is loaded takes the place of its own area's: what others move goes on.
+TEST(Super40ncCorners, LoadingStopsWhatThatAreaMovesAlone) {
+  OneSuper40nc one({.set = {{"D9003", 1}},
+                    .program =
+                        "AREA C\nF K20000\nLIN K40000\nEND\nAREA X\nWAT M1\nEND\nAREA Y\nRPM K100\nDRV "
+                        "K90000\nEND\nAREA Z\nVDRV K100\nEND\n"});
+  one.set("M8000", 1);
+  one.set("M8100", 1);
+  one.set("M8200", 1);
+  one.set("M8300", 1);
+  one.run(100);
+  one.it().load_program("AREA X\nSET M7\nEND\n");
+  one.run(100);
+  EXPECT_TRUE(one.on("M8000") && one.on("M8120") && one.on("M8200") && one.on("M8220"));
+  EXPECT_FALSE(one.on("M8100"));
+  one.it().load_program("AREA Y\nEND\nAREA Z\nEND\n");
+  one.run(3);
+  EXPECT_TRUE(one.on("M8000") && one.on("M8120"));
+  EXPECT_FALSE(one.on("M8200") || one.on("M8220") || one.on("M8320"));
+  one.set("M8403", 1);
+  one.run(20);
+  one.it().load_program("AREA C\nEND\nAREA U\nEND\n");
+  one.run(3);
+  EXPECT_FALSE(one.on("M8000") || one.on("M8120"));
+  EXPECT_TRUE(one.on("M8420")) << "a jog by hand";
+}
+
+TEST(Super40ncCorners, AJogOfThePlcEndsWithItsProgram) {
+  for (const char* next : {"AREA PLC\n", "AREA PLC\nEND\n", "AREA PLC\nLD M9\nOUT Y0\nEND\n"}) {
+    OneSuper40nc one({.program = "AREA PLC\nLD M8003\nPJG K1\nEND\n"});
+    one.run(100);
+    EXPECT_TRUE(one.on("M8120"));
+    one.it().load_program(next);
+    one.run(100);
+    EXPECT_FALSE(one.on("M8120")) << next;
+  }
+}
+
 }  // namespace corners_test
 }  // namespace understudy::emulator::models::super_40nc

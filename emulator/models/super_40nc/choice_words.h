@@ -1,0 +1,12 @@
+// How sure we are of a choice, for the rows of a SUPER-40NC.
+#pragma once
+
+#include "emulator/device/choices.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+inline constexpr Confidence kFollows = Confidence::follows;
+inline constexpr Confidence kLikely = Confidence::likely;
+inline constexpr Confidence kProposal = Confidence::proposal;
+
+}  // namespace understudy::emulator::models::super_40nc

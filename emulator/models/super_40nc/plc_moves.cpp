@@ -1,0 +1,95 @@
+// What the PLC moves: DRV, HOM, PJG and MJG. It never waits: an axis that is taken is void.
+#include <cstdint>
+
+#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/manual_motions.h"
+#include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/program_machine.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/ownership.h"
+#include "interpreter/super_40nc/requests.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+using language::Area;
+
+/// An axis is taken, and that is chosen to stop all.
+bool ProgramMachine::plc_takes_none(language::AxisSet axes, Request request) {
+  if (!device_.chose(option("plc_several_axes", "none"))) return false;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if ((axes >> axis & 1) != 0 && device_.ask(axis, request) != Grant::starts) return true;
+  }
+  return false;
+}
+
+void ProgramMachine::plc_drive(const language::Drive& drive, int step) {
+  device_.set_plc_step(step);
+  language::AxisSet axes = 0;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (is_set(drive.target_lu, axis)) axes = static_cast<language::AxisSet>(axes | 1U << axis);
+  }
+  if (plc_takes_none(axes, Request::plc_drv)) return device_.set_plc_step(0);
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (!is_set(drive.target_lu, axis) || device_.is_inhibited(axis)) continue;
+    if (device_.ask(axis, Request::plc_drv) != Grant::starts) continue;
+    const std::int64_t base =
+        drive.targets == language::Targets::relative ? device_.relative_base_lu(axis) : 0;
+    device_.begin_drive(axis, base + value_of_axis(drive.target_lu, axis),
+                        drive.rpm[static_cast<std::size_t>(axis)], Mover::plc);
+  }
+  device_.set_plc_step(0);
+}
+
+void ProgramMachine::plc_home(const language::HomeSearch& search, int step) {
+  device_.set_plc_step(step);
+  if (plc_takes_none(search.axes, Request::home_or_zero)) return device_.set_plc_step(0);
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if ((search.axes >> axis & 1) == 0 || device_.is_inhibited(axis)) continue;
+    AxisState& state = device_.axis(axis);
+    const bool is_free = state.holder == Holder::nobody;
+    if (is_free) state.mover = Mover::plc;  // as long as it begins
+    device_.start_home(axis);
+    if (state.holder != Holder::home) state.mover = is_free ? Mover::hand : state.mover;
+  }
+  device_.set_plc_step(0);
+}
+
+bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogSteps& steps) {
+  const bool stops_both = device_.chose(option("both_jogs", "both_stop_it"));
+  const bool swaps = device_.chose(option("x52_scope", "pjg_and_mjg_as_well"));
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    AxisState& state = device_.axis(axis);
+    const bool is_swapped = swaps && device_.registers().is_on(kept_x(97), axis);
+    const bool positive = ((is_swapped ? jogs.negative : jogs.positive) >> axis & 1) != 0;
+    const bool negative = ((is_swapped ? jogs.positive : jogs.negative) >> axis & 1) != 0;
+    const int running = state.asked_by_plc ? device_.chip(axis).last_direction : 0;
+    // Both at once: the one that runs goes on.
+    const int of_both = stops_both ? 0 : running;
+    const int way = positive && negative ? of_both : positive ? +1 : negative ? -1 : 0;
+    if (running != 0 && running != way) {
+      device_.meet(axis, ManualMotion::plc_jog, ManualEvent::contact_off);
+    }
+    const bool is_new = way != 0 && (way != state.plc_jog_way || device_.acts_behind_reset(axis));
+    state.plc_jog_way = static_cast<std::int8_t>(way);
+    if (!is_new || device_.is_inhibited(axis)) continue;
+    const int step = steps[static_cast<std::size_t>(axis)];
+    if (!language::may_move(*this, device_.language_options(), Area::plc, axis)) {
+      device_.report(Code::axis_not_owned, step);
+      continue;
+    }
+    device_.set_plc_step(step);
+    const bool is_free = state.holder == Holder::nobody;
+    if (is_free) state.mover = Mover::plc;  // as long as it begins
+    device_.start_jog(axis, way, &AxisState::asked_by_plc);
+    if (is_free) state.mover = Mover::hand;
+    device_.set_plc_step(0);
+  }
+  return true;
+}
+
+}  // namespace understudy::emulator::models::super_40nc
