@@ -45,6 +45,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
   bool low_word_first() const override { return state_.image[kWordOrderSlot] == 1; }
+  bool takes_parts() const override { return chose(option("window_parts", "kept_for_the_command")); }
   DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override;
   bool diverts(const Place& place, std::uint32_t bits) override;
   void read_answered(const RegisterRequest& request) override;
@@ -167,6 +168,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   /// An event of an axis that a factor may be waiting for, noted and marked.
   void note_factor(std::size_t axis, Factor factor);
   void mark_isr(std::size_t axis, std::uint8_t source, Tick tick);
+  /// Of what calls ISRs: which came last.
+  void note_enabled(std::size_t axis, std::uint8_t source, bool is_on);
   void give_pulse(std::size_t axis, Tick tick, std::int64_t pulses = 1);
   void change_speed(std::size_t axis);
 
@@ -211,10 +214,12 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   Tick next_scan(Tick after) const;
   void watch_external(std::size_t axis);
   void step_axes(Tick tick);
+  void heed_encoder(std::size_t axis, Tick tick);
   void heed_ends();
   void heed_home(std::size_t axis);
   void heed_path_speed(Tick tick);
   void heed_path_end(bool was_full);
+  void note_end_of_path(std::size_t axis);
   void act_on_events(Tick tick);
   void act_together(Tick tick);
   void heed_factors(std::size_t axis, Tick tick);
@@ -223,8 +228,9 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::int64_t scan_spacing(const LineScan& scan) const;
   void end_scan(std::size_t axis);
   bool rests() const;
-  void leave_path(std::size_t axis);
+  void leave_path(std::size_t axis, Halt halt);
   /// By choice, a drive at a speed that was never set.
+  void forget_errors(std::size_t axis);
   bool lacks_speed(std::size_t axis, Drive::What what) const;
   /// Of writes that become lines of the macro that is being downloaded.
   DeviceAnswer admits_lines(const RegisterRequest& request) const;

@@ -47,19 +47,17 @@ motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules, c
   return program;
 }
 
-/// Of an axis on a path, whose cause is that of the one that met something.
-bool is_its_own(const AxisUnit& unit, const motion::Axis& motor, motion::Cause cause) {
+/// Of an axis on a path, whose cause is that of the one that met something; what it met earlier is noted.
+bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
   const auto is_on = [&](motion::Signal signal) { return (motor.signals & motion::bit(signal)) != 0; };
   switch (cause) {
     case motion::Cause::limit_plus: return is_on(motion::Signal::limit_plus);
     case motion::Cause::limit_minus: return is_on(motion::Signal::limit_minus);
     case motion::Cause::alarm: return is_on(motion::Signal::alarm);
     case motion::Cause::soft_limit_plus:
-      return (motor.settings.soft_limit_plus && motor.travel_pulses > *motor.settings.soft_limit_plus) ||
-             soft_limit_by_encoder(unit, motor, +1) == cause;
+      return motor.settings.soft_limit_plus && motor.travel_pulses > *motor.settings.soft_limit_plus;
     case motion::Cause::soft_limit_minus:
-      return (motor.settings.soft_limit_minus && motor.travel_pulses < *motor.settings.soft_limit_minus) ||
-             soft_limit_by_encoder(unit, motor, -1) == cause;
+      return motor.settings.soft_limit_minus && motor.travel_pulses < *motor.settings.soft_limit_minus;
     case motion::Cause::none:
     case motion::Cause::arrived:
     case motion::Cause::stopped:
@@ -188,6 +186,12 @@ void RsM8194h::note_obstacles(AxisMask axes) {
   }
 }
 
+/// Of a drive that starts: what it has left behind it.
+void RsM8194h::forget_errors(std::size_t axis) {
+  if (chose(option("error_bits_end", "nothing"))) return;
+  state_.units[axis].error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
+}
+
 /// By choice, of a drive that would be held: another one of its axes is held already.
 bool RsM8194h::waits_behind_held(AxisMask axes) const {
   if (!chose(option("second_held_drive", "waits"))) return false;
@@ -287,7 +291,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
     unit.error_code |= refused == motion::Cause::homing_failed ? bit_of(ErrorBit::home) : error_of(refused);
     return;
   }
-  unit.error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
+  forget_errors(axis);
   if (motor.homing.active() && !machine_.axis.homing_heeds_soft_limits) look_again(axis);
   if (what.what == Drive::What::scan) begin_scans(mask_of(axis));
   if (LineScan& scan = state_.scans[axis]; what.what == Drive::What::scan && scan.set) {
@@ -332,6 +336,17 @@ void RsM8194h::heed_home(std::size_t axis) {
   }
 }
 
+/// Its own cause, and what it has met before, become errors.
+void RsM8194h::note_end_of_path(std::size_t axis) {
+  AxisUnit& unit = state_.units[axis];
+  motion::Axis& motor = state_.motors[axis];
+  if (is_its_own(motor, motor.cause)) unit.error_code |= error_of(motor.cause);
+  unit.error_code |= std::exchange(unit.met, std::uint16_t{0});
+  // Once: a host may have cleared it when D-END comes.
+  if (motor.cause != motion::Cause::arrived && motor.task == motion::Task::none)
+    motor.cause = motion::Cause::stopped;
+}
+
 /// What ended in this tick leaves its cause in the error code.
 void RsM8194h::heed_ends() {
   // The partners of the axis that met something hear of it a tick later.
@@ -364,7 +379,9 @@ void RsM8194h::heed_ends() {
                             motor.homing.program.phases[row].code == kIndexPhase;
       if (by_index) unit.error_code |= bit_of(ErrorBit::home);
     }
-    if (!has(of_path, a) || is_its_own(unit, motor, cause)) {
+    if (has(of_path, a)) {
+      note_end_of_path(a);
+    } else {
       unit.error_code |= error_of(cause);
     }
   }

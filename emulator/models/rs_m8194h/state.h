@@ -93,6 +93,11 @@ inline constexpr std::uint8_t kDownloaded = 4;
 inline constexpr std::uint8_t kMpFinished = 6;
 inline constexpr std::uint8_t kIsrFinished = 8;
 
+/// An axis and a source in one number.
+constexpr std::uint8_t name_of_source(std::size_t axis, std::uint8_t source) {
+  return static_cast<std::uint8_t>(axis << 4U | source);
+}
+
 /// None is being downloaded: a name all the same, as each download has one.
 inline const lang::Download kNoDownload{.name = {.is_isr = false, .number = 1}};
 
@@ -122,6 +127,7 @@ struct State {
   bool interrupts = false;       // ENABLE_INT
   std::array<AxisMask, kFactors> factor_axes{};
   std::vector<IsrMark> marks{};
+  std::vector<std::uint8_t> enabled{};  // what calls ISRs, by name_of_source(), in the order of its enabling
   lang::Execution execution{};
   MacroReport execution_fault{};
   bool paused = false;                                        // by a trigger,
@@ -140,6 +146,7 @@ struct State {
   Tick resetting_until = 0;   // RESET_CARD
   int steps_left = 0;         // of this tick
   bool touched = false;       // by a command at once since then: what waits may go on
+  std::array<std::uint16_t, kWindowWords> parameters{};  // written before their command, by choice
   // Non-volatile.
   std::array<BasicSettings, kAxes> initial_table{};
   TextBlocks blocks{};  // macros, triggers and the Initial Table, as text

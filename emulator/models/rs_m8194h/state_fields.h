@@ -1,6 +1,9 @@
 // What the state of an RS-M8194H consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "base/state/state_bytes.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "interpreter/rs_m8194h/state_fields.h"
@@ -78,6 +81,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("interrupts", &Value::interrupts),
                                            field("factor_axes", &Value::factor_axes),
                                            field("marks", &Value::marks),
+                                           field("enabled", &Value::enabled),
                                            field("execution", &Value::execution),
                                            field("execution_fault", &Value::execution_fault),
                                            field("paused", &Value::paused),
@@ -96,6 +100,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("resetting_until", &Value::resetting_until),
                                            field("steps_left", &Value::steps_left),
                                            field("touched", &Value::touched),
+                                           field("parameters", &Value::parameters),
                                            field("initial_table", &Value::initial_table),
                                            field("blocks", &Value::blocks),
                                            field("eeprom", &Value::eeprom),
@@ -107,6 +112,14 @@ struct StateOf<emulator::models::rs_m8194h::State> {
     }
     for (const std::uint8_t channel : state.queued_triggers) {
       demand_state(channel < interpreter::rs_m8194h::kTriggerCount, "a trigger has no such channel");
+    }
+    for (std::size_t i = 0; i < state.enabled.size(); ++i) {
+      const auto begin = state.enabled.begin();
+      const bool is_new = std::find(begin, begin + static_cast<std::ptrdiff_t>(i), state.enabled[i]) ==
+                          begin + static_cast<std::ptrdiff_t>(i);
+      const bool exists = state.enabled[i] >> 4 < static_cast<int>(emulator::models::rs_m8194h::kAxes) &&
+                          (state.enabled[i] & 0xF) <= emulator::models::rs_m8194h::IsrMark::kSynchronous;
+      demand_state(is_new && exists, "an interrupt that is enabled has no such source");
     }
     for (const auto& scan : state.scans) demand_reach(scan.begin);
     demand_state(state.image.size() == emulator::models::rs_m8194h::kSlotCount, "the image has another size");
