@@ -208,6 +208,8 @@ inline constexpr ChoiceRow kChoices[] = {
      kProposal, "V and the ramps that are set"},
     {"exd_and_drives", "3.17", "drives while an external drive is on", "run|are_void", kProposal,
      "nothing forbids them"},
+    {"exd_disable", "3.17.4", "what EXD_CP has begun, at EXD_DISABLE or another mode", "slows_down|goes_on",
+     kProposal, "the function is off, its input could not stop it any more"},
     {"ring_and_absolute", "3.15.1", "the absolute counter of a ring", "goes_on_straight|turns_round_too",
      kFollows, "LP and EP are named"},
     {"cv_in_interpolation", "4.4", "the speed that an axis of a path shows",

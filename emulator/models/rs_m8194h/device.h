@@ -172,6 +172,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void note_enabled(std::size_t axis, std::uint8_t source, bool is_on);
   void give_pulse(std::size_t axis, Tick tick, std::int64_t pulses = 1);
   void change_speed(std::size_t axis);
+  /// EXD_MP, EXD_FP, EXD_CP with their data, or off.
+  void set_external(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data);
 
   // --- macros (macros.cpp) -------------------------------------------------------------------------
   const LanguageOptions& language_options() const { return options_; }

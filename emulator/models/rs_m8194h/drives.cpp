@@ -254,6 +254,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   motion::Axis& motor = state_.motors[axis];
   Paths& paths = state_.paths;
   if (paths.open && !paths.together.engaged && has(paths.axes, axis)) paths.open = false;
+  unit.external.running = 0;
   // What a command finds at its pins is what they are now.
   motor.signals = state_.here[axis].at(motor.travel_pulses, motor.signals);
   std::int64_t distance = what.value;
@@ -359,6 +360,8 @@ void RsM8194h::heed_ends() {
     AxisUnit& unit = state_.units[a];
     const bool homed = (motor.events & motion::bit(motion::Event::homed)) != 0;
     if (homed) heed_home(a);
+    // Its input stops what it has begun, and nothing else.
+    if (!motor.moving()) unit.external.running = 0;
     constexpr motion::Events kConstant =
         motion::bit(motion::Event::constant_started) | motion::bit(motion::Event::constant_ended);
     const bool has_ramps = motor.law.start_speed_u_s < motor.law.top_speed_u_s;

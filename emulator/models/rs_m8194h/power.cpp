@@ -214,7 +214,7 @@ void RsM8194h::reset_card() {
 void RsM8194h::load_initial() {
   for (std::size_t a = 0; a < kAxes; ++a) {
     apply_basic(state_.units[a], state_.motors[a], state_.initial_table[a], machine_.axis);
-    state_.units[a].external.mode = motion::ExternalDrive::Mode::off;
+    set_external(a, motion::ExternalDrive::Mode::off, 0);
     look_again(a);
   }
 }

@@ -74,13 +74,7 @@ inline Took set_basic(RsM8194h& it, const Command& command) {
 template <motion::ExternalDrive::Mode mode>
 Took set_external(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    AxisUnit& unit = it.state().units[a];
-    const motion::ExternalDrive before = unit.external;
-    unit.external = {.mode = mode,
-                     .pulses = mode == motion::ExternalDrive::Mode::off ? 0 : std::int64_t{command.values[1]},
-                     .plus_high = before.plus_high,
-                     .minus_high = before.minus_high};
-    unit.external_pps = command.values[1];
+    it.set_external(a, mode, mode == motion::ExternalDrive::Mode::off ? 0 : command.values[1]);
   });
   return Took::done;
 }
