@@ -241,7 +241,7 @@ inline constexpr ChoiceRow kChoices[] = {
     {"emergency_and_macros", "7.5.9", "macros at EMERGENCY_STOP", "go_on|end", kFollows,
      "axes and the FIFO are named; MP_TERMINATE ends macros"},
     {"second_held_drive", "7.5.1", "a second drive for a held axis", "replaces_the_first|is_void|waits",
-     kProposal, "waiting for DRV_START behind it would never end"},
+     kProposal, "waiting for DRV_START behind it would never end; the segments of a stream are one drive"},
     {"hold_of_moving_axis", "7.5.1", "DRV_HOLD of an axis that moves", "holds_its_next_drive|is_void",
      kFollows, "the following drives"},
     {"hold_partial_start", "7.5.2", "DRV_START of some axes of a held interpolation",

@@ -134,7 +134,10 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   motion::SpeedLaw law_of(std::size_t axis) const;
   /// A path; it may have to wait, be held, or be void (path_commands.cpp).
   Took follow_path(const lang::Command& command);
-  AxisMask axes_of_path(const lang::Command& command) const;
+  Took begin_path(const HeldPath& path);
+  bool joins_stream(const HeldPath& path) const;
+  /// Of what is held, if anything is.
+  AxisMask axes_of_held_path() const;
   /// Whether a stream that runs takes one more segment.
   bool has_room_for_segment() const;
   /// Whether a path may begin on these axes now, given that none is running.
@@ -145,6 +148,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   /// Of LINE_SCAN_START: the flag of done scans is off until all of them stand.
   void begin_scans(AxisMask axes);
   bool waits_behind_held(AxisMask axes) const;
+  bool keeps_first_held(AxisMask axes) const;
+  bool holds_a_drive(AxisMask axes) const;
 
   void halt(AxisMask axes, const StopRow& row);
   /// The path slows down to its end.

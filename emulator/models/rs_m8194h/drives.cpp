@@ -194,15 +194,20 @@ void RsM8194h::forget_errors(std::size_t axis) {
 
 /// By choice, of a drive that would be held: another one of its axes is held already.
 bool RsM8194h::waits_behind_held(AxisMask axes) const {
-  if (!chose(option("second_held_drive", "waits"))) return false;
+  return chose(option("second_held_drive", "waits")) && holds_a_drive(axes);
+}
+bool RsM8194h::keeps_first_held(AxisMask axes) const {
+  return chose(option("second_held_drive", "is_void")) && holds_a_drive(axes);
+}
+
+bool RsM8194h::holds_a_drive(AxisMask axes) const {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (has(axes, a) && state_.units[a].held_drive.what != Drive::What::none) return true;
   }
-  return !state_.held_paths.empty() && (axes_of_path(state_.held_paths.front()) & axes) != 0;
+  return (axes_of_held_path() & axes) != 0;
 }
 
 Took RsM8194h::drive(AxisMask axes, const Drive& what) {
-  const bool is_first_kept = chose(option("second_held_drive", "is_void"));
   // Then one that moves takes it along, and starts with it when it stands.
   const bool is_each_its_own = chose(option("mask_drive", "axis_by_axis")) && (axes & (axes - 1)) != 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -227,11 +232,9 @@ Took RsM8194h::drive(AxisMask axes, const Drive& what) {
       case Start::is_void: note_obstacles(mask_of(a)); break;
       case Start::is_held:
         // The later one replaces what was held of this axis, or comes too late.
-        if (is_first_kept && state_.units[a].held_drive.what != Drive::What::none) break;
+        if (keeps_first_held(mask_of(a))) break;
         state_.units[a].held_drive = what;
-        if (!state_.held_paths.empty() && has(axes_of_path(state_.held_paths.front()), a)) {
-          state_.held_paths.clear();
-        }
+        if (has(axes_of_held_path(), a)) state_.held_paths.clear();
         break;
       case Start::waits: state_.units[a].held_drive = what; break;  // takes it along
     }
@@ -317,12 +320,15 @@ void RsM8194h::start_held() {
       note_obstacles(mask_of(a));
     }
   }
-  if (state_.held_paths.empty()) return;
-  const lang::Command path = state_.held_paths.front();
-  const Start outcome = may_start(axes_of_path(path), Starter::command);
-  if (outcome == Start::is_held || outcome == Start::waits) return;
-  state_.held_paths.clear();
-  follow_path(path);
+  while (!state_.held_paths.empty()) {
+    const HeldPath path = state_.held_paths.front();
+    const Start outcome = may_start(mask_of_codes(path.codes), Starter::command);
+    const bool stays = outcome == Start::is_held || outcome == Start::waits;
+    // Segments behind the one that has begun join it.
+    if (stays && !joins_stream(path)) return;
+    if (begin_path(path) == Took::waits) return;
+    if (!state_.held_paths.empty()) state_.held_paths.erase(state_.held_paths.begin());
+  }
 }
 
 void RsM8194h::heed_home(std::size_t axis) {

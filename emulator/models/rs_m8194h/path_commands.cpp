@@ -40,6 +40,7 @@ std::array<std::uint8_t, 3> RsM8194h::codes_of_path(const lang::Command& command
   if (row.runs == Paths::Runs::stream && settings.given) codes = settings.axes;
   if (row.runs == Paths::Runs::rectangle) codes = codes_at(command, 2);
   if (row.runs == Paths::Runs::helix) codes = codes_at(command, 3);
+  if (row.dimensions == 2) codes[2] = 0;
   return codes;
 }
 
@@ -47,10 +48,15 @@ bool RsM8194h::streams_need_initial() const {
   return chose(option("continue_without_initial", "void_with_module_error"));
 }
 
-AxisMask RsM8194h::axes_of_path(const lang::Command& command) const {
-  std::array<std::uint8_t, 3> codes = codes_of_path(command);
-  if (row_of_path(command.verb()).dimensions == 2) codes[2] = 0;
-  return mask_of_codes(codes);
+bool follows(const HeldPath& first, const HeldPath& other) {
+  const PathRow& one = row_of_path(first.command.verb());
+  const PathRow& another = row_of_path(other.command.verb());
+  const bool are_segments = one.runs == Paths::Runs::stream && another.runs == Paths::Runs::stream;
+  return are_segments && one.stream == another.stream && first.codes == other.codes;
+}
+
+AxisMask RsM8194h::axes_of_held_path() const {
+  return state_.held_paths.empty() ? AxisMask{0} : mask_of_codes(state_.held_paths.front().codes);
 }
 
 /// A limit that is active before a path begins, or a soft limit that is reached, keeps it from beginning, as
@@ -87,11 +93,31 @@ bool RsM8194h::has_room_for_segment() const {
 }
 
 Took RsM8194h::follow_path(const lang::Command& command) {
+  const HeldPath path{.command = command, .codes = codes_of_path(command)};
+  auto& held = state_.held_paths;
+  if (held.empty() || !follows(held.front(), path)) return begin_path(path);
+  // A stream is one drive: its segments are held together, and begin one after the other.
+  const bool has_last = held.back().command.values[0] == 1;
+  if (has_last && !joins_stream(held.front())) return begin_path(path);
+  if (has_last || held.size() == static_cast<std::size_t>(kFifoBlocks)) return Took::waits;
+  held.push_back(path);
+  return Took::done;
+}
+
+bool RsM8194h::joins_stream(const HeldPath& path) const {
+  const PathRow& row = row_of_path(path.command.verb());
+  const Paths& paths = state_.paths;
+  return row.runs == Paths::Runs::stream && paths.together.engaged && paths.runs == Paths::Runs::stream &&
+         paths.stream == row.stream && paths.open && (paths.axes & ~mask_of_codes(path.codes)) == 0;
+}
+
+Took RsM8194h::begin_path(const HeldPath& path) {
+  const lang::Command& command = path.command;
+  const std::array<std::uint8_t, 3>& codes = path.codes;
   const PathRow& row = row_of_path(command.verb());
   Paths& paths = state_.paths;
   const bool is_stream = row.runs == Paths::Runs::stream;
   const StreamSettings& settings = paths.streams[static_cast<std::size_t>(row.stream)];
-  const std::array<std::uint8_t, 3> codes = codes_of_path(command);
   const bool is_unfit = row.runs == Paths::Runs::single && chose(option("unfit_profile", "void")) &&
                         !fits_mode(paths.vector.mode, row.dimensions, row.draws);
   const bool has_no_initial = is_stream && !settings.given && streams_need_initial();
@@ -99,12 +125,11 @@ Took RsM8194h::follow_path(const lang::Command& command) {
     module_error();
     return Took::done;
   }
-  const bool joins = is_stream && paths.together.engaged && paths.runs == Paths::Runs::stream &&
-                     paths.stream == row.stream && paths.open;
+  const bool joins = joins_stream(path);
   if (joins && (paths.together.slowing_for != motion::Cause::none || !has_room_for_segment())) {
     return Took::waits;
   }
-  const AxisMask axes = axes_of_path(command);
+  const AxisMask axes = mask_of_codes(codes);
   if (!joins) {
     const Start outcome = may_start(axes, Starter::command);
     if (outcome == Start::is_void) {
@@ -117,10 +142,11 @@ Took RsM8194h::follow_path(const lang::Command& command) {
     if (has_no_speed && machine_.zero_speeds_drive_nothing) return Took::done;
     if (outcome == Start::is_held && waits_behind_held(axes)) return Took::waits;
     if (outcome == Start::is_held) {
+      if (keeps_first_held(axes)) return Took::done;
       for (std::size_t a = 0; a < kAxes; ++a) {
         if (has(axes, a)) state_.units[a].held_drive = {};
       }
-      state_.held_paths.assign(1, command);
+      state_.held_paths.assign(1, path);
       return Took::done;
     }
   }

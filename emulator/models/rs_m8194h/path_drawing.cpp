@@ -210,7 +210,7 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
     if (made.begin(Point::Zero(), state_.motors, now_tick) != motion::Cause::none) return;
     paths.together = made;
     paths.end = drawing.end;
-    paths.axes = axes_of_path(command);
+    paths.axes = mask_of_codes(codes);
     paths.runs = row.runs;
     paths.stream = row.stream;
     for (std::size_t a = 0; a < kAxes; ++a) {

@@ -40,6 +40,17 @@ struct Fifo {
 
 /// Whether it is an interpolation (path_commands.cpp).
 bool is_path(const lang::Command& command);
+struct HeldPath;
+/// Whether it is a segment of the same stream.
+bool follows(const HeldPath& first, const HeldPath& other);
+
+/// An interpolation that is held, on the axes that it was sent for.
+struct HeldPath {
+  lang::Command command{};
+  std::array<std::uint8_t, 3> codes{};
+
+  bool operator==(const HeldPath&) const = default;
+};
 
 /// Equal triggers along an axis (7.4.12).
 struct LineScan {
@@ -113,7 +124,7 @@ struct State {
   std::array<LineScan, kAxes> scans{};
   AxisMask scanning = 0;  // axes that LINE_SCAN_START has named
   Fifo fifo{};
-  std::vector<lang::Command> held_paths{};  // one at most: an interpolation that waits for DRV_START
+  std::vector<HeldPath> held_paths{};  // what waits for DRV_START; behind a segment those of its stream
   // The RS-M8194H's own.
   lang::State rsm = lang::State::ready;
   std::uint16_t illegal_reason = 0;

@@ -35,6 +35,18 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
 };
 
 template <>
+struct StateOf<emulator::models::rs_m8194h::HeldPath> {
+  using Value = emulator::models::rs_m8194h::HeldPath;
+  static constexpr auto fields = FieldList{field("command", &Value::command), field("codes", &Value::codes)};
+  static void check(const Value& held) {
+    for (const std::uint8_t code : held.codes) {
+      demand_state(code == 0 || emulator::models::rs_m8194h::axis_of_code(code) >= 0,
+                   "a path has no such axis");
+    }
+  }
+};
+
+template <>
 struct StateOf<emulator::models::rs_m8194h::LineScan> {
   using Value = emulator::models::rs_m8194h::LineScan;
   static constexpr auto fields = FieldList{field("set", &Value::set),
@@ -106,9 +118,14 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("eeprom", &Value::eeprom),
                                            field("image", &Value::image)};
   static void check(const Value& state) {
-    demand_state(state.held_paths.size() <= 1, "more than one path is held");
-    for (const auto& command : state.held_paths) {
-      demand_state(emulator::models::rs_m8194h::is_path(command), "what is held is not a path");
+    demand_state(
+        state.held_paths.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
+        "more is held than there is room for");
+    for (const auto& held : state.held_paths) {
+      demand_state(emulator::models::rs_m8194h::is_path(held.command), "what is held is not a path");
+      demand_state(emulator::models::rs_m8194h::follows(state.held_paths.front(), held) ||
+                       state.held_paths.size() == 1,
+                   "what is held is not one stream");
     }
     for (const std::uint8_t channel : state.queued_triggers) {
       demand_state(channel < interpreter::rs_m8194h::kTriggerCount, "a trigger has no such channel");

@@ -98,9 +98,7 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
     unit.path_locked = unit.path_locked || row.locks_path;
     if (row.drops_held_drive && !keeps_held) {
       unit.held_drive = {};
-      if (!state_.held_paths.empty() && has(axes_of_path(state_.held_paths.front()), a)) {
-        state_.held_paths.clear();
-      }
+      if (has(axes_of_held_path(), a)) state_.held_paths.clear();
     }
     if (row.drops_hold && !keeps_held) unit.held = false;
     unit.error_code |= bit_of(row.error);
@@ -161,7 +159,7 @@ void RsM8194h::release(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (has(axes, a)) state_.units[a].held = false;
   }
-  const AxisMask of_path = state_.held_paths.empty() ? AxisMask{0} : axes_of_path(state_.held_paths.front());
+  const AxisMask of_path = axes_of_held_path();
   if ((of_path & axes) != 0 && chose(option("hold_partial_start", "starts_at_once"))) {
     for (std::size_t a = 0; a < kAxes; ++a) {
       if (has(of_path, a)) state_.units[a].held = false;
