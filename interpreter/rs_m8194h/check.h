@@ -29,6 +29,8 @@ struct CommandOptions {
   /// Which order of the letters of `<=` a message may have.
   enum class Letters : std::uint8_t { either, as_in_the_frame, as_in_the_table };
   Letters letters = Letters::either;
+  /// IF: one letter, = or !, is no operator.
+  bool single_signs_are_refused = false;
   /// FRNET_OUT: a number that is a variable's address stands for it.
   bool addresses_are_variables = false;
   /// The six codes that 12.3 gives otherwise than chapter 7.

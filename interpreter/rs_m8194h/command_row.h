@@ -112,6 +112,8 @@ inline constexpr int kMemoryCount = 2048;       // MD0 to MD2047
 inline constexpr int kFirstRealMemory = 1024;
 inline constexpr int kLabelCount = 4;
 inline constexpr int kDeepest = 7;  // open IF, open FOR, levels of calls
+/// By choice, the macro that was started is not one of the levels of its calls.
+inline constexpr int kDeepestCall = kDeepest + 1;
 
 /// What stands for VAR0 and bVAR0 in a parameter.
 inline constexpr std::int64_t kVariable0 = 0x7FFF0000;

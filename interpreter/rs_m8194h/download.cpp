@@ -48,7 +48,7 @@ constexpr auto kDepthRules = std::to_array<DepthRule>({
     {Verb::exit_for, Verb::for_, 1, kDeepest, Fault::exit_for_outside},
 });
 
-Fault block_fault(const std::vector<Command>& lines, const Command& command) {
+Fault block_fault(const std::vector<Command>& lines, const Command& command, const DownloadOptions& options) {
   const Verb verb = command.verb();
   for (const BlockRule& rule : kBlockRules) {
     if (rule.verb != verb) continue;
@@ -59,7 +59,10 @@ Fault block_fault(const std::vector<Command>& lines, const Command& command) {
   }
   for (const DepthRule& rule : kDepthRules) {
     if (rule.verb != verb) continue;
-    const int open = count_open(blocks_behind(lines), rule.opener);
+    const Blocks blocks = blocks_behind(lines);
+    const bool opens = verb == rule.opener;
+    const int open = opens && options.levels_are_of_both ? static_cast<int>(blocks.size())
+                                                         : count_open(blocks, rule.opener);
     return open >= rule.least && open <= rule.most ? Fault::none : rule.fault;
   }
   return Fault::none;
@@ -73,7 +76,7 @@ Fault line_fault(const Download& download, const Command& command, const Downloa
         return is_label(other, command.values[0]);
       });
   if (is_twice) return Fault::label_twice;
-  return block_fault(download.lines, command);
+  return block_fault(download.lines, command, options);
 }
 
 void fail(Download& download, Fault fault, std::uint16_t code, std::size_t line) {

@@ -173,7 +173,8 @@ class LineRun {
   }
 
   Ran call(const Command& command) {
-    if (run_.levels.size() == static_cast<std::size_t>(kDeepest)) {
+    const int deepest = kDeepest + (options_.calls_alone_have_levels ? 1 : 0);
+    if (run_.levels.size() == static_cast<std::size_t>(deepest)) {
       if (!options_.call_too_deep_ends_macro) return fail(command, Fault::undefined_command);
       fail(command, Fault::undefined_command);
       return exit_macro(command);

@@ -97,7 +97,7 @@ bool is_sound_hold(const Run& run, const Machine& machine) {
 }
 
 bool is_sound_run(const Run& run, const Machine& machine) {
-  const std::size_t deepest = run.is_isr ? 1 : static_cast<std::size_t>(kDeepest);
+  const std::size_t deepest = run.is_isr ? 1 : static_cast<std::size_t>(kDeepestCall);
   return run.levels.size() <= deepest && is_sound_hold(run, machine) &&
          std::ranges::all_of(run.levels,
                              [&](const Level& level) { return is_sound_level(run, level, machine); });

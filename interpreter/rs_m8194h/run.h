@@ -32,6 +32,8 @@ struct RunOptions {
   bool return_value_is_used_up = false;
   /// A negative time from a variable is 0, or an execution error.
   bool negative_time_is_error = false;
+  /// The seven levels are those of calls inside the macro that was started, or it is the first of them.
+  bool calls_alone_have_levels = false;
   /// The eighth level is not called; its caller goes on behind the line, or ends.
   bool call_too_deep_ends_macro = false;
   /// FRNET_WAIT waits for a change to its level, or takes it if it is there already.

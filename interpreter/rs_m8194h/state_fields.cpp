@@ -62,7 +62,7 @@ void StateOf<lang::Trigger>::check(const lang::Trigger& trigger) {
 
 void StateOf<lang::Run>::check(const lang::Run& run) {
   if (run.until_ms != lang::kNever) demand_reach(run.until_ms);
-  demand_state(run.levels.size() <= lang::kDeepest, "macros are nested too deep");
+  demand_state(run.levels.size() <= lang::kDeepestCall, "macros are nested too deep");
 }
 
 void StateOf<lang::Execution>::check(const lang::Execution& execution) {

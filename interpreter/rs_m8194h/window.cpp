@@ -57,7 +57,10 @@ std::uint32_t comparison_of(std::uint32_t sent, const CommandOptions& options) {
   const bool is_other =
       has_two_orders && ((options.letters == Letters::as_in_the_frame && sent == row->codes[1]) ||
                          (options.letters == Letters::as_in_the_table && sent == row->codes[0]));
-  return is_other ? 0 : row->codes[0];
+  const bool is_letter = (sent & 0xFFU) == 0 || (sent >> 8U & 0xFFU) == 0;
+  const bool is_single =
+      is_letter && (row->comparison == Comparison::equal || row->comparison == Comparison::not_equal);
+  return is_other || (is_single && options.single_signs_are_refused) ? 0 : row->codes[0];
 }
 
 /// Holding registers 300 to 1323 are the variables.

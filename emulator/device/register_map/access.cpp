@@ -178,13 +178,16 @@ Place window_at(const RegisterBank& bank, Table table, std::uint16_t first) {
 /// All its words from the window's first one on, or none.
 Objection write_message(RegisterBank& bank, const Place& window, const RegisterRequest& request) {
   const RegisterRow& row = *window.row;
-  const auto most = static_cast<std::size_t>(row.count);
-  if (window.index != 0) return objection(Refusal::no_register, Cause::cut_message, request.first);
+  const auto most = static_cast<std::size_t>(row.count - window.index);
+  const bool is_part = window.index != 0;
+  if (is_part && !bank.takes_parts()) {
+    return objection(Refusal::no_register, Cause::cut_message, request.first);
+  }
   if (request.count > most) {
     return objection(Refusal::no_register, Cause::cut_message, request.first + most);
   }
   if (const Objection refused = admission(bank, request, Checked::addresses)) return refused;
-  if (request.count < static_cast<std::size_t>(row.least_words)) {
+  if (!is_part && request.count < static_cast<std::size_t>(row.least_words)) {
     return objection(Refusal::bad_value, Cause::bad_message, request.first);
   }
   if (const Objection refused = admission(bank, request, Checked::everything)) return refused;

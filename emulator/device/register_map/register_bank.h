@@ -56,6 +56,8 @@ class RegisterBank {
   virtual DeviceAnswer admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
     return Refusal::none;
   }
+  /// Whether a message may also begin behind its window's first word: the device keeps such a part.
+  virtual bool takes_parts() const { return false; }
   /// Asked of each register of a good write before anything is stored, in ascending order: whether the device
   /// makes something else of it. Then it is not stored, and has no effect.
   virtual bool diverts(const Place& /*place*/, std::uint32_t /*bits*/) { return false; }

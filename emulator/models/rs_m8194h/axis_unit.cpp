@@ -178,12 +178,12 @@ void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const Ax
   if (changed != motor.settings) motor.set(changed);
 }
 
-motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way) {
+motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way, int beyond) {
   const bool by_encoder = axis.basic.soft_limits && axis.basic.soft_limit_source == 1 && axis.has_encoder;
   if (!by_encoder) return motion::Cause::none;
-  const std::int32_t count = encoder_count(axis, motor);
-  if (way > 0 && count >= axis.basic.forward_soft_limit) return motion::Cause::soft_limit_plus;
-  if (way < 0 && count <= axis.basic.reverse_soft_limit) return motion::Cause::soft_limit_minus;
+  const std::int64_t count = encoder_count(axis, motor);
+  if (way > 0 && count >= axis.basic.forward_soft_limit + beyond) return motion::Cause::soft_limit_plus;
+  if (way < 0 && count <= axis.basic.reverse_soft_limit - beyond) return motion::Cause::soft_limit_minus;
   return motion::Cause::none;
 }
 

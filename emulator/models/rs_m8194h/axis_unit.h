@@ -103,6 +103,7 @@ struct AxisUnit {
   std::int64_t encoder_zero = 0;  // raw count where the divided one was 0
   std::int64_t sent_pulses = 0;   // in the last tick
   std::uint16_t error_code = 0;
+  std::uint16_t met = 0;              // bits of what it has met on a path, which slows down for it
   bool locked = false;                // by STOP_*
   bool path_locked = false;           // by VSTOP_*
   bool held = false;                  // DRV_HOLD
@@ -161,8 +162,8 @@ struct Asked {
 /// Limits and comparators as the motor watches them: again whenever a counter or one of them is set.
 void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const AxisOptions& options);
 /// Of a soft limit on a bench's encoder, which the motor does not watch: the cause of a motion in `way` that
-/// may not go on.
-motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way);
+/// may not begin there, or, with one count `beyond` it, not go on.
+motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way, int beyond = 0);
 
 /// Bits 5 to 9 of DI_ALL: the levels of the lines, or whether they are active by their settings.
 enum class UpperBits : std::uint8_t { line_levels, active };
@@ -222,6 +223,7 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
                                            field("encoder_zero", &Value::encoder_zero),
                                            field("sent_pulses", &Value::sent_pulses),
                                            field("error_code", &Value::error_code),
+                                           field("met", &Value::met),
                                            field("locked", &Value::locked),
                                            field("path_locked", &Value::path_locked),
                                            field("held", &Value::held),

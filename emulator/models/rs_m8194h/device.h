@@ -45,6 +45,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
   bool low_word_first() const override { return state_.image[kWordOrderSlot] == 1; }
+  bool takes_parts() const override { return chose(option("window_parts", "kept_for_the_command")); }
   DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override;
   bool diverts(const Place& place, std::uint32_t bits) override;
   void read_answered(const RegisterRequest& request) override;
@@ -133,7 +134,10 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   motion::SpeedLaw law_of(std::size_t axis) const;
   /// A path; it may have to wait, be held, or be void (path_commands.cpp).
   Took follow_path(const lang::Command& command);
-  AxisMask axes_of_path(const lang::Command& command) const;
+  Took begin_path(const HeldPath& path);
+  bool joins_stream(const HeldPath& path) const;
+  /// Of what is held, if anything is.
+  AxisMask axes_of_held_path() const;
   /// Whether a stream that runs takes one more segment.
   bool has_room_for_segment() const;
   /// Whether a path may begin on these axes now, given that none is running.
@@ -144,6 +148,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   /// Of LINE_SCAN_START: the flag of done scans is off until all of them stand.
   void begin_scans(AxisMask axes);
   bool waits_behind_held(AxisMask axes) const;
+  bool keeps_first_held(AxisMask axes) const;
+  bool holds_a_drive(AxisMask axes) const;
 
   void halt(AxisMask axes, const StopRow& row);
   /// The path slows down to its end.
@@ -167,8 +173,12 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   /// An event of an axis that a factor may be waiting for, noted and marked.
   void note_factor(std::size_t axis, Factor factor);
   void mark_isr(std::size_t axis, std::uint8_t source, Tick tick);
+  /// Of what calls ISRs: which came last.
+  void note_enabled(std::size_t axis, std::uint8_t source, bool is_on);
   void give_pulse(std::size_t axis, Tick tick, std::int64_t pulses = 1);
   void change_speed(std::size_t axis);
+  /// EXD_MP, EXD_FP, EXD_CP with their data, or off.
+  void set_external(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data);
 
   // --- macros (macros.cpp) -------------------------------------------------------------------------
   const LanguageOptions& language_options() const { return options_; }
@@ -211,10 +221,12 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   Tick next_scan(Tick after) const;
   void watch_external(std::size_t axis);
   void step_axes(Tick tick);
+  void heed_encoder(std::size_t axis, Tick tick);
   void heed_ends();
   void heed_home(std::size_t axis);
   void heed_path_speed(Tick tick);
   void heed_path_end(bool was_full);
+  void note_end_of_path(std::size_t axis);
   void act_on_events(Tick tick);
   void act_together(Tick tick);
   void heed_factors(std::size_t axis, Tick tick);
@@ -223,8 +235,9 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::int64_t scan_spacing(const LineScan& scan) const;
   void end_scan(std::size_t axis);
   bool rests() const;
-  void leave_path(std::size_t axis);
+  void leave_path(std::size_t axis, Halt halt);
   /// By choice, a drive at a speed that was never set.
+  void forget_errors(std::size_t axis);
   bool lacks_speed(std::size_t axis, Drive::What what) const;
   /// Of writes that become lines of the macro that is being downloaded.
   DeviceAnswer admits_lines(const RegisterRequest& request) const;

@@ -47,19 +47,17 @@ motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules, c
   return program;
 }
 
-/// Of an axis on a path, whose cause is that of the one that met something.
-bool is_its_own(const AxisUnit& unit, const motion::Axis& motor, motion::Cause cause) {
+/// Of an axis on a path, whose cause is that of the one that met something; what it met earlier is noted.
+bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
   const auto is_on = [&](motion::Signal signal) { return (motor.signals & motion::bit(signal)) != 0; };
   switch (cause) {
     case motion::Cause::limit_plus: return is_on(motion::Signal::limit_plus);
     case motion::Cause::limit_minus: return is_on(motion::Signal::limit_minus);
     case motion::Cause::alarm: return is_on(motion::Signal::alarm);
     case motion::Cause::soft_limit_plus:
-      return (motor.settings.soft_limit_plus && motor.travel_pulses > *motor.settings.soft_limit_plus) ||
-             soft_limit_by_encoder(unit, motor, +1) == cause;
+      return motor.settings.soft_limit_plus && motor.travel_pulses > *motor.settings.soft_limit_plus;
     case motion::Cause::soft_limit_minus:
-      return (motor.settings.soft_limit_minus && motor.travel_pulses < *motor.settings.soft_limit_minus) ||
-             soft_limit_by_encoder(unit, motor, -1) == cause;
+      return motor.settings.soft_limit_minus && motor.travel_pulses < *motor.settings.soft_limit_minus;
     case motion::Cause::none:
     case motion::Cause::arrived:
     case motion::Cause::stopped:
@@ -188,17 +186,28 @@ void RsM8194h::note_obstacles(AxisMask axes) {
   }
 }
 
+/// Of a drive that starts: what it has left behind it.
+void RsM8194h::forget_errors(std::size_t axis) {
+  if (chose(option("error_bits_end", "nothing"))) return;
+  state_.units[axis].error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
+}
+
 /// By choice, of a drive that would be held: another one of its axes is held already.
 bool RsM8194h::waits_behind_held(AxisMask axes) const {
-  if (!chose(option("second_held_drive", "waits"))) return false;
+  return chose(option("second_held_drive", "waits")) && holds_a_drive(axes);
+}
+bool RsM8194h::keeps_first_held(AxisMask axes) const {
+  return chose(option("second_held_drive", "is_void")) && holds_a_drive(axes);
+}
+
+bool RsM8194h::holds_a_drive(AxisMask axes) const {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (has(axes, a) && state_.units[a].held_drive.what != Drive::What::none) return true;
   }
-  return !state_.held_paths.empty() && (axes_of_path(state_.held_paths.front()) & axes) != 0;
+  return (axes_of_held_path() & axes) != 0;
 }
 
 Took RsM8194h::drive(AxisMask axes, const Drive& what) {
-  const bool is_first_kept = chose(option("second_held_drive", "is_void"));
   // Then one that moves takes it along, and starts with it when it stands.
   const bool is_each_its_own = chose(option("mask_drive", "axis_by_axis")) && (axes & (axes - 1)) != 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -223,11 +232,9 @@ Took RsM8194h::drive(AxisMask axes, const Drive& what) {
       case Start::is_void: note_obstacles(mask_of(a)); break;
       case Start::is_held:
         // The later one replaces what was held of this axis, or comes too late.
-        if (is_first_kept && state_.units[a].held_drive.what != Drive::What::none) break;
+        if (keeps_first_held(mask_of(a))) break;
         state_.units[a].held_drive = what;
-        if (!state_.held_paths.empty() && has(axes_of_path(state_.held_paths.front()), a)) {
-          state_.held_paths.clear();
-        }
+        if (has(axes_of_held_path(), a)) state_.held_paths.clear();
         break;
       case Start::waits: state_.units[a].held_drive = what; break;  // takes it along
     }
@@ -250,6 +257,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   motion::Axis& motor = state_.motors[axis];
   Paths& paths = state_.paths;
   if (paths.open && !paths.together.engaged && has(paths.axes, axis)) paths.open = false;
+  unit.external.running = 0;
   // What a command finds at its pins is what they are now.
   motor.signals = state_.here[axis].at(motor.travel_pulses, motor.signals);
   std::int64_t distance = what.value;
@@ -287,7 +295,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
     unit.error_code |= refused == motion::Cause::homing_failed ? bit_of(ErrorBit::home) : error_of(refused);
     return;
   }
-  unit.error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
+  forget_errors(axis);
   if (motor.homing.active() && !machine_.axis.homing_heeds_soft_limits) look_again(axis);
   if (what.what == Drive::What::scan) begin_scans(mask_of(axis));
   if (LineScan& scan = state_.scans[axis]; what.what == Drive::What::scan && scan.set) {
@@ -312,12 +320,15 @@ void RsM8194h::start_held() {
       note_obstacles(mask_of(a));
     }
   }
-  if (state_.held_paths.empty()) return;
-  const lang::Command path = state_.held_paths.front();
-  const Start outcome = may_start(axes_of_path(path), Starter::command);
-  if (outcome == Start::is_held || outcome == Start::waits) return;
-  state_.held_paths.clear();
-  follow_path(path);
+  while (!state_.held_paths.empty()) {
+    const HeldPath path = state_.held_paths.front();
+    const Start outcome = may_start(mask_of_codes(path.codes), Starter::command);
+    const bool stays = outcome == Start::is_held || outcome == Start::waits;
+    // Segments behind the one that has begun join it.
+    if (stays && !joins_stream(path)) return;
+    if (begin_path(path) == Took::waits) return;
+    if (!state_.held_paths.empty()) state_.held_paths.erase(state_.held_paths.begin());
+  }
 }
 
 void RsM8194h::heed_home(std::size_t axis) {
@@ -332,6 +343,17 @@ void RsM8194h::heed_home(std::size_t axis) {
   }
 }
 
+/// Its own cause, and what it has met before, become errors.
+void RsM8194h::note_end_of_path(std::size_t axis) {
+  AxisUnit& unit = state_.units[axis];
+  motion::Axis& motor = state_.motors[axis];
+  if (is_its_own(motor, motor.cause)) unit.error_code |= error_of(motor.cause);
+  unit.error_code |= std::exchange(unit.met, std::uint16_t{0});
+  // Once: a host may have cleared it when D-END comes.
+  if (motor.cause != motion::Cause::arrived && motor.task == motion::Task::none)
+    motor.cause = motion::Cause::stopped;
+}
+
 /// What ended in this tick leaves its cause in the error code.
 void RsM8194h::heed_ends() {
   // The partners of the axis that met something hear of it a tick later.
@@ -344,6 +366,8 @@ void RsM8194h::heed_ends() {
     AxisUnit& unit = state_.units[a];
     const bool homed = (motor.events & motion::bit(motion::Event::homed)) != 0;
     if (homed) heed_home(a);
+    // Its input stops what it has begun, and nothing else.
+    if (!motor.moving()) unit.external.running = 0;
     constexpr motion::Events kConstant =
         motion::bit(motion::Event::constant_started) | motion::bit(motion::Event::constant_ended);
     const bool has_ramps = motor.law.start_speed_u_s < motor.law.top_speed_u_s;
@@ -364,7 +388,9 @@ void RsM8194h::heed_ends() {
                             motor.homing.program.phases[row].code == kIndexPhase;
       if (by_index) unit.error_code |= bit_of(ErrorBit::home);
     }
-    if (!has(of_path, a) || is_its_own(unit, motor, cause)) {
+    if (has(of_path, a)) {
+      note_end_of_path(a);
+    } else {
       unit.error_code |= error_of(cause);
     }
   }

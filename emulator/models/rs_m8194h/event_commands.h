@@ -18,6 +18,7 @@ inline void set_actions(RsM8194h& it, AxisMask axes, const Command& command, std
               .output = command.values[first + 3] == 1,
               .interrupt = command.values[first + 4] == 1};
     it.state().units[a].action_isr = byte_at(command, first + 5 + a);
+    it.note_enabled(a, IsrMark::kSynchronous, action.interrupt);
     it.look_again(a);
   });
 }
@@ -50,6 +51,7 @@ inline Took clear_sync_action(RsM8194h& it, const Command& command) {
     for_each_axis(trigger.activates, [&](std::size_t other) {
       it.state().sync.actions[other] = {.preset_value = it.state().sync.actions[other].preset_value};
       it.state().units[other].action_isr = 0;
+      it.note_enabled(other, IsrMark::kSynchronous, false);
     });
     trigger = {};
   });
@@ -107,6 +109,7 @@ inline Took enable_factor(RsM8194h& it, const Command& command) {
     const std::size_t factor = command.values[1] % kIsrFactors;
     unit.factors |= static_cast<std::uint8_t>(1U << factor);
     unit.isr_of[factor] = byte_at(command, 2);
+    it.note_enabled(a, static_cast<std::uint8_t>(factor), true);
     forget_factor(it, a, factor);
     it.look_again(a);
   });
@@ -119,6 +122,7 @@ inline Took disable_factor(RsM8194h& it, const Command& command) {
       if (command.values[1] != kAllFactors && command.values[1] != factor) continue;
       it.state().units[a].factors &= static_cast<std::uint8_t>(~(1U << factor));
       it.state().units[a].isr_of[factor] = 0;
+      it.note_enabled(a, static_cast<std::uint8_t>(factor), false);
       forget_factor(it, a, factor);
     }
     it.look_again(a);

@@ -207,6 +207,7 @@ void RsM8194h::watch_external(std::size_t axis) {
       if (order.what == What::nothing) continue;
       if (may_start(axis, Starter::external) != Start::starts) {
         note_obstacles(mask_of(axis));
+        unit.external.running = 0;
         continue;
       }
       const bool is_run = order.what == What::run;
@@ -217,8 +218,31 @@ void RsM8194h::watch_external(std::size_t axis) {
              .value = is_run ? order.way * speed : static_cast<std::int32_t>(order.pulses)},
             chose(option("exd_speed", "v_without_ramps")));
       unit.speed.drive_pps = drive_pps;
+      if (is_run && going(axis) == Going::single) unit.external.running = order.way;
     }
   }
+}
+
+void RsM8194h::set_external(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data) {
+  using Mode = motion::ExternalDrive::Mode;
+  AxisUnit& unit = state_.units[axis];
+  motion::Axis& motor = state_.motors[axis];
+  const bool was_running = unit.external.running != 0;
+  unit.external.mode = mode;
+  unit.external.pulses = data;
+  unit.external_pps = data;
+  if (!was_running) return;
+  if (mode == Mode::continuous) {
+    // Another speed of what runs, which its input still stops.
+    motion::SpeedLaw law = motor.law;
+    law.top_speed_u_s = law_at(unit, data, machine_.speed).top_speed_u_s;
+    law.start_speed_u_s = std::min(law.start_speed_u_s, law.top_speed_u_s);
+    motor.change_speed(law, now());
+    return;
+  }
+  unit.external.running = 0;
+  const bool ends = going(axis) == Going::single && chose(option("exd_disable", "slows_down"));
+  if (ends) motor.slow_down(now());
 }
 
 bool RsM8194h::scans_frnet_at(Tick tick) const {

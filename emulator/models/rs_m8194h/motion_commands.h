@@ -10,6 +10,11 @@ template <void (*set)(AxisUnit& axis, motion::Axis& motor, std::int32_t value)>
 Took set_counter(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     set(it.state().units[a], it.state().motors[a], command.signed_value(1));
+    const bool is_of_both = command.verb() == Verb::set_lp || command.verb() == Verb::abs_set_position;
+    if (is_of_both && it.chose(option("lp_and_abs", "set_both"))) {
+      set_logic_position(it.state().units[a], it.state().motors[a], command.signed_value(1));
+      set_absolute_position(it.state().units[a], it.state().motors[a], command.signed_value(1));
+    }
     it.look_again(a);
   });
   return Took::done;
@@ -153,7 +158,8 @@ inline Took line_scan(RsM8194h& it, const Command& command) {
             .pitch = command.signed_value(4),
             .level_before = is_anew ? unit.out.level : scan.level_before,
             .width_before = is_anew ? unit.out.width_code : scan.width_before};
-    unit.out.level = byte_at(command, 2);
+    const bool is_turned = it.chose(option("scan_edge", "high"));
+    unit.out.level = static_cast<std::uint8_t>(byte_at(command, 2) ^ (is_turned ? 1U : 0U));
     unit.out.width_code = byte_at(command, 3);
     unit.basic.soft_limits = false;
     it.look_again(a);

@@ -53,26 +53,45 @@ bool starts_something(motion::SyncAction::Drive drive) {
 void RsM8194h::step_axes(Tick tick) {
   std::array<std::int64_t, kAxes> pulses{};
   motion::Coordinated& together = state_.paths.together;
-  const bool was_engaged = together.engaged;
-  const bool slows = machine_.axis.at_soft_limit == motion::Reaction::slow_down;
+  for (std::size_t a = 0; a < kAxes; ++a) heed_encoder(a, tick);
   for (std::size_t a = 0; a < kAxes; ++a) {
-    motion::Axis& motor = state_.motors[a];
-    const bool is_watched = motor.moving() && motor.drive.direction != 0 && !motor.slowing &&
-                            (!motor.homing.active() || machine_.axis.homing_heeds_soft_limits);
-    const motion::Cause beyond =
-        is_watched ? soft_limit_by_encoder(state_.units[a], motor, static_cast<int>(motor.drive.direction))
-                   : motion::Cause::none;
-    if (together.takes(a)) {
-      if (beyond != motion::Cause::none && slows) slow_path(tick - 1, beyond);
-      if (beyond != motion::Cause::none && !slows) together.stop(state_.motors, beyond);
-      continue;
-    }
-    if (beyond != motion::Cause::none && slows) motor.slow_down(tick - 1, beyond);
-    if (beyond != motion::Cause::none && !slows) motor.stop(beyond);
-    pulses[a] = motor.step(tick, state_.here[a]);
+    if (!together.takes(a)) pulses[a] = state_.motors[a].step(tick, state_.here[a]);
   }
-  if (was_engaged) together.step(tick, state_.motors, state_.here, pulses);
-  for (std::size_t a = 0; a < kAxes; ++a) state_.units[a].sent_pulses = pulses[a];
+  together.step(tick, state_.motors, state_.here, pulses);
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    state_.units[a].sent_pulses = pulses[a];
+    // It may be back before the path stands.
+    if (state_.motors[a].slowing && together.takes(a))
+      state_.units[a].met |= error_of(state_.motors[a].cause);
+  }
+}
+
+/// A soft limit on a bench's encoder, which is told of a pulse in the tick behind it: an axis may have turned
+/// round since.
+void RsM8194h::heed_encoder(std::size_t axis, Tick tick) {
+  motion::Axis& motor = state_.motors[axis];
+  AxisUnit& unit = state_.units[axis];
+  const bool is_watched = unit.has_encoder && motor.moving() && !motor.slowing &&
+                          (!motor.homing.active() || machine_.axis.homing_heeds_soft_limits);
+  if (!is_watched) return;
+  constexpr int kBeyond = 1;
+  motion::Cause why = soft_limit_by_encoder(unit, motor, static_cast<int>(motor.drive.direction), kBeyond);
+  if (why == motion::Cause::none) {
+    const int came = unit.sent_pulses < 0 ? -1 : unit.sent_pulses > 0 ? +1 : 0;
+    why = soft_limit_by_encoder(unit, motor, came, kBeyond);
+  }
+  if (why == motion::Cause::none) return;
+  const bool slows = machine_.axis.at_soft_limit == motion::Reaction::slow_down;
+  motion::Coordinated& together = state_.paths.together;
+  if (together.takes(axis)) {
+    unit.met |= error_of(why);
+    if (slows) slow_path(tick - 1, why);
+    if (!slows) together.stop(state_.motors, why);
+  } else if (slows) {
+    motor.slow_down(tick - 1, why);
+  } else {
+    motor.stop(why);
+  }
 }
 
 /// A path that has ended in this tick.
@@ -91,6 +110,10 @@ void RsM8194h::heed_path_end(bool was_full) {
   if (starved) state_.rint |= bit_of(Rint::stream);
   paths.open = starved;
   paths.let_go = paths.axes;
+  // D-END comes in the next tick; who sees that it stands sees why.
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (has(paths.axes, a)) note_end_of_path(a);
+  }
   paths.runs = Paths::Runs::nothing;
 }
 
@@ -125,7 +148,15 @@ void RsM8194h::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
   IsrMark made{.tick = tick, .axis = static_cast<std::uint8_t>(axis), .source = source};
   const bool needs_number = options_.isrs_are_bound_at_the_event || options_.isrs_go_by_number;
   if (needs_number) made.number = static_cast<std::uint8_t>(isr_of(made));
+  const auto& enabled = state_.enabled;
+  const auto turn_of = [&](const IsrMark& mark) {
+    return std::find(enabled.begin(), enabled.end(), name_of_source(mark.axis, mark.source)) -
+           enabled.begin();
+  };
   const auto is_before = [&](const IsrMark& one, const IsrMark& other) {
+    if (options_.isrs_go_by_enabling) {
+      return std::tuple(one.tick, turn_of(one), one) < std::tuple(other.tick, turn_of(other), other);
+    }
     if (options_.isrs_go_by_number) {
       return std::tie(one.tick, one.number, one.axis, one.source) <
              std::tie(other.tick, other.number, other.axis, other.source);
@@ -134,6 +165,11 @@ void RsM8194h::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
     return std::tie(one.tick, one.source, one.axis) < std::tie(other.tick, other.source, other.axis);
   };
   state_.marks.insert(std::upper_bound(state_.marks.begin(), state_.marks.end(), made, is_before), made);
+}
+
+void RsM8194h::note_enabled(std::size_t axis, std::uint8_t source, bool is_on) {
+  std::erase(state_.enabled, name_of_source(axis, source));
+  if (is_on) state_.enabled.push_back(name_of_source(axis, source));
 }
 
 void RsM8194h::heed_factors(std::size_t axis, Tick tick) {

@@ -19,7 +19,8 @@ LanguageOptions language_options(const DeviceSettings& settings) {
   LanguageOptions options;
   using Letters = interpreter::rs_m8194h::CommandOptions::Letters;
   options.command = {
-      .rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")),
+      .rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")) &&
+                                    chose(option("rectangle_sides", "outer_length_and_width")),
       .speeds_have_ends = chose(option("speed_ends", "exception_3")),
       .variables_have_ends = chose(option("variable_range", "exception_3")),
       .zero_moves_are_refused = chose(option("zero_move", "exception_3")),
@@ -29,11 +30,13 @@ LanguageOptions language_options(const DeviceSettings& settings) {
       .letters = chose(option("if_operator", "as_in_the_frame"))   ? Letters::as_in_the_frame
                  : chose(option("if_operator", "as_in_the_table")) ? Letters::as_in_the_table
                                                                    : Letters::either,
+      .single_signs_are_refused = chose(option("if_single_signs", "are_refused")),
       .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
       .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
       .frnet_wait_may_have_7 = chose(option("frnet_wait_registers", "8_or_7_with_a_time_of_one")),
       .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
   options.download = {.close_takes_line = chose(option("close_line", "one_line")),
+                      .levels_are_of_both = chose(option("block_levels", "of_both_together")),
                       .shown_code = chose(option("download_command", "as_sent"))
                                         ? Download::ShownCode::as_sent
                                         : Download::ShownCode::real_time,
@@ -47,6 +50,7 @@ LanguageOptions language_options(const DeviceSettings& settings) {
                  .one_return_register = chose(option("return_registers", "one_for_both")),
                  .return_value_is_used_up = chose(option("return_register_keeps", "execution_error")),
                  .negative_time_is_error = chose(option("timer_negative", "execution_error")),
+                 .calls_alone_have_levels = chose(option("call_levels", "of_calls_alone")),
                  .call_too_deep_ends_macro = chose(option("call_too_deep", "ends_the_macro")),
                  .frnet_wait_needs_edge = chose(option("frnet_wait_level", "waits_for_the_change")),
                  .frnet_wait_timeout_is_error = chose(option("frnet_wait_timeout", "execution_error")),
@@ -57,6 +61,7 @@ LanguageOptions language_options(const DeviceSettings& settings) {
   if (chose(option("steps_a_tick", "1000"))) options.steps_a_tick = 1000;
   if (chose(option("isr_delay", "same_tick"))) options.isr_delay_ticks = 0;
   options.isrs_go_by_factor = chose(option("isr_order", "by_factor"));
+  options.isrs_go_by_enabling = chose(option("isr_order", "by_order_of_enabling"));
   options.isrs_go_by_number = chose(option("isr_order", "by_isr_number"));
   options.room_before_parameters = chose(option("check_order", "the_same_but_room_before_parameters"));
   options.isr_requests_are_counted = chose(option("isr_requests", "counted"));
@@ -80,6 +85,7 @@ MachineOptions machine_options(const DeviceSettings& settings) {
   options.drives_need_servo = chose(option("drives_need_servo", "are_void"));
   options.fifo_waits_for_download = chose(option("fifo_during_download", "held"));
   options.one_block_each = chose(option("fifo_cost", "one_each"));
+  options.holds_are_at_once = chose(option("holds_bypass_fifo", "at_once"));
   options.stops_wait = chose(option("stops_bypass_fifo", "wait_like_others"));
   options.pitch_is_distance = chose(option("scan_positive_pitch", "pitch"));
   options.axis.ring_takes_absolute = chose(option("ring_and_absolute", "turns_round_too"));

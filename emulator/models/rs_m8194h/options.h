@@ -24,6 +24,7 @@ struct LanguageOptions {
   int isr_delay_ticks = 1;
   bool isrs_go_by_factor = false;
   bool isrs_go_by_number = false;
+  bool isrs_go_by_enabling = false;
   bool room_before_parameters = false;
   bool isr_requests_are_counted = false;
   bool isrs_are_bound_at_the_event = false;
@@ -42,6 +43,7 @@ struct MachineOptions {
   bool fifo_waits_for_download = false;
   bool one_block_each = false;
   bool stops_wait = false;
+  bool holds_are_at_once = false;
   bool pitch_is_distance = false;
   bool fifo_goes_on_beside_macros = false;
   bool pause_holds_fifo = true;

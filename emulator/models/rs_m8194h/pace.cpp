@@ -1,5 +1,6 @@
 // The FIFO: commands in their order, as many as a tick has room for.
 #include <algorithm>
+#include <iterator>
 
 #include "emulator/models/rs_m8194h/commands.h"
 #include "emulator/models/rs_m8194h/device.h"
@@ -14,6 +15,10 @@ namespace understudy::emulator::models::rs_m8194h {
 
 int RsM8194h::fifo_blocks_of(const lang::Command& command) const {
   const lang::CommandRow& row = command.row();
+  constexpr lang::Verb kHolds[] = {lang::Verb::drv_hold, lang::Verb::drv_start, lang::Verb::clear_stop,
+                                   lang::Verb::clear_vstop};
+  const bool is_hold = std::find(std::begin(kHolds), std::end(kHolds), command.verb()) != std::end(kHolds);
+  if (is_hold && machine_.holds_are_at_once) return 0;
   const bool waits = row.use.real_time == lang::RealTime::queued ||
                      (machine_.stops_wait && row.use.real_time == lang::RealTime::stop);
   if (!waits) return 0;

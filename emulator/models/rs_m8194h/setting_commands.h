@@ -34,20 +34,37 @@ inline void scale_speeds(AxisUnit& unit, std::uint32_t from_max_v, std::uint32_t
   }
 }
 
+/// By choice, a ring keeps soft limits off, and they a ring.
+inline bool is_kept_off(const RsM8194h& it, const BasicSettings& present, Verb verb) {
+  const bool meets =
+      (verb == Verb::set_slmt && present.ring) || (verb == Verb::vring_enable && present.soft_limits);
+  return meets && it.chose(option("ring_and_soft_limits", "the_earlier_keeps_the_other_off"));
+}
+/// By choice, soft limits are in the registers of the comparators.
+inline void take_comparators(const RsM8194h& it, AxisUnit& unit) {
+  const BasicSettings& basic = unit.basic;
+  if (!basic.soft_limits || !it.chose(option("soft_limits_and_comparators", "become_the_limits"))) return;
+  unit.compare = {Compare{.value = basic.forward_soft_limit, .source = basic.soft_limit_source},
+                  Compare{.value = basic.reverse_soft_limit, .source = basic.soft_limit_source}};
+}
+
 /// A setting of section 3, with its axes in the first parameter: what it changes is a row (memory.h).
 inline Took set_basic(RsM8194h& it, const Command& command) {
   const bool is_initial = (command.values[0] & lang::kInitial) != 0;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     if (is_initial) {
-      apply_setting(it.state().initial_table[a], command);
+      BasicSettings& kept = it.state().initial_table[a];
+      if (!is_kept_off(it, kept, command.verb())) apply_setting(kept, command);
       if (!it.chose(option("initial_acts", "acts_at_once_too"))) return;
     }
     BasicSettings settings = it.state().units[a].basic;
     const std::uint32_t max_v = settings.max_v;
     apply_setting(settings, command);
+    if (is_kept_off(it, it.state().units[a].basic, command.verb())) settings = it.state().units[a].basic;
     const bool scales = settings.max_v != max_v && it.chose(option("speeds_at_new_max_v", "scales_them"));
     if (scales) scale_speeds(it.state().units[a], max_v, settings.max_v);
     apply_basic(it.state().units[a], it.state().motors[a], settings, it.machine_options().axis);
+    if (command.verb() == Verb::set_slmt) take_comparators(it, it.state().units[a]);
     it.look_again(a);
   });
   if (is_initial) keep_initial_table(it.state().blocks, it.state().initial_table, it.factory_settings());
@@ -57,13 +74,7 @@ inline Took set_basic(RsM8194h& it, const Command& command) {
 template <motion::ExternalDrive::Mode mode>
 Took set_external(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    AxisUnit& unit = it.state().units[a];
-    const motion::ExternalDrive before = unit.external;
-    unit.external = {.mode = mode,
-                     .pulses = mode == motion::ExternalDrive::Mode::off ? 0 : std::int64_t{command.values[1]},
-                     .plus_high = before.plus_high,
-                     .minus_high = before.minus_high};
-    unit.external_pps = command.values[1];
+    it.set_external(a, mode, mode == motion::ExternalDrive::Mode::off ? 0 : command.values[1]);
   });
   return Took::done;
 }

@@ -40,6 +40,17 @@ struct Fifo {
 
 /// Whether it is an interpolation (path_commands.cpp).
 bool is_path(const lang::Command& command);
+struct HeldPath;
+/// Whether it is a segment of the same stream.
+bool follows(const HeldPath& first, const HeldPath& other);
+
+/// An interpolation that is held, on the axes that it was sent for.
+struct HeldPath {
+  lang::Command command{};
+  std::array<std::uint8_t, 3> codes{};
+
+  bool operator==(const HeldPath&) const = default;
+};
 
 /// Equal triggers along an axis (7.4.12).
 struct LineScan {
@@ -93,6 +104,11 @@ inline constexpr std::uint8_t kDownloaded = 4;
 inline constexpr std::uint8_t kMpFinished = 6;
 inline constexpr std::uint8_t kIsrFinished = 8;
 
+/// An axis and a source in one number.
+constexpr std::uint8_t name_of_source(std::size_t axis, std::uint8_t source) {
+  return static_cast<std::uint8_t>(axis << 4U | source);
+}
+
 /// None is being downloaded: a name all the same, as each download has one.
 inline const lang::Download kNoDownload{.name = {.is_isr = false, .number = 1}};
 
@@ -108,7 +124,7 @@ struct State {
   std::array<LineScan, kAxes> scans{};
   AxisMask scanning = 0;  // axes that LINE_SCAN_START has named
   Fifo fifo{};
-  std::vector<lang::Command> held_paths{};  // one at most: an interpolation that waits for DRV_START
+  std::vector<HeldPath> held_paths{};  // what waits for DRV_START; behind a segment those of its stream
   // The RS-M8194H's own.
   lang::State rsm = lang::State::ready;
   std::uint16_t illegal_reason = 0;
@@ -122,6 +138,7 @@ struct State {
   bool interrupts = false;       // ENABLE_INT
   std::array<AxisMask, kFactors> factor_axes{};
   std::vector<IsrMark> marks{};
+  std::vector<std::uint8_t> enabled{};  // what calls ISRs, by name_of_source(), in the order of its enabling
   lang::Execution execution{};
   MacroReport execution_fault{};
   bool paused = false;                                        // by a trigger,
@@ -140,6 +157,7 @@ struct State {
   Tick resetting_until = 0;   // RESET_CARD
   int steps_left = 0;         // of this tick
   bool touched = false;       // by a command at once since then: what waits may go on
+  std::array<std::uint16_t, kWindowWords> parameters{};  // written before their command, by choice
   // Non-volatile.
   std::array<BasicSettings, kAxes> initial_table{};
   TextBlocks blocks{};  // macros, triggers and the Initial Table, as text

@@ -1,6 +1,9 @@
 // What the state of an RS-M8194H consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "base/state/state_bytes.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "interpreter/rs_m8194h/state_fields.h"
@@ -27,6 +30,18 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
                          (command.row().fifo_blocks() > 0 ||
                           command.row().use.real_time == interpreter::rs_m8194h::RealTime::stop);
       demand_state(waits, "a command in the FIFO is not one that waits there");
+    }
+  }
+};
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::HeldPath> {
+  using Value = emulator::models::rs_m8194h::HeldPath;
+  static constexpr auto fields = FieldList{field("command", &Value::command), field("codes", &Value::codes)};
+  static void check(const Value& held) {
+    for (const std::uint8_t code : held.codes) {
+      demand_state(code == 0 || emulator::models::rs_m8194h::axis_of_code(code) >= 0,
+                   "a path has no such axis");
     }
   }
 };
@@ -78,6 +93,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("interrupts", &Value::interrupts),
                                            field("factor_axes", &Value::factor_axes),
                                            field("marks", &Value::marks),
+                                           field("enabled", &Value::enabled),
                                            field("execution", &Value::execution),
                                            field("execution_fault", &Value::execution_fault),
                                            field("paused", &Value::paused),
@@ -96,17 +112,31 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("resetting_until", &Value::resetting_until),
                                            field("steps_left", &Value::steps_left),
                                            field("touched", &Value::touched),
+                                           field("parameters", &Value::parameters),
                                            field("initial_table", &Value::initial_table),
                                            field("blocks", &Value::blocks),
                                            field("eeprom", &Value::eeprom),
                                            field("image", &Value::image)};
   static void check(const Value& state) {
-    demand_state(state.held_paths.size() <= 1, "more than one path is held");
-    for (const auto& command : state.held_paths) {
-      demand_state(emulator::models::rs_m8194h::is_path(command), "what is held is not a path");
+    demand_state(
+        state.held_paths.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
+        "more is held than there is room for");
+    for (const auto& held : state.held_paths) {
+      demand_state(emulator::models::rs_m8194h::is_path(held.command), "what is held is not a path");
+      demand_state(emulator::models::rs_m8194h::follows(state.held_paths.front(), held) ||
+                       state.held_paths.size() == 1,
+                   "what is held is not one stream");
     }
     for (const std::uint8_t channel : state.queued_triggers) {
       demand_state(channel < interpreter::rs_m8194h::kTriggerCount, "a trigger has no such channel");
+    }
+    for (std::size_t i = 0; i < state.enabled.size(); ++i) {
+      const auto begin = state.enabled.begin();
+      const bool is_new = std::find(begin, begin + static_cast<std::ptrdiff_t>(i), state.enabled[i]) ==
+                          begin + static_cast<std::ptrdiff_t>(i);
+      const bool exists = state.enabled[i] >> 4 < static_cast<int>(emulator::models::rs_m8194h::kAxes) &&
+                          (state.enabled[i] & 0xF) <= emulator::models::rs_m8194h::IsrMark::kSynchronous;
+      demand_state(is_new && exists, "an interrupt that is enabled has no such source");
     }
     for (const auto& scan : state.scans) demand_reach(scan.begin);
     demand_state(state.image.size() == emulator::models::rs_m8194h::kSlotCount, "the image has another size");

@@ -1,5 +1,6 @@
 // Stops, locks and holds, and what takes them away (7.5): by the rows of meetings.h.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -24,13 +25,24 @@ bool clears_the_lock_alone(const RsM8194h& device) {
 
 }  // namespace
 
-/// It gets no more pulses; the others go on along the path.
-void RsM8194h::leave_path(std::size_t axis) {
+/// The others go on along the path; it stops, or slows down by its own ramp from the speed that it has.
+void RsM8194h::leave_path(std::size_t axis, Halt halt) {
+  const double speed_pps = state_.paths.together.speed_pps(axis, now());
   for (std::int8_t& mine : state_.paths.together.axis_of) {
     if (mine == static_cast<std::int8_t>(axis)) mine = motion::Coordinated::kNone;
   }
   state_.paths.axes &= static_cast<AxisMask>(~mask_of(axis));
-  state_.motors[axis].stop();
+  motion::Axis& motor = state_.motors[axis];
+  const auto drive_pps = static_cast<std::uint32_t>(std::ceil(std::abs(speed_pps)));
+  const motion::SpeedLaw law = law_at(state_.units[axis], drive_pps, machine_.speed);
+  const motion::Events before = motor.events_between;
+  const bool slows = halt == Halt::slows && std::abs(speed_pps) > law.start_speed_u_s;
+  if (slows && motor.move_on(speed_pps, speed_pps < 0 ? -1 : +1, law, now()) == motion::Cause::none) {
+    motor.events_between = before;  // it is on its way already
+    motor.slow_down(now());         // it would come back, else
+  } else {
+    motor.stop();
+  }
 }
 
 void RsM8194h::slow_path(Tick tick, motion::Cause why) {
@@ -62,7 +74,7 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
     const Going going_now = going(a);
     const Halt halt = row.halts[static_cast<std::size_t>(going_now)];
     if (halt != Halt::goes_on && going_now == Going::path && leaves_others) {
-      leave_path(a);
+      leave_path(a, halt);
     } else if (halt != Halt::goes_on && going_now == Going::path) {
       if (halt == Halt::slows) {
         slow_path(now());
@@ -86,9 +98,7 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
     unit.path_locked = unit.path_locked || row.locks_path;
     if (row.drops_held_drive && !keeps_held) {
       unit.held_drive = {};
-      if (!state_.held_paths.empty() && has(axes_of_path(state_.held_paths.front()), a)) {
-        state_.held_paths.clear();
-      }
+      if (has(axes_of_held_path(), a)) state_.held_paths.clear();
     }
     if (row.drops_hold && !keeps_held) unit.held = false;
     unit.error_code |= bit_of(row.error);
@@ -149,7 +159,7 @@ void RsM8194h::release(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (has(axes, a)) state_.units[a].held = false;
   }
-  const AxisMask of_path = state_.held_paths.empty() ? AxisMask{0} : axes_of_path(state_.held_paths.front());
+  const AxisMask of_path = axes_of_held_path();
   if ((of_path & axes) != 0 && chose(option("hold_partial_start", "starts_at_once"))) {
     for (std::size_t a = 0; a < kAxes; ++a) {
       if (has(of_path, a)) state_.units[a].held = false;

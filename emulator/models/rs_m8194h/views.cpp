@@ -188,6 +188,7 @@ Value download_field(const RsM8194h& it, Cell cell) {
   return fields[cell.argument];
 }
 Value execution_field(const RsM8194h& it, Cell cell) {
+  if (it.chose(option("execution_fault_words", "of_the_last_download"))) return download_field(it, cell);
   return it.state().execution_fault[static_cast<std::size_t>(cell.argument)];
 }
 Value factor_axes(const RsM8194h& it, Cell cell) {

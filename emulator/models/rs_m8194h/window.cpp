@@ -1,4 +1,5 @@
 // Requests: what is admitted, what a message to the window becomes, and what of an exception is kept.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -268,7 +269,16 @@ void RsM8194h::queue(const lang::Command& command) {
   if (is_alone) run_fifo(state_.steps_left);
 }
 
-DeviceAnswer take_message(RsM8194h& it, Cell, std::span<const std::uint16_t> words) {
+DeviceAnswer take_message(RsM8194h& it, Cell cell, std::span<const std::uint16_t> words) {
+  if (it.takes_parts()) {
+    // Parameters may have come before their command.
+    auto& all = it.state().parameters;
+    std::copy(words.begin(), words.end(), all.begin() + cell.index);
+    if (cell.index != 0) return Refusal::none;
+    const lang::CommandRow* const row = lang::find_code(words[0]);
+    const auto wanted = row == nullptr ? std::size_t{0} : static_cast<std::size_t>(row->registers());
+    if (words.size() < wanted) words = std::span(all).first(wanted);
+  }
   const bool is_low_first = it.low_word_first() && !it.chose(option("word_order_scope", "tables"));
   const auto order = is_low_first ? lang::WordOrder::low_first : lang::WordOrder::high_first;
   lang::Decoded decoded = lang::decode(words, it.state().rsm, order, it.language_options().command);

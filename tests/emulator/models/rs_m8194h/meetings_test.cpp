@@ -223,6 +223,84 @@ TEST(RsM8194hMeetings, APathIsHeldUntilAllItsAxesAreReleased) {
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 3);
 }
 
+TEST(RsM8194hMeetings, AStreamIsHeldWithAllItsSegments) {
+  for (const bool in_two : {false, true}) {
+    OneRsm rsm;
+    rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_DRV_HOLD XY", "RSM_LINE_2D_INITIAL X Y 100 2000 20000"});
+    for (int i = 0; i < 9; ++i) rsm.send("RSM_LINE_2D_CONTINUE 0 100 0");
+    rsm.run(20);
+    EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 0, 0, 0}));
+    EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 30);
+    OneRsm twin;
+    twin.device().restore_state(rsm.device().save_state());
+    EXPECT_TRUE(twin.device().same_state(rsm.device()));
+    if (!in_two) twin.send("RSM_LINE_2D_CONTINUE 1 0 100");
+    twin.send("RSM_DRV_START XY");
+    // It goes on behind those that were held.
+    if (in_two) twin.send("RSM_LINE_2D_CONTINUE 1 0 100");
+    for (int i = 0; i < 700 && twin.get("DRIVING_AXIS") != 0; ++i) {
+      twin.run(1);
+      EXPECT_EQ(twin.get("Continuous_Inp_Interrupt"), 0);
+    }
+    EXPECT_EQ(twin.positions(), (std::vector<Value>{900, 100, 0, 0}));
+  }
+}
+
+TEST(RsM8194hMeetings, AHeldStreamIsReplacedOrEndsAsAWhole) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_SET_SV XY 2000", "RSM_SET_V XY 2000", "RSM_DRV_HOLD XY",
+            "RSM_LINE_2D_INITIAL X Y 2000 2000 20000"});
+  // The stream that is whole is replaced by the next one, that by a drive of one of its axes.
+  rsm.send({"RSM_LINE_2D_CONTINUE 0 100 0", "RSM_LINE_2D_CONTINUE 1 100 0", "RSM_LINE_2D_CONTINUE 0 0 50",
+            "RSM_LINE_2D_CONTINUE 1 0 50", "RSM_DRV_START XY"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 100, 0, 0}));
+  rsm.send({"RSM_DRV_HOLD XY", "RSM_LINE_2D_CONTINUE 0 100 0", "RSM_LINE_2D_CONTINUE 1 100 0",
+            "RSM_FIXED_MOVE X 7", "RSM_DRV_START XY"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{7, 100, 0, 0}));
+  // A stop ends what is left of it.
+  rsm.send({"RSM_DRV_HOLD XY", "RSM_LINE_2D_CONTINUE 0 100 0", "RSM_LINE_2D_CONTINUE 0 100 0",
+            "RSM_LINE_2D_CONTINUE 0 100 0", "RSM_LINE_2D_CONTINUE 1 100 0", "RSM_DRV_START XY"});
+  rsm.run(30);
+  rsm.send({"RSM_VSTOP_SUDDENLY", "RSM_CLEAR_VSTOP"});
+  rsm.run(300);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+  EXPECT_LT(rsm.get("LP_X"), 107);
+}
+
+TEST(RsM8194hMeetings, AHeldPathKeepsTheAxesThatItWasSentFor) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V XYZU 80000", "RSM_SET_VV 2000", "RSM_DRV_HOLD XY", "RSM_AXIS_ASSIGN X Y 0",
+            "RSM_LINE_2D 100 50", "RSM_AXIS_ASSIGN Z U 0", "RSM_LINE_2D 30 40"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 0, 30, 40}));
+  rsm.send("RSM_DRV_START XY");
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{100, 50, 30, 40}));
+}
+
+TEST(RsM8194hMeetings, ByChoiceTheFirstHeldDriveIsKept) {
+  struct Case {
+    std::vector<const char*> drives;
+    std::vector<Value> places;
+  };
+  const Case kCases[] = {
+      {{"RSM_LINE_2D 100 50", "RSM_LINE_2D 30 40"}, {100, 50, 0, 0}},
+      {{"RSM_LINE_2D 100 50", "RSM_FIXED_MOVE X 7"}, {100, 50, 0, 0}},
+      {{"RSM_FIXED_MOVE X 7", "RSM_LINE_2D 100 50"}, {7, 0, 0, 0}},
+  };
+  for (const Case& each : kCases) {
+    OneRsm rsm({.choices = {{"second_held_drive", "is_void"}}});
+    rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_SET_SV X 2000", "RSM_SET_V X 2000", "RSM_SET_VV 2000",
+              "RSM_AXIS_ASSIGN X Y 0", "RSM_DRV_HOLD XY"});
+    for (const char* const drive : each.drives) rsm.send(drive);
+    rsm.send("RSM_DRV_START XY");
+    rsm.run_to_rest();
+    EXPECT_EQ(rsm.positions(), each.places) << each.drives.back();
+  }
+}
+
 TEST(RsM8194hMeetings, AlarmStopsRefusesAndIsCleared) {
   PreparedRsm rsm;
   rsm.send({"RSM_SET_ALARM X 1 0", "RSM_CONTINUE_MOVE X 10000"});

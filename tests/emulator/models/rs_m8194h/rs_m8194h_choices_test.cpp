@@ -84,5 +84,85 @@ TEST(RsM8194hChoices, AnEmergencyInputCanBeActiveWhileOpen) {
   EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0x20);
 }
 
+/// ISR1 writes 1 behind VAR1, ISR2 a 2.
+const char* const kTellers = R"(
+ISR 1
+  RSM_MACRO_VAR_CALCULATE VAR1 * 10 VAR1
+  RSM_MACRO_VAR_CALCULATE VAR1 + 1 VAR1
+END
+ISR 2
+  RSM_MACRO_VAR_CALCULATE VAR1 * 10 VAR1
+  RSM_MACRO_VAR_CALCULATE VAR1 + 2 VAR1
+END
+)";
+
+TEST(RsM8194hChoices, IsrsComeInTheOrderOfTheirEnabling) {
+  struct Case {
+    std::vector<const char*> enabling;
+    Value order;
+  };
+  // D-END of X by a factor, and by an action of U that it triggers.
+  const char* const kFactor = "RSM_INTFACTOR_ENABLE X 7 1";
+  const char* const kAction = "RSM_SYNC_ACTION X U 0x20 0 0 0 0 1 0 0 0 2";
+  const char* const kClear = "RSM_CLEAR_SYNC_ACTION X";
+  const Case kCases[] = {
+      {{kFactor, kAction}, 12},
+      {{kAction, kFactor}, 21},
+      {{kAction, kFactor, kAction}, 12},
+      {{kAction, kFactor, kClear, kAction}, 12},
+      {{kFactor, kAction, "RSM_INTFACTOR_DISABLE X 10", kFactor}, 21},
+  };
+  for (const Case& each : kCases) {
+    OneRsm rsm({.program = kTellers, .choices = {{"isr_order", "by_order_of_enabling"}}});
+    rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_ENABLE_INT"});
+    for (const char* const command : each.enabling) rsm.send(command);
+    OneRsm twin({.program = kTellers, .choices = {{"isr_order", "by_order_of_enabling"}}});
+    twin.device().restore_state(rsm.device().save_state());
+    twin.send("RSM_FIXED_MOVE X 10");
+    twin.run(30);
+    EXPECT_EQ(twin.get("VAR1"), each.order);
+  }
+}
+
+TEST(RsM8194hChoices, EightLevelsOfCallsAreRestored) {
+  const GivenRsm given{.program =
+                           "MP 1\n  RSM_MACRO_MP_CALL 1\n  RSM_MACRO_TIMER 20\n"
+                           "  RSM_MACRO_VAR_CALCULATE VAR1 + 1 VAR1\nEND\n",
+                       .choices = {{"call_levels", "of_calls_alone"}}};
+  OneRsm rsm(given);
+  rsm.set("CALL_MP", 1);
+  rsm.run(10);
+  OneRsm twin(given);
+  twin.device().restore_state(rsm.device().save_state());
+  EXPECT_TRUE(twin.device().same_state(rsm.device()));
+  twin.run(300);
+  EXPECT_EQ(twin.get("VAR1"), 8);
+}
+
+TEST(RsM8194hChoices, ParametersMayComeInParts) {
+  const GivenRsm given{.choices = {{"window_parts", "kept_for_the_command"}}};
+  OneRsm rsm(given);
+  // FIXED_MOVE X 300: its axis alone, its pulses alone, its code.
+  EXPECT_EQ(rsm.ask("10 1F42 0002 04 0000 012C"), "10 1F 42 00 02");
+  EXPECT_EQ(rsm.ask("10 1F41 0001 02 0001"), "10 1F 41 00 01");
+  OneRsm twin(given);
+  twin.device().restore_state(rsm.device().save_state());
+  EXPECT_EQ(twin.ask("10 1F40 0001 02 0A4E"), "10 1F 40 00 01");
+  EXPECT_EQ(twin.get("DRIVING_AXIS"), 1);
+  twin.run_to_rest();
+  EXPECT_EQ(twin.get("LP_X"), 300);
+  // Beyond the window's end, and with too many registers, it is as ever.
+  EXPECT_EQ(twin.ask("10 1FA4 0002 04 0000 0000"), "90 02");
+  EXPECT_EQ(twin.ask("10 1F40 0005 0A 0A4E 0001 0000 0001 0000"), "90 03");
+  // A line of a macro, too.
+  twin.send("RSM_MP_CREATE 1");
+  EXPECT_EQ(twin.ask("10 1F41 0004 08 7FFF 0005 0000 0007"), "10 1F 41 00 04");
+  EXPECT_EQ(twin.ask("10 1F40 0001 02 0CD2"), "10 1F 40 00 01");
+  twin.send("RSM_MACRO_MP_CLOSE");
+  twin.set("CALL_MP", 1);
+  twin.run(5);
+  EXPECT_EQ(twin.get("VAR5"), 7);
+}
+
 }  // namespace rs_m8194h_choices_test
 }  // namespace understudy::emulator::models::rs_m8194h

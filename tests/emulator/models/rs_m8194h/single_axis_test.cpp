@@ -260,6 +260,54 @@ TEST(RsM8194hAxis, AContinuousExternalDriveRunsWhileItsInputIsLow) {
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
 }
 
+/// What EXD_CP has begun ends when its input opens, whatever has come between; it ends nothing else.
+TEST(RsM8194hAxis, AContinuousExternalDriveIsItsInputsAlone) {
+  const auto turn = [](OneRsm& rsm, int count) {
+    rsm.device().set_input(terminal(0, Pin::external_plus), count);
+    rsm.run(20);
+  };
+  struct Case {
+    std::vector<const char*> between;
+    Value speed;  // behind that, the input still closed
+    bool moves;   // once it has opened
+  };
+  const Case kCases[] = {
+      {{}, 1000, false},
+      {{"RSM_EXD_CP X 2000"}, 2000, false},
+      {{"RSM_EXD_CP X 500"}, 500, false},
+      {{"RSM_EXD_FP X 10"}, 0, false},
+      {{"RSM_EXD_MP X 10"}, 0, false},
+      {{"RSM_EXD_DISABLE X"}, 0, false},
+      {{"RSM_LOAD_INITIAL"}, 0, false},
+      {{"RSM_STOP_SUDDENLY X", "RSM_CLEAR_STOP X"}, 0, false},
+      {{"RSM_STOP_SUDDENLY X", "RSM_CLEAR_STOP X", "RSM_CONTINUE_MOVE X 300"}, 300, true},
+  };
+  for (const Case& each : kCases) {
+    SCOPED_TRACE(each.between.empty() ? "" : each.between.back());
+    OneRsm rsm;
+    rsm.send({"RSM_SET_MAX_V X 8000", "RSM_SET_SV X 100", "RSM_SET_A X 1000000", "RSM_EXD_CP X 1000"});
+    turn(rsm, 1);
+    EXPECT_EQ(rsm.get("CV_X"), 1000);
+    for (const char* const command : each.between) rsm.send(command);
+    rsm.run(20);
+    EXPECT_EQ(rsm.get("CV_X"), each.speed);
+    turn(rsm, 2);
+    EXPECT_EQ(rsm.get("DRIVING_AXIS") != 0, each.moves);
+  }
+}
+
+TEST(RsM8194hAxis, AnExternalDriveThatWasVoidStopsNothing) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V X 8000", "RSM_SET_SV X 100", "RSM_EXD_CP X 1000", "RSM_STOP_SUDDENLY X"});
+  rsm.device().set_input(terminal(0, Pin::external_plus), 1);
+  rsm.run(5);
+  rsm.send({"RSM_CLEAR_STOP X", "RSM_CONTINUE_MOVE X 300"});
+  rsm.run(5);
+  rsm.device().set_input(terminal(0, Pin::external_plus), 2);
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
+}
+
 TEST(RsM8194hAxis, InPositionIsPartOfADrive) {
   OneRsm rsm;
   rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000", "RSM_SET_INPOS X 1 0", "RSM_FIXED_MOVE X 10"});
