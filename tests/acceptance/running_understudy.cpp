@@ -114,9 +114,9 @@ std::optional<int> Process::wait(Wait patience) {
 std::string Process::output() const { return text_of(output_); }
 std::string Process::errors() const { return text_of(errors_); }
 
-Finished run(const Words& command, const Environment& environment) {
+Finished run(const Words& command, const Environment& environment, Wait patience) {
   Process process(command, environment);
-  const int exit_code = process.wait(kPatience).value_or(-1);
+  const int exit_code = process.wait(patience).value_or(-1);
   return {exit_code, process.output(), process.errors()};
 }
 

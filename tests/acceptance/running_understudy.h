@@ -70,7 +70,7 @@ struct Finished {
   std::string output;
   std::string errors;
 };
-Finished run(const Words& command, const Environment& environment = {});
+Finished run(const Words& command, const Environment& environment = {}, Wait patience = kPatience);
 /// `understudy ARGUMENTS`.
 Finished understudy(Words arguments, const Environment& environment = {});
 

@@ -112,7 +112,9 @@ TEST(ShippedScenarios, EachAsksAQuestionAndThePageKnowsIt) {
 /// Everything that a run prints, with the hashes of all that the devices said and did.
 std::string printed(const Words& flags = {}, const Environment& environment = {},
                     const std::string& program = UNDERSTUDY_BINARY) {
-  const Finished finished = run(Words{program, "run", "--hash"} + flags + all() + of_choices(), environment);
+  // More than a thousand scenarios: with sanitizers beside another test they took 12 s.
+  const Finished finished =
+      run(Words{program, "run", "--hash"} + flags + all() + of_choices(), environment, 8 * kPatience);
   EXPECT_EQ(finished.exit_code, 0) << finished.output << finished.errors;
   EXPECT_NE(last_line_of(finished.output).find(" passed, 0 failed; "), std::string::npos);
   return finished.output;
