@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/files/file_claims.h"
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files/file_claims.h"
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"

@@ -1,13 +1,9 @@
 // `import`: a list of registers into a model of one's own.
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "base/files/file_error.h"
@@ -17,7 +13,9 @@
 #include "emulator/command_line/text_argument.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/model_file/starter.h"
+#include "emulator/models/imported/description.h"
 
 namespace understudy::emulator::command_line {
 

@@ -1,6 +1,7 @@
 #include "emulator/command_line/new_files.h"
 
 #include <fcntl.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <cerrno>

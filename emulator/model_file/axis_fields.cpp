@@ -13,10 +13,13 @@
 #include "base/text/parse_integer.h"
 #include "base/text/parse_real.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/model_file/binder.h"
 #include "emulator/model_file/line_fields.h"
 #include "emulator/model_file/model_form.h"
 #include "emulator/models/imported/description.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 #include "motion/unit_scale.h"
 
 namespace understudy::emulator::model_file {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +15,8 @@
 #include "base/text/parse_integer.h"
 #include "base/text/parse_real.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/models/imported/description.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::model_file {
 

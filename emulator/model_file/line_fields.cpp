@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -12,8 +13,13 @@
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/model_file/binder.h"
 #include "emulator/model_file/model_form.h"
+#include "emulator/models/imported/description.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/stations/server.h"
 
 namespace understudy::emulator::model_file {

@@ -18,7 +18,10 @@
 #include "base/text/parse_integer.h"
 #include "base/text/parse_real.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/model_file/csv.h"
 #include "emulator/model_file/register_list.h"
+#include "emulator/models/imported/description.h"
 
 namespace understudy::emulator::model_file {
 

@@ -8,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/file_claims.h"
 #include "base/files/file_error.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "emulator/device/model.h"
 #include "emulator/model_file/model_reader.h"
+#include "emulator/models/imported/description.h"
 #include "emulator/models/imported/model.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 

@@ -1,9 +1,7 @@
 #include "emulator/model_file/model_reader.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,17 +11,19 @@
 #include <utility>
 #include <vector>
 
-#include "base/files/file_error.h"
+#include "base/files/file_claims.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/model_file/axis_fields.h"
 #include "emulator/model_file/binder.h"
 #include "emulator/model_file/line_fields.h"
 #include "emulator/model_file/model_form.h"
 #include "emulator/model_file/register_list.h"
 #include "emulator/model_file/value_fields.h"
+#include "emulator/models/imported/description.h"
 #include "emulator/models/imported/model.h"
 #include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/device_fields.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -19,6 +20,8 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/csv.h"
 #include "emulator/model_file/list_row.h"
+#include "emulator/models/imported/description.h"
+#include "emulator/world/bench_file/complaints.h"
 
 namespace understudy::emulator::model_file {
 
@@ -106,18 +109,18 @@ void demand_text(const std::string& text, const ListPlace& place) {
 
 }  // namespace
 
-BitName bits_called(const std::string& name, const std::string& text, Type type) {
+BitName bits_called(const std::string& name, const std::string& bits, Type type) {
   const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
   if (type == Type::bit || type == Type::f32) refuse("there are no bits to name; expected none");
   const bool is_number = name.find_first_not_of("0123456789") == std::string::npos;
   if (is_number || name.find_first_of(".{}\"'=<>!, ") != std::string::npos || one_line(name) != name)
     refuse(quoted(name) + " cannot be used as a bit's name; expected a word");
-  const std::size_t dash = text.find('-', 1);
-  const auto first = parse_integer(text.substr(0, dash));
-  const auto last = dash == std::string::npos ? first : parse_integer(text.substr(dash + 1));
+  const std::size_t dash = bits.find('-', 1);
+  const auto first = parse_integer(bits.substr(0, dash));
+  const auto last = dash == std::string::npos ? first : parse_integer(bits.substr(dash + 1));
   const int width = width_of(type);
   if (!first || !last || *first < 0 || *last < *first || *last >= width)
-    refuse(quoted(text) + " is not a bit; expected 0 to " + std::to_string(width - 1) +
+    refuse(quoted(bits) + " is not a bit; expected 0 to " + std::to_string(width - 1) +
            ", or two of them as in 4-7");
   return {.name = name, .bit = static_cast<int>(*first), .width = static_cast<int>(*last - *first) + 1};
 }

@@ -4,13 +4,13 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/register_list.h"
+#include "emulator/models/imported/description.h"
 #include "emulator/world/bench_file/complaints.h"
 
 namespace understudy::emulator::model_file {

@@ -8,12 +8,17 @@
 #include <utility>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_real.h"
-#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/model_file/binder.h"
 #include "emulator/model_file/model_form.h"
+#include "emulator/models/imported/description.h"
 #include "emulator/models/imported/shown.h"
+#include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/device_fields.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::model_file {
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/simulated_time.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/imported/description.h"
 #include "motion/axis.h"
 #include "motion/homing_tables.h"

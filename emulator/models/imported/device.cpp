@@ -6,19 +6,29 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "emulator/device/machine_ahead.h"
+#include "base/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
+#include "emulator/device/memory/eeprom.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
 #include "emulator/device/register_map/refusal.h"
+#include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/imported/axis_drive.h"
+#include "emulator/models/imported/description.h"
 #include "emulator/models/imported/follower.h"
 #include "emulator/models/imported/model.h"
 #include "emulator/models/imported/shown.h"
 #include "motion/bad_motion.h"
-#include "motion/surroundings.h"
+#include "motion/tick.h"
 
 namespace understudy::emulator::models::imported {
 
@@ -86,9 +96,9 @@ std::uint32_t mask_of(const Spot& spot) {
 
 }  // namespace
 
-Value ImportedDevice::value_of_view(std::size_t number, View view, Type type) const {
-  const AxisState& axis = state_.axes[number];
-  const AxisBinding& binding = its().axes[number];
+Value ImportedDevice::value_of_view(std::size_t axis_number, View view, Type type) const {
+  const AxisState& axis = state_.axes[axis_number];
+  const AxisBinding& binding = its().axes[axis_number];
   const auto input_is_on = [&](int terminal) { return terminal >= 0 && input(terminal) != 0; };
   switch (view) {
     case View::position: {
@@ -312,133 +322,7 @@ pty::SimTime ImportedDevice::end_silence(pty::SimTime usual) const {
   return its().line.silence ? usual : standard_silence(line_settings(0));
 }
 
-// --- time ------------------------------------------------------------
-
-void ImportedDevice::look_round(std::size_t number) {
-  using motion::Signal;
-  const AxisBinding& binding = its().axes[number];
-  const std::array<std::pair<int, Signal>, 4> wired{{{binding.upper_limit_input, Signal::limit_plus},
-                                                     {binding.lower_limit_input, Signal::limit_minus},
-                                                     {binding.home_input, Signal::home},
-                                                     {binding.alarm_input, Signal::alarm}}};
-  motion::Surroundings now;
-  for (const auto& [terminal, signal] : wired) {
-    if (terminal < 0) continue;
-    if (const MachineEdges::Span* const span = edges_[number].span_of(terminal)) {
-      (span->level_inside ? now.add(signal, span->first, span->last, span->slack)
-                          : now.add_outside(signal, span->first, span->last, span->slack));
-    } else {
-      now.set_steady(signal, input(terminal) != 0);
-    }
-  }
-  motion::Surroundings& here = state_.axes[number].here;
-  now.version = here.version;
-  if (now == here) return;
-  ++now.version;
-  here = now;
-}
-
-void ImportedDevice::set_edges(int axis, const MachineEdges& edges) {
-  const auto number = static_cast<std::size_t>(axis);
-  edges_[number] = edges;
-  // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
-  if (is_restored_[number] == 0) look_round(number);
-  is_restored_[number] = 0;
-}
-
-void ImportedDevice::sample_inputs(Tick) {
-  if (!take_inputs_changed()) return;
-  for (std::size_t i = 0; i < state_.axes.size(); ++i) look_round(i);
-  state_.touched = true;
-}
-
-void ImportedDevice::finish_step(std::size_t number, std::int64_t pulses) {
-  AxisState& axis = state_.axes[number];
-  axis.sent_pulses = pulses;
-  if (note_events(axis, its().axes[number])) state_.touched = true;
-}
-
-void ImportedDevice::step_motion(Tick tick) {
-  if (state_.touched) {
-    state_.touched = false;
-    steer_axes(tick - 1);
-  }
-  for (std::size_t i = 0; i < state_.axes.size(); ++i) {
-    AxisState& axis = state_.axes[i];
-    finish_step(i, axis.motor.step(tick, axis.here));
-  }
-}
-
-double ImportedDevice::goal_of(const Following& following) const {
-  const bool goes = !following.as_long_as || holds_now(*following.as_long_as);
-  return counts_of(goes ? following.of : following.rest);
-}
-
-void ImportedDevice::renew_followed(Tick tick) {
-  for (std::size_t i = 0; i < state_.followed.size(); ++i) {
-    const Following& following = its().followings[i];
-    if (tick % following.every != 0) continue;
-    const double most = following.most_per_s * static_cast<double>(following.every) / motion::kTicksPerSecond;
-    const double before = state_.followed[i];
-    state_.followed[i] = come_nearer(before, goal_of(following), shares_[i], most);
-    if (state_.followed[i] != before && !state_.axes.empty()) state_.touched = true;  // it may be a speed
-  }
-}
-
-void ImportedDevice::update_outputs(Tick tick) {
-  renew_followed(tick);
-  state_.eeprom.step(tick, state_.image);
-}
-
-bool ImportedDevice::is_quiet(const AxisState& axis) const {
-  const motion::Axis& motor = axis.motor;
-  return !motor.moving() && !motor.attentive && motor.events == 0 && motor.events_between == 0 &&
-         axis.sent_pulses == 0 && axis.here.version == motor.seen_version;
-}
-
-/// Without what moves: when a value is renewed next that is not where it goes, or may not stay there.
-Tick ImportedDevice::next_tick_of_values(Tick done) const {
-  const bool any_moves = !std::all_of(state_.axes.begin(), state_.axes.end(),
-                                      [](const AxisState& axis) { return !axis.motor.moving(); });
-  Tick next = state_.eeprom.next_active_tick();
-  for (std::size_t i = 0; i < state_.followed.size(); ++i) {
-    const Following& following = its().followings[i];
-    if (!any_moves && state_.followed[i] == goal_of(following)) continue;
-    next = std::min(next, done + following.every - done % following.every);
-  }
-  return next;
-}
-
-Tick ImportedDevice::next_active_tick(Tick done) const {
-  if (state_.touched || inputs_changed()) return done + 1;
-  const bool all_rest = std::all_of(state_.axes.begin(), state_.axes.end(),
-                                    [&](const AxisState& axis) { return is_quiet(axis); });
-  return all_rest ? next_tick_of_values(done) : done + 1;
-}
-
-Tick ImportedDevice::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
-  if (state_.touched || inputs_changed()) return done + 1;
-  Tick last = std::min(most, next_tick_of_values(done) - 1);
-  for (std::size_t i = 0; i < state_.axes.size() && last > done; ++i) {
-    const motion::Axis& motor = state_.axes[i].motor;
-    const PulseRoom room = ahead.room(static_cast<int>(i));
-    last =
-        motor.quiet_until(done + 1, last, state_.axes[i].here,
-                          {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
-  }
-  return last + 1;
-}
-
-void ImportedDevice::cross_to(Tick, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
-  for (std::size_t i = 0; i < state_.axes.size(); ++i) {
-    AxisState& axis = state_.axes[i];
-    pulses[i] += axis.motor.cross_to(tick - 1);
-    finish_step(i, axis.motor.step(tick, axis.here));
-    pulses[i] += axis.sent_pulses;
-    const int number = static_cast<int>(i);
-    if (ahead.has_encoder(number)) axis.encoder_counts = ahead.encoder_counts(number, pulses[i]);
-  }
-}
+// --- terminals ------------------------------------------------------------
 
 bool ImportedDevice::output(int terminal) const {
   const auto& spot = its().terminals[static_cast<std::size_t>(terminal)].spot;

@@ -107,7 +107,7 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   State state_at_power_up() const;
 
   Value value_of_part(const ShownPart& part, Type type) const;
-  Value value_of_view(std::size_t axis, View view, Type type) const;
+  Value value_of_view(std::size_t axis_number, View view, Type type) const;
   bool holds(const Comparison& comparison) const;
   double counts_of(const Quantity& quantity) const;
   double goal_of(const Following& following) const;
@@ -118,8 +118,8 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   void steer_axes(Tick done);
   template <typename Act>
   void attempt(std::size_t axis, Act act);
-  void look_round(std::size_t axis);
-  void finish_step(std::size_t axis, std::int64_t pulses);
+  void look_round(std::size_t axis_number);
+  void finish_step(std::size_t axis_number, std::int64_t pulses);
   bool is_quiet(const AxisState& axis) const;
   Tick next_tick_of_values(Tick done) const;
   void renew_followed(Tick tick);

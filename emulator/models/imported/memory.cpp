@@ -9,13 +9,17 @@
 
 #include "base/state/difference.h"
 #include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/memory/register_memory.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/imported/axis_drive.h"
+#include "emulator/models/imported/description.h"
 #include "emulator/models/imported/device.h"
-#include "emulator/models/imported/model.h"
-#include "emulator/models/imported/state_fields.h"
+#include "emulator/models/imported/state_fields.h"  // IWYU pragma: keep, write() and read() go through the fields
+#include "motion/axis.h"
 
 namespace understudy::emulator::models::imported {
 

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "base/prefetch.h"
 #include "base/simulated_time.h"
@@ -29,7 +29,6 @@
 #include "emulator/models/rs_m8194h/memory.h"
 #include "emulator/models/rs_m8194h/model.h"
 #include "emulator/models/rs_m8194h/options.h"
-#include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "emulator/models/rs_m8194h/state_fields.h"  // IWYU pragma: keep, write() goes through the fields
 #include "emulator/models/rs_m8194h/terminals.h"

@@ -16,6 +16,7 @@
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "motion/axis.h"
 #include "motion/external_drive.h"
+#include "motion/move.h"
 #include "motion/surroundings.h"
 #include "motion/synchronous.h"
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <span>
 #include <tuple>
+#include <vector>
 
 #include "base/simulated_time.h"
 #include "emulator/device/machine_ahead.h"
@@ -19,6 +20,7 @@
 #include "motion/axis.h"
 #include "motion/coordinated.h"
 #include "motion/move.h"
+#include "motion/profile.h"
 #include "motion/synchronous.h"
 
 namespace understudy::emulator::models::rs_m8194h {

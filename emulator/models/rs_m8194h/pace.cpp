@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "emulator/device/device.h"
 #include "emulator/models/rs_m8194h/commands.h"
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/options.h"
@@ -9,6 +10,7 @@
 #include "emulator/models/rs_m8194h/unmodelled.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/command_row.h"
+#include "interpreter/rs_m8194h/verbs.h"
 #include "interpreter/rs_m8194h/window.h"
 
 namespace understudy::emulator::models::rs_m8194h {

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <iterator>
 
-#include "base/simulated_time.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
@@ -18,7 +17,6 @@
 #include "emulator/models/rs_m8194h/state.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/commands.h"
-#include "interpreter/rs_m8194h/verbs.h"
 #include "motion/axis.h"
 #include "motion/bad_motion.h"
 #include "motion/path.h"

@@ -8,9 +8,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
-#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
-#include "emulator/models/rs_m8194h/meetings.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/path_rows.h"
 #include "emulator/models/rs_m8194h/paths.h"

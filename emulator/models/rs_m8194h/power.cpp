@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/simulated_time.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/simulated_time.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
@@ -12,6 +13,7 @@
 #include "emulator/models/rs_m8194h/paths.h"
 #include "interpreter/rs_m8194h/verbs.h"
 #include "motion/axis.h"
+#include "motion/move.h"
 #include "motion/surroundings.h"
 
 namespace understudy::emulator::models::rs_m8194h {

@@ -1,5 +1,6 @@
 // Triggers: FRnet inputs that start macros and events without a host (10, 5.4).
 #include "interpreter/rs_m8194h/triggers.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -7,13 +8,16 @@
 #include <utility>
 
 #include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/paths.h"
 #include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "interpreter/rs_m8194h/run.h"
 #include "interpreter/rs_m8194h/window.h"
+#include "motion/axis.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

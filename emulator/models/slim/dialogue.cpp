@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/device/register_map/refusal.h"
 #include "emulator/device/text/text_speaker.h"
 #include "emulator/models/slim/actions.h"
 #include "emulator/models/slim/device.h"

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/simulated_time.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"

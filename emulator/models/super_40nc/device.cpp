@@ -7,12 +7,12 @@
 #include <cstdint>
 
 #include "base/simulated_time.h"
-#include "emulator/device/choices.h"
 #include "emulator/device/device.h"
 #include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
+#include "emulator/device/register_map/refusal.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"

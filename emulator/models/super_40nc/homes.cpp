@@ -11,6 +11,7 @@
 #include "motion/homing.h"
 #include "motion/homing_tables.h"
 #include "motion/move.h"
+#include "motion/surroundings.h"
 #include "motion/unit_scale.h"
 
 namespace understudy::emulator::models::super_40nc {

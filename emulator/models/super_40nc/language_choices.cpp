@@ -1,4 +1,5 @@
 // SUPER-40NC: what the languages ask for, as it is chosen.
+#include "emulator/device/choices.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
 #include "interpreter/super_40nc/options.h"

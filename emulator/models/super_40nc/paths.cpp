@@ -22,7 +22,6 @@
 #include "motion/path.h"
 #include "motion/path_limits.h"
 #include "motion/path_run.h"
-#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::super_40nc {
 

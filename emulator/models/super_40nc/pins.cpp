@@ -11,6 +11,7 @@
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
 #include "emulator/models/super_40nc/settings.h"
 #include "emulator/models/super_40nc/terminals.h"
 #include "motion/unit_scale.h"

@@ -1,4 +1,5 @@
 // What the PLC moves: DRV, HOM, PJG and MJG. It never waits: an axis that is taken is void.
+#include <cstddef>
 #include <cstdint>
 
 #include "emulator/models/super_40nc/axis_state.h"
@@ -10,7 +11,6 @@
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
 #include "interpreter/super_40nc/areas.h"
-#include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/ownership.h"
 #include "interpreter/super_40nc/requests.h"
 

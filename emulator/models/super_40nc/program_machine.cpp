@@ -15,10 +15,10 @@
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/machine.h"
-#include "interpreter/super_40nc/ownership.h"
 #include "interpreter/super_40nc/requests.h"
 
 namespace understudy::emulator::models::super_40nc {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"

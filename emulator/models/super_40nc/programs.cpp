@@ -9,9 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "base/state/shared_text.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/program_error.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/contact_rows.h"
 #include "emulator/models/super_40nc/device.h"
@@ -24,6 +26,7 @@
 #include "emulator/models/super_40nc/row_words.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/events.h"
+#include "interpreter/super_40nc/instruction_row.h"
 #include "interpreter/super_40nc/listing.h"
 #include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/plc.h"

@@ -16,7 +16,9 @@
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/settings.h"
 #include "emulator/models/super_40nc/state_fields.h"
+#include "emulator/models/super_40nc/user_table.h"
 
 namespace understudy::emulator::models::super_40nc {
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"

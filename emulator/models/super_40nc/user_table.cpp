@@ -8,15 +8,19 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/contact_rows.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"  // IWYU pragma: keep (namespace language)
 #include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
 #include "emulator/models/super_40nc/settings.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/instruction_row.h"
 #include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/program.h"
 #include "interpreter/super_40nc/step_code.h"
 #include "interpreter/super_40nc/step_programs.h"
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
 #include "emulator/play/reading/parameters.h"

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/files/file_error.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"

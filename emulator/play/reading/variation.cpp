@@ -2,7 +2,6 @@
 
 #include <array>
 #include <bit>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -10,11 +9,13 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/state/state_bytes.h"
 #include "base/text/one_line.h"
 #include "emulator/play/reading/amounts.h"
 #include "emulator/play/reading/scenario_form.h"
+#include "emulator/world/bench_file/bench_form.h"
 #include "emulator/world/bench_file/form.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 

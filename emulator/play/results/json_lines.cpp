@@ -1,8 +1,10 @@
 // Results as lines of JSON. A row is about the latest run of its case: of two about one case, the later
 // counts.
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <ios>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,7 +12,6 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "base/files/growing_file.h"
@@ -99,7 +100,7 @@ class JsonLines final : public ResultsFile {
       const std::string verdict = json["verdict"];
       const std::uint64_t failed = verdict == "failed" ? kFailed : 0;
       const std::uint64_t hash = hash_of_key(json["file"], json["case_id"], json["made_of"]) & ~kFailed;
-      if (json["branch"] != "") {
+      if (!json["branch"].get_ref<const std::string&>().empty()) {
         if (failed != 0) failed_branches.push_back(hash);
       } else if (verdict != "unreadable") {
         played_.push_back(hash | failed);

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "emulator/serve/control/message_fields.h"
+
 namespace understudy::emulator::serve {
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "base/simulated_time.h"
@@ -36,6 +35,7 @@
 #include "emulator/world/view/world_view.h"
 #include "pty/line.h"
 #include "pty/line_settings.h"
+#include "pty/pseudo_terminal.h"
 
 namespace understudy::emulator::serve {
 

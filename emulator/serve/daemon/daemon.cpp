@@ -33,6 +33,7 @@
 #include "emulator/serve/ports/tcp_door.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench/bench_text.h"
+#include "emulator/world/bench/listening.h"
 #include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/recording_spool.h"
 #include "emulator/world/snapshot.h"

@@ -19,6 +19,7 @@
 #include "emulator/world/world.h"
 #include "pty/line.h"
 #include "pty/line_observer.h"
+#include "pty/line_settings.h"
 #include "pty/station.h"
 
 namespace understudy::emulator::serve {

@@ -10,6 +10,7 @@
 
 #include "emulator/serve/ports/modbus_tcp.h"
 #include "emulator/serve/ports/rfc2217.h"
+#include "emulator/world/bench/listening.h"
 #include "pty/line_settings.h"
 
 namespace understudy::emulator::serve {

@@ -66,19 +66,19 @@ TerminalDrivers drivers_of(const World& world, std::size_t device, int terminal)
           .wire = input.wired};
 }
 
-LookedNames::List* LookedNames::find_list(std::uint64_t list) {
+LookedNames::List* LookedNames::find_list(std::uint64_t number) {
   const auto found =
-      std::find_if(lists_.begin(), lists_.end(), [&](const List& one) { return one.number == list; });
+      std::find_if(lists_.begin(), lists_.end(), [&](const List& one) { return one.number == number; });
   return found == lists_.end() ? nullptr : &*found;
 }
 
-const LookedNames::List* LookedNames::find_list(std::uint64_t list) const {
+const LookedNames::List* LookedNames::find_list(std::uint64_t number) const {
   const auto found =
-      std::find_if(lists_.begin(), lists_.end(), [&](const List& one) { return one.number == list; });
+      std::find_if(lists_.begin(), lists_.end(), [&](const List& one) { return one.number == number; });
   return found == lists_.end() ? nullptr : &*found;
 }
 
-bool LookedNames::is_kept(std::uint64_t list) const { return find_list(list) != nullptr; }
+bool LookedNames::is_kept(std::uint64_t number) const { return find_list(number) != nullptr; }
 
 /// For a list of so many names.
 void LookedNames::make_room(std::size_t names) {

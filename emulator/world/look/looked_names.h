@@ -40,14 +40,14 @@ class LookedNames {
   /// drives a terminal. Returns its number, which the same list has again. Where there are too many, those
   /// that have not been looked at for longest are forgotten.
   std::uint64_t keep(const std::vector<std::string>& names);
-  bool is_kept(std::uint64_t list) const;
+  bool is_kept(std::uint64_t number) const;
   /// Before a look: which names are to be looked up, if any. Those that were not there before are tried again
   /// when a device was switched on or off, else some at each look: a device may have new ones at any time.
-  void begin(std::uint64_t list);
+  void begin(std::uint64_t number);
   /// Looks the next one up; false if there is none left. False as well if the list is forgotten.
-  bool look_up_next(std::uint64_t list);
+  bool look_up_next(std::uint64_t number);
   /// Their values at this moment, in the order of the list; false if the list is forgotten.
-  bool look(std::uint64_t list, std::vector<Looked>& values) const;
+  bool look(std::uint64_t number, std::vector<Looked>& values) const;
   std::size_t lists() const { return lists_.size(); }
 
  private:
@@ -70,8 +70,8 @@ class LookedNames {
   };
   Known find(const std::string& name);
   Looked value_of(const Known& known) const;
-  List* find_list(std::uint64_t list);
-  const List* find_list(std::uint64_t list) const;
+  List* find_list(std::uint64_t number);
+  const List* find_list(std::uint64_t number) const;
   void make_room(std::size_t names);
 
   const World& world_;

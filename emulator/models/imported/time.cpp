@@ -1,0 +1,153 @@
+// What a described controller does as time goes on: its inputs, its axes and the values that follow others.
+#include "emulator/models/imported/device.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/device/machine_ahead.h"
+#include "emulator/device/machine_edges.h"
+#include "emulator/device/memory/eeprom.h"
+#include "emulator/models/imported/axis_drive.h"
+#include "emulator/models/imported/description.h"
+#include "emulator/models/imported/follower.h"
+#include "motion/surroundings.h"
+#include "motion/tick.h"
+
+namespace understudy::emulator::models::imported {
+
+void ImportedDevice::look_round(std::size_t axis_number) {
+  using motion::Signal;
+  const AxisBinding& binding = its().axes[axis_number];
+  const std::array<std::pair<int, Signal>, 4> wired{{{binding.upper_limit_input, Signal::limit_plus},
+                                                     {binding.lower_limit_input, Signal::limit_minus},
+                                                     {binding.home_input, Signal::home},
+                                                     {binding.alarm_input, Signal::alarm}}};
+  motion::Surroundings now;
+  for (const auto& [terminal, signal] : wired) {
+    if (terminal < 0) continue;
+    if (const MachineEdges::Span* const span = edges_[axis_number].span_of(terminal)) {
+      (span->level_inside ? now.add(signal, span->first, span->last, span->slack)
+                          : now.add_outside(signal, span->first, span->last, span->slack));
+    } else {
+      now.set_steady(signal, input(terminal) != 0);
+    }
+  }
+  motion::Surroundings& here = state_.axes[axis_number].here;
+  now.version = here.version;
+  if (now == here) return;
+  ++now.version;
+  here = now;
+}
+
+void ImportedDevice::set_edges(int axis, const MachineEdges& edges) {
+  const auto number = static_cast<std::size_t>(axis);
+  edges_[number] = edges;
+  // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
+  if (is_restored_[number] == 0) look_round(number);
+  is_restored_[number] = 0;
+}
+
+void ImportedDevice::sample_inputs(Tick) {
+  if (!take_inputs_changed()) return;
+  for (std::size_t i = 0; i < state_.axes.size(); ++i) look_round(i);
+  state_.touched = true;
+}
+
+void ImportedDevice::finish_step(std::size_t axis_number, std::int64_t pulses) {
+  AxisState& axis = state_.axes[axis_number];
+  axis.sent_pulses = pulses;
+  if (note_events(axis, its().axes[axis_number])) state_.touched = true;
+}
+
+void ImportedDevice::step_motion(Tick tick) {
+  if (state_.touched) {
+    state_.touched = false;
+    steer_axes(tick - 1);
+  }
+  for (std::size_t i = 0; i < state_.axes.size(); ++i) {
+    AxisState& axis = state_.axes[i];
+    finish_step(i, axis.motor.step(tick, axis.here));
+  }
+}
+
+double ImportedDevice::goal_of(const Following& following) const {
+  const bool goes = !following.as_long_as || holds_now(*following.as_long_as);
+  return counts_of(goes ? following.of : following.rest);
+}
+
+void ImportedDevice::renew_followed(Tick tick) {
+  for (std::size_t i = 0; i < state_.followed.size(); ++i) {
+    const Following& following = its().followings[i];
+    if (tick % following.every != 0) continue;
+    const double most = following.most_per_s * static_cast<double>(following.every) / motion::kTicksPerSecond;
+    const double before = state_.followed[i];
+    state_.followed[i] = come_nearer(before, goal_of(following), shares_[i], most);
+    if (state_.followed[i] != before && !state_.axes.empty()) state_.touched = true;  // it may be a speed
+  }
+}
+
+void ImportedDevice::update_outputs(Tick tick) {
+  renew_followed(tick);
+  state_.eeprom.step(tick, state_.image);
+}
+
+bool ImportedDevice::is_quiet(const AxisState& axis) const {
+  const motion::Axis& motor = axis.motor;
+  return !motor.moving() && !motor.attentive && motor.events == 0 && motor.events_between == 0 &&
+         axis.sent_pulses == 0 && axis.here.version == motor.seen_version;
+}
+
+/// Without what moves: when a value is renewed next that is not where it goes, or may not stay there.
+Tick ImportedDevice::next_tick_of_values(Tick done) const {
+  const bool any_moves = !std::all_of(state_.axes.begin(), state_.axes.end(),
+                                      [](const AxisState& axis) { return !axis.motor.moving(); });
+  Tick next = state_.eeprom.next_active_tick();
+  for (std::size_t i = 0; i < state_.followed.size(); ++i) {
+    const Following& following = its().followings[i];
+    if (!any_moves && state_.followed[i] == goal_of(following)) continue;
+    next = std::min(next, done + following.every - done % following.every);
+  }
+  return next;
+}
+
+Tick ImportedDevice::next_active_tick(Tick done) const {
+  if (state_.touched || inputs_changed()) return done + 1;
+  const bool all_rest = std::all_of(state_.axes.begin(), state_.axes.end(),
+                                    [&](const AxisState& axis) { return is_quiet(axis); });
+  return all_rest ? next_tick_of_values(done) : done + 1;
+}
+
+Tick ImportedDevice::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+  if (state_.touched || inputs_changed()) return done + 1;
+  Tick last = std::min(most, next_tick_of_values(done) - 1);
+  for (std::size_t i = 0; i < state_.axes.size() && last > done; ++i) {
+    const motion::Axis& motor = state_.axes[i].motor;
+    const PulseRoom room = ahead.room(static_cast<int>(i));
+    last =
+        motor.quiet_until(done + 1, last, state_.axes[i].here,
+                          {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
+  }
+  return last + 1;
+}
+
+void ImportedDevice::cross_to(Tick, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
+  for (std::size_t i = 0; i < state_.axes.size(); ++i) {
+    AxisState& axis = state_.axes[i];
+    pulses[i] += axis.motor.cross_to(tick - 1);
+    finish_step(i, axis.motor.step(tick, axis.here));
+    pulses[i] += axis.sent_pulses;
+    const int number = static_cast<int>(i);
+    if (ahead.has_encoder(number)) axis.encoder_counts = ahead.encoder_counts(number, pulses[i]);
+  }
+}
+
+}  // namespace understudy::emulator::models::imported
