@@ -172,8 +172,10 @@ void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const Ax
   const bool is_heeded = options.homing_heeds_soft_limits || !motor.homing.active();
   if (axis.basic.soft_limits && by_pulses && is_heeded) {
     const Counter& counter = axis.basic.soft_limit_source == 0 ? axis.logic : axis.encoder;
-    changed.soft_limit_plus = axis.basic.forward_soft_limit - counter.offset;
-    changed.soft_limit_minus = axis.basic.reverse_soft_limit - counter.offset;
+    // What is between count and travel now: the offset itself is right up to whole rounds of the counter.
+    const std::int64_t ahead = motor.travel_pulses - counter.at(motor.travel_pulses);
+    changed.soft_limit_plus = axis.basic.forward_soft_limit + ahead;
+    changed.soft_limit_minus = axis.basic.reverse_soft_limit + ahead;
   }
   if (changed != motor.settings) motor.set(changed);
 }
