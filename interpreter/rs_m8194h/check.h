@@ -43,6 +43,9 @@ struct CommandOptions {
   bool operator==(const CommandOptions&) const = default;
 };
 
+/// Takes what any choice takes: of what is read that somebody else has checked.
+inline constexpr CommandOptions kAnyChoice{.rectangle_corners_must_fit = false};
+
 /// The first parameter that is not in its range or list; nothing: all are good. References are good; what
 /// they stand for is checked when the line runs. Operators, and all of VAR_CALCULATE, are a matter of
 /// bad_operand().

@@ -1,6 +1,7 @@
 #include "emulator/models/rs_m8194h/options.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "emulator/device/choices.h"
@@ -12,29 +13,35 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
+namespace lang = interpreter::rs_m8194h;
+
+lang::CommandOptions command_options(std::span<const std::uint8_t> chosen) {
+  const auto chose = [chosen](const Option& option) { return chosen[option.choice] == option.number; };
+  using Letters = lang::CommandOptions::Letters;
+  return {.rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")) &&
+                                        chose(option("rectangle_sides", "outer_length_and_width")),
+          .speeds_have_ends = chose(option("speed_ends", "exception_3")),
+          .variables_have_ends = chose(option("variable_range", "exception_3")),
+          .zero_moves_are_refused = chose(option("zero_move", "exception_3")),
+          .helix_turns_forward_only = chose(option("helix_cycle", "exception_3")),
+          .one_trigger_axis = chose(option("several_trigger_axes", "exception_3")),
+          .outputs_are_of_x_and_y = chose(option("set_out_of_z_and_u", "exception_3")),
+          .letters = chose(option("if_operator", "as_in_the_frame"))   ? Letters::as_in_the_frame
+                     : chose(option("if_operator", "as_in_the_table")) ? Letters::as_in_the_table
+                                                                       : Letters::either,
+          .single_signs_are_refused = chose(option("if_single_signs", "are_refused")),
+          .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
+          .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
+          .frnet_wait_may_have_7 = chose(option("frnet_wait_registers", "8_or_7_with_a_time_of_one")),
+          .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
+}
+
 LanguageOptions language_options(const DeviceSettings& settings) {
-  using Download = interpreter::rs_m8194h::DownloadOptions;
+  using Download = lang::DownloadOptions;
   const std::vector<std::uint8_t> chosen = resolve_choices(kChoices, settings.choices);
   const auto chose = [&chosen](const Option& option) { return chosen[option.choice] == option.number; };
   LanguageOptions options;
-  using Letters = interpreter::rs_m8194h::CommandOptions::Letters;
-  options.command = {
-      .rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")) &&
-                                    chose(option("rectangle_sides", "outer_length_and_width")),
-      .speeds_have_ends = chose(option("speed_ends", "exception_3")),
-      .variables_have_ends = chose(option("variable_range", "exception_3")),
-      .zero_moves_are_refused = chose(option("zero_move", "exception_3")),
-      .helix_turns_forward_only = chose(option("helix_cycle", "exception_3")),
-      .one_trigger_axis = chose(option("several_trigger_axes", "exception_3")),
-      .outputs_are_of_x_and_y = chose(option("set_out_of_z_and_u", "exception_3")),
-      .letters = chose(option("if_operator", "as_in_the_frame"))   ? Letters::as_in_the_frame
-                 : chose(option("if_operator", "as_in_the_table")) ? Letters::as_in_the_table
-                                                                   : Letters::either,
-      .single_signs_are_refused = chose(option("if_single_signs", "are_refused")),
-      .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
-      .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
-      .frnet_wait_may_have_7 = chose(option("frnet_wait_registers", "8_or_7_with_a_time_of_one")),
-      .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
+  options.command = command_options(chosen);
   options.download = {.close_takes_line = chose(option("close_line", "one_line")),
                       .levels_are_of_both = chose(option("block_levels", "of_both_together")),
                       .shown_code = chose(option("download_command", "as_sent"))
