@@ -17,11 +17,6 @@ namespace {
 using motion::Comparator;
 using motion::Counter;
 
-/// What EP counts: the bench's encoder, or the pulses themselves.
-std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor) {
-  return axis.has_encoder ? motor.encoder_pulses : motor.travel_pulses;
-}
-
 /// Another range, with the count that there is.
 void set_range(Counter& counter, Counter::Range range, std::int64_t ring_top, std::int64_t travel) {
   const std::int64_t count = counter.at(travel);
@@ -43,6 +38,10 @@ std::int64_t divided(const BasicSettings& basic, std::int64_t edges) {
 }
 
 }  // namespace
+
+std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor) {
+  return axis.has_encoder ? motor.encoder_pulses : motor.travel_pulses;
+}
 
 SpeedRange range_of(const AxisUnit& axis, const SpeedRules& rules) {
   return speed_range(axis.basic.max_v, rules);
