@@ -164,7 +164,7 @@ std::optional<std::int64_t> value_of(std::string_view text, const Parameter& row
     case Kind::axes:
     case Kind::axis:
     case Kind::axis_or_none: return axes_of(text, false);
-    case Kind::setting_axes: return axes_of(text, !is_macro_line);
+    case Kind::setting_axes: return axes_of(text, true);
     case Kind::arithmetic:
     case Kind::comparison: return operator_of(text, row.kind);
     case Kind::memory:

@@ -33,6 +33,7 @@ lang::CommandOptions command_options(std::span<const std::uint8_t> chosen) {
           .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
           .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
           .frnet_wait_may_have_7 = chose(option("frnet_wait_registers", "8_or_7_with_a_time_of_one")),
+          .macros_store_initial = chose(option("initial_in_macros", "stored_when_the_line_runs")),
           .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
 }
 
@@ -42,14 +43,15 @@ LanguageOptions language_options(const DeviceSettings& settings) {
   const auto chose = [&chosen](const Option& option) { return chosen[option.choice] == option.number; };
   LanguageOptions options;
   options.command = command_options(chosen);
-  options.download = {.close_takes_line = chose(option("close_line", "one_line")),
-                      .levels_are_of_both = chose(option("block_levels", "of_both_together")),
-                      .shown_code = chose(option("download_command", "as_sent"))
-                                        ? Download::ShownCode::as_sent
-                                        : Download::ShownCode::real_time,
-                      .refused_line = chose(option("refused_lines", "spoil_the_download"))
-                                          ? Download::RefusedLine::spoils
-                                          : Download::RefusedLine::is_left_out};
+  options.download = {
+      .close_takes_line = chose(option("close_line", "one_line")),
+      .levels_are_of_both = chose(option("block_levels", "of_both_together")),
+      .goto_stays_in_its_block = chose(option("goto_out_of_blocks", "is_refused_as_without_its_label")),
+      .shown_code = chose(option("download_command", "as_sent")) ? Download::ShownCode::as_sent
+                                                                 : Download::ShownCode::real_time,
+      .refused_line = chose(option("refused_lines", "spoil_the_download"))
+                          ? Download::RefusedLine::spoils
+                          : Download::RefusedLine::is_left_out};
   options.run = {.command = options.command,
                  .mp_runs_beside_isr = chose(option("mp_during_isr", "goes_on_while_it_waits")),
                  .isr_interrupts_isr = chose(option("isr_nesting", "nested")),
@@ -61,6 +63,8 @@ LanguageOptions language_options(const DeviceSettings& settings) {
                  .call_too_deep_ends_macro = chose(option("call_too_deep", "ends_the_macro")),
                  .frnet_wait_needs_edge = chose(option("frnet_wait_level", "waits_for_the_change")),
                  .frnet_wait_timeout_is_error = chose(option("frnet_wait_timeout", "execution_error")),
+                 .raw_signals_are_not_returned = chose(option("rvar_of_di_signal_all", "is_not_stored")),
+                 .results_end_at_32_bits = chose(option("calculation_overflow", "stays_at_the_end")),
                  .division_by_zero_keeps = chose(option("division_by_zero", "stays_as_it_was")),
                  .for_runs_once_at_least = chose(option("for_below_1", "one_pass"))};
   if (chose(option("steps_a_tick", "1"))) options.steps_a_tick = 1;
