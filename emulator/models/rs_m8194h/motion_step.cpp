@@ -53,7 +53,9 @@ bool starts_something(motion::SyncAction::Drive drive) {
 void RsM8194h::step_axes(Tick tick) {
   std::array<std::int64_t, kAxes> pulses{};
   motion::Coordinated& together = state_.paths.together;
-  for (std::size_t a = 0; a < kAxes; ++a) heed_encoder(a, tick);
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (state_.units[a].has_encoder) heed_encoder(a, tick);
+  }
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!together.takes(a)) pulses[a] = state_.motors[a].step(tick, state_.here[a]);
   }
@@ -71,8 +73,8 @@ void RsM8194h::step_axes(Tick tick) {
 void RsM8194h::heed_encoder(std::size_t axis, Tick tick) {
   motion::Axis& motor = state_.motors[axis];
   AxisUnit& unit = state_.units[axis];
-  const bool is_watched = unit.has_encoder && motor.moving() && !motor.slowing &&
-                          (!motor.homing.active() || machine_.axis.homing_heeds_soft_limits);
+  const bool is_watched =
+      motor.moving() && !motor.slowing && (!motor.homing.active() || machine_.axis.homing_heeds_soft_limits);
   if (!is_watched) return;
   constexpr int kBeyond = 1;
   motion::Cause why = soft_limit_by_encoder(unit, motor, static_cast<int>(motor.drive.direction), kBeyond);
