@@ -37,7 +37,9 @@ WindowMessage window_message(const Device& device, std::string_view text) {
 }
 
 WindowForm window_form(const Device& device) {
-  return {.firmware = device.firmware(), .low_word_first = device.register_bank()->low_word_first()};
+  return {.firmware = device.firmware(),
+          .low_word_first = device.register_bank()->low_word_first(),
+          .choices = device.choices()};
 }
 
 std::optional<std::string> window_text(const Device& device, Table table, int first,

@@ -20,7 +20,8 @@ struct Model;
 /// What decides how a message of a device is read.
 struct WindowForm {
   Firmware firmware = 0;
-  bool low_word_first = false;  // as the device has it at this moment
+  bool low_word_first = false;                 // as the device has it at this moment
+  std::span<const std::uint8_t> choices = {};  // options by the model's rows; none: the first of each
 };
 
 class CommandWindow {

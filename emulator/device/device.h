@@ -49,6 +49,7 @@ class Device {
   Firmware firmware() const { return settings_.firmware; }
   const DeviceSettings& settings() const { return settings_; }
   std::uint8_t choice(std::size_t number) const { return choices_[number]; }
+  std::span<const std::uint8_t> choices() const { return choices_; }
   bool chose(const Option& option) const { return choice(option.choice) == option.number; }
 
   // --- facets ----------------------------------------------------------------------------------

@@ -47,21 +47,21 @@ bool is_axis_taken(const Command& command, std::size_t parameter) {
   return false;
 }
 
-bool is_axis_mask(const Command& command, const Parameter& row, std::int64_t mask) {
-  if (row.kind == Kind::setting_axes && !command.is_macro_line()) {
-    return mask < 2 * kInitial && (mask & kAllAxes) != 0;
-  }
+bool is_axis_mask(const Command& command, const Parameter& row, std::int64_t mask,
+                  const CommandOptions& options) {
+  const bool may_store = !command.is_macro_line() || options.macros_store_initial;
+  if (row.kind == Kind::setting_axes && may_store) return mask < 2 * kInitial && (mask & kAllAxes) != 0;
   if (command.verb() == Verb::line_scan && command.number(1) % 2 != 0) return mask == 1;  // uneven: X alone
   return row.lists(mask);
 }
 
-bool is_good(const Command& command, std::size_t parameter) {
+bool is_good(const Command& command, std::size_t parameter, const CommandOptions& options) {
   const Parameter& row = command.row().parameters[parameter];
   if (is_reference(command, parameter)) return true;
   const std::int64_t value = command.number(parameter);
   switch (row.kind) {
     case Kind::axes:
-    case Kind::setting_axes: return is_axis_mask(command, row, value);
+    case Kind::setting_axes: return is_axis_mask(command, row, value, options);
     case Kind::axis: return is_one_axis(value) && !is_axis_taken(command, parameter);
     case Kind::axis_or_none: return value == 0 || (is_one_axis(value) && !is_axis_taken(command, parameter));
     case Kind::isr_if_used: return deciding(command, "nINT") != 1 || row.lists(value);
@@ -150,7 +150,7 @@ std::optional<std::size_t> bad_by_choice(const Command& command, const CommandOp
 std::optional<std::size_t> bad_parameter(const Command& command, const CommandOptions& options) {
   const std::size_t count = command.row().parameter_count();
   for (std::size_t i = 0; i < count; ++i) {
-    if (!is_good(command, i)) return i;
+    if (!is_good(command, i, options)) return i;
   }
   if (command.verb() == Verb::rectangle && options.rectangle_corners_must_fit) return bad_radius(command);
   return bad_by_choice(command, options);

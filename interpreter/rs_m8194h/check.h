@@ -37,11 +37,16 @@ struct CommandOptions {
   bool codes_of_12_3 = false;
   /// FRNET_WAIT also as 12.3 counts its registers: its time is one of them.
   bool frnet_wait_may_have_7 = false;
+  /// The Initial Table is stored in by macros as well.
+  bool macros_store_initial = false;
   /// Which of two faults answers.
   bool state_before_code = false;
 
   bool operator==(const CommandOptions&) const = default;
 };
+
+/// Takes what any choice takes: of what is read that somebody else has checked.
+inline constexpr CommandOptions kAnyChoice{.rectangle_corners_must_fit = false, .macros_store_initial = true};
 
 /// The first parameter that is not in its range or list; nothing: all are good. References are good; what
 /// they stand for is checked when the line runs. Operators, and all of VAR_CALCULATE, are a matter of

@@ -57,6 +57,9 @@ Fault block_fault(const std::vector<Command>& lines, const Command& command, con
     if (verb == Verb::else_ && blocks.back().has_else) return rule.outside;
     return blocks.back().opener == Verb::if_ ? rule.in_if : rule.in_for;
   }
+  if (verb == Verb::goto_ && options.goto_stays_in_its_block && !blocks_behind(lines).empty()) {
+    return Fault::goto_without_label;  // labels stand outside of all blocks
+  }
   for (const DepthRule& rule : kDepthRules) {
     if (rule.verb != verb) continue;
     const Blocks blocks = blocks_behind(lines);

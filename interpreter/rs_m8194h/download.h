@@ -17,6 +17,8 @@ struct DownloadOptions {
   bool close_takes_line = false;
   /// Seven levels of FOR and IF together.
   bool levels_are_of_both = false;
+  /// GOTO leaves the blocks around it, or is refused there.
+  bool goto_stays_in_its_block = false;
   /// Input 112 shows a line's code as 0x0Axx, as the worked example does, or as it was sent.
   enum class ShownCode : std::uint8_t { real_time, as_sent } shown_code = ShownCode::real_time;
   /// A line that is refused for its class, its registers or a parameter is left out, or spoils the download.

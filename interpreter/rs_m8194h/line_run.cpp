@@ -85,7 +85,9 @@ class LineRun {
     const std::size_t result = variable_number(command.values[3]);
     const bool is_defined = arithmetic != '/' || right != 0;
     if (is_defined) {
-      machine_.set_variable(result, calculate(arithmetic, value(command.values[0]), right));
+      const std::int64_t exact = calculate_exactly(arithmetic, value(command.values[0]), right);
+      machine_.set_variable(result, options_.results_end_at_32_bits ? nearest_of_32_bits(exact)
+                                                                    : static_cast<std::int32_t>(exact));
       return go_on();
     }
     if (!options_.division_by_zero_keeps) machine_.set_variable(result, 0);
@@ -95,7 +97,9 @@ class LineRun {
   Ran read(const Command& command) {
     Command resolved = command;
     if (resolve(resolved, machine_, options_.command) != Fault::none) return fail(command, Fault::operand);
-    return_register() = {machine_.read(resolved), true};
+    const bool is_returned =
+        command.verb() != Verb::get_di_signal_all || !options_.raw_signals_are_not_returned;
+    if (is_returned) return_register() = {machine_.read(resolved), true};
     return go_on();
   }
 
@@ -115,7 +119,7 @@ class LineRun {
     const std::uint32_t count = macro.lines[loop.line].values[0];
     if (is_variable(count)) {
       const std::size_t variable = variable_number(count);
-      loop.left = calculate('-', machine_.variable(variable), 1);
+      loop.left = static_cast<std::int32_t>(calculate_exactly('-', machine_.variable(variable), 1));
       machine_.set_variable(variable, loop.left);
     } else {
       --loop.left;

@@ -174,12 +174,17 @@ class ListingReader {
     if (std::ranges::any_of(listing_.triggers, is_same)) {
       return fail(tokens[1], "TRIGGER " + text_of_channel(*channel) + " appears twice");
     }
-    Trigger trigger;
-    for (const ConditionRow& row : kTriggerConditions) {
-      if (tokens.size() > 2 && is_word(tokens[2].text, row.text)) trigger.condition = row.condition;
+    const auto* const condition = std::ranges::find_if(kTriggerConditions, [&](const ConditionRow& row) {
+      return tokens.size() > 2 && is_word(tokens[2].text, row.text);
+    });
+    if (condition == kTriggerConditions.end()) {
+      return missing(2, "none, on, off, off_to_on, on_to_off or change");
     }
+    Trigger trigger{.condition = condition->condition};
     if (trigger.condition == TriggerCondition::none) {
-      return missing(2, "on, off, off_to_on, on_to_off or change");
+      if (tokens.size() > 3) return missing(3, "nothing");
+      listing_.triggers.push_back({*channel, trigger});
+      return;
     }
     if (tokens.size() < 4 || !read_event(tokens[3].text, trigger)) {
       return missing(3, "MP1 to MP157, hold, abort_command, abort_macro, pause or clear_stop");

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/listing.h"
 #include "interpreter/rs_m8194h/macro.h"
@@ -14,7 +15,7 @@
 namespace understudy::interpreter::rs_m8194h {
 
 std::optional<Macro> macro_of(const MacroName& name, std::string_view text) {
-  Listing listing = parse_listing(text).listing;
+  Listing listing = parse_listing(text, kAnyChoice).listing;
   const bool is_alone =
       listing.triggers.empty() && listing.macros.size() == 1 && listing.macros[0].name == name;
   return is_alone ? std::optional(std::move(listing.macros[0].macro)) : std::nullopt;

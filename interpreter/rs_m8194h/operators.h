@@ -1,6 +1,7 @@
 // Operators of VAR_CALCULATE and IF.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -54,22 +55,23 @@ constexpr bool is_arithmetic(std::uint32_t code) {
   return code < 0x80 && code != 0 && kArithmetic.find(static_cast<char>(code)) != std::string_view::npos;
 }
 
-/// Wraps to 32 bits. Nothing may be divided by 0.
-constexpr std::int32_t calculate(char arithmetic, std::int32_t left, std::int32_t right) {
+/// Of two numbers of 32 bits; nothing may be divided by 0. Whoever stores it wraps it to 32 bits, or not.
+constexpr std::int64_t calculate_exactly(char arithmetic, std::int32_t left, std::int32_t right) {
   const auto a = std::int64_t{left};
   const auto b = std::int64_t{right};
-  const auto wrapped = [](std::int64_t wide) {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(wide)));
-  };
   switch (arithmetic) {
-    case '+': return wrapped(a + b);
-    case '-': return wrapped(a - b);
-    case '*': return wrapped(a * b);
-    case '/': return wrapped(a / b);
+    case '+': return a + b;
+    case '-': return a - b;
+    case '*': return a * b;
+    case '/': return a / b;
     case '&': return left & right;
     case '|': return left | right;
     default: return 0;
   }
+}
+
+constexpr std::int32_t nearest_of_32_bits(std::int64_t exact) {
+  return static_cast<std::int32_t>(std::clamp<std::int64_t>(exact, INT32_MIN, INT32_MAX));
 }
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -40,6 +40,10 @@ struct RunOptions {
   bool frnet_wait_needs_edge = false;
   /// FRNET_WAIT whose time is over is an execution error.
   bool frnet_wait_timeout_is_error = false;
+  /// The value of GET_DI_SIGNAL_ALL is not for SET_RVAR.
+  bool raw_signals_are_not_returned = false;
+  /// Results of VAR_CALCULATE end at the ends of 32 bits, or come round.
+  bool results_end_at_32_bits = false;
   /// A division by 0 leaves the result as it is, or makes it 0.
   bool division_by_zero_keeps = false;
   /// FOR with a count below 1 runs its block once.

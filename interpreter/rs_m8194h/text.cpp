@@ -164,7 +164,7 @@ std::optional<std::int64_t> value_of(std::string_view text, const Parameter& row
     case Kind::axes:
     case Kind::axis:
     case Kind::axis_or_none: return axes_of(text, false);
-    case Kind::setting_axes: return axes_of(text, !is_macro_line);
+    case Kind::setting_axes: return axes_of(text, true);
     case Kind::arithmetic:
     case Kind::comparison: return operator_of(text, row.kind);
     case Kind::memory:
@@ -231,6 +231,15 @@ std::optional<std::uint16_t> code_of(std::string_view name) {
   return found->second;
 }
 
+/// Without its beginning a name is a whole one still.
+std::string nearest_names(const std::string& word) {
+  for (const std::string_view beginning : {"RSM_MACRO_", "RSM_ABS_MACRO_", "RSM_"}) {
+    const std::string name = std::string(beginning) + word;
+    if (code_of(name)) return "; the nearest is " + quoted(name);
+  }
+  return suggestion(word, known_names());
+}
+
 ParsedCommand failed(const Token& token, std::string message) {
   return {.command = {}, .error = TextError{token.line, token.column, std::move(message)}};
 }
@@ -261,8 +270,7 @@ ParsedCommand parse_command(std::span<const Token> tokens, const CommandOptions&
   const Token& name = tokens.front();
   const std::optional<std::uint16_t> code = code_of(name.text);
   if (!code) {
-    return failed(name,
-                  quoted(name.text) + " is not a command" + suggestion(upper_case(name.text), known_names()));
+    return failed(name, quoted(name.text) + " is not a command" + nearest_names(upper_case(name.text)));
   }
   Command command{.code = *code};
   const CommandRow& row = command.row();

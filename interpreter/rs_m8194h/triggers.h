@@ -24,6 +24,7 @@ struct ConditionRow {
   std::string_view text;
 };
 inline constexpr auto kTriggerConditions = std::to_array<ConditionRow>({
+    {TriggerCondition::none, "none"},
     {TriggerCondition::on, "on"},
     {TriggerCondition::off, "off"},
     {TriggerCondition::off_to_on, "off_to_on"},

@@ -46,21 +46,31 @@ std::uint16_t meant_by(std::uint16_t code, const CommandOptions& options) {
   return code;
 }
 
+/// `<=` `>=` `!=`: the frame's order first, the table's second.
+bool has_two_orders(const ComparisonRow& row) {
+  return row.text.size() == 2 && row.comparison != Comparison::equal;
+}
+
 /// The operator of IF in its usual form. What an option does not take becomes no operator at all.
 std::uint32_t comparison_of(std::uint32_t sent, const CommandOptions& options) {
   const ComparisonRow* const row = find_comparison(sent);
   if (row == nullptr) return sent;
   using Letters = CommandOptions::Letters;
-  // `<=` `>=` `!=`: the frame's order first, the table's second.
-  const bool has_two_orders = row->codes[1] > 0xFF && row->text.size() == 2 &&
-                              row->codes[0] != row->codes[1] && row->comparison != Comparison::equal;
   const bool is_other =
-      has_two_orders && ((options.letters == Letters::as_in_the_frame && sent == row->codes[1]) ||
-                         (options.letters == Letters::as_in_the_table && sent == row->codes[0]));
+      has_two_orders(*row) && ((options.letters == Letters::as_in_the_frame && sent == row->codes[1]) ||
+                               (options.letters == Letters::as_in_the_table && sent == row->codes[0]));
   const bool is_letter = (sent & 0xFFU) == 0 || (sent >> 8U & 0xFFU) == 0;
   const bool is_single =
       is_letter && (row->comparison == Comparison::equal || row->comparison == Comparison::not_equal);
   return is_other || (is_single && options.single_signs_are_refused) ? 0 : row->codes[0];
+}
+
+/// The other way round: the form that the options take.
+std::uint32_t sent_as(std::uint32_t comparison, const CommandOptions& options) {
+  const ComparisonRow* const row = find_comparison(comparison);
+  const bool is_other = row != nullptr && comparison == row->codes[0] && has_two_orders(*row) &&
+                        options.letters == CommandOptions::Letters::as_in_the_table;
+  return is_other ? row->codes[1] : comparison;
 }
 
 /// Holding registers 300 to 1323 are the variables.
@@ -128,11 +138,13 @@ Decoded decode(std::span<const std::uint16_t> registers, State state, WordOrder 
   return decoded;
 }
 
-std::vector<std::uint16_t> encode(const Command& command, WordOrder order) {
-  std::vector<std::uint16_t> registers = {command.code};
+std::vector<std::uint16_t> encode(const Command& command, WordOrder order, const CommandOptions& options) {
+  std::vector<std::uint16_t> registers = {meant_by(command.code, options)};
   const CommandRow& row = command.row();
   for (std::size_t i = 0; i < row.parameter_count(); ++i) {
-    if (row.parameters[i].registers() == 1) {
+    if (row.parameters[i].kind == Kind::comparison) {
+      registers.push_back(static_cast<std::uint16_t>(sent_as(command.values[i], options)));
+    } else if (row.parameters[i].registers() == 1) {
       registers.push_back(static_cast<std::uint16_t>(command.values[i]));
     } else {
       const Pair pair = parted(command.values[i], order);

@@ -35,6 +35,8 @@ Fault why_not_now(std::uint16_t code, State state);
 Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, Command& command,
                      const CommandOptions& options = {});
 
-std::vector<std::uint16_t> encode(const Command& command, WordOrder order = WordOrder::high_first);
+/// As decode() takes it, with the same options.
+std::vector<std::uint16_t> encode(const Command& command, WordOrder order = WordOrder::high_first,
+                                  const CommandOptions& options = {});
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -17,11 +17,6 @@ namespace {
 using motion::Comparator;
 using motion::Counter;
 
-/// What EP counts: the bench's encoder, or the pulses themselves.
-std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor) {
-  return axis.has_encoder ? motor.encoder_pulses : motor.travel_pulses;
-}
-
 /// Another range, with the count that there is.
 void set_range(Counter& counter, Counter::Range range, std::int64_t ring_top, std::int64_t travel) {
   const std::int64_t count = counter.at(travel);
@@ -43,6 +38,10 @@ std::int64_t divided(const BasicSettings& basic, std::int64_t edges) {
 }
 
 }  // namespace
+
+std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor) {
+  return axis.has_encoder ? motor.encoder_pulses : motor.travel_pulses;
+}
 
 SpeedRange range_of(const AxisUnit& axis, const SpeedRules& rules) {
   return speed_range(axis.basic.max_v, rules);
@@ -172,8 +171,10 @@ void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const Ax
   const bool is_heeded = options.homing_heeds_soft_limits || !motor.homing.active();
   if (axis.basic.soft_limits && by_pulses && is_heeded) {
     const Counter& counter = axis.basic.soft_limit_source == 0 ? axis.logic : axis.encoder;
-    changed.soft_limit_plus = axis.basic.forward_soft_limit - counter.offset;
-    changed.soft_limit_minus = axis.basic.reverse_soft_limit - counter.offset;
+    // What is between count and travel now: the offset itself is right up to whole rounds of the counter.
+    const std::int64_t ahead = motor.travel_pulses - counter.at(motor.travel_pulses);
+    changed.soft_limit_plus = axis.basic.forward_soft_limit + ahead;
+    changed.soft_limit_minus = axis.basic.reverse_soft_limit + ahead;
   }
   if (changed != motor.settings) motor.set(changed);
 }

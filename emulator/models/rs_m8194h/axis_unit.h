@@ -130,6 +130,8 @@ SpeedRange range_of(const AxisUnit& axis, const SpeedRules& rules);
 motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps, const SpeedRules& rules);
 motion::SpeedLaw law_of(const AxisUnit& axis, const SpeedRules& rules);
 
+/// What EP counts: the bench's encoder, or the pulses themselves.
+std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor);
 /// The three counters.
 std::int32_t logic_count(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t absolute_count(const AxisUnit& axis, const motion::Axis& motor);

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "emulator/device/command_window.h"
+#include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/models/rs_m8194h/language.h"
+#include "emulator/models/rs_m8194h/options.h"
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/faults.h"
@@ -22,11 +24,15 @@ namespace {
 
 namespace lang = interpreter::rs_m8194h;
 
-/// Corners of a rectangle are a choice of the device.
-constexpr lang::CommandOptions kAnyChoice{.rectangle_corners_must_fit = false};
-
 lang::WordOrder order_of(const WindowForm& form) {
-  return form.low_word_first ? lang::WordOrder::low_first : lang::WordOrder::high_first;
+  constexpr Option kTablesAlone = option("word_order_scope", "tables");
+  const bool heeds_order = form.choices.empty() || form.choices[kTablesAlone.choice] != kTablesAlone.number;
+  return form.low_word_first && heeds_order ? lang::WordOrder::low_first : lang::WordOrder::high_first;
+}
+
+/// Of how it is written. Whether the device takes it is its own affair.
+lang::CommandOptions options_of(const WindowForm& form) {
+  return form.choices.empty() ? lang::CommandOptions{} : command_options(form.choices);
 }
 
 class CommandNames final : public CommandWindow {
@@ -35,16 +41,17 @@ class CommandNames final : public CommandWindow {
   std::string_view example() const override { return "RSM_FIXED_MOVE XYZU 10000"; }
 
   std::vector<std::uint16_t> words_of(std::string_view text, const WindowForm& form) const override {
-    const lang::ParsedCommand parsed = lang::parse_command(text, kAnyChoice);
+    const lang::ParsedCommand parsed = lang::parse_command(text, lang::kAnyChoice);
     if (!parsed.command) throw ProgramError(mistakes_of({*parsed.error}));
-    return lang::encode(*parsed.command, order_of(form));
+    return lang::encode(*parsed.command, order_of(form), options_of(form));
   }
 
   std::optional<std::string> text_of(std::span<const std::uint16_t> words,
                                      const WindowForm& form) const override {
     lang::Command command;
-    if (lang::read_registers(words, order_of(form), command) != lang::Fault::none) return std::nullopt;
-    if (lang::bad_parameter(command, kAnyChoice) || lang::bad_operand(command)) return std::nullopt;
+    if (lang::read_registers(words, order_of(form), command, options_of(form)) != lang::Fault::none)
+      return std::nullopt;
+    if (lang::bad_parameter(command, lang::kAnyChoice) || lang::bad_operand(command)) return std::nullopt;
     return lang::text_of(command);
   }
 };

@@ -147,6 +147,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void note_obstacles(AxisMask axes);
   /// Of LINE_SCAN_START: the flag of done scans is off until all of them stand.
   void begin_scans(AxisMask axes);
+  std::int64_t scan_travel(std::size_t axis) const;
   bool waits_behind_held(AxisMask axes) const;
   bool keeps_first_held(AxisMask axes) const;
   bool holds_a_drive(AxisMask axes) const;
@@ -231,7 +232,6 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void act_together(Tick tick);
   void heed_factors(std::size_t axis, Tick tick);
   void step_scans(Tick tick);
-  std::int64_t scan_count(std::size_t axis) const;
   std::int64_t scan_spacing(const LineScan& scan) const;
   void end_scan(std::size_t axis);
   bool rests() const;

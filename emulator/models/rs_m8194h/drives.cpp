@@ -300,7 +300,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   if (what.what == Drive::What::scan) begin_scans(mask_of(axis));
   if (LineScan& scan = state_.scans[axis]; what.what == Drive::What::scan && scan.set) {
     scan.running = true;
-    scan.begin = scan_count(axis);
+    scan.begin = scan_travel(axis);
     scan.triggered = 0;
     const bool is_against = (scan.pitch < 0) != (distance < 0);
     if (is_against && chose(option("scan_sign", "no_triggers"))) end_scan(axis);

@@ -87,10 +87,22 @@ lang::Command close(const lang::MacroName& name) {
   return {.code = lang::macro_code(name.is_isr ? lang::Verb::isr_close : lang::Verb::mp_close)};
 }
 
-CellRow cells_of(const lang::Command& command) {
+CellRow cells_of(const lang::Command& command, const lang::CommandOptions& options) {
   CellRow row;
-  for (const std::uint16_t word : lang::encode(command)) row.cells.push_back(word);
+  const auto words = lang::encode(command, lang::WordOrder::high_first, options);
+  for (const std::uint16_t word : words) row.cells.push_back(word);
   return row;
+}
+
+int line_of_first_trigger(std::string_view text) {
+  int line = 1;
+  for (; !text.empty(); ++line) {
+    const std::size_t end = text.find('\n');
+    const std::vector<lang::Token> tokens = lang::tokens_of(text.substr(0, end), line);
+    if (!tokens.empty() && lang::is_word(tokens[0].text, "TRIGGER")) break;
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return line;
 }
 
 class Listing final : public ProgramLanguage, public ProgramCells {
@@ -126,13 +138,15 @@ class Listing final : public ProgramLanguage, public ProgramCells {
     const lang::ParsedListing parsed = parse(text, settings);
     if (!parsed.errors.empty()) throw ProgramError(mistakes_of(parsed.errors));
     if (!parsed.listing.triggers.empty()) {
-      throw ProgramError(0, 0, "TRIGGER is not a message to the window; expected macros alone");
+      throw ProgramError(line_of_first_trigger(text), 1,
+                         "TRIGGER is not a message to the window; expected macros alone");
     }
+    const lang::CommandOptions options = language_options(settings).command;
     std::vector<CellRow> rows;
     for (const lang::ListedMacro& listed : parsed.listing.macros) {
-      rows.push_back(cells_of(create(listed.name)));
-      for (const lang::Command& line : listed.macro.lines) rows.push_back(cells_of(line));
-      rows.push_back(cells_of(close(listed.name)));
+      rows.push_back(cells_of(create(listed.name), options));
+      for (const lang::Command& line : listed.macro.lines) rows.push_back(cells_of(line, options));
+      rows.push_back(cells_of(close(listed.name), options));
     }
     return rows;
   }

@@ -117,6 +117,9 @@ lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
     lang::replaced(state_.execution, name, *this);
     state_.blocks.put(blocks_of(name), std::to_string(name.number),
                       SharedText(lang::text_of(name, *closed.macro)));
+  } else if (chose(option("failed_download", "empties_it"))) {
+    lang::replaced(state_.execution, name, *this);
+    state_.blocks.erase(blocks_of(name), std::to_string(name.number));
   }
   return closed.fault;
 }

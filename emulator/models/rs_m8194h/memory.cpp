@@ -58,7 +58,7 @@ std::string why_not_axis(const std::string& name) {
   return "is not an axis; expected X, Y, Z or U";
 }
 std::string why_not_listing(const std::string& text) {
-  const lang::ParsedListing parsed = lang::parse_listing(text);
+  const lang::ParsedListing parsed = lang::parse_listing(text, lang::kAnyChoice);
   return parsed.errors.empty() ? "" : "line " + to_string(parsed.errors.front());
 }
 std::string why_not_settings(const std::string& text) {

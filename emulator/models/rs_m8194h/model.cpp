@@ -26,11 +26,12 @@ namespace {
 // 2.0 and 3.0: the versions of the manual's answers and of the manual itself.
 constexpr std::array<Firmware, 2> kFirmwares{200, 300};
 
-constexpr std::array<std::string_view, 5> kGaps{
+constexpr std::array<std::string_view, 6> kGaps{
     "Noise filters below 1.024 ms do not delay, or by choice a tick: a bench's inputs change at ticks, a "
     "machine's edges lie at pulses.",
     "Pulses at OUT_X and OUT_Y below 1 ms are counted, and have no length: levels are those of ticks.",
     "The pulse modes of SET_PULSE_MODE are names (`rsm.pulse_format`): no levels on the pulse terminals.",
+    "A helix of more than 159,000 turns is void, with the module's error (RINT bit 7).",
     "What is spoken at the switch's position Init is not documented: the box is deaf there.",
     "The IP settings from holding 20 on store, and do nothing.",
 };

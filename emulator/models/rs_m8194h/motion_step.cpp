@@ -55,7 +55,9 @@ bool starts_something(motion::SyncAction::Drive drive) {
 void RsM8194h::step_axes(Tick tick) {
   std::array<std::int64_t, kAxes> pulses{};
   motion::Coordinated& together = state_.paths.together;
-  for (std::size_t a = 0; a < kAxes; ++a) heed_encoder(a, tick);
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (state_.units[a].has_encoder) heed_encoder(a, tick);
+  }
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!together.takes(a)) pulses[a] = state_.motors[a].step(tick, state_.here[a]);
   }
@@ -73,8 +75,8 @@ void RsM8194h::step_axes(Tick tick) {
 void RsM8194h::heed_encoder(std::size_t axis, Tick tick) {
   motion::Axis& motor = state_.motors[axis];
   AxisUnit& unit = state_.units[axis];
-  const bool is_watched = unit.has_encoder && motor.moving() && !motor.slowing &&
-                          (!motor.homing.active() || machine_.axis.homing_heeds_soft_limits);
+  const bool is_watched =
+      motor.moving() && !motor.slowing && (!motor.homing.active() || machine_.axis.homing_heeds_soft_limits);
   if (!is_watched) return;
   constexpr int kBeyond = 1;
   motion::Cause why = soft_limit_by_encoder(unit, motor, static_cast<int>(motor.drive.direction), kBeyond);
@@ -287,11 +289,10 @@ void RsM8194h::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
   out.pulse_until = tick + kWidths[out.width_code % kWidths.size()];
 }
 
-/// Of the counter that LINE_SCAN's Type names.
-std::int64_t RsM8194h::scan_count(std::size_t axis) const {
-  const AxisUnit& unit = state_.units[axis];
+/// What the counter that LINE_SCAN's Type names has counted: a ring comes round in it, and it may be set.
+std::int64_t RsM8194h::scan_travel(std::size_t axis) const {
   const motion::Axis& motor = state_.motors[axis];
-  return state_.scans[axis].type >= 2 ? encoder_count(unit, motor) : logic_count(unit, motor);
+  return state_.scans[axis].type >= 2 ? encoder_travel(state_.units[axis], motor) : motor.travel_pulses;
 }
 
 std::int64_t RsM8194h::scan_spacing(const LineScan& scan) const {
@@ -303,10 +304,11 @@ std::int64_t RsM8194h::scan_spacing(const LineScan& scan) const {
 void RsM8194h::end_scan(std::size_t axis) {
   LineScan& scan = state_.scans[axis];
   if (chose(option("scan_comparator", "the_next_trigger"))) {
-    const std::int64_t way = scan_count(axis) < scan.begin ? -1 : +1;
+    const std::int64_t way = scan_travel(axis) < scan.begin ? -1 : +1;
     const std::int64_t next = scan.begin + way * (scan.triggered + 1) * scan_spacing(scan);
-    const auto place = static_cast<std::int32_t>(std::clamp<std::int64_t>(next, INT32_MIN, INT32_MAX));
-    state_.units[axis].compare[0] = {.value = place,
+    const AxisUnit& unit = state_.units[axis];
+    const motion::Counter& counter = scan.type >= 2 ? unit.encoder : unit.logic;
+    state_.units[axis].compare[0] = {.value = static_cast<std::int32_t>(counter.at(next)),
                                      .source = static_cast<std::uint8_t>(scan.type >= 2 ? 1 : 0)};
   }
   const bool lasts = chose(option("scan_setting_lasts", "until_the_next_setting"));
@@ -335,8 +337,7 @@ void RsM8194h::step_scans(Tick tick) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     LineScan& scan = state_.scans[a];
     if (!scan.running) continue;
-    const std::int64_t count = scan_count(a);
-    const std::int64_t passed = std::abs(count - scan.begin) / scan_spacing(scan);
+    const std::int64_t passed = std::abs(scan_travel(a) - scan.begin) / scan_spacing(scan);
     if (passed > scan.triggered) {
       const std::int64_t most = machine_.all_scan_triggers_are_given ? INT64_MAX : kMostTriggersOfATick;
       const std::int64_t given = std::min(passed - scan.triggered, most);

@@ -1,6 +1,7 @@
 #include "emulator/models/rs_m8194h/options.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "emulator/device/choices.h"
@@ -12,37 +13,45 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
+namespace lang = interpreter::rs_m8194h;
+
+lang::CommandOptions command_options(std::span<const std::uint8_t> chosen) {
+  const auto chose = [chosen](const Option& option) { return chosen[option.choice] == option.number; };
+  using Letters = lang::CommandOptions::Letters;
+  return {.rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")) &&
+                                        chose(option("rectangle_sides", "outer_length_and_width")),
+          .speeds_have_ends = chose(option("speed_ends", "exception_3")),
+          .variables_have_ends = chose(option("variable_range", "exception_3")),
+          .zero_moves_are_refused = chose(option("zero_move", "exception_3")),
+          .helix_turns_forward_only = chose(option("helix_cycle", "exception_3")),
+          .one_trigger_axis = chose(option("several_trigger_axes", "exception_3")),
+          .outputs_are_of_x_and_y = chose(option("set_out_of_z_and_u", "exception_3")),
+          .letters = chose(option("if_operator", "as_in_the_frame"))   ? Letters::as_in_the_frame
+                     : chose(option("if_operator", "as_in_the_table")) ? Letters::as_in_the_table
+                                                                       : Letters::either,
+          .single_signs_are_refused = chose(option("if_single_signs", "are_refused")),
+          .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
+          .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
+          .frnet_wait_may_have_7 = chose(option("frnet_wait_registers", "8_or_7_with_a_time_of_one")),
+          .macros_store_initial = chose(option("initial_in_macros", "stored_when_the_line_runs")),
+          .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
+}
+
 LanguageOptions language_options(const DeviceSettings& settings) {
-  using Download = interpreter::rs_m8194h::DownloadOptions;
+  using Download = lang::DownloadOptions;
   const std::vector<std::uint8_t> chosen = resolve_choices(kChoices, settings.choices);
   const auto chose = [&chosen](const Option& option) { return chosen[option.choice] == option.number; };
   LanguageOptions options;
-  using Letters = interpreter::rs_m8194h::CommandOptions::Letters;
-  options.command = {
-      .rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")) &&
-                                    chose(option("rectangle_sides", "outer_length_and_width")),
-      .speeds_have_ends = chose(option("speed_ends", "exception_3")),
-      .variables_have_ends = chose(option("variable_range", "exception_3")),
-      .zero_moves_are_refused = chose(option("zero_move", "exception_3")),
-      .helix_turns_forward_only = chose(option("helix_cycle", "exception_3")),
-      .one_trigger_axis = chose(option("several_trigger_axes", "exception_3")),
-      .outputs_are_of_x_and_y = chose(option("set_out_of_z_and_u", "exception_3")),
-      .letters = chose(option("if_operator", "as_in_the_frame"))   ? Letters::as_in_the_frame
-                 : chose(option("if_operator", "as_in_the_table")) ? Letters::as_in_the_table
-                                                                   : Letters::either,
-      .single_signs_are_refused = chose(option("if_single_signs", "are_refused")),
-      .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
-      .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
-      .frnet_wait_may_have_7 = chose(option("frnet_wait_registers", "8_or_7_with_a_time_of_one")),
-      .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
-  options.download = {.close_takes_line = chose(option("close_line", "one_line")),
-                      .levels_are_of_both = chose(option("block_levels", "of_both_together")),
-                      .shown_code = chose(option("download_command", "as_sent"))
-                                        ? Download::ShownCode::as_sent
-                                        : Download::ShownCode::real_time,
-                      .refused_line = chose(option("refused_lines", "spoil_the_download"))
-                                          ? Download::RefusedLine::spoils
-                                          : Download::RefusedLine::is_left_out};
+  options.command = command_options(chosen);
+  options.download = {
+      .close_takes_line = chose(option("close_line", "one_line")),
+      .levels_are_of_both = chose(option("block_levels", "of_both_together")),
+      .goto_stays_in_its_block = chose(option("goto_out_of_blocks", "is_refused_as_without_its_label")),
+      .shown_code = chose(option("download_command", "as_sent")) ? Download::ShownCode::as_sent
+                                                                 : Download::ShownCode::real_time,
+      .refused_line = chose(option("refused_lines", "spoil_the_download"))
+                          ? Download::RefusedLine::spoils
+                          : Download::RefusedLine::is_left_out};
   options.run = {.command = options.command,
                  .mp_runs_beside_isr = chose(option("mp_during_isr", "goes_on_while_it_waits")),
                  .isr_interrupts_isr = chose(option("isr_nesting", "nested")),
@@ -54,6 +63,8 @@ LanguageOptions language_options(const DeviceSettings& settings) {
                  .call_too_deep_ends_macro = chose(option("call_too_deep", "ends_the_macro")),
                  .frnet_wait_needs_edge = chose(option("frnet_wait_level", "waits_for_the_change")),
                  .frnet_wait_timeout_is_error = chose(option("frnet_wait_timeout", "execution_error")),
+                 .raw_signals_are_not_returned = chose(option("rvar_of_di_signal_all", "is_not_stored")),
+                 .results_end_at_32_bits = chose(option("calculation_overflow", "stays_at_the_end")),
                  .division_by_zero_keeps = chose(option("division_by_zero", "stays_as_it_was")),
                  .for_runs_once_at_least = chose(option("for_below_1", "one_pass"))};
   if (chose(option("steps_a_tick", "1"))) options.steps_a_tick = 1;

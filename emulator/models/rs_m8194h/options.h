@@ -2,6 +2,8 @@
 // asks for is asked once, when the device is made.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "emulator/device/model.h"
@@ -30,6 +32,8 @@ struct LanguageOptions {
   bool isrs_are_bound_at_the_event = false;
 };
 LanguageOptions language_options(const DeviceSettings& settings);
+/// Of the numbers of options, by row.
+interpreter::rs_m8194h::CommandOptions command_options(std::span<const std::uint8_t> chosen);
 
 /// What of them inputs, axes and the FIFO ask for.
 struct MachineOptions {

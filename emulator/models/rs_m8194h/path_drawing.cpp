@@ -56,7 +56,9 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
   for (int i = 1; i < row.dimensions && chose(option("vector_max_v", "the_least")); ++i) {
     max_v = std::min(max_v, max_v_of(static_cast<std::size_t>(i)));
   }
-  const SpeedRange range = speed_range(max_v, machine_.speed, kHighest[row.dimensions - 2]);
+  const bool has_own_end = chose(option("path_max_v", "as_printed"));
+  const std::uint32_t highest = has_own_end ? kHighest[row.dimensions - 2] : kHighestOfOneAxis;
+  const SpeedRange range = speed_range(max_v, machine_.speed, highest);
   const auto number = [&](std::size_t i) { return static_cast<double>(command.signed_value(i)); };
   const Tick now_tick = now();
 

@@ -76,6 +76,7 @@ inline constexpr std::array<Shape, 12> kVectorShapes{{
 }};
 /// MAX_V of interpolation (3.4), by the number of axes.
 inline constexpr std::uint32_t kHighest[] = {2'828'854, 2'309'468};
+inline constexpr std::uint32_t kHighestOfOneAxis = 4'000'000;
 
 /// nType of MIX_2D_CONTINUE.
 struct MixRow {

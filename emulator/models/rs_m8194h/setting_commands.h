@@ -63,7 +63,10 @@ inline Took set_basic(RsM8194h& it, const Command& command) {
     if (is_kept_off(it, it.state().units[a].basic, command.verb())) settings = it.state().units[a].basic;
     const bool scales = settings.max_v != max_v && it.chose(option("speeds_at_new_max_v", "scales_them"));
     if (scales) scale_speeds(it.state().units[a], max_v, settings.max_v);
+    const std::int64_t counted = it.scan_travel(a);
     apply_basic(it.state().units[a], it.state().motors[a], settings, it.machine_options().axis);
+    LineScan& scan = it.state().scans[a];
+    if (scan.running) scan.begin += it.scan_travel(a) - counted;  // the encoder counts otherwise from here on
     if (command.verb() == Verb::set_slmt) take_comparators(it, it.state().units[a]);
     it.look_again(a);
   });

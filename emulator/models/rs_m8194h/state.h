@@ -58,7 +58,7 @@ struct LineScan {
   std::uint8_t type = 0;
   std::int32_t pitch = 0;
   bool running = false;
-  std::int64_t begin = 0;      // count where it began
+  std::int64_t begin = 0;      // travel where it began
   std::int64_t triggered = 0;  // places passed
   // What SET_OUT had said of its pin.
   std::uint8_t level_before = 0;

@@ -94,6 +94,7 @@ int commands_of(const RegisterRequest& request) {
 constexpr std::size_t kRintWord = 72;
 constexpr std::size_t kRintBits = 8;
 constexpr std::size_t kFirstFactor = 130;
+constexpr std::size_t kReasonWord = 102;
 
 /// The macro line that a write of the tables stands for, where it has one.
 std::optional<lang::Command> line_at(Table table, std::size_t address, std::uint32_t value) {
@@ -226,6 +227,8 @@ void RsM8194h::read_answered(const RegisterRequest& request) {
   for (std::size_t i = 0; i < request.count; ++i) {
     const std::size_t address = request.first + i;
     const bool is_factor = address >= kFirstFactor && address < kFirstFactor + kFactors;
+    if (address == kReasonWord && chose(option("reason_lasts", "until_it_is_read")))
+      state_.illegal_reason = 0;
     if (is_factor && machine_.factors_clear_by_reading) state_.factor_axes[address - kFirstFactor] = 0;
     if (!machine_.rint_clears_by_reading || address < kRintWord || address > kRintWord + kRintBits) continue;
     state_.rint &= address == kRintWord ? std::uint8_t{0}

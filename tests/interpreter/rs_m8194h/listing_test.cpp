@@ -37,6 +37,7 @@ END
 TRIGGER 8.0 off_to_on MP21
 TRIGGER 8.1 on hold U
 TRIGGER 9.15 off abort_command
+TRIGGER 9.14 none
 TRIGGER 10.0 on_to_off abort_macro
 TRIGGER 15.14 change pause
 TRIGGER 15.15 on clear_stop
@@ -46,12 +47,12 @@ TEST(RsM8194hListing, IsReadAndWrittenWithoutLoss) {
   const ParsedListing parsed = parse_listing(kCanonical);
   EXPECT_EQ(errors_of(kCanonical), std::vector<std::string>{});
   ASSERT_EQ(parsed.listing.macros.size(), 3U);
-  ASSERT_EQ(parsed.listing.triggers.size(), 6U);
+  ASSERT_EQ(parsed.listing.triggers.size(), 7U);
   EXPECT_EQ(parsed.listing.macros[1].name, (MacroName{true, 3}));
   EXPECT_EQ(parsed.listing.triggers[0],
             (ListedTrigger{0, {TriggerCondition::off_to_on, TriggerEvent::call_mp, 21}}));
   EXPECT_EQ(parsed.listing.triggers[1], (ListedTrigger{1, {TriggerCondition::on, TriggerEvent::hold, 8}}));
-  EXPECT_EQ(parsed.listing.triggers[5].channel, 127);
+  EXPECT_EQ(parsed.listing.triggers[6].channel, 127);
   EXPECT_EQ(text_of(parsed.listing), kCanonical);
   EXPECT_EQ(parse_listing(text_of(parsed.listing)).listing, parsed.listing);
 }
@@ -92,11 +93,14 @@ TEST(RsM8194hListing, ErrorsHaveTheirPlaces) {
       {"TRIGGER 7.0 on pause", "1:9: '7.0' does not fit; expected an input, 8.0 to 15.15"},
       {"TRIGGER 8.16 on pause", "1:9: '8.16' does not fit; expected an input, 8.0 to 15.15"},
       {"TRIGGER", "1:1: ends too early; expected an input, 8.0 to 15.15"},
-      {"TRIGGER 8.0 up pause", "1:13: 'up' does not fit; expected on, off, off_to_on, on_to_off or change"},
+      {"TRIGGER 8.0 up pause",
+       "1:13: 'up' does not fit; expected none, on, off, off_to_on, on_to_off or change"},
       {"TRIGGER 8.0 on MP158",
        "1:16: 'MP158' does not fit; expected MP1 to MP157, hold, abort_command, abort_macro, pause or "
        "clear_stop"},
       {"TRIGGER 8.0 on hold XY", "1:21: 'XY' does not fit; expected an axis, X, Y, Z or U"},
+      {"TRIGGER 8.0 none pause", "1:18: 'pause' does not fit; expected nothing"},
+      {"MP 1\n  SET_V X 1\nEND", "2:3: 'SET_V' is not a command; the nearest is 'RSM_MACRO_SET_V'"},
       {"TRIGGER 8.0 on pause X", "1:22: 'X' does not fit; expected nothing"},
       {"TRIGGER 8.0 on pause\nTRIGGER 8.0 off pause", "2:9: TRIGGER 8.0 appears twice"},
   };

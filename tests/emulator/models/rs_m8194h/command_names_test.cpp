@@ -175,5 +175,24 @@ TEST(RsM8194hCommandNames, ADeviceIsAskedForItsOrderOfWords) {
   EXPECT_EQ(window_text(rsm.device(), Table::holding, 8001, low_first.words), std::nullopt);
 }
 
+TEST(RsM8194hCommandNames, ADeviceIsAskedForItsChoices) {
+  OneRsm tables({.choices = {{"word_order_scope", "tables"}}});
+  tables.set("WORD_ORDER", 1);
+  const WindowMessage move = window_message(tables.device(), "RSM_FIXED_MOVE X -1000");
+  EXPECT_EQ(move.words, (Words{0x0A4E, 1, 0xFFFF, 0xFC18}));
+  EXPECT_EQ(window_text(tables.device(), Table::holding, 8000, move.words), "RSM_FIXED_MOVE X -1000");
+
+  OneRsm swapped({.choices = {{"swapped_codes", "of_12_3"}}});
+  const std::string mix = "RSM_MIX_2D_CONTINUE 1 1 0 0 100 0";
+  const WindowMessage segment = window_message(swapped.device(), mix);
+  EXPECT_EQ(segment.words[0], 0x0AFD);
+  EXPECT_EQ(window_text(swapped.device(), Table::holding, 8000, segment.words), mix);
+
+  OneRsm listed({.choices = {{"if_operator", "as_in_the_table"}}});
+  const WindowMessage line = window_message(listed.device(), "RSM_MACRO_IF VAR1 >= VAR2");
+  EXPECT_EQ(line.words[3], 0x3D3E);
+  EXPECT_EQ(window_text(listed.device(), Table::holding, 8000, line.words), "RSM_MACRO_IF VAR1 >= VAR2");
+}
+
 }  // namespace command_names_test
 }  // namespace understudy::emulator::models::rs_m8194h

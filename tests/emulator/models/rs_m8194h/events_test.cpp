@@ -201,6 +201,27 @@ TEST(RsM8194hEvents, LineScansTriggerAtTheirPitch) {
   EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
 }
 
+// A ring comes round, and the counter may be set on the way: what counts is the way.
+TEST(RsM8194hEvents, LineScansGoOnWhenTheirCounterJumps) {
+  for (const int type : {0, 2}) {
+    SteadyRsm rsm;
+    const std::string of_type = std::to_string(type);
+    rsm.send({"RSM_VRING_ENABLE X 999", "RSM_LINE_SCAN X " + of_type + " 0 0 49",
+              "RSM_LINE_SCAN_START X " + of_type + " 5000"});
+    rsm.run_to_rest();
+    rsm.run(1);
+    EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+    EXPECT_EQ(rsm.state().units[0].compare[0].value, 50);
+    rsm.send({"RSM_VRING_DISABLE X", "RSM_LINE_SCAN X " + of_type + " 0 0 -99",
+              "RSM_LINE_SCAN_START X " + of_type + " -5000"});
+    rsm.run(20);
+    rsm.send({"RSM_SET_LP X 1000000", "RSM_SET_EP X 1000000"});
+    rsm.run_to_rest();
+    rsm.run(1);
+    EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 150);
+  }
+}
+
 TEST(RsM8194hEvents, AHeldLineScanBeginsWhenItIsReleased) {
   SteadyRsm rsm;
   rsm.send({"RSM_DRV_HOLD X", "RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN_START X 0 1000"});

@@ -84,6 +84,28 @@ constexpr Block kBlocks[] = {
     {"macros", "1", "MP 1\n  RSM_MACRO_TIMER 5\nEND\n", false},
 };
 
+// What a choice allows is kept, too.
+TEST(RsM8194hMemory, KeepsMacrosThatOnlyAChoiceAllows) {
+  const std::string text = "MP 41\n  RSM_MACRO_RECTANGLE X Y 0 0 0 1000 1000 600 1000 1000 1000 1000\nEND\n";
+  const std::map<std::string, std::string> kChoices[] = {{{"rectangle_radius", "drawn_shorter"}},
+                                                         {{"rectangle_sides", "straight_parts"}}};
+  for (const auto& choices : kChoices) {
+    OneRsm rsm({.program = text, .choices = choices});
+    EXPECT_EQ(rsm.device().user_program()->program_text(), text);
+    rsm.device().switch_power(false);
+    rsm.device().switch_power(true);
+    EXPECT_EQ(rsm.device().user_program()->program_text(), text);
+    rsm.send("RSM_MP_CALL 41");
+    rsm.run(10);
+    EXPECT_EQ(rsm.get("DRIVING_AXIS"), 3);
+    DeviceSettings settings;
+    settings.name = "other";
+    settings.choices = choices;
+    settings.nv = rsm.device().memory()->nv_image();
+    EXPECT_EQ(make_device(rs_m8194h::model(), settings)->user_program()->program_text(), text);
+  }
+}
+
 TEST(RsM8194hMemory, TakesWhatIsOneOfItsBlocksAlone) {
   for (const Block& block : kBlocks) {
     DeviceSettings settings;

@@ -161,6 +161,38 @@ TEST(RsM8194hAxis, SoftLimitsStopAndOnlyTheWayBackIsFree) {
   EXPECT_EQ(rsm.get("LP_X"), -1301);
 }
 
+// Wherever the axis has been before its counter was set.
+TEST(RsM8194hAxis, SoftLimitsGoByTheCountThatIsSet) {
+  struct Case {
+    int travel;  // before
+    int count;   // that is set there
+    int by_encoder;
+  };
+  std::vector<Case> cases;
+  for (const int travel : {-20000, -1, 0, 1, 400, 20000}) {
+    for (const int count : {-299, 0, 100, 499}) {
+      for (const int by_encoder : {0, 1}) cases.push_back({travel, count, by_encoder});
+    }
+  }
+  for (const Case& each : cases) {
+    SCOPED_TRACE(std::to_string(each.travel) + " " + std::to_string(each.count));
+    const std::string set = each.by_encoder == 1 ? "RSM_SET_EP X " : "RSM_SET_LP X ";
+    const char* const counter = each.by_encoder == 1 ? "EP_X" : "LP_X";
+    OneRsm rsm;
+    rsm.send({"RSM_SET_V X 10000", "RSM_SET_SV X 10000", "RSM_FIXED_MOVE X " + std::to_string(each.travel)});
+    rsm.run_to_rest();
+    rsm.send({set + std::to_string(each.count), "RSM_SET_SLMT X 500 -300 " + std::to_string(each.by_encoder),
+              "RSM_FIXED_MOVE X 2000"});
+    rsm.run_to_rest();
+    EXPECT_EQ(rsm.get(counter), 501);
+    EXPECT_EQ(rsm.get("ERROR_CODE_X"), 1);
+    rsm.send({set + std::to_string(each.count), "RSM_FIXED_MOVE X -2000"});  // with the limits in force
+    rsm.run_to_rest();
+    EXPECT_EQ(rsm.get(counter), -301);
+    EXPECT_EQ(rsm.get("ERROR_CODE_X"), 2);
+  }
+}
+
 TEST(RsM8194hAxis, LimitSwitchesStopInTheWayThatIsSet) {
   for (const bool slows : {false, true}) {
     OneRsm rsm;
