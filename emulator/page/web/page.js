@@ -61,6 +61,13 @@ function Devices() {
     ${devices.length > kMostNamed && html`<small>and ${devices.length - kMostNamed} more</small>`}</span>`;
 }
 
+/// By its file; where two have the same, by their sockets as well.
+function nameOf({ socket }, number) {
+  const name = store.labels[number] ?? socket.split('/').at(-1);
+  const others = store.hello.benches.filter((it, i) => i !== number && (store.labels[i] ?? it.socket.split('/').at(-1)) === name);
+  return others.length > 0 ? `${name} (${socket})` : name;
+}
+
 function Page() {
   const [panel, setPanel] = useState('Axes');
   const benches = store.hello?.benches ?? [];
@@ -78,7 +85,7 @@ function Page() {
   return html`<div class="top"><header class="head">
       <h1>Understudy</h1>
       ${benches.length > 1 && html`<${Choice} label="bench" value=${String(store.number)}
-        options=${benches.map((bench, i) => [String(i), bench.socket.split('/').at(-1)])} takes=${(i) => show(Number(i))} />`}
+        options=${benches.map((bench, i) => [String(i), nameOf(bench, i)])} takes=${(i) => show(Number(i))} />`}
       <${Devices} />
       ${isReadOnly() && html`<span class="badge">read only</span>`}
       <${Time} />

@@ -147,12 +147,13 @@ export function Program() {
             <${Button} title="give up" does=${() => { setEdited(null); setMistakes([]); }}>give up<//>`}
       <small>${device.program.language}, ${grouped(text === '' ? 0 : lines.length)} lines</small>
     </div>
-    <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${program} />`)}</ul>
+    <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${program} />`)}
+      ${programs.length === 0 && html`<li>nothing runs</li>`}</ul>
     ${mistakes.map((it) => html`<p class="bad" role="alert">${it.line ? `line ${it.line}, column ${it.column}: ` : ''}${it.what}</p>`)}
     ${lines.length > kMostLines && html`<p>The first ${grouped(kMostLines)} of ${grouped(lines.length)} lines; edit shows all.</p>`}
     <div class="with_values">
       ${edited !== null
-        ? html`<textarea aria-label="program text" rows="24" spellcheck="false" value=${edited}
+        ? html`<textarea aria-label="program text" rows="24" spellcheck=${false} value=${edited}
             onInput=${(event) => setEdited(event.target.value)}></textarea>`
         : text === '' ? html`<p class="listing_none">There is no program yet: edit, or load a file.</p>`
         : html`<${Listing} lines=${lines.slice(0, kMostLines)} running=${running} />`}

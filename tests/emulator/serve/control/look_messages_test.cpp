@@ -97,6 +97,35 @@ TEST(BenchMessage, TellsLinesDevicesWiresAndMachines) {
   EXPECT_EQ(rig.daemon.world().now(), SimTime{0});
 }
 
+TEST(RegistersMessage, FindsByNamesAndNumbersAsWritten) {
+  LookRig rig;
+  struct Case {
+    const char* find;
+    const char* name;
+  };
+  for (const Case& c : {Case{"cord_a", "Cord_A"}, Case{"Cord_A_H", "Cord_A"}, Case{"0x0E04", "Cord_A"},
+                        Case{"0E05", "Cord_A"}, Case{"3589", "Cord_A"}, Case{"1002", "Aaxis_Speed"},
+                        Case{"f000", "Aaxis_Home_Speed"}}) {
+    const Json found =
+        rig.ask(Json{{"do", "registers"}, {"device", "feeder"}, {"find", c.find}}.dump())["registers"];
+    ASSERT_EQ(found.size(), 1U) << c.find << found;
+    EXPECT_EQ(found[0]["name"], c.name) << c.find;
+  }
+  EXPECT_EQ(rig.ask(R"({"do":"registers","device":"feeder","find":"0x5555"})")["of"], 0);
+}
+
+TEST(RegistersMessage, NamesTheBitsOfStatus) {
+  LookRig rig;
+  const Json row = rig.ask(R"({"do":"registers","device":"feeder","find":"0x0000"})")["registers"][0];
+  ASSERT_EQ(row["bits"].size(), 16U) << row;
+  EXPECT_EQ(row["bits"][4]["name"], "A_moving");
+  EXPECT_EQ(rig.value("feeder.STATUS.A_servo"), 0);
+  rig.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1}})");
+  rig.run(2);
+  EXPECT_EQ(rig.value("feeder.STATUS.A_servo"), 1);
+  EXPECT_EQ(rig.value("feeder.STATUS"), 1 << 10);
+}
+
 TEST(RegistersMessage, PagesThroughAllOfThem) {
   LookRig rig;
   std::vector<std::string> names;
