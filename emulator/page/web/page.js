@@ -1,6 +1,6 @@
 // The page: a head with time, tabs, and the panel in view.
 import { html, render, useState } from './preact.js';
-import { ask, draw, drawBy, isReadOnly, show, store } from './store.js';
+import { ask, complain, draw, drawBy, hasPower, isReadOnly, show, store } from './store.js';
 import { Button, Choice, Field, seconds } from './small.js';
 import { Axes } from './axes.js';
 import { Signals } from './signals.js';
@@ -21,7 +21,9 @@ async function runUntil(condition) {
   const { look } = store;
   if (!(await ask({ do: 'eval', expression: condition })).ok) return false;
   if (!look.paused && look.speed !== 'manual' && !(await ask({ do: 'pause' })).ok) return false;
-  return (await ask({ do: 'run-until', condition, within: '60s' })).ok;
+  const reply = await ask({ do: 'run-until', condition, within: '60s' });
+  if (reply.ok && !reply.reached && reply.simulated_time_ns - look.time_ns >= 60e9) complain(`within 60 s this did not come true: ${condition}`);
+  return reply.ok;
 }
 
 function Time() {
@@ -57,7 +59,7 @@ function Said() {
 function Devices() {
   const devices = store.bench?.devices ?? [];
   return html`<span class="models">${devices.slice(0, kMostNamed).map((device) => html`<span class="model" key=${device.name}
-      title=${`${device.title}, firmware ${device.firmware}`}><b>${device.name}</b> <small>${device.model} ${device.firmware}</small></span>`)}
+      title=${`${device.title}, firmware ${device.firmware}`}><b>${device.name}</b> <small>${device.model} ${device.firmware}</small>${!hasPower(device.name) && html` <span class="badge">no power</span>`}</span>`)}
     ${devices.length > kMostNamed && html`<small>and ${devices.length - kMostNamed} more</small>`}</span>`;
 }
 

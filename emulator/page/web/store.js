@@ -82,6 +82,10 @@ const wire = new Wire({
     store.link = why ? `closed: ${why}` : 'the page has lost its server; trying again';
     draw();
   },
+  dead: () => {
+    store.link = 'the page\'s server does not answer; trying again';
+    draw();
+  },
   error: (error) => complain(error.error),
   look: take,
 });
@@ -189,6 +193,7 @@ export const askQuietly = (message) => wire.ask(store.number, message);
 
 export const isReadOnly = () => store.hello?.read_only ?? false;
 export const valueOf = (name) => store.values[name];
+export const hasPower = (device) => store.status?.devices.find((it) => it.name === device)?.power !== 'off';
 /// Whether a device runs a program of its own.
 export const runsProgram = (device) => store.status?.devices.find((it) => it.name === device)?.runs ?? false;
 /// 'host', 'page', 'control', 'program', 'device' for a moment after a change; '' otherwise. What changes without an event
