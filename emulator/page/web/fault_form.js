@@ -23,9 +23,16 @@ function Line({ field, values, setValues }) {
   const set = (event) => setValues({ ...values, [field.name]: event.target.value });
   const isBounded = field.lowest !== undefined && field.highest < 1e9;  // more is as good as no bound
   const range = isBounded ? ` (${field.lowest} to ${field.highest})` : field.lowest > 0 ? ` from ${field.lowest}` : '';
-  return html`<label title=${field.doc}><span>${spaced(field.name)}${field.required ? ' *' : ''}</span>
+  const label = `${spaced(field.name)}${field.required ? ' *' : ''}`;
+  if (field.words) {
+    const words = field.required ? field.words : ['', ...field.words];
+    return html`<label title=${field.doc}><span>${label}</span>
+      <${Choice} label=${field.name} value=${values[field.name] ?? words[0]} options=${words} takes=${(word) => setValues({ ...values, [field.name]: word })} /></label>`;
+  }
+  const hint = { duration: 'such as 250ms', bytes: 'such as FF 00', number: `number${range}` }[field.form] ?? field.doc;
+  return html`<label title=${field.doc}><span>${label}</span>
     <input type=${field.form === 'number' ? 'number' : 'text'} min=${field.lowest} max=${field.highest}
-      value=${values[field.name] ?? ''} placeholder=${(field.form ?? '') + range} onInput=${set} required=${field.required}
+      value=${values[field.name] ?? ''} placeholder=${hint} onInput=${set} required=${field.required}
       spellcheck=${false} autocomplete="off" /></label>`;
 }
 
@@ -43,8 +50,8 @@ export function FaultForm({ places, place, done, given = {} }) {
   const fields = withTrigger ? [...kind.fields, ...store.trigger] : kind.fields;
   const inject = async () => {
     const fault = { [kind.name]: at };
-    for (const { name } of fields) {
-      const text = (values[name] ?? '').trim();
+    for (const { name, required, words } of fields) {
+      const text = (values[name] ?? (required && words ? words[0] : '')).trim();
       if (text !== '') fault[name] = /^-?\d+(\.\d+)?$/.test(text) ? Number(text) : text;
     }
     if ((await ask({ do: 'inject', fault })).ok) done?.();
