@@ -193,6 +193,36 @@ TEST(FaultsMessage, TellsEveryKindWithItsFields) {
   EXPECT_EQ(reply["trigger"][0]["name"], "function");
 }
 
+TEST(FaultsMessage, TellsWordsThatInjectTakes) {
+  LookRig rig;
+  const std::map<std::string, Json> places{
+      {"input", "feeder.DIN_2"}, {"device", "feeder"}, {"device_or_line", "feeder"}};
+  const std::map<std::string, Json> some{{"number", 1}, {"duration", "5ms"}, {"bytes", "FF"}};
+  int words = 0;
+  const Json kinds = rig.ask(R"({"do":"faults"})")["kinds"];
+  for (const Json& kind : kinds) {
+    for (const Json& tried : kind["fields"]) {
+      if (!tried.contains("words")) continue;
+      for (const Json& word : tried["words"]) {
+        nlohmann::ordered_json fault;  // the kind comes first
+        fault[kind["name"].get<std::string>()] = places.at(kind["place"]);
+        for (const Json& field : kind["fields"]) {
+          const std::string name = field["name"];
+          if (name == tried["name"]) {
+            fault[name] = word;
+          } else if (!field.contains("words")) {
+            fault[name] = some.at(field["form"]);
+          }
+        }
+        const Json reply = rig.ask(R"({"do":"inject","fault":)" + fault.dump() + "}");
+        EXPECT_EQ(reply["ok"], true) << fault << reply;
+        ++words;
+      }
+    }
+  }
+  EXPECT_GE(words, 2 + 3 * 7);  // on and off; the sides of all that act on messages
+}
+
 TEST(EventsMessage, TellsWhoWroteWhat) {
   LookRig rig;
   rig.ask(R"({"do":"events"})");
