@@ -58,9 +58,11 @@ function Said() {
 
 function Devices() {
   const devices = store.bench?.devices ?? [];
+  const dark = devices.slice(kMostNamed).map((device) => device.name).filter((name) => !hasPower(name));
   return html`<span class="models">${devices.slice(0, kMostNamed).map((device) => html`<span class="model" key=${device.name}
       title=${`${device.title}, firmware ${device.firmware}`}><b>${device.name}</b> <small>${device.model} ${device.firmware}</small>${!hasPower(device.name) && html` <span class="badge">no power</span>`}</span>`)}
-    ${devices.length > kMostNamed && html`<small>and ${devices.length - kMostNamed} more</small>`}</span>`;
+    ${devices.length > kMostNamed && html`<small>and ${devices.length - kMostNamed} more</small>`}
+    ${dark.length > 0 && html`<span class="badge">no power: ${dark.join(', ')}</span>`}</span>`;
 }
 
 /// By its file; where two have the same, by their sockets as well.
