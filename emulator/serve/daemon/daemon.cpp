@@ -379,6 +379,7 @@ void Daemon::restore(const world::WorldState& state) {
   frames_.begin_anew();
   onlookers_.events.restored();
   ++onlookers_.restores;
+  if (onlookers_.scope) onlookers_.scope->begin_anew();
   planned_.reset();
   behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());

@@ -172,6 +172,28 @@ TEST(RegistersMessage, CountsSectionsAsTheBenchDoes) {
   EXPECT_EQ(all, rig.ask(R"({"do":"registers","device":"feeder","count":1})")["of"].get<std::size_t>());
 }
 
+TEST(ScopeMessage, BeginsAnewWhereTheWorldIsRestored) {
+  LookRig rig;
+  rig.run(20);
+  ASSERT_EQ(rig.ask(R"({"do":"snapshot","name":"early"})")["ok"], true);
+  rig.run(500);
+  rig.ask(R"({"do":"scope","names":["time"],"condition":"feeder.DIN_5","before":"100ms","after":"50ms"})");
+  rig.run(70);
+  ASSERT_EQ(rig.ask(R"({"do":"restore","name":"early"})")["ok"], true);
+  rig.run(30);
+  rig.ask(R"({"do":"input","values":{"feeder.DIN_5":1}})");
+  rig.run(60);
+  const Json reply = rig.ask(R"({"do":"scope","from":0})");
+  ASSERT_EQ(reply["scope"]["state"], "done") << reply;
+  ASSERT_EQ(reply["scope"]["count"], 30 + 51);
+  std::int64_t expected = 21'000'000;
+  EXPECT_EQ(reply["scope"]["from_ns"], expected);
+  for (const Json& time : reply["samples"][0]) {
+    EXPECT_EQ(time, expected);
+    expected += 1'000'000;
+  }
+}
+
 TEST(ChoicesMessage, TellsWhichOptionIsInForce) {
   LookRig rig;
   const Json reply = rig.ask(R"({"do":"choices","device":"feeder"})");
