@@ -280,7 +280,7 @@ struct CommandLine {
 
   void add_page() {
     CLI::App* command = app.add_subcommand("page", "Show running benches in a browser");
-    command->add_option("--control", page.sockets, "Control sockets, one a bench [that of the only one]")
+    command->add_option("--control", page.sockets, "Control sockets, one a bench [all that are running]")
         ->check(kNotEmpty)
         ->allow_extra_args(false);
     command->add_option("--port", page.port, "Its port; 0: any")->capture_default_str();

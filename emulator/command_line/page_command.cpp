@@ -10,11 +10,27 @@
 #include <string>
 #include <vector>
 
-#include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/page/page.h"
+#include "emulator/serve/control/sockets.h"
 
 namespace understudy::emulator::command_line {
+
+namespace {
+
+/// All that are running, unless one is named.
+std::vector<std::string> daemons_to_show() {
+  const char* const from_exec = std::getenv("UNDERSTUDY_CONTROL");
+  if (from_exec != nullptr && *from_exec != '\0') return {from_exec};  // empty is as if unset
+  std::vector<std::string> live = serve::live_control_sockets();
+  if (live.empty()) {
+    throw serve::ControlError("page: nobody answers in " + serve::control_folder() +
+                              "; expected a running `understudy serve`, or --control SOCKET");
+  }
+  return live;
+}
+
+}  // namespace
 
 int show_page(const PageArguments& arguments) {
   page::PageOptions options{.address = {.address = arguments.listen},
@@ -24,7 +40,7 @@ int show_page(const PageArguments& arguments) {
                             .folder = arguments.folder};
   if (arguments.port < 0 || arguments.port > 65535) throw UsageError("page: --port: expected 0 to 65535");
   options.address.port = static_cast<std::uint16_t>(arguments.port);
-  if (options.sockets.empty()) options.sockets.push_back(choose_daemon({}));
+  if (options.sockets.empty()) options.sockets = daemons_to_show();
   std::signal(SIGPIPE, SIG_IGN);
   page::Page shown(options);
   std::printf("page %s\n", shown.address().c_str());

@@ -36,9 +36,10 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// The recorded world as it was then, with a clock that stands, until a signal ends it.
-int serve_from(const world::Replayed& replayed, const world::WorldState& state, const std::string& recording,
-               const serve::DoorMaker& door, std::optional<int> page) {
+/// The recorded world as it was then, with a clock that stands, until a signal ends it. `at`: where it stands
+/// once the daemon runs.
+int serve_from(const world::Replayed& replayed, const world::WorldState& state, SimTime at,
+               const std::string& recording, const serve::DoorMaker& door, std::optional<int> page) {
   signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
   world::Bench bench = replayed.bench;
   for (world::LineSetup& line : bench.lines)
@@ -54,8 +55,8 @@ int serve_from(const world::Replayed& replayed, const world::WorldState& state, 
   serve::Daemon daemon(bench, options, log_line);
   daemon.restore(state);
   say_ready(daemon);
-  std::printf("the clock stands at %s: understudy ctl --control %s status\n",
-              format_duration(daemon.world().now()).c_str(), daemon.control_path().c_str());
+  std::printf("the clock stands at %s: understudy ctl --control %s status\n", format_duration(at).c_str(),
+              daemon.control_path().c_str());
   std::fflush(stdout);
   if (page) start_page_beside(daemon.control_path(), *page);
   daemon.run();
@@ -65,10 +66,11 @@ int serve_from(const world::Replayed& replayed, const world::WorldState& state, 
 /// Remembers what it sees, to go to and fro in it.
 class Rememberer final : public world::ReplayWatcher {
  public:
-  Rememberer(world::World& world, std::optional<world::WorldState>& begin,
-             std::vector<world::RecordedEvent>& events)
+  Rememberer(const world::World& world, std::optional<world::WorldState>& begin,
+             std::optional<SimTime>& begins, std::vector<world::RecordedEvent>& events)
       : events_(events) {
     begin = world::save(world);
+    begins = world.now();
   }
   void happened(const world::RecordedEvent& event, std::size_t) override {
     const bool is_told = event.what != world::RecordedEvent::What::end || !event.failed.empty();
@@ -79,30 +81,22 @@ class Rememberer final : public world::ReplayWatcher {
   std::vector<world::RecordedEvent>& events_;
 };
 
-/// The world of a recording that was the same up to there, as it was then.
-world::WorldState state_at(ModelList models, const std::string& recording, SimTime time) {
-  std::ifstream file(recording, std::ios::binary);
-  std::optional<world::WorldState> state;
-  world::replay(models, file, recording, time, {},
-                [&](const world::World& world) { state = world::save(world); });
-  return *state;
-}
-
 /// The whole of it, and then any moment of it, first `until` or its begin; one that differs as far as it
 /// goes.
 int travel_in(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> until) {
   std::ifstream file(arguments.recording, std::ios::binary);
   std::optional<world::WorldState> begin;
+  std::optional<SimTime> begins;
   std::vector<world::RecordedEvent> events;
-  const world::Replayed replayed =
-      world::replay(models, file, arguments.recording, {},
-                    [&](world::World& world) { return std::make_unique<Rememberer>(world, begin, events); });
+  const world::Replayed replayed = world::replay(
+      models, file, arguments.recording, {},
+      [&](world::World& world) { return std::make_unique<Rememberer>(world, begin, begins, events); });
   if (!replayed.result.difference.empty())
     log_line(arguments.recording + ": differs: " + replayed.result.difference);
-  const auto door = serve::timeline_door(arguments.control, *begin, events, replayed.result.reached);
-  const world::WorldState at_first =
-      until ? state_at(models, arguments.recording, std::min(*until, replayed.result.reached)) : *begin;
-  return serve_from(replayed, at_first, arguments.recording, door, arguments.page);
+  const SimTime end = replayed.result.reached;
+  const SimTime at_first = std::clamp(until.value_or(*begins), *begins, end);
+  const auto door = serve::timeline_door(arguments.control, *begin, events, end, at_first);
+  return serve_from(replayed, *begin, at_first, arguments.recording, door, arguments.page);
 }
 
 }  // namespace
@@ -153,7 +147,8 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
               static_cast<unsigned long long>(result.bytes_said), format_duration(result.reached).c_str(),
               seconds, result.has_end || until ? "" : "; it breaks off before its end");
   if (result.verdict != world::ReplayResult::Verdict::stopped) return kExitWell;
-  return serve_from(replayed, *state, arguments.recording, serve::control_door(arguments.control), {});
+  return serve_from(replayed, *state, result.reached, arguments.recording,
+                    serve::control_door(arguments.control), {});
 }
 
 }  // namespace understudy::emulator::command_line

@@ -50,7 +50,8 @@ struct NamedParameterRow {
   std::string_view unmodelled{};  // what is missing, if it is only stored
 };
 
-/// A section of a manual that is not in English: a model's rows name it as the manual does.
+/// A section of a manual that is not in English: a model's rows name it as the manual does, by its title or
+/// its number.
 struct SectionRow {
   std::string_view name;
   std::string_view in_english;
@@ -200,6 +201,7 @@ struct Model {
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
+  bool csv_has_bits = true;  // false: its CSV of registers is older than the names of its bits
   std::span<const TerminalRow> terminals;
   std::span<const TerminalGroup> terminal_groups{};
   std::span<const AxisRow> axes;

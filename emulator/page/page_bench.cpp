@@ -184,6 +184,12 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
       events_.clear();
       be(State::unknown);
     }
+    // What was told before is not what led here.
+    const std::uint64_t restores = look.value("restores", std::uint64_t{0});
+    if (std::exchange(restores_, restores) != restores) {
+      frames_.clear();
+      events_.clear();
+    }
     be(State::there);
     if (time != time_text_) {
       time_text_ = time;

@@ -124,7 +124,8 @@ class PageBench {
   std::uint64_t next_event_ = 0;
   std::string status_;
   std::uint64_t status_changed_ = 0;
-  std::uint64_t who_ = 0;  // which process answers
+  std::uint64_t who_ = 0;       // which process answers
+  std::uint64_t restores_ = 0;  // of its world
 
   struct Ask {
     std::string message;

@@ -98,6 +98,33 @@ TEST_F(PageOfAFailure, GoesToAndFro) {
   EXPECT_LT(one_back["simulated_time_ns"], end / 2);
 }
 
+TEST_F(PageOfAFailure, TellsWhatLedToEachMoment) {
+  const auto told = [&](const char* what) {
+    const TestJson list = ask({{"do", what}})[what];
+    std::vector<std::string> texts;
+    for (const TestJson& one : list) {
+      texts.push_back(one["what"].is_string() ? one["what"].get<std::string>() + " " + one.value("name", "")
+                                              : one["text"].get<std::string>());
+    }
+    return texts;
+  };
+  const std::int64_t end = ask({{"do", "timeline"}})["timeline"]["end_ns"].get<std::int64_t>();
+  ASSERT_GT(end, 2'500'000'000);  // farther from its requests than keyframes are apart
+  position_at(end);
+  const std::vector<std::string> frames = told("frames");
+  ASSERT_GE(frames.size(), 6U);
+  EXPECT_EQ(frames.front(), "write 0x1014 feeder.Aaxis_SVON = 1");
+  const std::vector<std::string> events = told("events");
+  ASSERT_GE(events.size(), 6U);
+  EXPECT_EQ(events.front(), "write feeder.Aaxis_SVON");
+  position_at(0);
+  EXPECT_EQ(told("frames"), std::vector<std::string>{});
+  EXPECT_EQ(told("events"), std::vector<std::string>{});
+  position_at(end);
+  EXPECT_EQ(told("frames"), frames);
+  EXPECT_EQ(told("events"), events);
+}
+
 TEST_F(PageOfAFailure, OpensAtTheTimeOfUntilOrAtItsEnd) {
   const std::int64_t half_way = position_at(250'000'000);
   open_page({"--until", "250ms"});

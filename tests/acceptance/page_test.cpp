@@ -85,6 +85,30 @@ TEST(Page, ShowsWhatAHostWritesAndHoldsWhatIsClicked) {
   EXPECT_EQ(page.wait(kPatience), 0);
 }
 
+TEST(Page, ShowsAllThatAreRunningWithoutAControl) {
+  const PrivateFolder folder;
+  const auto at_home = [&](Words words) {
+    words.insert(words.begin(), UNDERSTUDY_BINARY);
+    return std::make_unique<Process>(
+        words, Environment{{"XDG_RUNTIME_DIR", folder.path()}, {"UNDERSTUDY_CONTROL", ""}});
+  };
+  const auto nobody = at_home({"page"});
+  EXPECT_EQ(nobody->wait(std::chrono::seconds(10)), 3);
+  EXPECT_EQ(nobody->errors(), "understudy: page: nobody answers in " + (folder / "understudy") +
+                                  "; expected a running `understudy serve`, or --control SOCKET\n");
+  std::vector<std::unique_ptr<Process>> daemons;
+  for (int i = 0; i < 2; ++i) daemons.push_back(at_home({"serve", "--model", "simple2-r3"}));
+  for (const auto& daemon : daemons) {
+    ASSERT_TRUE(eventually([&] { return daemon->output().find("ready") != std::string::npos; }));
+  }
+  const auto page = at_home({"page"});
+  const Address address = address_of(*page);
+  TestBrowser browser(address.port);
+  ASSERT_TRUE(browser.open_socket(address.port));
+  browser.say({{"token", address.token}});
+  EXPECT_EQ(browser.hear()["benches"].size(), 2U);
+}
+
 TEST(Page, IsStoppedAndKilledWithoutHarmToTheBench) {
   const RunningUnderstudy server;
   Process page({UNDERSTUDY_BINARY, "page", "--control", server.control()});

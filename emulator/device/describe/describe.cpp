@@ -106,7 +106,9 @@ Sheet registers(const Model& model, SheetFormat format) {
   }
   // Columns that only some models need.
   const bool has_reals = any_row(model, [](const RegisterRow& row) { return row.type == Type::f32; });
-  const bool has_fields = any_row(model, [](const RegisterRow& row) { return !row.fields.empty(); });
+  const bool may_have_fields = model.csv_has_bits || format != SheetFormat::csv;
+  const bool has_fields =
+      may_have_fields && any_row(model, [](const RegisterRow& row) { return !row.fields.empty(); });
   if (has_reals) sheet.columns.emplace_back("real");
   if (has_fields) sheet.columns.emplace_back("bits");
   for (const RegisterRow& row : register_rows(model)) {

@@ -48,6 +48,42 @@ constexpr std::string_view kStateRegisters[] = {
     "DRIVING_AXIS",     "LP_X",           "LP_Y",      "LP_Z",        "LP_U", "ERROR_STATE",
     "FREE_BUFFER_SIZE", "MP_Call_number", "RSM_STATE", "I8094H_STATE"};
 
+// The manual's numbers, and what they are about.
+constexpr SectionRow kSections[] = {
+    {"3.18.1", "variables bVAR, bytes"},
+    {"3.19.1", "machine data MD"},
+    {"4.8", "state of homing"},
+    {"4.13", "driving axes"},
+    {"4.14", "readiness for interpolation"},
+    {"12.1.1", "FRnet DI and DO"},
+    {"12.1.2", "inputs of the motion chip"},
+    {"12.1.3", "error codes"},
+    {"12.1.4", "positions, velocities, accelerations"},
+    {"12.1.5", "stopped axes"},
+    {"12.1.6", "latched positions"},
+    {"12.1.7", "error state, free buffer"},
+    {"12.1.8", "interrupts of the i-8094H"},
+    {"12.1.9", "versions of the firmware"},
+    {"12.1.10", "inputs of the daughter board"},
+    {"12.1.11", "absolute logic positions"},
+    {"12.1.12", "state of RS-M8194H and i-8094H"},
+    {"12.1.13", "errors of macros at download"},
+    {"12.1.14", "errors of macros that run"},
+    {"12.1.15", "triggered interrupts of the motion chip"},
+    {"12.2.1", "FRnet DO"},
+    {"12.2.2", "macro calls, FRnet events, word order"},
+    {"12.2.3", "IP settings"},
+    {"12.2.4", "positions, velocities, accelerations"},
+    {"12.2.5", "variables VAR"},
+    {"12.2.6", "window of the Sub_Functions"},
+    {"12.4.1", "FRnet DO"},
+    {"12.4.2", "servo on and off"},
+    {"12.5.1", "FRnet DI"},
+    {"12.5.2", "inputs of the motion chip"},
+    {"12.5.3", "causes of unexpected stops"},
+    {"12.5.4", "signals of motion control"},
+};
+
 }  // namespace
 
 const Model& model() {
@@ -65,6 +101,7 @@ const Model& model() {
       .window = &command_names(),
       .language = &language(),
       .choices = kChoices,
+      .sections = kSections,
       .terminals = terminal_tables().rows,
       .terminal_groups = terminal_tables().groups,
       .axes = terminal_tables().axes,

@@ -127,6 +127,7 @@ const Model& model() {
       .language = &language(),
       .choices = kChoices,
       .sections = kSections,
+      .csv_has_bits = false,
       .terminals = kTerminals,
       .axes = kAxes,
       .state_registers = kStateRegisters,

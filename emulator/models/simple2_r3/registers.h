@@ -46,9 +46,18 @@ consteval auto join(const std::array<RegisterRow, N>&... sections) {
   return all;
 }
 
+/// STATUS: A's bits are even, B's odd.
+inline constexpr BitField kStatusBits[] = {
+    bits(0, "A_alarm"),        bits(1, "B_alarm"),        bits(2, "A_ready"),
+    bits(3, "B_ready"),        bits(4, "A_moving"),       bits(5, "B_moving"),
+    bits(6, "A_homing"),       bits(7, "B_homing"),       bits(8, "A_home_reached"),
+    bits(9, "B_home_reached"), bits(10, "A_servo"),       bits(11, "B_servo"),
+    bits(12, "A_upper_limit"), bits(13, "B_upper_limit"), bits(14, "A_lower_limit"),
+    bits(15, "B_lower_limit")};
+
 // clang-format off
 inline constexpr auto kStatusRows = section("狀態相關", {
-    reg(0x0000, "STATUS",         u16, R).reads<read_status>(),
+    reg(0x0000, "STATUS",         u16, R).reads<read_status>().with_bits(kStatusBits),
     reg(0x0001, "HW_Code",        u16, R).from_factory(0xC001),
     reg(0x0002, "Version",        u16, R).from_factory(152).reads<read_version>(),
     reg(0x0004, "Aaxis_Mode",     u16, R).range(0, 3).reads<read_mode>(kAxisA),

@@ -1,7 +1,7 @@
 // Axes: for each a rail with what lies along it, where it is, and what can be done to it.
 import { html, useEffect, useState } from './preact.js';
 import { ask, isReadOnly, store, unwant, valueOf, want } from './store.js';
-import { Button, Lamp, grouped, isOn, spaced } from './small.js';
+import { Button, Lamp, grouped, inTenths, isOn, spaced } from './small.js';
 import { Plane } from './plane.js';
 import { Rail, kSwitches } from './rail.js';
 import { useDevices } from './devices.js';
@@ -51,8 +51,8 @@ function Switch({ device, axis, contact }) {
   </span>`;
 }
 
-function Figure({ value, unit, wide }) {
-  return html`<span class=${wide ? 'reading wide' : 'reading'}><output class="figure">${grouped(value)}</output> <small>${unit}</small></span>`;
+function Figure({ value, unit, wide, as = grouped }) {
+  return html`<span class=${wide ? 'reading wide' : 'reading'}><output class="figure">${as(value)}</output> <small>${unit}</small></span>`;
 }
 
 function Axis({ device, axis }) {
@@ -66,7 +66,7 @@ function Axis({ device, axis }) {
     <header>
       <h3>${axis.name}</h3>
       <${Figure} value=${value('position')} unit="pulses" wide />
-      <${Figure} value=${value('speed')} unit="pulses/s" />
+      <${Figure} value=${value('speed')} unit="pulses/s" as=${inTenths} />
       <${Figure} value=${heads ? value('target') : undefined} unit="target" />
       ${axis.machine.encoder && html`<${Figure} value=${value('encoder')} unit="encoder" />`}
       ${present('pwm') && value('pwm') !== 0 && html`<${Figure} value=${value('pwm')} unit="% duty" />`}
@@ -83,7 +83,7 @@ function Axis({ device, axis }) {
     <${Rail} device=${device} axis=${axis} press=${(contact) => {
       const terminal = terminalOf(device, axis.name, contact);
       return terminal && !isReadOnly() ? () => press(device.name, terminal.name, valueOf(`${device.name}.${terminal.name}@by`)) : undefined;
-    }} />
+    }} slip=${isReadOnly() ? undefined : (by) => ask({ do: 'inject', fault: { slip: name, pulses: by } })} />
     <div class="switches">
       ${kSwitches.filter((contact) => axis.machine[contact] || terminalOf(device, axis.name, contact))
         .map((contact) => html`<${Switch} key=${contact} device=${device} axis=${axis} contact=${contact} />`)}

@@ -8,8 +8,9 @@ const kShown = 200;
 
 const lineNamed = (name) => store.bench?.lines.find((line) => line.name === name);
 
+/// Of a request: it is not heard. Of a reply: the request was carried out, and its reply does not come.
 function dropNext(frame) {
-  const fault = { drop: frame.line, nth: 1, times: 1 };
+  const fault = { drop: frame.line, of: frame.way === 'in' ? 'request' : 'reply', nth: 1, times: 1 };
   if (!lineNamed(frame.line)?.text && frame.bytes?.length >= 4) {
     fault.function = parseInt(frame.bytes.slice(2, 4), 16) & 0x7f;
     fault.station = parseInt(frame.bytes.slice(0, 2), 16);
@@ -27,7 +28,7 @@ function Frame({ frame }) {
     <td class="way" aria-label=${isRequest ? 'from the host' : 'to the host'}>${isRequest ? '→' : '←'}</td>
     <td class="words">${frame.text} ${frame.remark && html`<em>${frame.remark}</em>`}</td>
     <td class="figure">${latency}</td>
-    <td>${isRequest && html`<${Button} kind="small faint" title="drop the next request like this" disabled=${isReadOnly()}
+    <td>${frame.bytes && html`<${Button} kind="small faint" title=${`drop the next ${isRequest ? 'request' : 'reply'} like this`} disabled=${isReadOnly()}
       does=${() => dropNext(frame)}>drop next<//>`}</td></tr>`;
 }
 

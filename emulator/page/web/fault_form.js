@@ -21,10 +21,19 @@ function placesFor(place) {
 
 function Line({ field, values, setValues }) {
   const set = (event) => setValues({ ...values, [field.name]: event.target.value });
-  const range = field.lowest !== undefined ? ` (${field.lowest} to ${field.highest})` : '';
-  return html`<label title=${field.doc}><span>${spaced(field.name)}${field.required ? ' *' : ''}</span>
-    <input value=${values[field.name] ?? ''} placeholder=${(field.form ?? '') + range} onInput=${set} required=${field.required}
-      spellcheck="false" autocomplete="off" /></label>`;
+  const isBounded = field.lowest !== undefined && field.highest < 1e9;  // more is as good as no bound
+  const range = isBounded ? ` (${field.lowest} to ${field.highest})` : field.lowest > 0 ? ` from ${field.lowest}` : '';
+  const label = `${spaced(field.name)}${field.required ? ' *' : ''}`;
+  if (field.words) {
+    const words = field.required ? field.words : ['', ...field.words];
+    return html`<label title=${field.doc}><span>${label}</span>
+      <${Choice} label=${field.name} value=${values[field.name] ?? words[0]} options=${words} takes=${(word) => setValues({ ...values, [field.name]: word })} /></label>`;
+  }
+  const hint = { duration: 'such as 250ms', bytes: 'such as FF 00', number: `number${range}` }[field.form] ?? field.doc;
+  return html`<label title=${field.doc}><span>${label}</span>
+    <input type=${field.form === 'number' ? 'number' : 'text'} min=${field.lowest} max=${field.highest}
+      value=${values[field.name] ?? ''} placeholder=${hint} onInput=${set} required=${field.required}
+      spellcheck=${false} autocomplete="off" /></label>`;
 }
 
 /// `places`: the kinds to offer, all without it. `place`: where, if it is settled.
@@ -41,8 +50,8 @@ export function FaultForm({ places, place, done, given = {} }) {
   const fields = withTrigger ? [...kind.fields, ...store.trigger] : kind.fields;
   const inject = async () => {
     const fault = { [kind.name]: at };
-    for (const { name } of fields) {
-      const text = (values[name] ?? '').trim();
+    for (const { name, required, words } of fields) {
+      const text = (values[name] ?? (required && words ? words[0] : '')).trim();
       if (text !== '') fault[name] = /^-?\d+(\.\d+)?$/.test(text) ? Number(text) : text;
     }
     if ((await ask({ do: 'inject', fault })).ok) done?.();
@@ -50,7 +59,7 @@ export function FaultForm({ places, place, done, given = {} }) {
   return html`<form class="fault_form" onSubmit=${(event) => { event.preventDefault(); inject(); }}>
     <div class="bar"><${Choice} label="kind of fault" value=${kind.name} options=${kinds.map((it) => [it.name, spaced(it.name)])} takes=${setKind} />
     ${!place && html`<${Choice} label="where" value=${at} options=${options} takes=${setWhere} />`}
-    <small>${kind.doc}</small></div>
+    <small>${kind.doc.replace(/`(\w+)`/g, (_, word) => spaced(word))}</small></div>
     <div class="fields">${fields.map((field) => html`<${Line} key=${field.name} field=${field} values=${values}
       setValues=${setValues} />`)}</div>
     <div class="bar"><label class="check"><input type="checkbox" checked=${withTrigger}

@@ -8,7 +8,7 @@ function InForce() {
   const faults = store.status?.faults ?? [];
   if (faults.length === 0) return html`<p>No fault is in force, and none waits.</p>`;
   return html`<div class="scroll"><table><thead><tr><th>no.</th><th>fault</th><th>seen</th><th>matched</th><th>hits</th><th></th></tr></thead>
-    <tbody>${faults.map((it) => html`<tr key=${it.number}><td>${it.number}</td><td>${it.fault}${it.in_force ? html` <b class="bad">in force</b>` : ''}</td>
+    <tbody>${faults.map((it) => html`<tr key=${it.number}><td>${it.number}</td><td>${it.fault}${it.in_force ?? it.seen === undefined ? html` <b class="bad">in force</b>` : ''}</td>
       <td>${it.seen ?? ''}</td><td>${it.matched ?? ''}</td><td>${it.hits ?? ''}</td>
       <td><${Button} kind="small" title=${`clear fault ${it.number}`} disabled=${isReadOnly()}
         does=${() => ask({ do: 'clear', number: it.number })}>clear<//></td></tr>`)}</tbody></table></div>

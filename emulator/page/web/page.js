@@ -1,6 +1,6 @@
 // The page: a head with time, tabs, and the panel in view.
 import { html, render, useState } from './preact.js';
-import { ask, draw, drawBy, isReadOnly, show, store } from './store.js';
+import { ask, complain, draw, drawBy, hasPower, isReadOnly, show, store } from './store.js';
 import { Button, Choice, Field, seconds } from './small.js';
 import { Axes } from './axes.js';
 import { Signals } from './signals.js';
@@ -21,7 +21,9 @@ async function runUntil(condition) {
   const { look } = store;
   if (!(await ask({ do: 'eval', expression: condition })).ok) return false;
   if (!look.paused && look.speed !== 'manual' && !(await ask({ do: 'pause' })).ok) return false;
-  return (await ask({ do: 'run-until', condition, within: '60s' })).ok;
+  const reply = await ask({ do: 'run-until', condition, within: '60s' });
+  if (reply.ok && !reply.reached && reply.simulated_time_ns - look.time_ns >= 60e9) complain(`within 60 s this did not come true: ${condition}`);
+  return reply.ok;
 }
 
 function Time() {
@@ -56,9 +58,18 @@ function Said() {
 
 function Devices() {
   const devices = store.bench?.devices ?? [];
+  const dark = devices.slice(kMostNamed).map((device) => device.name).filter((name) => !hasPower(name));
   return html`<span class="models">${devices.slice(0, kMostNamed).map((device) => html`<span class="model" key=${device.name}
-      title=${`${device.title}, firmware ${device.firmware}`}><b>${device.name}</b> <small>${device.model} ${device.firmware}</small></span>`)}
-    ${devices.length > kMostNamed && html`<small>and ${devices.length - kMostNamed} more</small>`}</span>`;
+      title=${`${device.title}, firmware ${device.firmware}`}><b>${device.name}</b> <small>${device.model} ${device.firmware}</small>${!hasPower(device.name) && html` <span class="badge">no power</span>`}</span>`)}
+    ${devices.length > kMostNamed && html`<small>and ${devices.length - kMostNamed} more</small>`}
+    ${dark.length > 0 && html`<span class="badge">no power: ${dark.join(', ')}</span>`}</span>`;
+}
+
+/// By its file; where two have the same, by their sockets as well.
+function nameOf({ socket }, number) {
+  const name = store.labels[number] ?? socket.split('/').at(-1);
+  const others = store.hello.benches.filter((it, i) => i !== number && (store.labels[i] ?? it.socket.split('/').at(-1)) === name);
+  return others.length > 0 ? `${name} (${socket})` : name;
 }
 
 function Page() {
@@ -78,7 +89,7 @@ function Page() {
   return html`<div class="top"><header class="head">
       <h1>Understudy</h1>
       ${benches.length > 1 && html`<${Choice} label="bench" value=${String(store.number)}
-        options=${benches.map((bench, i) => [String(i), bench.socket.split('/').at(-1)])} takes=${(i) => show(Number(i))} />`}
+        options=${benches.map((bench, i) => [String(i), nameOf(bench, i)])} takes=${(i) => show(Number(i))} />`}
       <${Devices} />
       ${isReadOnly() && html`<span class="badge">read only</span>`}
       <${Time} />

@@ -1,6 +1,11 @@
-// Frames as a capture that Wireshark opens: a block a frame, an interface a line.
-const kUser0 = 147;  // DLT_USER0, as the program's own captures of Modbus RTU and text
+// Frames as a capture that Wireshark opens: a block a frame, an interface a line. As the program's own captures
+// (pty/capture_pcapng.h): each packet names its dissector, so that Modbus RTU is decoded without a flag.
+const kUpperPdu = 252;  // "Wireshark upper PDU": tags, then the bytes
+const kStationPort = 19200;  // by which Wireshark can tell requests from replies
+const [kDissector, kPortType, kSourcePort, kDestinationPort] = [12, 24, 25, 26];
+const kTcp = 2;
 const kNanoseconds = 9;
+const kUndecoded = /not a frame|incomplete/;
 
 function block(type, body) {
   const padded = Math.ceil(body.length / 4) * 4;
@@ -30,26 +35,41 @@ function joined(...parts) {
   return all;
 }
 
-const words = (...numbers) => {
-  const view = new DataView(new ArrayBuffer(numbers.length * 4));
-  numbers.forEach((number, i) => view.setUint32(i * 4, number, true));
+function numbers(write, size, ...values) {
+  const view = new DataView(new ArrayBuffer(values.length * size));
+  values.forEach((value, i) => write(view, i * size, value));
   return new Uint8Array(view.buffer);
-};
+}
+const words = (...values) => numbers((view, at, value) => view.setUint32(at, value, true), 4, ...values);
+const halves = (...values) => numbers((view, at, value) => view.setUint16(at, value), 2, ...values);  // of tags: big-endian
+const tag = (code, value) => joined(halves(code, 4), numbers((view, at, it) => view.setUint32(at, it), 4, value));
 const text = (it) => new TextEncoder().encode(it);
 const bytesOf = (hex) => Uint8Array.from((hex ?? '').match(/../g) ?? [], (pair) => parseInt(pair, 16));
 
-/// `frames` and `lines` as the server tells them.
+function dataOf(frame, number, isText) {
+  const bytes = bytesOf(frame.bytes);
+  const isFrame = !isText && bytes.length > 0 && !kUndecoded.test(frame.remark ?? '');
+  const dissector = text(isFrame ? 'mbrtu\0\0\0' : 'data');
+  const ports = frame.way === 'in' ? [number + 1, kStationPort] : [kStationPort, number + 1];
+  return joined(halves(kDissector, dissector.length), dissector, tag(kPortType, kTcp), tag(kSourcePort, ports[0]),
+    tag(kDestinationPort, ports[1]), halves(0, 0), bytes);
+}
+
+/// `frames` and `lines` as the server tells them. What each is in words, and what became of it, is its comment.
 export function pcapng(frames, lines) {
   const names = lines.map((line) => line.name);
-  const section = block(0x0A0D0D0A, joined(words(0x1A2B3C4D), new Uint8Array([1, 0, 0, 0]), words(0xFFFFFFFF, 0xFFFFFFFF)));
-  const interfaces = names.map((name) => block(1, joined(new Uint8Array([kUser0, 0, 0, 0]), words(0),
+  const section = block(0x0A0D0D0A, joined(words(0x1A2B3C4D), new Uint8Array([1, 0, 0, 0]), words(0xFFFFFFFF, 0xFFFFFFFF),
+    option(4, text('understudy')), words(0)));
+  const interfaces = names.map((name) => block(1, joined(new Uint8Array([kUpperPdu, 0, 0, 0]), words(0),
     option(2, text(name)), option(9, new Uint8Array([kNanoseconds])), words(0))));
-  const packets = frames.filter((frame) => frame.bytes).map((frame) => {
-    const data = bytesOf(frame.bytes);
+  const packets = frames.map((frame) => {
+    const number = Math.max(names.indexOf(frame.line), 0);
+    const data = dataOf(frame, number, lines[number]?.text);
     const padded = new Uint8Array(Math.ceil(data.length / 4) * 4);
     padded.set(data);
-    return block(6, joined(words(Math.max(names.indexOf(frame.line), 0), Math.floor(frame.time_ns / 2 ** 32), frame.time_ns % 2 ** 32,
-      data.length, data.length), padded, option(1, text(frame.text)), option(2, words(frame.way === 'in' ? 1 : 2)), words(0)));
+    const comment = [frame.text, frame.remark].filter(Boolean).join('; ');
+    return block(6, joined(words(number, Math.floor(frame.time_ns / 2 ** 32), frame.time_ns % 2 ** 32, data.length, data.length),
+      padded, option(1, text(comment)), option(2, words(frame.way === 'in' ? 1 : 2)), words(0)));
   });
   return joined(section, ...interfaces, ...packets);
 }

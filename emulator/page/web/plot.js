@@ -67,12 +67,34 @@ function suggestions() {
 const dark = matchMedia('(prefers-color-scheme: dark)');
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-/// A drawing by uPlot of columns that change; it owns the window once somebody has zoomed.
-function Drawing({ columns, labels, window_s, isShot }) {
+const kTwoLevels = ['digital_in', 'digital_out', 'dip_switch', 'pulse_out'];
+const kContacts = ['home', 'near_home', 'mark', 'lower_limit', 'upper_limit', 'index', 'servo', 'ready', 'alarm'];
+
+/// What is on or off: by the bench's own tables, or because it has been both and nothing else.
+function isLevel(label, row) {
+  const [name, ...rest] = label.split('.');
+  const device = store.devices[name];
+  const [first, second] = rest;
+  if (device?.terminals.some((it) => it.name === first && kTwoLevels.includes(it.kind))) return true;
+  if (device?.axes.some((it) => it.name === first) && kContacts.includes(second)) return true;
+  const seen = new Set();
+  for (const value of row) if (value !== null && seen.add(value).size > 2) return false;
+  return seen.size === 2 && seen.has(0) && seen.has(1);
+}
+
+/// A lane at the foot of the drawing, from off to on a twentieth of its height.
+const lane = (number) => ({ range: () => [-(0.4 + 1.4 * number), 20 - (0.4 + 1.4 * number)] });
+
+/// A drawing by uPlot of columns that change; it owns the window once somebody has zoomed. What is on or off has a lane of
+/// its own; `isApart`: so have all others their scale.
+function Drawing({ columns, labels, window_s, isShot, isApart }) {
   const place = useRef(null);
   const plot = useRef(null);
   const zoomed = useRef(false);
   const [scheme, setScheme] = useState(dark.matches);
+  const levels = labels.map((label, i) => isLevel(label, columns[i + 1]));
+  const scales = labels.map((_, i) => (levels[i] ? `lane${i}` : isApart ? `y${i}` : 'y'));
+  const looks = [...scales, isShot, scheme].join('\n');
   useEffect(() => {
     const changed = () => setScheme(dark.matches);
     dark.addEventListener('change', changed);
@@ -83,26 +105,32 @@ function Drawing({ columns, labels, window_s, isShot }) {
     const [ink, line] = [colour('--ink'), colour('--line')];
     const axis = { stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 } };
     const size = (_, shown) => 16 + 8 * Math.max(3, ...(shown ?? []).map((text) => String(text).length));
+    const lanes = scales.filter((_, i) => levels[i]);
+    const fits = Math.max(1, Math.floor(width() / 350));  // more would leave no room for the curves
+    const upright = [...new Set(scales.filter((_, i) => !levels[i]))].slice(0, fits).map((scale, number) => ({ ...axis, scale, size,
+      stroke: isApart ? colour(`--c${scale.slice(1)}`) : ink, grid: { ...axis.grid, show: number === 0 } }));
     zoomed.current = false;
     plot.current = new uPlot({
-      width: width(), height: kHeight, scales: { x: { time: false } },
-      axes: [{ ...axis, label: isShot ? 's from the moment' : 'simulated time, s' }, { ...axis, size }],
+      width: width(), height: kHeight,
+      scales: { x: { time: false }, ...Object.fromEntries(lanes.map((scale, number) => [scale, lane(number)])) },
+      axes: [{ ...axis, label: isShot ? 's from the moment' : 'simulated time, s' }, ...upright],
       series: [{ label: 's', value: (_, at) => (at === null ? '–' : at.toFixed(3)) },
-               ...labels.map((label, i) => ({ label, stroke: colour(`--c${i}`), width: 1.5, spanGaps: false, value: (_, at) => (at === null ? '–' : grouped(at)) }))],
+               ...labels.map((label, i) => ({ label, scale: scales[i], stroke: colour(`--c${i}`), width: 1.5, spanGaps: false,
+                 ...(levels[i] ? { paths: uPlot.paths.stepped({ align: 1 }) } : {}), value: (_, at) => (at === null ? '–' : grouped(at)) }))],
       hooks: { setSelect: [(self) => { if (self.select.width > 0) zoomed.current = true; }] },
     }, columns, place.current);
     place.current.ondblclick = () => { zoomed.current = false; };
     const resized = () => plot.current.setSize({ width: width(), height: kHeight });
     addEventListener('resize', resized);
     return () => { removeEventListener('resize', resized); plot.current.destroy(); };
-  }, [labels.join('\n'), isShot, scheme]);
+  }, [labels.join('\n'), looks]);
   useEffect(() => {
     plot.current.setData(columns, false);
     if (zoomed.current) return plot.current.redraw();
     const [first, last] = [columns[0][0] ?? 0, columns[0].at(-1) ?? 0];
-    const from = isShot ? first : last - window_s;
-    plot.current.setScale('x', { min: from, max: Math.max(last, from + 1e-3) });
-  }, [columns, columns[0].length, columns[0].at(-1), window_s, scheme]);
+    const from = isShot ? first : Math.max(0, last - window_s);
+    plot.current.setScale('x', { min: from, max: Math.max(last, from + (isShot ? 1e-3 : window_s)) });
+  }, [columns, columns[0].length, columns[0].at(-1), window_s, looks]);
   return html`<div class="drawing" ref=${place}></div>`;
 }
 
@@ -176,7 +204,7 @@ function Scope({ shot, show }) {
   const waits = state === 'armed' || state === 'triggered';
   return html`<div class="bar"><span>Every tick around a moment:</span>
     <input aria-label="condition of the trigger" placeholder="when, such as device.A.home == 1; now" size="34"
-      value=${condition} onInput=${(event) => setCondition(event.target.value)} spellcheck="false" autocapitalize="off"
+      disabled=${isReadOnly()} value=${condition} onInput=${(event) => setCondition(event.target.value)} spellcheck=${false} autocapitalize="off"
       onKeyDown=${(event) => { if (event.key === 'Enter') arm(event.target.value); }} />
     <${Choice} label="this long before and after" value=${side} options=${['100ms', '500ms', '1s', '2s', '5s'].map((it) => [it, `± ${it}`])} takes=${setSide} />
     ${waits ? html`<${Button} title="disarm the trigger" does=${disarm}>disarm<//>`
@@ -189,6 +217,7 @@ export function Plot() {
   const [window_s, setWindow] = useState(10);
   const [frozen, freeze] = useState(null);
   const [shot, show] = useState(null);
+  const [isApart, setApart] = useState(false);
   if (store.bench) beginWith(store.number);
   const running = () => ({ labels: [...names], columns: [times, ...names.map((name) => rows.get(name))] });
   const { labels, columns } = shot ?? frozen ?? running();
@@ -208,11 +237,12 @@ export function Plot() {
       <${Button} title="freeze the plot" pressed=${frozen !== null} disabled=${shot !== null} does=${hold}>freeze<//>
       <${Button} title="save as CSV" does=${() => save('plot.csv', [asCsv(labels, columns)], 'text/csv')}>CSV<//>
       <${Button} title="save as a picture" does=${() => savePicture(labels)}>picture<//>
+      <${Button} title="each curve by a scale of its own" pressed=${isApart} does=${() => setApart(!isApart)}>own scales<//>
       <small>Drag to zoom, double click to go back.</small>
     </div>
     <div class="bar">${names.map((name, i) => html`<span class="joined curve" key=${name}><b class=${`c${i}`}>${name}</b>
       <output class="figure">${grouped(numberOf(valueOf(name)))}</output>
       <${Button} kind="small" title=${`take ${name} away`} does=${() => { freeze(null); drop(name); }}>×<//></span>`)}</div>
-    ${labels.length > 0 && html`<${Drawing} columns=${columns} labels=${labels} window_s=${window_s} isShot=${shot !== null} />`}
+    ${labels.length > 0 && html`<${Drawing} columns=${columns} labels=${labels} window_s=${window_s} isShot=${shot !== null} isApart=${isApart} />`}
     <${Scope} shot=${shot} show=${show} />`;
 }

@@ -98,11 +98,13 @@ export function Program() {
   const [edited, setEdited] = useState(null);
   const [programs, setPrograms] = useState([]);
   const [mistakes, setMistakes] = useState([]);
+  const [unread, setUnread] = useState('');  // why it could not be read
   const device = devices.find((it) => it.name === deviceName) ?? devices[0];
 
   const read = async () => {
     const reply = await askQuietly({ do: 'program', device: device.name });
-    setText(reply.ok ? (reply.text ?? '').replace(/\n$/, '') : `(${reply.error})`);
+    setText(reply.ok ? (reply.text ?? '').replace(/\n$/, '') : '');
+    setUnread(reply.ok ? '' : reply.error);
   };
   // Whoever has loaded another program: it is read again.
   const loaded = store.events.filter((it) => it.what === 'program' || it.what === 'power').at(-1)?.number ?? 0;
@@ -145,16 +147,17 @@ export function Program() {
             ${!isReadOnly() && html`<label class="file">load a file<input type="file" accept=${`${device.program.file_ending},text/plain`} onChange=${loadFile} /></label>`}`
         : html`<${Button} kind="main" title="load this text" does=${() => load(edited)}>load<//>
             <${Button} title="give up" does=${() => { setEdited(null); setMistakes([]); }}>give up<//>`}
-      <small>${device.program.language}, ${grouped(text === '' ? 0 : lines.length)} lines</small>
+      <small>${device.program.language}, ${grouped(text === '' ? 0 : lines.length)} ${text !== '' && lines.length === 1 ? 'line' : 'lines'}</small>
     </div>
-    <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${program} />`)}</ul>
+    <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${program} />`)}
+      ${programs.length === 0 && html`<li>nothing runs</li>`}</ul>
     ${mistakes.map((it) => html`<p class="bad" role="alert">${it.line ? `line ${it.line}, column ${it.column}: ` : ''}${it.what}</p>`)}
     ${lines.length > kMostLines && html`<p>The first ${grouped(kMostLines)} of ${grouped(lines.length)} lines; edit shows all.</p>`}
     <div class="with_values">
       ${edited !== null
-        ? html`<textarea aria-label="program text" rows="24" spellcheck="false" value=${edited}
+        ? html`<textarea aria-label="program text" rows="24" spellcheck=${false} value=${edited}
             onInput=${(event) => setEdited(event.target.value)}></textarea>`
-        : text === '' ? html`<p class="listing_none">There is no program yet: edit, or load a file.</p>`
+        : text === '' ? html`<p class="listing_none">${unread || 'There is no program yet: edit, or load a file.'}</p>`
         : html`<${Listing} lines=${lines.slice(0, kMostLines)} running=${running} />`}
       <${Values} key=${device.name} device=${device} />
     </div>`;

@@ -1,5 +1,5 @@
 // The rail of an axis: its travel, what lies along it, where it is, where it goes, and where it is taken to be.
-import { html } from './preact.js';
+import { html, useState } from './preact.js';
 import { store, valueOf } from './store.js';
 import { grouped, isOn, spaced } from './small.js';
 
@@ -53,8 +53,31 @@ function encoderPlace(machine, counts) {
   return (machine.start ?? 0) + (encoder.reversed ? -pulses : pulses);
 }
 
-/// `press(contact)`: what a click on its zone does, if anything.
-export function Rail({ device, axis, press }) {
+/// The carriage: whoever drags it pushes the machine so far, as when it slips. `perDot`: pulses a dot, of a rail so wide.
+function Carriage({ x, slip, perDot }) {
+  const [drag, setDrag] = useState(null);  // where it was taken, and how far it is from there, in dots
+  const rail = (event) => event.currentTarget.closest('.rail');
+  const pulses = drag && drag.rail ? Math.round((drag.to - drag.from) * perDot(drag.rail.clientWidth)) : 0;
+  const take = (event) => {
+    if (!slip || event.button !== 0) return;
+    event.currentTarget.setPointerCapture(event.pointerId);
+    setDrag({ rail: rail(event), from: event.clientX, to: event.clientX });
+  };
+  const move = (event) => { if (drag) setDrag({ ...drag, to: event.clientX }); };
+  const letGo = () => {
+    setDrag(null);
+    if (drag && Math.abs(drag.to - drag.from) > 3 && pulses !== 0) slip(pulses);
+  };
+  return html`<svg x=${x}><path class="hair" d="M0 12 v54" />
+    <path class=${`carriage ${slip ? 'pushable' : ''}`} d="M0 31 l-9 -19 h18 z" onPointerDown=${take} onPointerMove=${move}
+      onPointerUp=${letGo} onPointerCancel=${() => setDrag(null)}>${slip && html`<title>drag it: the carriage slips</title>`}</path>
+    ${drag && html`<g transform=${`translate(${drag.to - drag.from} 0)`}><path class="ghost" d="M0 30 l-9 -18 h18 z" />
+      <text y="9">${pulses > 0 ? '+' : ''}${grouped(pulses)}</text></g>`}
+  </svg>`;
+}
+
+/// `press(contact)`: what a click on its zone does, if anything. `slip(pulses)`: pushes the machine, if it may.
+export function Rail({ device, axis, press, slip }) {
   const name = `${device.name}.${axis.name}`;
   const value = (what) => valueOf(`${name}.${what}`);
   const machine = axis.machine;
@@ -87,6 +110,6 @@ export function Rail({ device, axis, press }) {
     ${heads && html`<svg x=${x(target)}><path class="target" d="M0 20 v32 M0 20 h9 l-3 4 l3 4 h-9"><title>target</title></path></svg>`}
     ${differs(pulses) && html`<svg x=${x(pulses)}><path class="ghost" d="M0 30 l-9 -18 h18 z"><title>commanded</title></path></svg>`}
     ${isOff && html`<svg x=${x(encoder)}><path class="ghost encoder" d="M0 30 l-9 -18 h18 z"><title>encoder</title></path></svg>`}
-    <svg x=${x(position ?? 0)}><path class="hair" d="M0 12 v54" /><path class="carriage" d="M0 31 l-9 -19 h18 z" /></svg>
+    <${Carriage} x=${x(position ?? 0)} slip=${slip} perDot=${(width) => (stretch.high - stretch.low) / Math.max(width, 1)} />
   </svg>`;
 }

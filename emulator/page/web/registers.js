@@ -15,6 +15,8 @@ function bitsOf(row, value) {
   });
 }
 
+/// A section that the manual numbers keeps its number.
+const titleOf = ({ name, english }) => (!english || english === name ? name : /^\d/.test(name) ? `${name} ${english}` : english);
 const rangeOf = (row) => (row.min !== undefined ? `${row.min} to ${row.max}` : '');
 const isPlain = (row) => !row.window && row.access !== 'W';
 
@@ -31,7 +33,7 @@ function Row({ device, row, explain, section }) {
   const isOther = row.factory !== undefined && row.access !== 'R' && isPlain(row) && typeof value === 'number' && value !== Number(row.factory);
   const hex = Number.isInteger(value) && row.type !== 'bit' ? `0x${(value < 0 ? value + 2 ** 32 : value).toString(16).toUpperCase()}` : '';
   return html`<tr class=${flash ? `flash ${flash}` : ''}>
-    <td class="what"><span class="name">${row.name}</span> <small>${row.number ?? row.address}${row.table && row.table !== 'holding' ? ` ${row.table}` : ''}</small>
+    <td class="what"><span class="name">${row.name}</span> <small>${row.number === row.name ? '' : row.number ?? row.address}${row.table && row.table !== 'holding' ? ` ${row.table}` : ''}</small>
       ${row.meaning && html`<small> ${row.meaning}</small>`}${section && html`<small class="section"> ${section}</small>`}</td>
     <td class="value" title=${hex}>${isPlain(row) ? html`${value ?? '–'} <small>${row.unit ?? ''}</small>` : ''}</td>
     <td class="by">${flash}</td>
@@ -102,14 +104,15 @@ export function Registers() {
   if (!device) return html`<p>No device of this bench has registers.</p>`;
   const explain = async (id) => setChoice((await allOf({ do: 'choices', device: device.name }, 'choices')).find((it) => it.id === id));
   const at = device.sections[Number(section)];
+  const englishOf = (name) => device.sections.find((it) => it.name === name)?.english ?? name;
   const isMixed = find !== '' || onlyHeard;
-  const sectionOf = (row) => isMixed && (device.sections[row.section]?.english || device.sections[row.section]?.name);
+  const sectionOf = (row) => isMixed && device.sections[row.section] && titleOf(device.sections[row.section]);
   const keptWrites = store.status?.devices.find((it) => it.name === device.name)?.kept_writes;
   return html`<div class="bar">
       ${devices.length > 1 && html`<${Choice} label="device" value=${device.name} options=${devices.map((it) => it.name)}
         takes=${(name) => { setDevice(name); setSection('0'); setFrom(0); setPage({ registers: [], of: 0 }); }} />`}
       <${Choice} label="section of the manual" value=${section} disabled=${isMixed}
-        options=${device.sections.map((it) => [String(it.number), `${it.english || it.name} (${it.rows})`])}
+        options=${device.sections.map((it) => [String(it.number), `${titleOf(it)} (${it.rows})`])}
         takes=${(number) => { setSection(number); setFrom(0); }} />
       <input type="search" aria-label="find a register by name or number" placeholder="find: name or number" value=${find}
         onInput=${(event) => { setFind(event.target.value); setFrom(0); }} />
@@ -117,10 +120,10 @@ export function Registers() {
         only what the host uses</label>
       <${Button} title="save what is shown as CSV" does=${() => save('registers.csv', ['name,address,value\n', page.registers.map((row) =>
         `"${row.name}",${row.address ?? row.number},${valueOf(`${device.name}.${row.name}`) ?? ''}`).join('\n'), '\n'], 'text/csv')}>CSV<//>
-      ${keptWrites !== undefined && html`<small>memory that outlives the power: <output class="figure count">${grouped(keptWrites)}</output> writes</small>`}
+      ${keptWrites !== undefined && html`<small>memory that outlives the power: <output class="figure count">${grouped(keptWrites)}</output> ${keptWrites === 1 ? 'write' : 'writes'}</small>`}
     </div>
     ${!isMixed && html`<p class="section_name">${at?.name} ${at?.english !== at?.name && html`<small>${at?.english}</small>`}</p>`}
-    ${choice && html`<aside class="choice"><strong>${choice.id}</strong> (section ${choice.section}): ${choice.question}
+    ${choice && html`<aside class="choice"><strong>${choice.id}</strong> (section ${englishOf(choice.section)}): ${choice.question}
       <p>Chosen: <b>${spacedChoice(choice.chosen)}</b> of ${choice.options.map(spacedChoice).join('; ')}. ${choice.why} <small>${choice.confidence}</small></p>
       <${Button} title="close" does=${() => setChoice(null)}>close<//></aside>`}
     <div class="scroll"><table class="registers">

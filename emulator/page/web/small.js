@@ -3,7 +3,10 @@ import { html, useRef, useState } from './preact.js';
 
 export const seconds = (ns) => `${(ns / 1e9).toFixed(3)} s`;
 export const grouped = (number) =>
-  typeof number === 'number' ? (Number.isInteger(number) ? number.toLocaleString('en') : number.toFixed(1)) : '–';
+  typeof number === 'number' ? number.toLocaleString('en', { maximumFractionDigits: 1, minimumFractionDigits: Number.isInteger(number) ? 0 : 1 }) : '–';
+/// What changes all the time keeps its places.
+export const inTenths = (number) =>
+  typeof number === 'number' ? number.toLocaleString('en', { minimumFractionDigits: 1, maximumFractionDigits: 1 }) : '–';
 export const isOn = (value) => value === 1 || value === true;
 export const spaced = (name) => name.replaceAll('_', ' ');
 
@@ -38,7 +41,7 @@ export function Field({ label, placeholder, takes, list, size = 12, disabled, in
     if (value.trim() !== '' && await takes(value.trim()) !== false) setText('');
   };
   return html`<input aria-label=${label} title=${label} placeholder=${placeholder ?? label} list=${list} size=${size} value=${text}
-    disabled=${disabled} spellcheck="false" autocomplete="off" autocapitalize="off" enterkeyhint="send"
+    disabled=${disabled} spellcheck=${false} autocomplete="off" autocapitalize="off" enterkeyhint="send"
     onInput=${(event) => setText(event.target.value)}
     onKeyDown=${(event) => { if (event.key === 'Enter') send(event.target); if (event.key === 'Escape') setText(''); }} />`;
 }

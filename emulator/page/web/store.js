@@ -11,6 +11,7 @@ export const store = {
   hello: null,
   number: 0,        // which bench is shown
   states: [],       // of each: there, silent, gone, unknown
+  labels: [],       // of each, where there are several: its bench file
   bench: null,      // the reply to `bench`
   devices: {},      // by name: the reply to `bench` with a device
   kinds: [],        // of faults
@@ -41,20 +42,25 @@ export function draw() {
 
 // Names that the panels in view want, by panel.
 const wanted = new Map();
+let watched = new Set();
 let lastWatch = '';
 export function want(panel, names) {
   wanted.set(panel, names);
   watch();
 }
+/// The next panel may want the same names: it has a moment to say so.
 export function unwant(panel) {
   wanted.delete(panel);
-  watch();
+  setTimeout(watch, 100);
 }
 function watch() {
   const names = [...new Set([...wanted.values()].flat())].slice(0, 2000);
   const wish = JSON.stringify([store.number, names]);
   if (wish === lastWatch) return;
   lastWatch = wish;
+  watched = new Set(names);
+  // What is not told any more grows old: whoever wants it later must not take it for the present value.
+  for (const name of Object.keys(store.values)) if (!watched.has(name)) delete store.values[name];
   wire.watch(store.number, { names, frames: true, events: true, status: true });
 }
 
@@ -64,14 +70,20 @@ const wire = new Wire({
     store.hello = hello;
     store.states = hello.benches.map((bench) => bench.state);
     show(Math.min(store.number, hello.benches.length - 1));
+    hello.benches.forEach((_, number) => learnLabel(number));
   },
   bench: (bench) => {
     store.states[bench.bench] = bench.state;
+    if (bench.state === 'there') learnLabel(bench.bench);
     if (bench.bench === store.number && bench.state === 'there') learn();
     draw();
   },
   lost: (why) => {
     store.link = why ? `closed: ${why}` : 'the page has lost its server; trying again';
+    draw();
+  },
+  dead: () => {
+    store.link = 'the page\'s server does not answer; trying again';
     draw();
   },
   error: (error) => complain(error.error),
@@ -86,6 +98,7 @@ function take(look) {
   if (moved < 0 || (store.timeline && moved !== 0)) Object.assign(store, { frames: [], events: [], changes: {} });
   store.look = look;
   for (const [name, value] of Object.entries(look.values ?? {})) {
+    if (!watched.has(name)) continue;
     if (name in store.values && store.values[name] !== value) {
       const last = store.changes[name];
       if (!last || now - last.at > 300 || !last.by) store.changes[name] = { at: now, by: '' };
@@ -118,6 +131,15 @@ export function show(number) {
 function forget() {
   Object.assign(store, { bench: null, devices: {}, values: {}, frames: [], events: [], status: null, look: null,
                          changes: {}, framesLost: 0, heard: new Map(), timeline: null });
+}
+
+/// Of several benches, what to call each.
+async function learnLabel(number) {
+  if (store.hello.benches.length < 2) return;
+  const { daemon } = await wire.ask(number, { do: 'identify' });
+  const name = daemon?.bench?.split('/').at(-1) || daemon?.lines?.map((line) => line.name).join();
+  if (name) store.labels[number] = name;
+  draw();
 }
 
 /// A recording has a timeline; a bench that runs refuses the question.
@@ -163,6 +185,7 @@ export function complain(text) {
 export async function ask(message) {
   const reply = await wire.ask(store.number, message);
   if (!reply.ok) complain(reply.error ?? 'refused');
+  else store.said = null;
   return reply;
 }
 /// The same for those who look for themselves whether it worked.
@@ -170,6 +193,7 @@ export const askQuietly = (message) => wire.ask(store.number, message);
 
 export const isReadOnly = () => store.hello?.read_only ?? false;
 export const valueOf = (name) => store.values[name];
+export const hasPower = (device) => store.status?.devices.find((it) => it.name === device)?.power !== 'off';
 /// Whether a device runs a program of its own.
 export const runsProgram = (device) => store.status?.devices.find((it) => it.name === device)?.runs ?? false;
 /// 'host', 'page', 'control', 'program', 'device' for a moment after a change; '' otherwise. What changes without an event

@@ -4,8 +4,8 @@ import { ask, draw, isReadOnly, store } from './store.js';
 import { Button, Choice, seconds } from './small.js';
 
 const kTick_ns = 1_000_000;
-const kSteps = [['event', -1, '− event'], ['frame', -1, '− frame'], ['tick', -1, '− 1 ms'], ['tick', 1, '+1 ms'],
-                ['frame', 1, '+ frame'], ['event', 1, '+ event']];
+const kSteps = [['event', -1, '−event'], ['frame', -1, '−frame'], ['tick', -1, '−1 ms'], ['tick', 1, '+1 ms'],
+                ['frame', 1, '+frame'], ['event', 1, '+event']];
 
 const kKeys = { ',': ['tick', -1], '.': ['tick', 1], '[': ['frame', -1], ']': ['frame', 1], '{': ['event', -1], '}': ['event', 1] };
 

@@ -1,24 +1,49 @@
 // The WebSocket to the page's server (docs/page.md): asks, watches, and connects again when it breaks.
+const kQuiet_ms = 2500;  // then the server is asked whether it is there,
+const kDead_ms = 5000;   // and then taken to be gone
+
 export class Wire {
   constructor(hears) {
-    this.hears = hears;  // { hello, bench, look, lost }
+    this.hears = hears;  // { hello, bench, look, lost, dead }
     this.token = location.hash.slice(1);
     this.watched = new Map();
     this.waiting = new Map();
     this.lastId = 0;
     this.pause = 250;
     this.open();
+    setInterval(() => this.listen(), 500);
+  }
+
+  // A server that is stuck, or a tunnel that has broken, closes nothing: it is only quiet.
+  listen() {
+    const quiet_ms = performance.now() - this.heardAt;
+    if (!this.isKnown || quiet_ms < kQuiet_ms) return;
+    if (quiet_ms < kDead_ms) return void (this.pinged ??= this.ask(0, { do: 'status' }));
+    const { socket } = this;
+    socket.onclose = socket.onmessage = null;
+    socket.close();
+    this.forget();
+    this.hears.dead?.();
+    this.open();
+  }
+
+  forget() {
+    for (const answer of this.waiting.values()) answer({ ok: false, error: 'the page lost its server' });
+    this.waiting.clear();
+    this.isKnown = false;
   }
 
   open() {
     const socket = new WebSocket(`ws://${location.host}/ws`);
     this.socket = socket;
     socket.onopen = () => socket.send(JSON.stringify({ token: this.token }));
-    socket.onmessage = (event) => this.take(JSON.parse(event.data));
+    socket.onmessage = (event) => {
+      this.heardAt = performance.now();
+      this.pinged = null;
+      this.take(JSON.parse(event.data));
+    };
     socket.onclose = (event) => {
-      for (const answer of this.waiting.values()) answer({ ok: false, error: 'the page lost its server' });
-      this.waiting.clear();
-      this.isKnown = false;
+      this.forget();
       this.hears.lost?.(event.reason);
       setTimeout(() => this.open(), this.pause);
       this.pause = Math.min(this.pause * 2, 4000);

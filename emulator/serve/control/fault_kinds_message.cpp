@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
@@ -48,6 +49,21 @@ std::string_view doc_of(std::string_view key) {
   return {};
 }
 
+/// Of what there are only a few, all of them.
+std::vector<std::string_view> words_of(world::FaultFieldRow::Form form) {
+  using Form = world::FaultFieldRow::Form;
+  switch (form) {
+    case Form::level: return {"on", "off"};
+    case Form::side: return {"reply", "request", "both"};
+    case Form::number:
+    case Form::duration:
+    case Form::ticks:
+    case Form::even_ticks:
+    case Form::bytes: break;
+  }
+  return {};
+}
+
 Json kind_of(const world::FaultKindRow& kind) {
   Json fields = Json::array();
   for (const world::FaultFieldRow& field : kind.fields) {
@@ -59,6 +75,7 @@ Json kind_of(const world::FaultKindRow& kind) {
       entry["lowest"] = field.lowest;
       entry["highest"] = field.highest;
     }
+    for (const std::string_view word : words_of(field.form)) entry["words"].push_back(word);
     fields.push_back(std::move(entry));
   }
   return Json{{"name", kind.name},

@@ -196,6 +196,7 @@ Telling look_message(Daemon& daemon, Json message) {
   ReplyText text;
   text.member("pid", getpid());
   text.member("simulated_time_ns", daemon.world().now().count());
+  text.member("restores", daemon.onlookers().restores);
   text.member("paused", daemon.pacer().paused());
   text.member("speed", format_speed(daemon.pacer().speed()));
   text.member("advancing", daemon.is_advancing());

@@ -174,6 +174,28 @@ WantedPage wanted_page(const Daemon& daemon, const Json& message) {
   return wanted;
 }
 
+/// "0x1002", "4098", and "1002" where that is how the manual writes it.
+bool is_number_of(unsigned address, const std::string& find) {
+  const std::string hex = in_lower_case(hex4(address));
+  return hex == find || hex.substr(2) == find || std::to_string(address) == find;
+}
+
+/// By part of one of its names, or by its address; 32 bits have two of both.
+bool is_row_found(const RegisterRow& row, int index, const std::string& find) {
+  const auto address = static_cast<unsigned>(row.address + index * row.stride);
+  if (is_number_of(address, find) || (is_32_bit(row.type) && is_number_of(address + 1, find))) return true;
+  for (const std::string_view pattern : {row.name, row.alias}) {
+    if (pattern.empty()) continue;
+    const std::string name = in_lower_case(RegisterMap::name_of(row, index, pattern));
+    if (name.find(find) != std::string::npos) return true;
+    if (!is_32_bit(row.type)) continue;
+    for (const std::string_view half : {row.low_half, row.high_half}) {
+      if (name + in_lower_case(half) == find) return true;
+    }
+  }
+  return false;
+}
+
 bool is_found(const Listed& listed, const std::string& find) {
   if (find.empty()) return true;
   if (listed.parameter != nullptr) {
@@ -181,10 +203,7 @@ bool is_found(const Listed& listed, const std::string& find) {
            in_lower_case(listed.parameter->number) == find ||
            in_lower_case(listed.parameter->meaning).find(find) != std::string::npos;
   }
-  const RegisterRow& row = *listed.row;
-  const int address = row.address + listed.index * row.stride;
-  return in_lower_case(RegisterMap::name_of(row, listed.index)).find(find) != std::string::npos ||
-         in_lower_case(hex4(static_cast<unsigned>(address))) == find || std::to_string(address) == find;
+  return is_row_found(*listed.row, listed.index, find);
 }
 
 /// All that the device has; of one section, if only that is wanted.

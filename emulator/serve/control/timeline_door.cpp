@@ -18,6 +18,8 @@
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/daemon/door.h"
+#include "emulator/world/events/event_log.h"
+#include "emulator/world/frames/frame_log.h"
 #include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/timeline.h"
 #include "emulator/world/snapshot.h"
@@ -28,6 +30,7 @@ namespace {
 
 constexpr std::size_t kMostMarks = 2'000;
 constexpr std::size_t kMarksAtOnce = 500;
+constexpr std::size_t kMostBefore = 200;  // frames, and events, that are told of the time before a moment
 
 /// What stands out on the bar.
 bool is_mark(std::string_view what) {
@@ -39,16 +42,14 @@ bool is_mark(std::string_view what) {
 class Travel {
  public:
   Travel(Daemon& daemon, const world::WorldState& begin, std::vector<world::RecordedEvent> events,
-         SimTime end)
-      : daemon_(daemon),
-        at_first_(daemon.world().now()),
-        timeline_(daemon.world(), begin, std::move(events), end, [this] { collect(); }) {
+         SimTime end, SimTime at_first)
+      : daemon_(daemon), timeline_(daemon.world(), begin, std::move(events), end, [this] { collect(); }) {
     std::sort(moments_.begin(), moments_.end());
     for (const world::RecordedEvent& event : timeline_.events()) {
       if (event.failed.empty()) continue;
       marks_.push_back(Json{{"time_ns", event.at.count()}, {"what", "failed"}, {"text", event.failed}});
     }
-    go_to(std::clamp(at_first_, timeline_.begin(), timeline_.end()));
+    go_to(std::clamp(at_first, timeline_.begin(), timeline_.end()));
   }
 
   Json timeline(const Json& message) {
@@ -80,6 +81,12 @@ class Travel {
   }
 
  private:
+  /// What happened between two keyframes, the last of it.
+  struct Stretch {
+    std::vector<world::FrameLog::Frame> frames;
+    std::vector<world::Event> events;
+  };
+
   static std::int64_t demand_steps(const Json& message) {
     if (!message.contains("steps")) return 1;
     const Json& steps = message["steps"];
@@ -115,14 +122,16 @@ class Travel {
     return moments[static_cast<std::size_t>(place)];
   }
 
-  /// On the way through, once: when frames began, and what stands out.
+  /// On the way through, at each keyframe: when frames began, what stands out, and what led there.
   void collect() {
+    Stretch stretch{.frames = daemon_.frames().kept_since(next_frame_, kMostBefore), .events = {}};
     for (const auto& told : daemon_.frames().since(next_frame_, SIZE_MAX)) {
       moments_.push_back(told.time);
       next_frame_ = told.number + 1;
     }
     for (const auto& event : daemon_.onlookers().events.since(next_event_, SIZE_MAX)) {
       next_event_ = event.number + 1;
+      if (event.what != "restored") stretch.events.push_back(event);  // that was to begin with
       if (!is_mark(event.what)) continue;
       if (marks_.size() == kMostMarks) {
         ++marks_left_out_;
@@ -134,14 +143,31 @@ class Travel {
       if (!event.text.empty()) mark["text"] = event.text;
       marks_.push_back(std::move(mark));
     }
+    if (stretch.events.size() > kMostBefore)
+      stretch.events.erase(stretch.events.begin(), stretch.events.end() - kMostBefore);
+    stretches_.push_back(std::move(stretch));
+  }
+
+  /// The last of what happened before a keyframe, the oldest first.
+  template <class One>
+  std::vector<One> last_before(std::size_t keyframe, std::vector<One> Stretch::*which) const {
+    std::vector<One> all;
+    for (std::size_t i = keyframe; i-- > 0 && all.size() < kMostBefore;)
+      all.insert(all.end(), (stretches_[i].*which).rbegin(), (stretches_[i].*which).rend());
+    all.resize(std::min(all.size(), kMostBefore));
+    std::reverse(all.begin(), all.end());
+    return all;
   }
 
   void go_to(SimTime time) {
-    timeline_.go_to(time, [this](const world::WorldState& state) { daemon_.restore(state); });
+    timeline_.go_to(time, [this](const world::WorldState& state, std::size_t keyframe) {
+      daemon_.restore(state);
+      daemon_.tell_anew(last_before(keyframe, &Stretch::frames), last_before(keyframe, &Stretch::events));
+    });
   }
 
   Daemon& daemon_;
-  SimTime at_first_;
+  std::vector<Stretch> stretches_;  // one up to each keyframe behind the first, and up to the end
   std::uint64_t next_frame_ = 1;
   std::uint64_t next_event_ = 1;
   std::vector<SimTime> moments_;
@@ -153,12 +179,16 @@ class Travel {
 }  // namespace
 
 DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
-                        const std::vector<world::RecordedEvent>& events, SimTime end) {
+                        const std::vector<world::RecordedEvent>& events, SimTime end, SimTime at_first) {
   const auto travel = std::make_shared<std::unique_ptr<Travel>>();
   return [=](Daemon& daemon, const std::function<void(const std::string&)>&) -> std::unique_ptr<Door> {
-    const auto handle = [&daemon, travel, begin, events, end](const std::string& line,
-                                                              const ControlServer::Reply& reply) {
-      if (!*travel) *travel = std::make_unique<Travel>(daemon, begin, events, end);
+    const auto travelled = [=, &daemon] {
+      if (!*travel) *travel = std::make_unique<Travel>(daemon, begin, events, end, at_first);
+    };
+    daemon.post(travelled);  // nobody is heard before that
+    const auto handle = [&daemon, travel, travelled](const std::string& line,
+                                                     const ControlServer::Reply& reply) {
+      travelled();
       Json message;
       try {
         message = Json::parse(line);

@@ -10,9 +10,9 @@
 
 namespace understudy::emulator::serve {
 
-/// The door of a daemon whose world is of the recording's bench and stands. It plays the recording once, when
-/// it is first asked for it, and goes back to where the world stood. `path` as of control_door().
+/// The door of a daemon whose world is of the recording's bench and stands. It plays the recording once, as
+/// soon as the daemon runs, and goes to `at_first`. `path` as of control_door().
 DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
-                        const std::vector<world::RecordedEvent>& events, SimTime end);
+                        const std::vector<world::RecordedEvent>& events, SimTime end, SimTime at_first);
 
 }  // namespace understudy::emulator::serve

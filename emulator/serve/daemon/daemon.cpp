@@ -370,10 +370,17 @@ std::string_view Daemon::why_no_restore() const {
   return {};
 }
 
+void Daemon::tell_anew(std::vector<world::FrameLog::Frame> frames, std::vector<world::Event> events) {
+  frames_.begin_anew_after(std::move(frames));
+  onlookers_.events.restored_after(std::move(events));
+}
+
 void Daemon::restore(const world::WorldState& state) {
   world::restore(world_, state);
   frames_.begin_anew();
   onlookers_.events.restored();
+  ++onlookers_.restores;
+  if (onlookers_.scope) onlookers_.scope->begin_anew();
   planned_.reset();
   behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());

@@ -110,6 +110,8 @@ class Daemon {
   /// Puts the world into another state; simulated time goes on from there, and the lines have the hosts that
   /// are there now. If it throws (StateError), nothing has changed.
   void restore(const world::WorldState& state);
+  /// Of the time before the present state, onlookers are told this and nothing else.
+  void tell_anew(std::vector<world::FrameLog::Frame> frames, std::vector<world::Event> events);
 
  private:
   void watch_signals();

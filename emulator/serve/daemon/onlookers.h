@@ -2,6 +2,7 @@
 // costs nothing while nobody asks.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -21,6 +22,7 @@ struct Onlookers {
   Onlookers(world::World& world, const world::FrameLog& frames) : events(world, frames), names(world) {}
 
   world::EventLog events;
+  std::uint64_t restores = 0;  // how often the world was put into another state: what was told before is over
   world::LookedNames names;
   std::unique_ptr<world::Scope> scope;  // null: nobody has armed one
   struct Kept {

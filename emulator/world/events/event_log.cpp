@@ -113,6 +113,13 @@ void EventLog::note(std::string_view what, std::string text) {
 
 void EventLog::restored() { note("restored", {}); }
 
+void EventLog::restored_after(std::vector<Event> events) {
+  noted_.clear();
+  events_.clear();
+  next_frame_ = frames_.next_number();
+  for (Event& event : events) add(std::move(event));
+}
+
 void EventLog::on_input(std::size_t device, int terminal, std::int32_t level) {
   const Device& of = world_.device(device);
   const TerminalRow& row = of.model().terminals[static_cast<std::size_t>(terminal)];

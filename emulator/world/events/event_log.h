@@ -47,6 +47,9 @@ class EventLog final : private OutsideListener {
   void note(std::string_view what, std::string text);
   /// The world has another state.
   void restored();
+  /// The same, and these happened before, the oldest first: they get new numbers, and are all that is told of
+  /// what was until now, frames included.
+  void restored_after(std::vector<Event> events);
 
   /// Makes events of what has come since, of so many frames at most; whether some are left. The others below
   /// do so with all.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -33,6 +34,20 @@ void FrameLog::begin_anew() {
   ignore();
   frames_.clear();
   watch();
+}
+
+std::vector<FrameLog::Frame> FrameLog::kept_since(std::uint64_t number, std::size_t most) const {
+  const std::uint64_t first = next_number_ - frames_.size();
+  const std::uint64_t from = std::clamp(number, first, next_number_);
+  const auto count = static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(next_number_ - from, most));
+  return {frames_.end() - count, frames_.end()};
+}
+
+void FrameLog::begin_anew_after(std::vector<Frame> frames) {
+  begin_anew();
+  next_number_ += frames.size();
+  frames_.assign(std::move_iterator(frames.begin()), std::move_iterator(frames.end()));
+  while (frames_.size() > kept_) frames_.pop_front();
 }
 
 void FrameLog::add(const pty::CapturedPacket& packet) {

@@ -2,6 +2,8 @@
 // somebody wants to look. They are put into words only when they are shown.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -47,10 +49,7 @@ class FrameLog {
   /// The lines were put into another state: half-heard frames are forgotten.
   void begin_anew();
 
- private:
-  // A reply is read by its request, which several other stations' frames may have followed.
-  static constexpr std::size_t kKept = 32;
-
+  /// A frame as it is remembered.
   struct Frame {
     std::size_t line = 0;
     pty::Way way = pty::Way::from_host;
@@ -58,6 +57,15 @@ class FrameLog {
     std::vector<std::uint8_t> bytes;
     std::string comment{};
   };
+  /// At most `most` of the remembered ones from that number on: the last of them.
+  std::vector<Frame> kept_since(std::uint64_t number, std::size_t most) const;
+  /// Like begin_anew(), and these went before, the oldest first: they get new numbers.
+  void begin_anew_after(std::vector<Frame> frames);
+
+ private:
+  // A reply is read by its request, which several other stations' frames may have followed.
+  static constexpr std::size_t kKept = 32;
+
   void watch();
   void ignore();
   void add(const pty::CapturedPacket& packet);

@@ -33,6 +33,13 @@ void Scope::end() {
   if (std::exchange(is_watching_, false)) world_.remove_watcher(*this);
 }
 
+void Scope::begin_anew() {
+  if (!is_watching_) return;
+  state_ = State::armed;
+  count_ = 0;
+  next_tick_ = tick_at(world_.now()) + 1;
+}
+
 double Scope::sample(std::size_t name, std::size_t place) const {
   const auto row = (static_cast<std::size_t>(next_tick_) + rows_ - count_ % rows_ + place) % rows_;
   return ring_[row * handles_.size() + name];

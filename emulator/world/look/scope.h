@@ -33,6 +33,9 @@ class Scope final : private TickWatcher {
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
+  /// The world was put into another state: what was before is not what led there. Not if it is done.
+  void begin_anew();
+
   const ScopeSetup& setup() const { return setup_; }
   State state() const { return state_; }
   /// Of the samples that are there: the tick of the first, and how many.

@@ -45,14 +45,15 @@ std::size_t Timeline::play(std::size_t next_event, SimTime until) {
   return next_event;
 }
 
-void Timeline::go_to(SimTime time, const std::function<void(const WorldState&)>& take_back) {
+void Timeline::go_to(SimTime time,
+                     const std::function<void(const WorldState&, std::size_t keyframe)>& take_back) {
   time = std::clamp(time, begin(), end_);
   const auto later = std::upper_bound(keyframes_.begin(), keyframes_.end(), time,
                                       [](SimTime at, const Keyframe& keyframe) { return at < keyframe.at; });
   // The one before it, if that is not far: whoever looks sees what led to the moment.
   const bool has_near = later - keyframes_.begin() > 1 && time - (later - 2)->at <= 2 * kApart;
   const Keyframe& from = *(later - (has_near ? 2 : 1));
-  take_back(from.state);
+  take_back(from.state, static_cast<std::size_t>(&from - keyframes_.data()));
   restore(world_, from.state);  // with the hosts that it had then, and not those that are there now
   play(from.next_event, time);
 }

@@ -31,9 +31,9 @@ class Timeline {
   const std::vector<RecordedEvent>& events() const { return events_; }
   std::size_t keyframes() const { return keyframes_.size(); }
 
-  /// Puts the world where it was at that time, after all that happened then; `take_back` takes it to a
-  /// keyframe's state.
-  void go_to(SimTime time, const std::function<void(const WorldState&)>& take_back);
+  /// Puts the world where it was at that time, after all that happened then; `take_back` takes it to the
+  /// state of a keyframe, of which it is told the number: as many calls of `on_way` came before it.
+  void go_to(SimTime time, const std::function<void(const WorldState&, std::size_t keyframe)>& take_back);
 
  private:
   struct Keyframe {

@@ -328,6 +328,37 @@ TEST(PageLooks, TellEveryFrameOnce) {
   }
 }
 
+TEST(PageLooks, ForgetWhatWasBeforeTheWorldWasRestored) {
+  PageRig rig;
+  std::atomic<int> restores = 0;
+  const auto answer = [&](const TestJson& message) {
+    if (message["do"] != "look") return std::string(R"({"ok":true})");
+    const int now = restores;
+    TestJson reply{
+        {"ok", true},           {"pid", 7},        {"simulated_time_ns", now}, {"restores", now},
+        {"paused", true},       {"speed", "real"}, {"advancing", false},       {"values", TestJson::array()},
+        {"next_frame", now + 2}};
+    reply["frames"] = TestJson::array();
+    if (message.value("frames", 0) < now + 2) reply["frames"].push_back({{"number", now + 1}});
+    return reply.dump();
+  };
+  MadeUpBench bench(rig.socket(), answer);
+  const auto numbers = [](TestBrowser& browser) {
+    while (true) {
+      const TestJson look = browser.hear_one("look");
+      if (look.is_null() || look.contains("frames")) return look.value("frames", TestJson::array());
+    }
+  };
+  const auto first = rig.browser();
+  first->say({{"do", "watch"}, {"bench", 0}, {"frames", true}});
+  EXPECT_EQ(numbers(*first), TestJson::array({{{"number", 1}}}));
+  restores = 1;
+  EXPECT_EQ(numbers(*first), TestJson::array({{{"number", 2}}}));
+  const auto later = rig.browser();
+  later->say({{"do", "watch"}, {"bench", 0}, {"frames", true}});
+  EXPECT_EQ(numbers(*later), TestJson::array({{{"number", 2}}}));
+}
+
 TEST(PageAsks, ArePassedOnAndAnsweredById) {
   PageRig rig;
   MadeUpBench bench(rig.socket(), counting);

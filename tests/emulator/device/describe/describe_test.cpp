@@ -143,13 +143,16 @@ TEST(Describe, SectionsInAnotherLanguageAreTranslated) {
     std::set<std::string_view> sections;
     for (const RegisterRow& row : register_rows(*model)) sections.insert(row.section);
     for (const ChoiceRow& row : model->choices) sections.insert(row.section);
+    const auto named = sections;
     std::erase_if(sections, is_ascii);
     std::set<std::string_view> translated;
     for (const SectionRow& row : model->sections) {
       EXPECT_TRUE(is_ascii(row.in_english) && !row.in_english.empty()) << row.name;
       EXPECT_TRUE(translated.insert(row.name).second) << row.name << " appears twice";
     }
-    EXPECT_EQ(sections, translated) << model->name << ": Model::sections is not what its rows name";
+    // What the manual only numbers may have a title as well.
+    for (const std::string_view section : sections) EXPECT_TRUE(translated.contains(section)) << section;
+    for (const std::string_view section : translated) EXPECT_TRUE(named.contains(section)) << section;
     for (const Fact& row : Csv("choices", *model).rows) {
       EXPECT_TRUE(is_ascii(row.at("section_english"))) << row.at("id");
     }

@@ -183,7 +183,9 @@ TEST_F(ScenarioErrors, Registers) {
        ".write.Aaxis_SVON: 'Aaxis_SVON' needs its device in front; expected one of feeder.Aaxis_SVON, "
        "turner.Aaxis_SVON"},
       {"write: { feeder.STATUS.16: 1 }",
-       ".write.feeder.STATUS.16: feeder: register 'STATUS' has no bit '16'; expected 0 to 15"},
+       ".write.feeder.STATUS.16: feeder: register 'STATUS' has no bit '16'; expected 0 to 15, A_alarm, "
+       "B_alarm, A_ready, B_ready, A_moving, B_moving, A_homing, B_homing, A_home_reached, B_home_reached, "
+       "A_servo, B_servo, A_upper_limit, B_upper_limit, A_lower_limit, B_lower_limit"},
       {"write: { feeder.0x10000: 1 }",
        ".write.feeder.0x10000: '0x10000' is not a register number; expected 0 to 0xFFFF"},
       {"write: { feeder.12.3: 1 }",

@@ -97,6 +97,35 @@ TEST(BenchMessage, TellsLinesDevicesWiresAndMachines) {
   EXPECT_EQ(rig.daemon.world().now(), SimTime{0});
 }
 
+TEST(RegistersMessage, FindsByNamesAndNumbersAsWritten) {
+  LookRig rig;
+  struct Case {
+    const char* find;
+    const char* name;
+  };
+  for (const Case& c : {Case{"cord_a", "Cord_A"}, Case{"Cord_A_H", "Cord_A"}, Case{"0x0E04", "Cord_A"},
+                        Case{"0E05", "Cord_A"}, Case{"3589", "Cord_A"}, Case{"1002", "Aaxis_Speed"},
+                        Case{"f000", "Aaxis_Home_Speed"}}) {
+    const Json found =
+        rig.ask(Json{{"do", "registers"}, {"device", "feeder"}, {"find", c.find}}.dump())["registers"];
+    ASSERT_EQ(found.size(), 1U) << c.find << found;
+    EXPECT_EQ(found[0]["name"], c.name) << c.find;
+  }
+  EXPECT_EQ(rig.ask(R"({"do":"registers","device":"feeder","find":"0x5555"})")["of"], 0);
+}
+
+TEST(RegistersMessage, NamesTheBitsOfStatus) {
+  LookRig rig;
+  const Json row = rig.ask(R"({"do":"registers","device":"feeder","find":"0x0000"})")["registers"][0];
+  ASSERT_EQ(row["bits"].size(), 16U) << row;
+  EXPECT_EQ(row["bits"][4]["name"], "A_moving");
+  EXPECT_EQ(rig.value("feeder.STATUS.A_servo"), 0);
+  rig.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1}})");
+  rig.run(2);
+  EXPECT_EQ(rig.value("feeder.STATUS.A_servo"), 1);
+  EXPECT_EQ(rig.value("feeder.STATUS"), 1 << 10);
+}
+
 TEST(RegistersMessage, PagesThroughAllOfThem) {
   LookRig rig;
   std::vector<std::string> names;
@@ -143,6 +172,28 @@ TEST(RegistersMessage, CountsSectionsAsTheBenchDoes) {
   EXPECT_EQ(all, rig.ask(R"({"do":"registers","device":"feeder","count":1})")["of"].get<std::size_t>());
 }
 
+TEST(ScopeMessage, BeginsAnewWhereTheWorldIsRestored) {
+  LookRig rig;
+  rig.run(20);
+  ASSERT_EQ(rig.ask(R"({"do":"snapshot","name":"early"})")["ok"], true);
+  rig.run(500);
+  rig.ask(R"({"do":"scope","names":["time"],"condition":"feeder.DIN_5","before":"100ms","after":"50ms"})");
+  rig.run(70);
+  ASSERT_EQ(rig.ask(R"({"do":"restore","name":"early"})")["ok"], true);
+  rig.run(30);
+  rig.ask(R"({"do":"input","values":{"feeder.DIN_5":1}})");
+  rig.run(60);
+  const Json reply = rig.ask(R"({"do":"scope","from":0})");
+  ASSERT_EQ(reply["scope"]["state"], "done") << reply;
+  ASSERT_EQ(reply["scope"]["count"], 30 + 51);
+  std::int64_t expected = 21'000'000;
+  EXPECT_EQ(reply["scope"]["from_ns"], expected);
+  for (const Json& time : reply["samples"][0]) {
+    EXPECT_EQ(time, expected);
+    expected += 1'000'000;
+  }
+}
+
 TEST(ChoicesMessage, TellsWhichOptionIsInForce) {
   LookRig rig;
   const Json reply = rig.ask(R"({"do":"choices","device":"feeder"})");
@@ -162,6 +213,36 @@ TEST(FaultsMessage, TellsEveryKindWithItsFields) {
   for (const char* name : {"stall", "lost_steps", "slip", "stuck", "drop", "exception"})
     EXPECT_TRUE(names.contains(name)) << name;
   EXPECT_EQ(reply["trigger"][0]["name"], "function");
+}
+
+TEST(FaultsMessage, TellsWordsThatInjectTakes) {
+  LookRig rig;
+  const std::map<std::string, Json> places{
+      {"input", "feeder.DIN_2"}, {"device", "feeder"}, {"device_or_line", "feeder"}};
+  const std::map<std::string, Json> some{{"number", 1}, {"duration", "5ms"}, {"bytes", "FF"}};
+  int words = 0;
+  const Json kinds = rig.ask(R"({"do":"faults"})")["kinds"];
+  for (const Json& kind : kinds) {
+    for (const Json& tried : kind["fields"]) {
+      if (!tried.contains("words")) continue;
+      for (const Json& word : tried["words"]) {
+        nlohmann::ordered_json fault;  // the kind comes first
+        fault[kind["name"].get<std::string>()] = places.at(kind["place"]);
+        for (const Json& field : kind["fields"]) {
+          const std::string name = field["name"];
+          if (name == tried["name"]) {
+            fault[name] = word;
+          } else if (!field.contains("words")) {
+            fault[name] = some.at(field["form"]);
+          }
+        }
+        const Json reply = rig.ask(R"({"do":"inject","fault":)" + fault.dump() + "}");
+        EXPECT_EQ(reply["ok"], true) << fault << reply;
+        ++words;
+      }
+    }
+  }
+  EXPECT_GE(words, 2 + 3 * 7);  // on and off; the sides of all that act on messages
 }
 
 TEST(EventsMessage, TellsWhoWroteWhat) {

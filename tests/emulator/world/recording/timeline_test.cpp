@@ -51,7 +51,7 @@ TEST(Timeline, ComesToWhatAReplayComesTo) {
     EXPECT_EQ(states_of(world), states_of(busy.world()));
     EXPECT_EQ(timeline.end(), replayed.result.reached);
     EXPECT_EQ(keyframes, static_cast<int>(timeline.keyframes()));
-    const auto take_back = [&](const WorldState& state) { restore(world, state); };
+    const auto take_back = [&](const WorldState& state, std::size_t) { restore(world, state); };
     for (std::int64_t i = 1; i <= 12; ++i) {
       const auto mixed = i * 7 % 13;
       // Also at the very time of an event.
@@ -84,7 +84,7 @@ TEST(Timeline, BeginsAtTheKeyframeBeforeTheLast) {
   for (const auto& [length, time, from] : cases) {
     World world = make_world();
     Timeline timeline(world, save(world), {}, length, [] {});
-    timeline.go_to(time, [&](const WorldState& state) {
+    timeline.go_to(time, [&](const WorldState& state, std::size_t) {
       restore(world, state);
       EXPECT_EQ(world.now(), from) << format_duration(length) << ", " << format_duration(time);
     });
