@@ -1,4 +1,5 @@
 #include "interpreter/rs_m8194h/listing.h"
+#include "base/text/tokens.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,7 +21,7 @@
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/macro.h"
 #include "interpreter/rs_m8194h/text.h"
-#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/text_error.h"
 #include "interpreter/rs_m8194h/triggers.h"
 #include "interpreter/rs_m8194h/verbs.h"
 #include "interpreter/rs_m8194h/window.h"

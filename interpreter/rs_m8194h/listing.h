@@ -27,7 +27,7 @@
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/download.h"
 #include "interpreter/rs_m8194h/macro.h"
-#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/text_error.h"
 #include "interpreter/rs_m8194h/triggers.h"
 
 namespace understudy::interpreter::rs_m8194h {

@@ -1,4 +1,5 @@
 #include "interpreter/rs_m8194h/text.h"
+#include "base/text/tokens.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +25,7 @@
 #include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/operators.h"
-#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/text_error.h"
 
 namespace understudy::interpreter::rs_m8194h {
 namespace {

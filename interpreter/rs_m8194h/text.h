@@ -14,9 +14,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/text/tokens.h"
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
-#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/text_error.h"
 
 namespace understudy::interpreter::rs_m8194h {
 

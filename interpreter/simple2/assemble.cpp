@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/tokens.h"
 #include "interpreter/simple2/instructions.h"
 #include "interpreter/simple2/listing.h"
 #include "interpreter/simple2/operand_text.h"
@@ -19,28 +20,6 @@
 
 namespace understudy::interpreter::simple2 {
 namespace {
-
-struct Token {
-  std::string_view text;
-  int line = 0;
-  int column = 0;
-};
-
-/// Split at blanks and commas, a comment left out. A colon ends its token.
-std::vector<Token> tokens_of(std::string_view text, int line) {
-  text = text.substr(0, text.find(';'));
-  constexpr std::string_view kBlanks = " \t\r\f\v,";
-  std::vector<Token> tokens;
-  std::size_t at = 0;
-  while ((at = text.find_first_not_of(kBlanks, at)) != std::string_view::npos) {
-    std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-    const std::size_t colon = text.find(':', at);
-    if (colon < end) end = colon + 1;
-    tokens.push_back({text.substr(at, end - at), line, static_cast<int>(at) + 1});
-    at = end;
-  }
-  return tokens;
-}
 
 std::string lower_case(std::string_view name) {
   std::string text(name);
@@ -66,7 +45,7 @@ class Assembler {
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     for (int line = 1; !text.empty(); ++line) {
       const std::size_t end = text.find('\n');
-      read(tokens_of(text.substr(0, end), line));
+      read(tokens_of(text.substr(0, end), line, Colon::ends_its_token));
       text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
     if (pending_.mark)

@@ -11,7 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
+#include "base/text/tokens.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/instruction_row.h"
@@ -21,10 +24,18 @@
 #include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/program.h"
 #include "interpreter/super_40nc/structure.h"
-#include "interpreter/super_40nc/tokens.h"
 
 namespace understudy::interpreter::super_40nc {
 namespace {
+
+constexpr bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
+
+/// Digits with a sign perhaps; nothing if 64 bits do not hold it.
+std::optional<std::int64_t> decimal(std::string_view text) {
+  const std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
+  if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return {};
+  return parse_integer(text);
+}
 
 const InstructionRow* find_mnemonic(const std::string& word) {
   for (const InstructionRow& row : kInstructions) {

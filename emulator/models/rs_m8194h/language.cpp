@@ -1,4 +1,5 @@
 #include "emulator/models/rs_m8194h/language.h"
+#include "base/text/tokens.h"
 
 #include <array>
 #include <cstddef>
@@ -21,7 +22,7 @@
 #include "interpreter/rs_m8194h/listing.h"
 #include "interpreter/rs_m8194h/macro.h"
 #include "interpreter/rs_m8194h/text.h"
-#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/text_error.h"
 #include "interpreter/rs_m8194h/verbs.h"
 #include "interpreter/rs_m8194h/window.h"
 
@@ -98,8 +99,8 @@ int line_of_first_trigger(std::string_view text) {
   int line = 1;
   for (; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
-    const std::vector<lang::Token> tokens = lang::tokens_of(text.substr(0, end), line);
-    if (!tokens.empty() && lang::is_word(tokens[0].text, "TRIGGER")) break;
+    const std::vector<Token> tokens = tokens_of(text.substr(0, end), line);
+    if (!tokens.empty() && is_word(tokens[0].text, "TRIGGER")) break;
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   return line;

@@ -5,7 +5,7 @@
 
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
-#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/text_error.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

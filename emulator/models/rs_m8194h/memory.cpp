@@ -24,7 +24,7 @@
 #include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/listing.h"
 #include "interpreter/rs_m8194h/text.h"
-#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/text_error.h"
 #include "interpreter/rs_m8194h/triggers.h"
 
 namespace understudy::emulator::models::rs_m8194h {
