@@ -12,6 +12,7 @@
 
 #include "emulator/command_line/commands.h"
 #include "emulator/page/page.h"
+#include "emulator/serve/control/server.h"
 #include "emulator/serve/control/sockets.h"
 
 namespace understudy::emulator::command_line {

@@ -31,6 +31,7 @@
 #include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/replay.h"
 #include "emulator/world/snapshot.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::command_line {
 

@@ -21,6 +21,7 @@
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/registers.h"
+#include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/listing.h"
 #include "interpreter/rs_m8194h/text.h"

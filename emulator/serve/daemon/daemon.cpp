@@ -34,6 +34,7 @@
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench/bench_text.h"
 #include "emulator/world/bench/listening.h"
+#include "emulator/world/events/event_log.h"
 #include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/recording_spool.h"
 #include "emulator/world/snapshot.h"

@@ -64,6 +64,7 @@ inline BenchOfNames a_feeder() {
                        {"feeder.STATUS", 0x12},
                        {"feeder.STATUS.4", 1},
                        {"feeder.STATUS.0", 0},
+                       {"feeder.STATUS.A_moving", 1},
                        {"feeder.Cord_A", 32'000},
                        {"feeder.DOUT_4", 1},
                        {"feeder.0x1000", 3'200},
