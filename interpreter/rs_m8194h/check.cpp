@@ -140,6 +140,10 @@ std::optional<std::size_t> bad_by_choice(const Command& command, const CommandOp
   if (options.helix_turns_forward_only && verb == Verb::helix_3d) {
     return beyond_ends(command, place_of(command.row(), "cycle"), 0, kMost);
   }
+  if (options.helix_has_turns && verb == Verb::helix_3d) {
+    const std::size_t cycle = place_of(command.row(), "cycle");
+    if (command.number(cycle) == 0 && !is_reference(command, cycle)) return cycle;
+  }
   if (options.one_trigger_axis && verb == Verb::sync_action && !is_one_axis(command.number(0))) return 0;
   if (options.outputs_are_of_x_and_y && verb == Verb::set_out && command.number(0) > 3) return 0;
   return std::nullopt;
@@ -150,6 +154,8 @@ std::optional<std::size_t> bad_by_choice(const Command& command, const CommandOp
 std::optional<std::size_t> bad_parameter(const Command& command, const CommandOptions& options) {
   const std::size_t count = command.row().parameter_count();
   for (std::size_t i = 0; i < count; ++i) {
+    const bool is_scan_type = command.verb() == Verb::line_scan_start && i == 1;
+    if (is_scan_type && options.uneven_scans_start && command.number(i) <= 3) continue;
     if (!is_good(command, i, options)) return i;
   }
   if (command.verb() == Verb::rectangle && options.rectangle_corners_must_fit) return bad_radius(command);

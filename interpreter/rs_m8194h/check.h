@@ -23,6 +23,9 @@ struct CommandOptions {
   /// A move of no distance, and a helix that turns back, are refused.
   bool zero_moves_are_refused = false;
   bool helix_turns_forward_only = false;
+  bool helix_has_turns = false;
+  /// LINE_SCAN_START takes the types that are not available yet.
+  bool uneven_scans_start = false;
   /// SYNC_ACTION has one trigger axis; SET_OUT knows X and Y.
   bool one_trigger_axis = false;
   bool outputs_are_of_x_and_y = false;
@@ -46,7 +49,8 @@ struct CommandOptions {
 };
 
 /// Takes what any choice takes: of what is read that somebody else has checked.
-inline constexpr CommandOptions kAnyChoice{.rectangle_corners_must_fit = false, .macros_store_initial = true};
+inline constexpr CommandOptions kAnyChoice{
+    .rectangle_corners_must_fit = false, .uneven_scans_start = true, .macros_store_initial = true};
 
 /// The first parameter that is not in its range or list; nothing: all are good. References are good; what
 /// they stand for is checked when the line runs. Operators, and all of VAR_CALCULATE, are a matter of

@@ -71,9 +71,14 @@ Fault block_fault(const std::vector<Command>& lines, const Command& command, con
   return Fault::none;
 }
 
+constexpr std::size_t kOperator = 1;  // the parameter of VAR_CALCULATE
+
 Fault line_fault(const Download& download, const Command& command, const DownloadOptions& options) {
   if (command.row().macro_lines() > room_of(download, options)) return Fault::macro_memory;
-  if (const Fault fault = operand_fault(command); fault != Fault::none) return fault;
+  if (const Fault fault = operand_fault(command); fault != Fault::none) {
+    const bool is_operator = command.verb() == Verb::var_calculate && bad_operand(command) == kOperator;
+    return is_operator && options.operators_share_error ? Fault::comparison : fault;
+  }
   const bool is_twice =
       command.verb() == Verb::label && std::ranges::any_of(download.lines, [&command](const Command& other) {
         return is_label(other, command.values[0]);
@@ -112,7 +117,7 @@ Fault add(Download& download, const Command& command, const DownloadOptions& opt
   } else {
     fail(download, fault, command.code, download.lines.size());
   }
-  return fault;
+  return options.faults_show_at_close ? Fault::none : fault;
 }
 
 void refuse(Download& download, std::uint16_t code, Fault fault, const DownloadOptions& options) {
@@ -123,7 +128,8 @@ void refuse(Download& download, std::uint16_t code, Fault fault, const DownloadO
   }
 }
 
-Closed close(Download& download) {
+Closed close(Download& download, const DownloadOptions& options) {
+  if (options.faults_show_at_close && download.fault != Fault::none) return {.fault = download.fault};
   const std::vector<Command>& lines = download.lines;
   if (const Blocks blocks = blocks_behind(lines); !blocks.empty()) {
     const Block& open = blocks.front();
@@ -143,10 +149,20 @@ DownloadStatus status_of(const Download& closed, const DownloadStatus& before,
                          const DownloadOptions& options) {
   DownloadStatus status = before;
   (closed.name.is_isr ? status.isr : status.mp) = static_cast<std::uint16_t>(closed.name.number);
-  const bool is_real_time = options.shown_code == DownloadOptions::ShownCode::real_time;
-  const std::uint16_t shown = is_real_time ? real_time_code(verb_of(closed.code)) : closed.code;
-  status.command = closed.fault == Fault::none ? std::uint16_t{0} : shown;
-  status.line = closed.line;
+  const auto shown = [&options](std::uint16_t code) {
+    const bool is_real_time = options.shown_code == DownloadOptions::ShownCode::real_time;
+    return is_real_time ? real_time_code(verb_of(code)) : code;
+  };
+  using Good = DownloadOptions::GoodStatus;
+  if (closed.fault != Fault::none) {
+    status.command = shown(closed.code);
+    status.line = closed.line;
+  } else if (options.good_status == Good::of_close) {
+    status.command = shown(macro_code(closed.name.is_isr ? Verb::isr_close : Verb::mp_close));
+    status.line = static_cast<std::uint16_t>(closed.lines.size());
+  } else if (options.good_status == Good::zero) {
+    status.command = status.line = 0;
+  }
   status.error = row_of(closed.fault).download_error;
   return status;
 }

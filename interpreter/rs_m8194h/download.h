@@ -21,6 +21,12 @@ struct DownloadOptions {
   bool goto_stays_in_its_block = false;
   /// Input 112 shows a line's code as 0x0Axx, as the worked example does, or as it was sent.
   enum class ShownCode : std::uint8_t { real_time, as_sent } shown_code = ShownCode::real_time;
+  /// What inputs 112 and 113 show without an error.
+  enum class GoodStatus : std::uint8_t { zero, of_close, stays } good_status = GoodStatus::zero;
+  /// A wrong operator of VAR_CALCULATE has the error of those of IF.
+  bool operators_share_error = false;
+  /// A line with an error is told of it, or CLOSE is.
+  bool faults_show_at_close = false;
   /// A line that is refused for its class, its registers or a parameter is left out, or spoils the download.
   enum class RefusedLine : std::uint8_t { is_left_out, spoils } refused_line = RefusedLine::is_left_out;
 
@@ -63,7 +69,7 @@ struct Closed {
   std::optional<Macro> macro = {};  // takes the old one's place, if there was no error at all
 };
 /// What CLOSE finds. It ends the download in any case; the error, if any, is then in `download`.
-Closed close(Download& download);
+Closed close(Download& download, const DownloadOptions& options = {});
 
 /// What inputs 110 to 114 show behind a CLOSE; the number of the other kind of macro stays.
 DownloadStatus status_of(const Download& closed, const DownloadStatus& before,

@@ -113,14 +113,18 @@ class LineRun {
     return go_on();
   }
 
+  std::int32_t count_down(std::size_t variable) {
+    const auto left = static_cast<std::int32_t>(calculate_exactly('-', machine_.variable(variable), 1));
+    machine_.set_variable(variable, left);
+    return left;
+  }
+
   Ran next(const Command&) {
     Loop& loop = level().loops.back();
     const Macro& macro = *machine_.macro(name_of_level(run_, level()));
     const std::uint32_t count = macro.lines[loop.line].values[0];
     if (is_variable(count)) {
-      const std::size_t variable = variable_number(count);
-      loop.left = static_cast<std::int32_t>(calculate_exactly('-', machine_.variable(variable), 1));
-      machine_.set_variable(variable, loop.left);
+      loop.left = count_down(variable_number(count));
     } else {
       --loop.left;
     }
@@ -130,6 +134,9 @@ class LineRun {
   }
 
   Ran exit_for(const Command&) {
+    const Macro& macro = *machine_.macro(name_of_level(run_, level()));
+    const std::uint32_t count = macro.lines[level().loops.back().line].values[0];
+    if (options_.exit_for_counts && is_variable(count)) count_down(variable_number(count));
     level().loops.pop_back();
     return go_to(leads_to_);
   }
@@ -182,6 +189,10 @@ class LineRun {
       if (!options_.call_too_deep_ends_macro) return fail(command, Fault::undefined_command);
       fail(command, Fault::undefined_command);
       return exit_macro(command);
+    }
+    if (options_.missing_macro_is_error &&
+        !has_lines({false, static_cast<int>(command.values[0])}, machine_)) {
+      return fail(command, Fault::undefined_command);
     }
     go_on();
     run_.levels.push_back({.number = static_cast<std::uint8_t>(command.values[0])});

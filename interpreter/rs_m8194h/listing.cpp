@@ -51,7 +51,9 @@ std::optional<int> channel_of(std::string_view text) {
 class ListingReader {
  public:
   ListingReader(const CommandOptions& command_options, const DownloadOptions& download_options)
-      : command_options_(command_options), download_options_(download_options) {}
+      : command_options_(command_options), download_options_(download_options) {
+    download_options_.faults_show_at_close = false;  // a text is told of each in its place
+  }
 
   ParsedListing run(std::string_view text) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -217,7 +219,7 @@ class ListingReader {
   }
 
   const CommandOptions& command_options_;
-  const DownloadOptions& download_options_;
+  DownloadOptions download_options_;
   Listing listing_;
   std::vector<TextError> errors_;
   std::optional<Download> download_;

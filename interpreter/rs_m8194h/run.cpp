@@ -72,11 +72,6 @@ Run started(bool is_isr, int number, std::int64_t first_ms) {
   return run;
 }
 
-bool has_lines(const MacroName& name, const Machine& machine) {
-  const Macro* macro = machine.macro(name);
-  return macro != nullptr && macro->size() != 0;
-}
-
 /// The loops of a level are those that its next line stands in.
 bool is_sound_level(const Run& run, const Level& level, const Machine& machine) {
   const MacroName name = name_of_level(run, level);
@@ -104,6 +99,11 @@ bool is_sound_run(const Run& run, const Machine& machine) {
 }
 
 }  // namespace
+
+bool has_lines(const MacroName& name, const Machine& machine) {
+  const Macro* macro = machine.macro(name);
+  return macro != nullptr && macro->size() != 0;
+}
 
 int running_mp(const Execution& execution) {
   return execution.mp.is_alive() ? execution.mp.levels.back().number : 0;

@@ -36,6 +36,10 @@ struct RunOptions {
   bool calls_alone_have_levels = false;
   /// The eighth level is not called; its caller goes on behind the line, or ends.
   bool call_too_deep_ends_macro = false;
+  /// A call of a macro without lines is an execution error, or over at once.
+  bool missing_macro_is_error = false;
+  /// EXIT_FOR takes 1 from the variable of its FOR, as the end of a pass does.
+  bool exit_for_counts = false;
   /// FRNET_WAIT waits for a change to its level, or takes it if it is there already.
   bool frnet_wait_needs_edge = false;
   /// FRNET_WAIT whose time is over is an execution error.
@@ -113,6 +117,7 @@ int running_mp(const Execution& execution);
 int running_isr(const Execution& execution);
 
 /// Its first line runs at `first_ms`. What was never downloaded, or has no lines, ends at once. None may run.
+bool has_lines(const MacroName& name, const Machine& machine);
 void start_mp(Execution& execution, int number, std::int64_t first_ms, Machine& machine);
 /// Ahead of its turn, for MP_ISR_CALL where it does not wait: Machine::take_isr() is the usual way.
 void start_isr(Execution& execution, int number, std::int64_t first_ms, Machine& machine);

@@ -107,6 +107,11 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   pty::LineSettings line_settings(std::size_t port) const override;
   bool keeps_its_speed() const override { return chose(option("line_speeds", "115200_alone")); }
 
+  /// A register's new value, kept where it is one that is.
+  void put(std::size_t slot, std::uint32_t bits) {
+    state_.image[slot] = bits;
+    state_.eeprom.write(slot, bits, 0, now());
+  }
   bool are_calls_refused() const;
   /// A checked command from the window: at once, or into the FIFO.
   DeviceAnswer take(const lang::Command& command);

@@ -46,14 +46,16 @@ inline Took sync_action(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 inline Took clear_sync_action(RsM8194h& it, const Command& command) {
+  const bool keeps_axes = it.chose(option("clear_sync_scope", "factors"));
+  const bool keeps_actions = keeps_axes || it.chose(option("clear_sync_scope", "factors_and_axes"));
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     motion::SyncTable::Trigger& trigger = it.state().sync.triggers[a];
-    for_each_axis(trigger.activates, [&](std::size_t other) {
+    for_each_axis(keeps_actions ? AxisMask{0} : trigger.activates, [&](std::size_t other) {
       it.state().sync.actions[other] = {.preset_value = it.state().sync.actions[other].preset_value};
       it.state().units[other].action_isr = 0;
       it.note_enabled(other, IsrMark::kSynchronous, false);
     });
-    trigger = {};
+    trigger = {.activates = keeps_axes ? trigger.activates : AxisMask{0}};
   });
   for (std::size_t a = 0; a < kAxes; ++a) it.look_again(a);
   return Took::done;
@@ -175,6 +177,9 @@ inline Took stop_wait(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 inline Took load_initial(RsM8194h& it, const Command&) {
+  if (it.driving() != 0 && it.chose(option("load_initial_on_the_way", "waits_until_all_stand"))) {
+    return Took::waits;
+  }
   it.load_initial();
   return Took::done;
 }

@@ -108,7 +108,7 @@ lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
   }
   if (!decoded.command.row().closes()) return lang::add(state_.download, decoded.command, options_.download);
   const lang::MacroName name = state_.download.name;
-  const lang::Closed closed = lang::close(state_.download);
+  const lang::Closed closed = lang::close(state_.download, options_.download);
   state_.downloaded = lang::status_of(state_.download, state_.downloaded, options_.download);
   state_.rsm = lang::State::ready;
   state_.download = kNoDownload;
@@ -191,6 +191,11 @@ std::string RsM8194h::program_text() const {
 
 void RsM8194h::start_mp(int number) {
   state_.rint &= static_cast<std::uint8_t>(~(bit_of(Rint::mp_completed) | bit_of(Rint::module)));
+  if (options_.run.missing_macro_is_error && !lang::has_lines({false, number}, *this)) {
+    return report({.macro = {false, number},
+                   .code = lang::real_time_code(Verb::mp_call),
+                   .fault = lang::Fault::undefined_command});
+  }
   const bool at_once = chose(option("first_line", "on_receipt"));
   lang::start_mp(state_.execution, number, at_once ? now() : now() + 1, *this);
   if (!at_once || !mp_runs()) return;
@@ -224,7 +229,7 @@ std::int32_t RsM8194h::variable(std::size_t number) const {
   return static_cast<std::int32_t>(state_.image[kFirstVarSlot + number]);
 }
 void RsM8194h::set_variable(std::size_t number, std::int32_t value) {
-  state_.image[kFirstVarSlot + number] = static_cast<std::uint32_t>(value);
+  put(kFirstVarSlot + number, static_cast<std::uint32_t>(value));
 }
 std::uint8_t RsM8194h::byte_variable(std::size_t number) const {
   return static_cast<std::uint8_t>(state_.image[kFirstBvarSlot + number]);
@@ -254,7 +259,13 @@ int RsM8194h::take_isr() {
     const IsrMark mark = state_.marks.front();
     state_.marks.erase(state_.marks.begin());
     const int number = options_.isrs_are_bound_at_the_event ? mark.number : isr_of(mark);
-    if (number < 1 || number > lang::kIsrCount || macro({true, number}) == nullptr) continue;
+    const bool is_missing = number < 1 || number > lang::kIsrCount || macro({true, number}) == nullptr;
+    if (is_missing && options_.run.missing_macro_is_error && mark.source == IsrMark::kCalled) {
+      report({.macro = {true, number},
+              .code = lang::real_time_code(Verb::isr_call),
+              .fault = lang::Fault::undefined_command});
+    }
+    if (is_missing) continue;
     if (machine_.isrs_raise_user_rint) state_.rint |= bit_of(Rint::user);
     return number;
   }

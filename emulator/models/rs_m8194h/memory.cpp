@@ -109,7 +109,9 @@ bool RsM8194h::keeps(const RegisterRow& row) const {
   if (row.table == Table::holding && row.address == kWordOrderAddress) {
     return chose(option("word_order_kept", "kept"));
   }
-  return row.persistent;
+  const bool is_variable =
+      row.table == Table::holding && (row.address == kFirstBvarAddress || row.address == kFirstVarAddress);
+  return row.persistent || (is_variable && chose(option("variables_kept", "kept")));
 }
 
 Eeprom RsM8194h::factory_memory() const {

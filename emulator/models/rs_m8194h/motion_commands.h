@@ -111,7 +111,10 @@ Took drive(RsM8194h& it, const Command& command) {
 inline Took set_pulse(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     motion::Axis& motor = it.state().motors[a];
-    if (it.going(a) != Going::single || motor.task != motion::Task::move) return;
+    if (it.going(a) != Going::single || motor.task != motion::Task::move) {
+      if (it.chose(option("set_pulse_at_rest", "raises_rint_bit_7"))) it.module_error();
+      return;
+    }
     const std::int64_t given = command.signed_value(1);
     const bool is_against = given != 0 && (given < 0) != (motor.drive.direction < 0);
     if (is_against && it.chose(option("set_pulse_sign", "is_ignored"))) return;

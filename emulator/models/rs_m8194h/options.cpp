@@ -24,6 +24,8 @@ lang::CommandOptions command_options(std::span<const std::uint8_t> chosen) {
           .variables_have_ends = chose(option("variable_range", "exception_3")),
           .zero_moves_are_refused = chose(option("zero_move", "exception_3")),
           .helix_turns_forward_only = chose(option("helix_cycle", "exception_3")),
+          .helix_has_turns = chose(option("helix_cycle_0", "exception_3")),
+          .uneven_scans_start = chose(option("uneven_scan_start", "starts_all_the_same")),
           .one_trigger_axis = chose(option("several_trigger_axes", "exception_3")),
           .outputs_are_of_x_and_y = chose(option("set_out_of_z_and_u", "exception_3")),
           .letters = chose(option("if_operator", "as_in_the_frame"))   ? Letters::as_in_the_frame
@@ -49,6 +51,11 @@ LanguageOptions language_options(const DeviceSettings& settings) {
       .goto_stays_in_its_block = chose(option("goto_out_of_blocks", "is_refused_as_without_its_label")),
       .shown_code = chose(option("download_command", "as_sent")) ? Download::ShownCode::as_sent
                                                                  : Download::ShownCode::real_time,
+      .good_status = chose(option("status_of_good_download", "of_its_close")) ? Download::GoodStatus::of_close
+                     : chose(option("status_of_good_download", "as_before"))  ? Download::GoodStatus::stays
+                                                                              : Download::GoodStatus::zero,
+      .operators_share_error = chose(option("wrong_arithmetic", "06_as_of_an_operator")),
+      .faults_show_at_close = chose(option("structure_faults", "at_close")),
       .refused_line = chose(option("refused_lines", "spoil_the_download"))
                           ? Download::RefusedLine::spoils
                           : Download::RefusedLine::is_left_out};
@@ -61,6 +68,8 @@ LanguageOptions language_options(const DeviceSettings& settings) {
                  .negative_time_is_error = chose(option("timer_negative", "execution_error")),
                  .calls_alone_have_levels = chose(option("call_levels", "of_calls_alone")),
                  .call_too_deep_ends_macro = chose(option("call_too_deep", "ends_the_macro")),
+                 .missing_macro_is_error = chose(option("missing_macro", "execution_error")),
+                 .exit_for_counts = chose(option("exit_for_counter", "counts_this_pass_too")),
                  .frnet_wait_needs_edge = chose(option("frnet_wait_level", "waits_for_the_change")),
                  .frnet_wait_timeout_is_error = chose(option("frnet_wait_timeout", "execution_error")),
                  .raw_signals_are_not_returned = chose(option("rvar_of_di_signal_all", "is_not_stored")),

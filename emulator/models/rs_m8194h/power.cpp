@@ -196,7 +196,7 @@ void RsM8194h::reset_card() {
   constexpr Tick kBooting = 100;
   if (chose(option("reset_card_time", "100ms"))) state_.resetting_until = now() + kBooting;
   const auto clear = [&](std::size_t first, std::size_t count) {
-    std::fill_n(state_.image.begin() + static_cast<std::ptrdiff_t>(first), count, 0U);
+    for (std::size_t slot = first; slot < first + count; ++slot) put(slot, 0);
   };
   if (chose(option("reset_card_variables", "cleared"))) {
     clear(kFirstBvarSlot, kBvars);

@@ -161,7 +161,7 @@ inline constexpr auto kHoldingRows1 = section("12.2.1", {
     reg(0,    "FRnet DO group {}", u16, RW).times(8, 1, 0).shows<do_word>().does<write_do_word>(),
 });
 inline constexpr auto kHoldingRows2 = section("12.2.2", {
-    reg(8,    "CALL_MPn", u16, RW).also("CALL_MP").range(1, 157).does<call_mp>(),
+    reg(8,    "CALL_MPn", u16, RW).also("CALL_MP").range(1, 157).reads<call_register>().does<call_mp>(),
     reg(9,    "FRnet Event", u16, RW).also("FRNET_EVENT").range(0, 1).kept_at_once().does<enable_triggers>(),
     reg(14,   "WORD Order", u16, RW).also("WORD_ORDER").range(0, 1),
 });
@@ -302,8 +302,10 @@ inline constexpr std::uint16_t kEventAddress = 9;
 inline constexpr std::uint16_t kWordOrderAddress = 14;
 inline constexpr std::size_t kEventSlot = slot(kEventAddress);
 inline constexpr std::size_t kWordOrderSlot = slot(kWordOrderAddress);
-inline constexpr std::size_t kFirstBvarSlot = slot(128);
-inline constexpr std::size_t kFirstVarSlot = slot(300);
+inline constexpr std::uint16_t kFirstBvarAddress = 128;
+inline constexpr std::uint16_t kFirstVarAddress = 300;
+inline constexpr std::size_t kFirstBvarSlot = slot(kFirstBvarAddress);
+inline constexpr std::size_t kFirstVarSlot = slot(kFirstVarAddress);
 inline constexpr std::size_t kFirstMdSlot = slot(3000);
 
 inline constexpr int kVars = 512;

@@ -83,19 +83,17 @@ Took set_external(RsM8194h& it, const Command& command) {
 }
 
 inline Took write_byte_variable(RsM8194h& it, const Command& command) {
-  it.state().image[kFirstBvarSlot + lang::byte_variable_number(command.values[0])] = byte_at(command, 1);
+  it.put(kFirstBvarSlot + lang::byte_variable_number(command.values[0]), byte_at(command, 1));
   return Took::done;
 }
 inline Took write_variable(RsM8194h& it, const Command& command) {
-  it.state().image[kFirstVarSlot + lang::variable_number(command.values[0])] = command.values[1];
+  it.put(kFirstVarSlot + lang::variable_number(command.values[0]), command.values[1]);
   return Took::done;
 }
 inline Took write_memory(RsM8194h& it, const Command& command) {
   const std::size_t number = command.values[0];
-  const std::size_t slot = kFirstMdSlot + number;
   const bool is_real = number >= static_cast<std::size_t>(lang::kFirstRealMemory);
-  it.state().image[slot] = command.values[is_real ? 2 : 1];
-  it.state().eeprom.write(slot, it.state().image[slot], 0, it.now());
+  it.put(kFirstMdSlot + number, command.values[is_real ? 2 : 1]);
   return Took::done;
 }
 

@@ -57,6 +57,7 @@ Value illegal_reason(const RsM8194h& it, Cell cell);
 Value download_field(const RsM8194h& it, Cell cell);   // the row's argument: which of the five
 Value execution_field(const RsM8194h& it, Cell cell);  // likewise
 Value factor_axes(const RsM8194h& it, Cell cell);      // the row's argument: which factor
+Value call_register(const RsM8194h& it, Cell cell);
 void call_mp(RsM8194h& it, Cell cell, Value value);
 void enable_triggers(RsM8194h& it, Cell cell, Value value);
 DeviceAnswer take_message(RsM8194h& it, Cell cell, std::span<const std::uint16_t> words);

@@ -303,6 +303,12 @@ DeviceAnswer take_message(RsM8194h& it, Cell cell, std::span<const std::uint16_t
   return it.take(decoded.command);
 }
 
+Value call_register(const RsM8194h& it, Cell) {
+  if (it.chose(option("call_register", "0"))) return 0;
+  if (it.chose(option("call_register", "the_macro_that_runs"))) return it.running_mp();
+  return it.state().image[kCallMpSlot];
+}
+
 void call_mp(RsM8194h& it, Cell, Value value) {
   lang::Command command{.code = lang::real_time_code(lang::Verb::mp_call)};
   command.values[0] = static_cast<std::uint32_t>(value);
