@@ -104,7 +104,8 @@ lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
   }
   if (decoded.fault != lang::Fault::none) {
     lang::refuse(state_.download, code, decoded.fault, options_.download);
-    return decoded.fault;
+    const bool shows_later = options_.download.faults_show_at_close && lang::is_download_error(decoded.fault);
+    return shows_later ? lang::Fault::none : decoded.fault;
   }
   if (!decoded.command.row().closes()) return lang::add(state_.download, decoded.command, options_.download);
   const lang::MacroName name = state_.download.name;

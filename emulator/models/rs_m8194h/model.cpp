@@ -26,7 +26,7 @@ namespace {
 // 2.0 and 3.0: the versions of the manual's answers and of the manual itself.
 constexpr std::array<Firmware, 2> kFirmwares{200, 300};
 
-constexpr std::array<std::string_view, 6> kGaps{
+constexpr std::string_view kGaps[] = {
     "Noise filters below 1.024 ms do not delay, or by choice a tick: a bench's inputs change at ticks, a "
     "machine's edges lie at pulses.",
     "Pulses at OUT_X and OUT_Y below 1 ms are counted, and have no length: levels are those of ticks.",

@@ -1,6 +1,13 @@
 // Where choices meet what else the device does: most of them are told apart by scenarios/choices/rs-m8194h/.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <vector>
+
+#include "emulator/device/program_error.h"
+#include "emulator/device/terminals.h"
+#include "emulator/device/user_program.h"
+#include "emulator/models/rs_m8194h/terminals.h"
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
 namespace understudy::emulator::models::rs_m8194h {
@@ -162,6 +169,104 @@ TEST(RsM8194hChoices, ParametersMayComeInParts) {
   twin.set("CALL_MP", 1);
   twin.run(5);
   EXPECT_EQ(twin.get("VAR5"), 7);
+}
+
+TEST(RsM8194hChoices, KeptVariablesThatACardResetClearsStayCleared) {
+  OneRsm rsm({.choices = {{"variables_kept", "kept"}}});
+  rsm.set("VAR5", -5);
+  rsm.set("bVAR5", 5);
+  rsm.send({"RSM_RESET_CARD", "RSM_WRITE_VAR VAR6 6"});
+  rsm.run(1);
+  rsm.device().switch_power(false);
+  rsm.device().switch_power(true);
+  EXPECT_EQ(rsm.get("VAR5"), 0);
+  EXPECT_EQ(rsm.get("bVAR5"), 0);
+  EXPECT_EQ(rsm.get("VAR6"), 6);
+}
+
+TEST(RsM8194hChoices, ErrorsOfADownloadThatShowAtCloseAreKept) {
+  const GivenRsm given{.program = "MP 1\n  RSM_MACRO_SET_VAR VAR1 7\nEND\n",
+                       .choices = {{"structure_faults", "at_close"}}};
+  OneRsm rsm(given);
+  rsm.send({"RSM_MP_CREATE 1", "RSM_MACRO_SET_VAR VAR1 8", "RSM_MACRO_ELSE"});
+  // Of an undefined command, too, which is not the first error.
+  EXPECT_EQ(rsm.ask("10 1F40 0001 02 0C00"), "10 1F 40 00 01");
+  // A parameter is no error of the download.
+  EXPECT_EQ(rsm.ask("10 1F40 0002 04 0CCB 0000"), "90 03");
+  OneRsm twin(given);
+  twin.device().restore_state(rsm.device().save_state());
+  EXPECT_EQ(twin.exception("RSM_MACRO_MP_CLOSE"), 3);
+  EXPECT_EQ(twin.get("DOWNLOAD_ERROR"), 3);
+  EXPECT_EQ(twin.get("DOWNLOAD_LINE"), 1);
+  EXPECT_EQ(twin.get("RSM_STATE"), 0);
+  twin.set("CALL_MP", 1);
+  twin.run(5);
+  EXPECT_EQ(twin.get("VAR1"), 7);
+  // An undefined command alone, and a good download behind it.
+  twin.send("RSM_MP_CREATE 1");
+  EXPECT_EQ(twin.ask("10 1F40 0001 02 0C00"), "10 1F 40 00 01");
+  EXPECT_EQ(twin.exception("RSM_MACRO_MP_CLOSE"), 3);
+  EXPECT_EQ(twin.get("DOWNLOAD_ERROR"), 0x0F);
+  twin.send({"RSM_MP_CREATE 1", "RSM_MACRO_SET_VAR VAR1 8", "RSM_MACRO_MP_CLOSE"});
+  EXPECT_EQ(twin.get("DOWNLOAD_ERROR"), 0);
+}
+
+TEST(RsM8194hChoices, ATextIsToldOfAnErrorInItsLine) {
+  const GivenRsm given{.choices = {{"structure_faults", "at_close"}}};
+  OneRsm rsm(given);
+  try {
+    rsm.device().user_program()->load_program(
+        "MP 1\n  RSM_MACRO_SET_VAR VAR1 1\n  RSM_MACRO_ELSE\n  RSM_MACRO_EXIT_MACRO\nEND\n");
+    ADD_FAILURE() << "was taken";
+  } catch (const ProgramError& error) {
+    EXPECT_EQ(error.mistakes.size(), 1U);
+    EXPECT_EQ(error.first().line, 3);
+  }
+}
+
+TEST(RsM8194hChoices, CallsOfMissingMacrosByMacrosAreErrors) {
+  OneRsm rsm({.program =
+                  "MP 1\n  RSM_MACRO_MP_CALL 9\n  RSM_MACRO_SET_VAR VAR1 7\n  RSM_MACRO_MP_CALL 2\nEND\n"
+                  "MP 2\n  RSM_MACRO_SET_VAR VAR2 8\nEND\n",
+              .choices = {{"missing_macro", "execution_error"}}});
+  rsm.set("CALL_MP", 1);
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("VAR1"), 7);
+  EXPECT_EQ(rsm.get("VAR2"), 8);
+  EXPECT_EQ(rsm.get("EXECUTION_MP"), 1);
+  EXPECT_EQ(rsm.get("EXECUTION_LINE"), 0);
+  EXPECT_EQ(rsm.get("EXECUTION_CMD"), 0x0ACB);
+  EXPECT_EQ(rsm.get("EXECUTION_ERROR"), 0x0F);
+  EXPECT_EQ(rsm.input_word(74), 1);  // MP1 is completed
+  // An interrupt whose ISR is missing calls nothing.
+  rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_ENABLE_INT", "RSM_INTFACTOR_ENABLE X 7 3",
+            "RSM_FIXED_MOVE X 10"});
+  rsm.run(50);
+  EXPECT_EQ(rsm.get("EXECUTION_ISR"), 0);
+}
+
+TEST(RsM8194hChoices, HoldsAtOnceOvertakeWhatWaits) {
+  OneRsm rsm({.choices = {{"holds_bypass_fifo", "at_once"}}});
+  rsm.send({"RSM_SET_SV XYZU 1000", "RSM_SET_V XYZU 1000", "RSM_FIXED_MOVE X 100", "RSM_FIXED_MOVE X 100",
+            "RSM_FIXED_MOVE Y 100", "RSM_DRV_HOLD Y"});
+  EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 28);  // two drives wait, the hold does not
+  rsm.run(1000);
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{200, 0, 0, 0}));
+  rsm.send("RSM_DRV_START Y");
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_Y"), 100);
+}
+
+TEST(RsM8194hChoices, PulsesThatOutHasGivenAreCountedBehindACardReset) {
+  OneRsm rsm;
+  rsm.send(
+      {"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_LINE_SCAN X 0 0 4 99", "RSM_LINE_SCAN_START X 0 1000"});
+  rsm.run_to_rest();
+  const std::int64_t given = rsm.device().terminals()->output_pulses(kFirstOut);
+  EXPECT_GT(given, 5);
+  rsm.send("RSM_RESET_CARD");
+  rsm.run(5);
+  EXPECT_EQ(rsm.device().terminals()->output_pulses(kFirstOut), given);
 }
 
 }  // namespace rs_m8194h_choices_test
