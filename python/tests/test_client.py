@@ -297,3 +297,12 @@ def test_flags_may_be_numbers():
 
 def test_an_oscilloscope_that_is_off_has_nothing(bench):
     assert bench.samples() == {}
+
+
+def test_lines_to_send_on_are_named():
+    with understudy.start(model="super-40nc") as bench:
+        with pytest.raises(understudy.Refused, match="'line' is missing; expected one of RS232, RS485"):
+            bench.send(b"\0")
+        with pytest.raises(understudy.Refused, match="'RS422' is unknown; expected one of RS232, RS485"):
+            bench.send(b"\0", line="RS422")
+        assert bench.send(bytes.fromhex("000100000001"), line="RS485", checksum=True) == 1
