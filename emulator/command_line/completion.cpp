@@ -252,7 +252,7 @@ std::string fish_script(const CommandWords& words, ModelList models) {
       "  echo $path $place\n"
       "end\n";
   for (const OperandWords& row : operand_words(models)) {
-    script += "complete -c understudy -n 'test \"(__understudy_place)\" = \"" + row.path + " " +
+    script += "complete -c understudy -n 'test (__understudy_place) = \"" + row.path + " " +
               std::to_string(row.place) + "\"' -f -a '" + row.words + "'\n";
   }
   for_each(words, words.name, [&](const std::string& path, const CommandWords& command) {

@@ -259,3 +259,50 @@ def test_a_long_path_of_temporary_files_does_not_matter(monkeypatch, tmp_path):
     monkeypatch.setattr("tempfile.tempdir", str(deep))
     with understudy.start(model="simple2-r3") as one:
         assert one.advance("1ms") == 1_000_000
+
+
+def test_an_interrupted_request_spoils_no_other(bench):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        with pytest.raises(KeyboardInterrupt):
+            while True:  # a request is under way nearly always
+                bench.run_until("Cord_A == 1", within="100s")
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    bench["Aaxis_Pulse"] = 77
+    assert bench["Aaxis_Pulse"] == 77
+    assert bench.status()["speed"] == "manual"
+
+
+def test_what_is_closed_says_so(bench):
+    bench.close()
+    with pytest.raises(understudy.NotThere, match="'get': the connection has been closed"):
+        bench.get("Cord_A")
+
+
+def test_firmware_is_a_text():
+    with pytest.raises(TypeError, match="firmware: expected a text such as '1.52', not 1.4"):
+        understudy.start(model="simple2-r3", firmware=1.40)
+
+
+def test_flags_may_be_numbers():
+    with understudy.start(None, "--station", 7, model="simple2-r3", speed=2) as bench:
+        assert bench.status()["speed"] == "2x"
+
+
+def test_an_oscilloscope_that_is_off_has_nothing(bench):
+    assert bench.samples() == {}
+
+
+def test_lines_to_send_on_are_named():
+    with understudy.start(model="super-40nc") as bench:
+        with pytest.raises(understudy.Refused, match="'line' is missing; expected one of RS232, RS485"):
+            bench.send(b"\0")
+        with pytest.raises(understudy.Refused, match="'RS422' is unknown; expected one of RS232, RS485"):
+            bench.send(b"\0", line="RS422")
+        assert bench.send(bytes.fromhex("000100000001"), line="RS485", checksum=True) == 1

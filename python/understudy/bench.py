@@ -155,12 +155,13 @@ class Bench:
         return cast(Optional[Dict[str, Any]], self.ask("scope", **_given(asked))["scope"])
 
     def samples(self) -> Dict[str, List[Any]]:
-        """What the oscilloscope has kept: each name's values, a tick apart."""
+        """What the oscilloscope has kept: each name's values, a tick apart; nothing while it is off."""
         kept: Dict[str, List[Any]] = {}
         begin: Optional[int] = 0
         while begin is not None:
             reply = self.ask("scope", **{"from": begin})
-            for name, values in zip(reply["scope"]["names"], reply["samples"]):
+            names = (reply["scope"] or {}).get("names", [])
+            for name, values in zip(names, reply.get("samples", [])):
                 kept.setdefault(name, []).extend(values)
             begin = reply.get("next")
         return kept
@@ -235,6 +236,8 @@ def start(bench: Optional[str] = None, *flags: str, model: Optional[str] = None,
         raise ValueError("either a bench file or a model")
     if bench is not None and (firmware is not None or choices):
         raise ValueError("a bench file says itself what firmware and choices its devices have")
+    if firmware is not None and not isinstance(firmware, str):  # a float has lost the 0 of 1.40
+        raise TypeError(f"firmware: expected a text such as '1.52', not {firmware!r}")
     text, what = "", []
     if choices:
         device = _given({"name": "device", "model": model, "firmware": firmware, "choices": dict(choices)})

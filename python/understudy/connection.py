@@ -12,29 +12,44 @@ _encode = json.JSONEncoder(separators=(",", ":")).encode  # made once: a control
 
 class Connection:
     def __init__(self, path: str, timeout_s: Optional[float] = 60.0) -> None:
+        self._path = path
+        self._timeout_s = timeout_s
+        self._interrupted = False
+        self._connect()
+
+    def _connect(self) -> None:
         self._socket = socket.socket(socket.AF_UNIX)
-        if timeout_s is not None:
+        self._rest = b""
+        if self._timeout_s is not None:
             # The kernel's own timeouts: with `settimeout` Python asks `poll` before each call. One of 0 would be none.
-            time = struct.pack("@ll", int(timeout_s), max(1, int(timeout_s % 1 * 1e6)))
+            time = struct.pack("@ll", int(self._timeout_s), max(1, int(self._timeout_s % 1 * 1e6)))
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, time)
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, time)
-        self._rest = b""
         try:
-            self._socket.connect(path)
+            self._socket.connect(self._path)
         except OSError as error:
             self._socket.close()
-            raise NotThere(f"{path}: {error.strerror or error}") from error
+            raise NotThere(f"{self._path}: {error.strerror or error}") from error
 
     def ask(self, do: str, **fields: Any) -> Dict[str, Any]:
         """The reply to a message; raises Refused with the program's words."""
         message = _encode({"do": do, **fields}).encode() + b"\n"
+        if self._interrupted:
+            self._interrupted = False
+            self._connect()
+        if self._socket.fileno() < 0:
+            raise NotThere(f"no answer to {do!r}: the connection has been closed")
         try:
             self._socket.sendall(message)
             line = self._line()
         except OSError as error:
             self.close()  # a late reply would be taken for the next message's
-            why = "timed out" if isinstance(error, BlockingIOError) else error
+            why = "timed out" if isinstance(error, BlockingIOError) else error.strerror or error
             raise NotThere(f"no answer to {do!r}: {why}") from error
+        except BaseException:  # Ctrl-C, or what a handler of a signal raises: likewise, but the program is there still
+            self.close()
+            self._interrupted = True
+            raise
         try:
             reply = json.loads(line.decode())
         except ValueError as error:
@@ -45,6 +60,7 @@ class Connection:
         return reply
 
     def close(self) -> None:
+        self._interrupted = False
         self._socket.close()
 
     def _line(self) -> bytes:

@@ -46,7 +46,8 @@ class Daemon:
         program = program or os.environ.get("UNDERSTUDY_PROGRAM") or "understudy"
         if shutil.which(program) is None:
             raise NotThere(f"{program}: there is no such program; UNDERSTUDY_PROGRAM can name it")
-        command: List[str] = ["/bin/sh", "-c", GUARD, "understudy-guard", program, _folders(), bench_text, *arguments]
+        command: List[str] = ["/bin/sh", "-c", GUARD, "understudy-guard", program, _folders(), bench_text]
+        command += [str(argument) for argument in arguments]  # paths and numbers as well
         guard = subprocess.Popen(command, bufsize=0, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                  stderr=subprocess.DEVNULL, start_new_session=True)
         assert guard.stdin is not None and guard.stdout is not None

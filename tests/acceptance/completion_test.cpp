@@ -98,6 +98,9 @@ TEST_F(Completion, OfFishOffersCommandsAndFlags) {
   EXPECT_EQ(offered("understudy ctl fr"), Words{"frames"});
   EXPECT_EQ(offered("understudy serve --ca"), Words{"--capture"});
   EXPECT_EQ(offered("understudy serve --model sl"), Words{"slim"});
+  EXPECT_EQ(offered("understudy describe --format csv super-40nc pa"), Words{"parameters"});
+  EXPECT_EQ(offered("understudy ctl power feeder o"), (Words{"off", "on"}));
+  EXPECT_EQ(offered("understudy completion "), (Words{"bash", "fish", "zsh"}));
 }
 
 TEST_F(Completion, OfAnotherShellIsRefused) {

@@ -74,6 +74,9 @@ TEST(CheckFormat, GithubGetsOneLineForEachMistake) {
                 ",line=4,col=33,title=understudy check%3A scenario::steps[0].write.feeder.Aaxis_Sped: "
                 "feeder: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'");
   EXPECT_EQ(understudy({"check", "--format", "github", files.bench}).output, "");
+  // A path with "./" in it matches none in a repository.
+  const Finished below = understudy({"check", "--format", "github", files.folder / "."});
+  EXPECT_EQ(lines_of(below.output), (Words{lines[0], lines[1], lines[2]})) << below.output;
 }
 
 TEST(CheckFormat, SarifNamesItsRulesAndPlaces) {

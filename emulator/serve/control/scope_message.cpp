@@ -98,11 +98,15 @@ std::optional<std::vector<std::uint8_t>> bytes_of(std::string_view text) {
 const Port& demand_port(const Daemon& daemon, const Json& message) {
   const auto& ports = daemon.ports();
   if (!message.contains("line") && ports.size() == 1) return *ports.front();
-  const std::string name = demand_text(message, "line");
+  std::string names;
   for (const auto& port : ports) {
-    if (daemon.world().line(port->line_number()).line.name() == name) return *port;
+    const std::string& name = daemon.world().line(port->line_number()).line.name();
+    if (message.contains("line") && message["line"] == name) return *port;
+    names += (names.empty() ? "" : ", ") + name;
   }
-  throw MessageError("line: " + understudy::quoted(name) + " is unknown; expected one of `bench`");
+  if (!message.contains("line")) throw MessageError("'line' is missing; expected one of " + names);
+  throw MessageError("line: " + understudy::quoted(demand_text(message, "line")) +
+                     " is unknown; expected one of " + names);
 }
 
 }  // namespace
