@@ -1,11 +1,13 @@
-"""Reads register 0x0001 of station 1 through labgrid's SerialDriver. Beside it serves
-`understudy serve --model simple2-r3 --link ./feeder.port`.
+"""Reads register 0x0001 of station 1 through labgrid's SerialDriver: `read_code.py [CONFIGURATION]`. Beside it serves
+`understudy serve --model simple2-r3 --link ./feeder.port`, for network.yaml with `--listen rtu://127.0.0.1:5020`.
 """
 import os
+import sys
 
 from labgrid import Environment
 
-target = Environment(os.path.join(os.path.dirname(__file__), "env.yaml")).get_target("main")
+configuration = sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), "env.yaml")
+target = Environment(configuration).get_target("main")
 line = target.get_driver("SerialDriver")
 line.write(bytes.fromhex("010300010001d5ca"))
 answer = b""

@@ -59,11 +59,12 @@ def test_labgrid_opens_the_port(file, flag):
                               stdout=subprocess.PIPE, text=True)
     try:
         text = (PROJECT / "examples/labgrid" / file).read_text()
-        (folder / "env.yaml").write_text(text.replace("5020", port))
+        (folder / file).write_text(text.replace("5020", port))
         shutil.copy(PROJECT / "examples/labgrid/read_code.py", folder)
         assert served.stdout.readline().startswith("ready ")
-        done = subprocess.run([sys.executable, folder / "read_code.py"], cwd=folder, capture_output=True, text=True,
-                              timeout=30)
+        named = [] if file == "env.yaml" else [file]
+        done = subprocess.run([sys.executable, folder / "read_code.py", *named], cwd=folder, capture_output=True,
+                              text=True, timeout=30)
         assert done.stdout == "01 03 02 c0 01 29 84\n", done.stderr  # HW_Code is 0xC001, then its CRC
     finally:
         served.terminate()
