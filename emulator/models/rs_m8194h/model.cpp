@@ -27,8 +27,8 @@ namespace {
 constexpr std::array<Firmware, 2> kFirmwares{200, 300};
 
 constexpr std::string_view kGaps[] = {
-    "Noise filters below 1.024 ms do not delay, or by choice a tick: a bench's inputs change at ticks, a "
-    "machine's edges lie at pulses.",
+    ("Noise filters below 1.024 ms do not delay, or by choice a tick: a bench's inputs change at ticks, a "
+     "machine's edges lie at pulses."),
     "Pulses at OUT_X and OUT_Y below 1 ms are counted, and have no length: levels are those of ticks.",
     "The pulse modes of SET_PULSE_MODE are names (`rsm.pulse_format`): no levels on the pulse terminals.",
     "A helix of more than 159,000 turns is void, with the module's error (RINT bit 7).",

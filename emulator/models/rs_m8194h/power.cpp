@@ -1,5 +1,4 @@
 // Power, RESET_CARD and LOAD_INITIAL: what is as before behind each of them (3.2.1, 8).
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
