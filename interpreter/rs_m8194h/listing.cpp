@@ -70,6 +70,7 @@ class ListingReader {
                              [](const TextError& error) { return std::pair(error.line, error.column); });
     if (errors_.empty()) parsed.listing = std::move(listing_);
     parsed.errors = std::move(errors_);
+    parsed.first_trigger = first_trigger_;
     return parsed;
   }
 
@@ -81,7 +82,10 @@ class ListingReader {
   void read(const std::vector<Token>& tokens) {
     const Token& word = tokens.front();
     if (is_word(word.text, "MP") || is_word(word.text, "ISR")) return begin_macro(tokens);
-    if (is_word(word.text, "TRIGGER")) return read_trigger(tokens);
+    if (is_word(word.text, "TRIGGER")) {
+      if (!first_trigger_) first_trigger_ = word;
+      return read_trigger(tokens);
+    }
     if (is_word(word.text, "END")) {
       if (tokens.size() > 1) fail(tokens[1], quoted(tokens[1].text) + " follows END; expected nothing");
       if (!download_) fail(word, "END without a macro; expected MP or ISR before it");
@@ -222,6 +226,7 @@ class ListingReader {
   DownloadOptions download_options_;
   Listing listing_;
   std::vector<TextError> errors_;
+  std::optional<Token> first_trigger_;
   std::optional<Download> download_;
   std::vector<Token> places_;  // of its lines
   bool is_sound_ = true;

@@ -20,10 +20,12 @@
 // Each macro passes the checks of a download.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/text/tokens.h"
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/download.h"
 #include "interpreter/rs_m8194h/macro.h"
@@ -54,8 +56,9 @@ struct Listing {
 };
 
 struct ParsedListing {
-  Listing listing = {};                // only if there is no error
-  std::vector<TextError> errors = {};  // all of them, in the order of the text
+  Listing listing = {};                     // only if there is no error
+  std::vector<TextError> errors = {};       // all of them, in the order of the text
+  std::optional<Token> first_trigger = {};  // its first word, in the text
 };
 ParsedListing parse_listing(std::string_view text, const CommandOptions& command_options = {},
                             const DownloadOptions& download_options = {});

@@ -116,8 +116,9 @@ struct Execution {
 int running_mp(const Execution& execution);
 int running_isr(const Execution& execution);
 
-/// Its first line runs at `first_ms`. What was never downloaded, or has no lines, ends at once. None may run.
+/// False for what was never downloaded as well.
 bool has_lines(const MacroName& name, const Machine& machine);
+/// Its first line runs at `first_ms`. What has no lines ends at once. None may run.
 void start_mp(Execution& execution, int number, std::int64_t first_ms, Machine& machine);
 /// Ahead of its turn, for MP_ISR_CALL where it does not wait: Machine::take_isr() is the usual way.
 void start_isr(Execution& execution, int number, std::int64_t first_ms, Machine& machine);

@@ -1,5 +1,4 @@
 #include "emulator/models/rs_m8194h/language.h"
-#include "base/text/tokens.h"
 
 #include <array>
 #include <cstddef>
@@ -95,17 +94,6 @@ CellRow cells_of(const lang::Command& command, const lang::CommandOptions& optio
   return row;
 }
 
-int line_of_first_trigger(std::string_view text) {
-  int line = 1;
-  for (; !text.empty(); ++line) {
-    const std::size_t end = text.find('\n');
-    const std::vector<Token> tokens = tokens_of(text.substr(0, end), line);
-    if (!tokens.empty() && is_word(tokens[0].text, "TRIGGER")) break;
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
-  return line;
-}
-
 class Listing final : public ProgramLanguage, public ProgramCells {
  public:
   std::string_view name() const override { return "RS-M8194H macros"; }
@@ -138,8 +126,8 @@ class Listing final : public ProgramLanguage, public ProgramCells {
   std::vector<CellRow> assemble(std::string_view text, const DeviceSettings& settings) const override {
     const lang::ParsedListing parsed = parse(text, settings);
     if (!parsed.errors.empty()) throw ProgramError(mistakes_of(parsed.errors));
-    if (!parsed.listing.triggers.empty()) {
-      throw ProgramError(line_of_first_trigger(text), 1,
+    if (parsed.first_trigger) {
+      throw ProgramError(parsed.first_trigger->line, parsed.first_trigger->column,
                          "TRIGGER is not a message to the window; expected macros alone");
     }
     const lang::CommandOptions options = language_options(settings).command;

@@ -1,9 +1,15 @@
 // SUPER-40NC: data registers D, present values of T and C, and special registers D8, in the manual's order.
 #pragma once
 
+#include <cstdint>
+
 #include "emulator/models/super_40nc/row_words.h"
 
 namespace understudy::emulator::models::super_40nc {
+
+// The buffer of user programs: 200 steps of 10 registers.
+inline constexpr std::uint16_t kFirstUserAddress = 3000;
+inline constexpr int kUserRegisters = 2000;
 
 // clang-format off
 inline constexpr auto kDataRows = section("暫存器元件編號一覽表", {
@@ -14,7 +20,7 @@ inline constexpr auto kDataRows = section("暫存器元件編號一覽表", {
     reg(2112, "T{}", s32, RW).times(8, 2, 56).in("ms").kept_at_once(),
     reg(2500, "C{}", s32, RW).times(16, 2, 0).in("count"),
     reg(2532, "C{}", s32, RW).times(16, 2, 16).in("count").kept_at_once(),
-    reg(3000, "USER{}", s32, RW).times(2000, 2, 0),  // 200 steps of 10
+    reg(kFirstUserAddress, "USER{}", s32, RW).times(kUserRegisters, 2, 0),
 });
 
 inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用(一般用途)", {

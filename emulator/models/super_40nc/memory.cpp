@@ -65,7 +65,8 @@ std::uint32_t Super40nc::factory_bits(const RegisterRow& row) const {
 
 bool Super40nc::keeps(const RegisterRow& row) const {
   const bool is_of_timer_or_counter = row.table == Table::coil && row.address >= 600 && row.address < 1000;
-  const bool is_of_user_buffer = row.table == Table::holding && row.address >= 3000 && row.address < 7000;
+  const bool is_of_user_buffer = row.table == Table::holding && row.address >= kFirstUserAddress &&
+                                 row.address < kFirstUserAddress + 2 * kUserRegisters;
   if (is_of_user_buffer) return chose(option("user_buffer", "is_kept"));
   return row.persistent && !(is_of_timer_or_counter && chose(option("latched_contacts", "values_alone")));
 }
