@@ -175,7 +175,10 @@ class Super40nc final : public DeviceOf<Super40nc>,
 
   /// As it is stored: of contacts that are not views.
   // --- for programs: program_machine.cpp -------------------------------------------------------------
-  void report(Code code, int step = 0, int other_step = 0);
+  void report(const ErrorReport& error);
+  void report(Code code) { report({.code = code}); }
+  /// At the line that the mover's program is at, if one is.
+  void report(Code code, Mover of_its_line);
   void clear_error() { state_.error = {}; }
   void error_is_over();
   /// The line of the PLC that begins a motion, as D8095 counts; 0 between them.

@@ -152,7 +152,7 @@ void Super40nc::load_program(std::string_view text) {
   const auto& warnings = all.warnings.empty() ? checked.warnings : all.warnings;
   if (!warnings.empty()) {
     const language::Complaint& first = warnings.front();
-    report(first.code, first.step, first.other_step);
+    report({.code = first.code, .step = first.step, .other_step = first.other_step});
   }
   state_.touched = true;
 }
