@@ -77,6 +77,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// Areas that the text does not name stay as they are. A listing that is refused shows in D8094 to D8096.
   /// What would be wrong with it as a program.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
+  /// What is odd about it, though it loads.
+  std::vector<ProgramMistake> warnings_about(std::string_view text) const;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
   std::vector<ProgramPlace> places() const override;
