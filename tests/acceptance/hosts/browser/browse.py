@@ -2,6 +2,7 @@
 """A person with a browser at the live page: looks at every panel, presses, and checks what became of it (for live.py)."""
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -46,6 +47,12 @@ class Visit:
     def close(self):
         errors = [line['message'] for line in self.driver.get_log('browser') if line['level'] == 'SEVERE']
         self.driver.quit()
+        for _ in range(20):  # its last processes may write for a moment still
+            try:
+                shutil.rmtree(self.folder.name)
+                break
+            except OSError:
+                time.sleep(0.1)
         self.folder.cleanup()
         # While the server or the daemon is away the browser complains of the connection; that is as it should be.
         errors = [error for error in errors if 'WebSocket connection' not in error]

@@ -269,8 +269,8 @@ def faults(visit, stage):
     select(visit, 'kind of fault', 'drop')
     visit.find('.fault_form .check input')[0].click()
     visit.until('the trigger has fields', lambda: len(visit.find('.fault_form .fields label')) > 4)
-    names = [text.split('\n')[0] for text in visit.texts('.fault_form .fields label')]
-    visit.find('.fault_form .fields input')[names.index('function')].send_keys('6')
+    field = lambda name: next(it for it in visit.find('.fault_form .fields label') if it.text.split('\n')[0] == name)
+    field('function').find_element(By.CSS_SELECTOR, 'input').send_keys('6')
     visit.find('.fault_form button[type=submit]')[0].click()
     visit.until('a fault waits', lambda: any('function' in text for text in visit.texts('.scroll td')))
     stage.host_tries(0x1002, 201)

@@ -177,7 +177,7 @@ def restart(options):
         stage.page.send_signal(signal.SIGSTOP)
         visit.until('a server that is stuck is said to be', lambda: 'server does not answer' in visit.texts('.said')[0])
         stage.page.send_signal(signal.SIGCONT)
-        visit.until('and heals', lambda: visit.texts('.said')[0] == '')
+        visit.until('and heals', lambda: visit.texts('.said')[0] == '' and visit.texts('.clock') and visit.texts('.axis h3'))
         before = visit.texts('.clock')[0]
         visit.until('time is told again', lambda: visit.texts('.clock')[0] != before)
         visit.close()
