@@ -121,6 +121,9 @@ CheckedFile checked_program(const Model& model, const std::string& file, const D
     checked.findings.push_back({.place = {file, mistake.line, mistake.column}, .text = mistake.what});
   }
   if (!mistakes.empty()) return checked;
+  for (const ProgramMistake& odd : program_warnings(model, *text, settings)) {
+    checked.findings.push_back({.place = {file, odd.line, odd.column}, .text = odd.what, .is_warning = true});
+  }
   const auto lines = static_cast<std::size_t>(std::count(text->begin(), text->end(), '\n'));
   const bool has_rest = !text->empty() && text->back() != '\n';
   checked.is = std::string(model.language->name()) + " with " + counted(lines + (has_rest ? 1 : 0), "line");
@@ -138,7 +141,7 @@ int check_all(const CheckArguments& arguments, std::span<const std::string_view>
   int code = kExitWell;
   for (const std::string& file : with_folders_opened(arguments.files, endings)) {
     CheckedFile checked = check(file);
-    if (!checked.findings.empty()) code = kExitBadInput;
+    if (checked.is_wrong()) code = kExitBadInput;
     if (*format == FindingFormat::text) {
       print_as_text(checked);
     } else {

@@ -80,6 +80,7 @@ std::string as_json(std::span<const CheckedFile> files) {
       if (finding.place.line > 0) row["line"] = finding.place.line;
       if (finding.place.line > 0 && finding.place.column > 0) row["column"] = finding.place.column;
       row["message"] = finding.text;
+      if (finding.is_warning) row["level"] = "warning";
       findings.push_back(std::move(row));
     }
     count += checked.findings.size();
@@ -111,7 +112,7 @@ std::string as_sarif(std::span<const CheckedFile> files) {
       FindingJson locations = FindingJson::array();
       locations.push_back({{"physicalLocation", std::move(location)}});
       results.push_back({{"ruleId", rule_of(checked)},
-                         {"level", "error"},
+                         {"level", finding.is_warning ? "warning" : "error"},
                          {"message", {{"text", finding.text}}},
                          {"locations", std::move(locations)}});
     }
@@ -130,7 +131,8 @@ std::string as_github(std::span<const CheckedFile> files) {
   std::string lines;
   for (const CheckedFile& checked : files) {
     for (const Finding& finding : checked.findings) {
-      lines += "::error file=" + github_text(finding.place.file, true);
+      lines += std::string(finding.is_warning ? "::warning" : "::error") +
+               " file=" + github_text(finding.place.file, true);
       if (finding.place.line > 0) lines += ",line=" + std::to_string(finding.place.line);
       if (finding.place.line > 0 && finding.place.column > 0)
         lines += ",col=" + std::to_string(finding.place.column);
@@ -165,9 +167,10 @@ Finding finding_of(const FileError::Complaint& complaint, const std::string& fil
 
 void print_as_text(const CheckedFile& checked) {
   for (const Finding& finding : checked.findings) {
-    std::fprintf(stderr, "%s\n", one_line(place_text(finding.place) + finding.text).c_str());
+    const std::string weight = finding.is_warning ? "warning: " : "";
+    std::fprintf(stderr, "%s\n", one_line(place_text(finding.place) + weight + finding.text).c_str());
   }
-  if (checked.findings.empty()) std::printf("%s: %s\n", checked.file.c_str(), checked.is.c_str());
+  if (!checked.is_wrong()) std::printf("%s: %s\n", checked.file.c_str(), checked.is.c_str());
 }
 
 std::string findings_as(FindingFormat format, std::span<const CheckedFile> files) {

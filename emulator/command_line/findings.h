@@ -15,6 +15,7 @@ namespace understudy::emulator::command_line {
 struct Finding {
   FilePlace place;   // line 0: the whole file; column 0: the whole line
   std::string text;  // what is wrong and what was expected, without the place
+  bool is_warning = false;
 };
 
 struct CheckedFile {
@@ -22,6 +23,7 @@ struct CheckedFile {
   std::string kind;  // "bench", "scenario", "steps", "program" or "file": what it was taken for
   std::string is{};  // "a bench with 1 line and 2 devices"; empty where something is wrong
   std::vector<Finding> findings{};
+  bool is_wrong() const { return is.empty(); }
 };
 
 enum class FindingFormat : std::uint8_t { text, json, sarif, github };

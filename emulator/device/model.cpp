@@ -309,6 +309,12 @@ std::vector<ProgramMistake> check_program(const Model& model, std::string_view t
   return model.language->check(text, settings);
 }
 
+std::vector<ProgramMistake> program_warnings(const Model& model, std::string_view text,
+                                             const DeviceSettings& given) {
+  const DeviceSettings settings = checked_settings(model, given);
+  return model.language == nullptr ? std::vector<ProgramMistake>{} : model.language->warnings(text, settings);
+}
+
 std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
                                     std::function<void(const std::string&)> log) {
   const DeviceSettings settings = checked_settings(model, given);

@@ -279,6 +279,9 @@ DeviceSettings checked_settings(const Model& model, const DeviceSettings& given)
 /// SettingError.
 std::vector<ProgramMistake> check_program(const Model& model, std::string_view text,
                                           const DeviceSettings& given);
+/// What is odd about one that loads. Throws SettingError.
+std::vector<ProgramMistake> program_warnings(const Model& model, std::string_view text,
+                                             const DeviceSettings& given);
 /// What is wrong with every program for a model that has no language.
 ProgramMistake no_program(const Model& model);
 /// "1.52" as 152; 0 if it is not a version.

@@ -63,6 +63,8 @@ class ProgramLanguage {
   /// Everything that is wrong with a text, in its order: what loading it into a device made of `settings`
   /// would say. They are checked already, and name a firmware.
   virtual std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const = 0;
+  /// What a text that loads is likely to mean otherwise than it does: a label that stands twice.
+  virtual std::vector<ProgramMistake> warnings(std::string_view, const DeviceSettings&) const { return {}; }
   virtual std::span<const ProgramControl> controls() const { return {}; }
   virtual const ProgramCells* cells() const { return nullptr; }
 

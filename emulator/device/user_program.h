@@ -18,10 +18,10 @@ struct ProgramPlace {
   enum class State : std::uint8_t { stopped, running, waiting, failed };
   std::string program;  // "MAIN", "P1"; empty where there is one
   State state = State::stopped;
-  int line = 0;                    // of program_text(), from 1; 0: it is not told
-  std::string text;                // what stands there
-  std::string waits_for;           // of one that waits: "input 3 is ON", "a delay"
-  std::string why;                 // of one that has stopped or failed, where that is known
+  int line = 0;           // of program_text(), from 1; 0: it is not told
+  std::string text;       // what stands there
+  std::string waits_for;  // of one that waits: "input 3 is ON", "a delay"
+  std::string why;        // it has stopped or failed, or what went wrong on its way, where that is known
   std::optional<SimTime> until{};  // of one that waits for a time: when it is over
 };
 

@@ -249,7 +249,9 @@ class Checker {
     const bool fits = number >= kLeast && number <= kMost;
     const Operand operand{letter, fits ? static_cast<std::int32_t>(number) : 0};
     if (letter == Letter::k) {
-      if (!fits) fail(token, Code::out_of_range, std::string(token.text) + " does not fit into 32 bits");
+      if (!fits)
+        fail(token, Code::out_of_range, std::string(token.text) + " does not fit into 32 bits",
+             "K" + std::to_string(kLeast) + " to K" + std::to_string(kMost));
       return operand;
     }
     if (!fits || block_of(operand) == nullptr) {
@@ -332,7 +334,11 @@ class Checker {
         complaint.expected +=
             ", as in line " + std::to_string(places_[static_cast<std::size_t>(fault.other_line)].line);
       }
-      (fault.is_warning ? checked_.warnings : checked_.errors).push_back(std::move(complaint));
+      switch (fault.weight) {
+        case Fault::Weight::error: checked_.errors.push_back(std::move(complaint)); break;
+        case Fault::Weight::warning: checked_.warnings.push_back(std::move(complaint)); break;
+        case Fault::Weight::note: checked_.notes.push_back(std::move(complaint)); break;
+      }
     }
     if (file_ >= 0) {
       program_.files.emplace(file_, std::move(current_));

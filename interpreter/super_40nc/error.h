@@ -1,6 +1,8 @@
 // The numbers of D8094. The manual prints none; these are ours.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -32,5 +34,41 @@ enum class Code : std::uint8_t {
   emergency_input = 22,  // CEMG
   comparator = 23,
 };
+
+/// In words, by their numbers.
+inline constexpr std::array<std::string_view, 24> kCodeWords{
+    "no error",
+    "an instruction, operand or step that does not exist",
+    "an instruction that has no effect in this program",
+    "a label that does not exist",
+    "a label that stands twice",
+    "CAL and RET, or IF, ELSE and ENDI, that do not fit together",
+    "no END",
+    "contacts or blocks that do not fit together",
+    "a division by zero",
+    "a register that does not exist",
+    "no room in the memory of programs",
+    "the positive limit",
+    "the negative limit",
+    "the positive soft limit",
+    "the negative soft limit",
+    "a home search that failed",
+    "an axis that this program does not own, by D9003 (C21)",
+    "an arc that cannot be",
+    "ALM",
+    "M8002, emergency stop",
+    "a file or recipe that does not exist",
+    "an axis that something else moves, or that moves",
+    "CEMG, emergency input",
+    "a comparator",
+};
+constexpr std::string_view words_of(Code code) { return kCodeWords[static_cast<std::size_t>(code)]; }
+
+/// The program goes on behind a line with such an error.
+constexpr bool leaves_program_running(Code code) {
+  return code == Code::wrong_area || code == Code::division_by_zero || code == Code::out_of_range ||
+         code == Code::axis_not_owned || code == Code::arc_impossible || code == Code::axis_taken ||
+         code == Code::label_twice;
+}
 
 }  // namespace understudy::interpreter::super_40nc

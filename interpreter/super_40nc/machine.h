@@ -55,8 +55,8 @@ class Machine {
   /// X14 as it was at power-up: what an axis turns at until the first RPM.
   virtual std::int32_t rpm_at_power_up(int axis) const = 0;
 
-  /// D8094 to D8096. `step` counts from the base of its area, of one layout of the memory.
-  virtual void report(Code code, int step, int other_step) = 0;
+  /// D8094 to D8096, of a line of this area. `step` counts from the area's base, as D8095 does.
+  virtual void report(Code code, Area area, int step) = 0;
 
   // --- step programs ------------------------------------------------------------------------------
   /// M8x02, M8002 or CEMG is ON: it cannot start.

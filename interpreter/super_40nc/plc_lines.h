@@ -31,7 +31,7 @@ class PlcLines {
   void control_programs(const Instruction& line);
   AxisValues movable(AxisValues values, int step);
   bool report(Code code, int step) {
-    access_.machine().report(code, step, 0);
+    access_.machine().report(code, Area::plc, step);
     return true;
   }
 

@@ -15,7 +15,7 @@
 namespace understudy::interpreter::super_40nc {
 
 void StepPrograms::report(Area area, Code code) {
-  machine_.report(code, base_of(area, options_) + state(area).step, 0);
+  machine_.report(code, area, base_of(area, options_) + state(area).step);
 }
 
 /// An error that stops the program.

@@ -23,15 +23,18 @@ class Structure {
       : program_(program), area_(area), options_(options) {}
 
   std::vector<Fault> run() {
-    int room = area_ == Area::c ? options_.c_capacity : row_of(area_).steps;
+    const int capacity = area_ == Area::c ? options_.c_capacity : row_of(area_).steps;
+    const bool counts_steps = options_.capacity == Options::Capacity::steps;
+    int room = capacity;
     const auto& lines = program_.lines;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       line_ = static_cast<int>(i);
       const Op op = lines[i].op;
-      room -= options_.capacity == Options::Capacity::steps ? steps_of(lines[i]) : 1;
+      room -= counts_steps ? steps_of(lines[i]) : 1;
       if (room < 0 && !is_full_) {
         is_full_ = true;
-        fault(Code::memory_full, "does not fit into area " + std::string(row_of(area_).name));
+        fault(Code::memory_full, "does not fit into area " + std::string(row_of(area_).name),
+              std::to_string(capacity) + (counts_steps ? " steps" : " lines") + " at most");
       }
       if (op != Op::nop) look_at_logic(op);
       look_at_pairs(op);
@@ -139,16 +142,20 @@ class Structure {
     const auto [first, is_new] = labels_.emplace(label, line_);
     if (is_new) return;
     faults_.push_back({line_, Code::label_twice, "label K" + std::to_string(label) + " appears twice", "one",
-                       first->second, options_.double_labels == Options::DoubleLabels::load});
+                       first->second,
+                       options_.double_labels == Options::DoubleLabels::load ? Fault::Weight::warning
+                                                                             : Fault::Weight::error});
   }
 
   static bool names_label(Op op) { return op == Op::jmp || op == Op::cj || op == Op::cjn || op == Op::cal; }
 
   void look_at_jumps() {
     for (const auto& [line, label] : jumps_) {
-      if (!options_.labels_must_exist || labels_.contains(label)) continue;
+      if (labels_.contains(label)) continue;
+      if (options_.labels_are_common && !options_.labels_must_exist) continue;  // another area may have it
       faults_.push_back({line, Code::label_missing, "names a label that the area does not have",
-                         "LAB K" + std::to_string(label)});
+                         "LAB K" + std::to_string(label), -1,
+                         options_.labels_must_exist ? Fault::Weight::error : Fault::Weight::note});
     }
   }
 

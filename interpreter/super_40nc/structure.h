@@ -2,6 +2,7 @@
 // room.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct Fault {
   std::string what;
   std::string expected;
   int other_line = -1;  // of a label that appears twice
-  bool is_warning = false;
+  enum class Weight : std::uint8_t { error, warning, note };
+  Weight weight = Weight::error;
 };
 
 /// In the order of the lines.

@@ -37,6 +37,37 @@ TEST(ProgramTexts, AreCheckedInTheLanguageOfAModel) {
             std::string::npos);
 }
 
+TEST(ProgramTexts, WarningsDoNotCountAsMistakes) {
+  const PrivateFolder folder;
+  const std::string odd = folder.write("odd.lst", "AREA C\nLAB K1\nCJN K2\nLAB K1\nJMP K9\nEND\n");
+  const std::string loads = folder.write("loads.lst", "AREA C\nLAB K1\nLAB K1\nJMP K9\nEND\n");
+  const std::string twice = loads + ":3:1: warning: label K1 appears twice; expected one, as in line 2\n";
+  const std::string missing =
+      loads + ":4:1: warning: JMP K9 names a label that the area does not have; expected LAB K9\n";
+  const Finished checked = understudy({"check", "--model", "super-40nc", loads});
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_EQ(checked.output, loads + ": SUPER-40NC listing with 5 lines\n");
+  EXPECT_EQ(checked.errors, twice + missing);
+  // Beside a mistake, that alone is told.
+  const Finished refused = understudy({"check", "--model", "super-40nc", odd});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.errors, odd + ":3:1: CJN K2 has no condition; expected contacts before it\n");
+  // As a choice, a mistake.
+  EXPECT_EQ(
+      understudy({"check", "--model", "super-40nc", "--choice", "duplicate_label=refused_at_load", loads})
+          .exit_code,
+      2);
+
+  const auto form = [&](const char* name) {
+    return understudy({"check", "--model", "super-40nc", "--format", name, loads}).output;
+  };
+  EXPECT_NE(form("github").find("::warning file="), std::string::npos);
+  EXPECT_EQ(form("github").find("::error"), std::string::npos);
+  EXPECT_NE(form("sarif").find("\"level\": \"warning\""), std::string::npos);
+  EXPECT_NE(form("json").find("\"level\": \"warning\""), std::string::npos);
+  EXPECT_NE(form("json").find("\"is\": \"SUPER-40NC listing with 5 lines\""), std::string::npos);
+}
+
 TEST(ProgramTexts, AreCheckedForAFirmwareAndForOptions) {
   const PrivateFolder folder;
   const std::string file = folder.write("good.wb", kGood);

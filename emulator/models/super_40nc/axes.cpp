@@ -99,9 +99,21 @@ std::int64_t Super40nc::braking_pulses(int axis) const {
 
 // ---- errors
 
-void Super40nc::report(Code code, int step, int other_step) {
-  if (code == Code::none || (state_.error.code != Code::none && state_.error.tick == now())) return;
-  state_.error = {.code = code, .step = step, .other_step = other_step, .tick = now()};
+void Super40nc::report(const ErrorReport& error) {
+  if (error.code == Code::none || (state_.error.code != Code::none && state_.error.tick == now())) return;
+  state_.error = error;
+  state_.error.tick = now();
+}
+
+void Super40nc::report(Code code, Mover of_its_line) {
+  ErrorReport error{.code = code, .step = line_step(of_its_line)};
+  if (of_its_line < Mover::plc) {
+    const auto area = static_cast<Area>(of_its_line);
+    const bool runs = state_.steps.programs[interpreter::super_40nc::index_of(area)].phase !=
+                      interpreter::super_40nc::Phase::idle;
+    if (runs) error.area = area;
+  }
+  report(error);
 }
 
 /// A program has started, or a motion by hand or of the PLC.
@@ -112,14 +124,14 @@ void Super40nc::error_is_over() {
 void Super40nc::fail(int axis_number, Code code) {
   axis(axis_number).has_error = true;
   give_erc_behind(axis_number, code);
-  report(code, line_step(axis(axis_number).mover));
+  report(code, axis(axis_number).mover);
 }
 
 // ---- starts
 
 Grant Super40nc::ask(int axis_number, Request request) {
   const Grant given = granted(axis(axis_number).holder, request);
-  if (given == Grant::refused) report(Code::axis_taken, plc_step_);
+  if (given == Grant::refused) report(Code::axis_taken, Mover::plc);
   return given;
 }
 

@@ -77,6 +77,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// Areas that the text does not name stay as they are. A listing that is refused shows in D8094 to D8096.
   /// What would be wrong with it as a program.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
+  /// What is odd about it, though it loads.
+  std::vector<ProgramMistake> warnings_about(std::string_view text) const;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
   std::vector<ProgramPlace> places() const override;
@@ -175,7 +177,10 @@ class Super40nc final : public DeviceOf<Super40nc>,
 
   /// As it is stored: of contacts that are not views.
   // --- for programs: program_machine.cpp -------------------------------------------------------------
-  void report(Code code, int step = 0, int other_step = 0);
+  void report(const ErrorReport& error);
+  void report(Code code) { report({.code = code}); }
+  /// At the line that the mover's program is at, if one is.
+  void report(Code code, Mover of_its_line);
   void clear_error() { state_.error = {}; }
   void error_is_over();
   /// The line of the PLC that begins a motion, as D8095 counts; 0 between them.

@@ -84,6 +84,9 @@ class ProgramListing final : public ProgramLanguage {
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return Super40nc(settings).mistakes_in(text);
   }
+  std::vector<ProgramMistake> warnings(std::string_view text, const DeviceSettings& settings) const override {
+    return Super40nc(settings).warnings_about(text);
+  }
   /// A key acts when it goes on: it is let go before.
   std::span<const ProgramControl> controls() const override {
     using By = ProgramControl::By;

@@ -49,6 +49,10 @@ inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功�
     data(9046, 9099).kept_at_once(),
 });
 
+/// Counters of the chip, as D9x27 to D9x30 and D9x55 choose among them.
+inline constexpr BitField kCounterBits[] = {bits(0, "C1"), bits(1, "C2"), bits(2, "C3"), bits(3, "C4")};
+inline constexpr BitField kCountersButTheFirst[] = {bits(0, "C2"), bits(1, "C3"), bits(2, "C4")};
+
 inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用(XYZU 軸用)", {
     parameter(0).range(1, 7).from_factory(1),  // X0
     parameter(1).range(0, 1).does<change_axis>(1),
@@ -77,10 +81,10 @@ inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用
     parameter(24).range(0, 2).does<change_axis>(24),
     parameter(25).range(0, 3).does<change_axis>(25),
     parameter(26).range(0, 1).does<change_axis>(26),
-    parameter(27).range(0, 15).not_modelled("there is no CLR"),
-    parameter(28).range(0, 15).from_factory(15),
-    parameter(29).range(0, 15),
-    parameter(30).range(0, 7).does<change_axis>(30),
+    parameter(27).range(0, 15).with_bits(kCounterBits).not_modelled("there is no CLR"),
+    parameter(28).range(0, 15).with_bits(kCounterBits).from_factory(15),
+    parameter(29).range(0, 15).with_bits(kCounterBits),
+    parameter(30).range(0, 7).with_bits(kCountersButTheFirst).does<change_axis>(30),
     parameter(31).range(0, 3).does<change_axis>(31),
     parameter(32).range(0, 6).from_factory(6).does<change_axis>(32),  // X35
     parameter(33).range(0, 3).from_factory(1).does<change_axis>(33),  // X35
@@ -105,7 +109,7 @@ inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用
     parameter(52).range(0, 1).does<change_axis>(52),
     parameter(53).range(0, 11).not_modelled("synchronous starts"),
     parameter(54).range(0, 3).not_modelled("synchronous starts"),
-    parameter(55).range(0, 15).does<change_axis>(55),
+    parameter(55).range(0, 15).with_bits(kCounterBits).does<change_axis>(55),
     parameter(56).range(0, 4095).in("pulse"),  // X1
     parameter(57).range(0, 2),
     parameter(58).range(0, 1).not_modelled("pulses of the wheel behind a stop"),

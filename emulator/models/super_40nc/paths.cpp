@@ -63,7 +63,7 @@ Grant Super40nc::ask_for_path(const std::array<bool, kAxisCount>& takes) {
     if (given == Grant::waits) return Grant::waits;
     if (given == Grant::refused) worst = Grant::refused;
   }
-  if (worst == Grant::refused) report(Code::axis_taken, line_step(Mover::c));
+  if (worst == Grant::refused) report(Code::axis_taken, Mover::c);
   return worst;
 }
 
@@ -127,7 +127,7 @@ bool Super40nc::begin_path(const PathPlan& plan) {
     const motion::Cause why = plan.takes[n] ? blocked_on_path(number, plan.path) : motion::Cause::none;
     if (why == motion::Cause::none) continue;
     is_blocked = axis(number).has_error = true;
-    report(code_of(why), line_step(Mover::c));
+    report(code_of(why), Mover::c);
   }
   if (is_blocked || path.begin(plan.path.begin, state_.chips, before_motion()) != motion::Cause::none) {
     return false;

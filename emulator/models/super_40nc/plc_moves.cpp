@@ -79,7 +79,7 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
     if (!is_new || device_.is_inhibited(axis)) continue;
     const int step = steps[static_cast<std::size_t>(axis)];
     if (!language::may_move(*this, device_.language_options(), Area::plc, axis)) {
-      device_.report(Code::axis_not_owned, step);
+      device_.report({.code = Code::axis_not_owned, .step = step});
       continue;
     }
     device_.set_plc_step(step);

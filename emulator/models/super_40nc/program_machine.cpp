@@ -91,8 +91,8 @@ std::int32_t ProgramMachine::rpm_at_power_up(int axis) const {
   return device_.state().rpm_at_power_up[static_cast<std::size_t>(axis)];
 }
 
-void ProgramMachine::report(language::Code code, int step, int other_step) {
-  device_.report(code, step, other_step);
+void ProgramMachine::report(language::Code code, Area area, int step) {
+  device_.report({.code = code, .step = step, .area = area});
 }
 
 // ---- step programs
@@ -123,7 +123,7 @@ Begun ProgramMachine::begin_each(Area by, const language::AxisValues& values, Re
   for (int axis = 0; axis < kAxisCount; ++axis) {
     if (!is_set(values, axis)) continue;
     if (device_.granted(device_.axis(axis).holder, request) != Grant::starts) {
-      device_.report(Code::axis_taken, device_.line_step(mover_of(by)));
+      device_.report(Code::axis_taken, mover_of(by));
       continue;
     }
     if (!start(axis, value_of_axis(values, axis))) {
@@ -157,7 +157,7 @@ Begun ProgramMachine::begin(Area by, const language::MarkSearch& search) {
     const std::int64_t distance = device_.distance_to(axis, base + value);
     const bool is_against = (beyond < 0 && distance > 0) || (beyond > 0 && distance < 0);
     if (is_against && device_.chose(option("mrk_against", "void_with_a_code"))) {
-      device_.report(Code::out_of_range, device_.line_step(mover_of(by)));
+      device_.report(Code::out_of_range, mover_of(by));
       return true;
     }
     const bool begins = beyond == 0 ? device_.begin_blind_mark(axis, base + value, rpm, mover_of(by))
@@ -206,7 +206,7 @@ Begun ProgramMachine::begin(Area by, const language::Rotation& rotation) {
     if (given == Grant::new_speed) {
       device_.change_turning(axis, rpm, mover_of(by));
     } else if (given != Grant::starts) {
-      device_.report(Code::axis_taken, device_.line_step(mover_of(by)));
+      device_.report(Code::axis_taken, mover_of(by));
     } else if (!device_.begin_turning(axis, rpm, mover_of(by))) {
       device_.break_program(mover_of(by));
       return Begun::refused;
@@ -240,7 +240,7 @@ Begun ProgramMachine::begin(Area by, const language::WheelRatios& ratios) {
         return Begun::refused;
       }
     } else {
-      device_.report(Code::axis_taken, device_.line_step(mover_of(by)));
+      device_.report(Code::axis_taken, mover_of(by));
       continue;
     }
     state.mover = mover_of(by);

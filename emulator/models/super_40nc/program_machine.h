@@ -33,7 +33,7 @@ class ProgramMachine final : public language::Machine {
   bool set_special_register(int number, std::int32_t value) override;
   std::int32_t parameter_in_force(int number) const override;
   std::int32_t rpm_at_power_up(int axis) const override;
-  void report(language::Code code, int step, int other_step) override;
+  void report(language::Code code, language::Area area, int step) override;
 
   bool is_held_in_reset(language::Area area) const override;
   void program_starts(language::Area area) override;

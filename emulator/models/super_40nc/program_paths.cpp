@@ -139,7 +139,7 @@ Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mo
           frame.takes, frame.end_lu, feed, kModeLine,
           [](const motion::Point& from, const motion::Point& to) { return motion::line(from, to); });
     }
-    if (reports) device_.report(Code::arc_impossible, device_.line_step(Mover::c));
+    if (reports) device_.report(Code::arc_impossible, Mover::c);
     return Begun::void_;
   }
 }

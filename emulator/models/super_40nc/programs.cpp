@@ -114,6 +114,18 @@ std::vector<ProgramMistake> Super40nc::mistakes_in(std::string_view text) const 
   return mistakes_of(language::check(text, options_with_room()));
 }
 
+std::vector<ProgramMistake> Super40nc::warnings_about(std::string_view text) const {
+  const language::Checked checked = language::check(text, options_with_room());
+  std::vector<language::Complaint> all = checked.warnings;
+  all.insert(all.end(), checked.notes.begin(), checked.notes.end());
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
+  std::vector<ProgramMistake> warnings;
+  for (const language::Complaint& one : all) warnings.push_back({one.line, one.column, one.message()});
+  return warnings;
+}
+
 void Super40nc::load_program(std::string_view text) {
   if (powered() && registers().is_on(kept_d(9021)) && chose(option("edit_lock", "d9021_refuses_programs"))) {
     throw ProgramError(0, 0, "D9021 (C15) locks programs; expected 0 there");
@@ -152,7 +164,7 @@ void Super40nc::load_program(std::string_view text) {
   const auto& warnings = all.warnings.empty() ? checked.warnings : all.warnings;
   if (!warnings.empty()) {
     const language::Complaint& first = warnings.front();
-    report(first.code, first.step, first.other_step);
+    report({.code = first.code, .step = first.step, .other_step = first.other_step});
   }
   state_.touched = true;
 }

@@ -23,12 +23,14 @@
 
 namespace understudy::emulator::models::super_40nc {
 
+using interpreter::super_40nc::Area;
 using interpreter::super_40nc::Code;
 
 /// D8094 to D8096.
 struct ErrorReport {
   Code code = Code::none;
   std::int32_t step = 0;
+  Area area = Area::plc;  // of the step program whose line it is; the PLC: of its own, or of no line
   std::int32_t other_step = 0;
   Tick tick = -1;  // of the first of several in one tick, which stays
 

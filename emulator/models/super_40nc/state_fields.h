@@ -54,6 +54,11 @@ struct StateOf<interpreter::super_40nc::Code> {
 };
 
 template <>
+struct StateOf<interpreter::super_40nc::Area> {
+  static constexpr auto last = interpreter::super_40nc::Area::plc;
+};
+
+template <>
 struct StateOf<emulator::models::super_40nc::Contacts> {
   using Value = emulator::models::super_40nc::Contacts;
   static constexpr auto fields = FieldList{field("flags", &Value::flags)};
@@ -63,7 +68,7 @@ template <>
 struct StateOf<emulator::models::super_40nc::ErrorReport> {
   using Value = emulator::models::super_40nc::ErrorReport;
   static constexpr auto fields =
-      FieldList{field("code", &Value::code), field("step", &Value::step),
+      FieldList{field("code", &Value::code), field("step", &Value::step), field("area", &Value::area),
                 field("other_step", &Value::other_step), field("tick", &Value::tick)};
 };
 

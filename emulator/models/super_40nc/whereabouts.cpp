@@ -38,6 +38,15 @@ int line_of_step(std::string_view text, std::string_view area, const std::string
   return 0;
 }
 
+/// Why a program stands where it does, as far as D8094 says so.
+std::string why_of(const ErrorReport& error, language::Area area, bool is_idle) {
+  const bool stops_all = error.code == Code::emergency_stop || error.code == Code::emergency_input;
+  if (error.code == Code::none || (error.area != area && !(stops_all && is_idle))) return {};
+  const std::string step = error.area == area ? " at step " + std::to_string(error.step) : "";
+  return "D8094 = " + std::to_string(static_cast<int>(error.code)) + step + ": " +
+         std::string(language::words_of(error.code));
+}
+
 }  // namespace
 
 std::vector<ProgramPlace> Super40nc::places() const {
@@ -50,12 +59,19 @@ std::vector<ProgramPlace> Super40nc::places() const {
     if (code.is_empty()) continue;
     ProgramPlace place;
     place.program = row.name;
-    if (const int line = code.line_at(step.step); line >= 0 && step.phase != language::Phase::idle) {
+    const bool is_idle = step.phase == language::Phase::idle;
+    place.why = why_of(state_.error, row.area, is_idle);
+    const bool is_of_error = is_idle && state_.error.area == row.area;
+    if (is_of_error && !place.why.empty() && !language::leaves_program_running(state_.error.code)) {
+      place.state = ProgramPlace::State::failed;
+    }
+    // Where it is, or what stopped it.
+    const int at = is_of_error ? state_.error.step - language::base_of(row.area, options_) : step.step;
+    if (const int line = code.line_at(at); line >= 0 && (!is_idle || (is_of_error && !place.why.empty()))) {
       place.text = language::text_of(code.line(line));
       for (const int base : {row.base, row.older_base, 0}) {
-        if (place.line == 0) {
-          place.line = line_of_step(text, row.name, std::to_string(base + step.step) + " " + place.text);
-        }
+        if (place.line != 0) break;
+        place.line = line_of_step(text, row.name, std::to_string(base + at) + " " + place.text);
       }
     }
     switch (step.phase) {

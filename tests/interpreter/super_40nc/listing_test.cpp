@@ -219,6 +219,22 @@ TEST(Super40ncListing, LoadsADoubledLabelAndReportsIt) {
   EXPECT_FALSE(check("AREA Y\nLAB K5\nLAB K5\nEND\n", strict).program);
 }
 
+/// It stops there, with D8094 = 3, when it comes to it: not before.
+TEST(Super40ncListing, LoadsAJumpWithoutItsLabelAndNotesIt) {
+  for (const char* jump : {"JMP K9", "CAL K9", "LD M0\nCJ K9"}) {
+    const std::string text = "AREA X\nLAB K1\n" + std::string(jump) + "\nEND\nAREA Y\nLAB K9\nEND\n";
+    const Checked checked = check(text);
+    ASSERT_TRUE(checked.program) << jump;
+    EXPECT_TRUE(checked.warnings.empty()) << jump;
+    ASSERT_EQ(checked.notes.size(), 1u) << jump;
+    EXPECT_EQ(checked.notes[0].code, Code::label_missing);
+    Options common;
+    common.labels_are_common = true;
+    EXPECT_TRUE(check(text, common).notes.empty()) << jump;
+  }
+  EXPECT_TRUE(check("AREA X\nLAB K1\nJMP K1\nEND\n").notes.empty());
+}
+
 TEST(Super40ncListing, OtherReadingsRefuseOtherThings) {
   Options options;
   options.timers_can_be_reset = false;

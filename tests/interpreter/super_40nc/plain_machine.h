@@ -30,7 +30,7 @@ class PlainMachine : public Machine {
     return std::exchange(registers.at(place(number)), value) != value;
   }
   std::int32_t rpm_at_power_up(int) const override { return 100; }
-  void report(Code, int, int) override {}
+  void report(Code, Area, int) override {}
   bool is_held_in_reset(Area) const override { return false; }
   void program_starts(Area) override {}
   void program_ended(Area) override {}

@@ -60,9 +60,7 @@ class ScriptedMachine : public Machine {
     return has_changed;
   }
   std::int32_t rpm_at_power_up(int axis) const override { return 100 * (axis + 1); }
-  void report(Code code, int step, int other_step) override {
-    codes.push_back({static_cast<int>(code), step, other_step});
-  }
+  void report(Code code, Area, int step) override { codes.push_back({static_cast<int>(code), step, 0}); }
 
   bool is_held_in_reset(Area area) const override { return held_in_reset.contains(area); }
   void program_starts(Area area) override { say(area, "starts"); }

@@ -198,6 +198,62 @@ TEST(Super40ncFinePoints, APlaceIsALineOfTheText) {
   }
 }
 
+/// Onlookers see why a program stands, or what it has passed over, beside its line.
+TEST(Super40ncFinePoints, AnOnlookerSeesWhatWentWrong) {
+  using enum ProgramPlace::State;
+  struct Case {
+    const char* area;
+    const char* lines;
+    const char* contact;
+    ProgramPlace::State state;
+    const char* text;
+    const char* why;
+  };
+  for (const Case& it : {
+           Case{"X", "NOP\nDRV K100\nEND\n", "M8100", stopped, "DRV K100",
+                "D8094 = 16 at step 1501: an axis that this program does not own, by D9003 (C21)"},
+           Case{"X", "DRV K100\nTMR K9999\nEND\n", "M8100", waiting, "TMR K9999",
+                "D8094 = 16 at step 1500: an axis that this program does not own, by D9003 (C21)"},
+           Case{"C", "CW K500 K0 K70 K0\nEND\n", "M8000", stopped, "CW K500 K0 K70 K0",
+                "D8094 = 17 at step 0: an arc that cannot be"},
+           Case{"U", "NOP\nJMP K5\nEND\n", "M8400", failed, "JMP K5",
+                "D8094 = 3 at step 3001: a label that does not exist"},
+           Case{"U", "NOP\nEND\n", "M8400", stopped, "", ""},
+       }) {
+    OneSuper40nc one(
+        {.set = {{"D9003", 2}, {"D9016", 0}}, .program = std::string("AREA ") + it.area + "\n" + it.lines});
+    one.set(it.contact, 1);
+    one.run(5);
+    const std::vector<ProgramPlace> places = one.it().places();
+    ASSERT_EQ(places.size(), 1U);
+    EXPECT_EQ(places[0].state, it.state) << it.lines;
+    EXPECT_EQ(places[0].text, it.text) << it.lines;
+    EXPECT_EQ(places[0].why, it.why) << it.lines;
+    EXPECT_EQ(places[0].line > 0, *it.text != 0) << it.lines;
+  }
+}
+
+/// A limit is told of the program that it stops, not of one that stands, nor a jog's of any; M8002 stops all.
+TEST(Super40ncFinePoints, AnOnlookerSeesWhatStoppedAProgram) {
+  OneSuper40nc one({.program = "AREA C\nNOP\nEND\nAREA X\nDRV K90000\nEND\n"});
+  const auto why = [&](std::size_t program) { return one.it().places().at(program).why; };
+  one.set("M8100", 1);
+  one.run(50);
+  one.input("X1", true);
+  one.run(5);
+  EXPECT_EQ(why(0), "");
+  EXPECT_EQ(why(1), "D8094 = 11 at step 1500: the positive limit");
+  EXPECT_EQ(one.it().places().at(1).state, ProgramPlace::State::failed);
+  one.set("M8103", 1);
+  one.run(5);
+  EXPECT_EQ(one.get("D8094"), 11);
+  EXPECT_EQ(why(0) + why(1), "");
+  one.set("M8002", 1);
+  one.run(5);
+  EXPECT_EQ(why(0), "D8094 = 19: M8002, emergency stop");
+  EXPECT_EQ(why(1), why(0));
+}
+
 /// A target that another zero has moved while the axis went there is no base of what follows: the present
 /// position is.
 TEST(Super40ncFinePoints, APositionSetOnTheWayIsTheNextBase) {
