@@ -29,6 +29,8 @@ if(UNDERSTUDY_SANITIZERS)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # With sanitizers g++ takes the standard library's own variants for uninitialized (GCC bug 105562).
     add_compile_options(-Wno-maybe-uninitialized)
+  else()
+    add_compile_options(-fno-sanitize=function)  # with it clang 14 cannot compile coroutines
   endif()
 endif()
 

