@@ -274,6 +274,13 @@ int control(const ControlArguments& arguments) {
       std::printf("simulated time %s\n",
                   format_duration(SimTime{reply.at("simulated_time_ns").get<std::int64_t>()}).c_str());
     }
+    if (accepted && !arguments.json && reply.contains("warnings")) {
+      for (const Json& odd : reply.at("warnings")) {
+        std::fprintf(stderr, "understudy: ctl program: line %d, column %d: warning: %s\n",
+                     odd.at("line").get<int>(), odd.at("column").get<int>(),
+                     one_line(odd.at("what").get<std::string>()).c_str());
+      }
+    }
     if (accepted && !reply.value("reached", true)) {
       if (!arguments.json) {
         std::fprintf(stderr, "understudy: ctl run-until: '%s' did not come true within %s\n",

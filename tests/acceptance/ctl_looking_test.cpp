@@ -148,6 +148,22 @@ TEST(StandardInput, IsAFileWhereAListingIsExpected) {
 }
 
 /// As much as a device holds, which is more than a line of 64 KiB.
+TEST(CtlProgram, TellsWhatIsOddAboutWhatItLoads) {
+  const PrivateFolder folder;
+  const auto daemon = RunningUnderstudy::of_model("super-40nc", {"--speed", "manual"});
+  const std::string odd = folder.write("odd.lst", "AREA C\nLAB K1\nLAB K1\nJMP K9\nEND\n");
+  const Finished loaded = daemon->ctl({"program", "device", odd});
+  EXPECT_EQ(loaded.exit_code, 0);
+  EXPECT_EQ(
+      loaded.errors,
+      "understudy: ctl program: line 3, column 1: warning: label K1 appears twice; expected one, as in line "
+      "2\n"
+      "understudy: ctl program: line 4, column 1: warning: JMP K9 names a label that the area does not have; "
+      "expected LAB K9\n");
+  const Finished well = daemon->ctl({"program", "device", folder.write("well.lst", "AREA C\nEND\n")});
+  EXPECT_EQ(well.output + well.errors, "");
+}
+
 TEST(CtlProgram, LoadsAFullDeviceAndGivesItBack) {
   std::string files;
   for (int number = 0; number < 80; ++number) {

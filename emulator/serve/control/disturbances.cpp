@@ -68,17 +68,21 @@ Json course_of(std::size_t number, const world::ArmedFault& armed, const world::
   return entry;
 }
 
+Json mistakes_as_json(const std::vector<ProgramMistake>& mistakes) {
+  Json list = Json::array();
+  for (const ProgramMistake& mistake : mistakes) {
+    list.push_back({{"line", mistake.line}, {"column", mistake.column}, {"what", mistake.what}});
+  }
+  return list;
+}
+
 /// The first mistake for people, and all of them.
 Json refusal_of(const ProgramError& error) {
-  Json mistakes = Json::array();
-  for (const ProgramMistake& mistake : error.mistakes) {
-    mistakes.push_back({{"line", mistake.line}, {"column", mistake.column}, {"what", mistake.what}});
-  }
   const std::size_t more = error.mistakes.size() - 1;
   return Json{
       {"ok", false},
       {"error", in_text(error.first()) + (more > 0 ? " (and " + std::to_string(more) + " more)" : "")},
-      {"mistakes", std::move(mistakes)}};
+      {"mistakes", mistakes_as_json(error.mistakes)}};
 }
 
 /// "it is busy (reason 5)"; the number is the device's own.
@@ -188,12 +192,16 @@ Json program_message(Daemon& daemon, const Json& message) {
     const UserProgram* const program = device.user_program();
     return Json{{"ok", true}, {"text", program != nullptr ? program->program_text() : ""}};
   }
+  const std::string text = demand_text(message, "text");
   try {
-    daemon.world().load_program(number, demand_text(message, "text"));
+    daemon.world().load_program(number, text);
   } catch (const ProgramError& error) {
     return refusal_of(error);
   }
-  return Json{{"ok", true}};
+  Json reply{{"ok", true}};
+  const auto warnings = program_warnings(device.model(), text, device.settings());
+  if (!warnings.empty()) reply["warnings"] = mistakes_as_json(warnings);
+  return reply;
 }
 
 Json inject_message(Daemon& daemon, const Json& message) {
