@@ -340,6 +340,21 @@ TEST(RsM8194hAxis, AnExternalDriveThatWasVoidStopsNothing) {
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
 }
 
+TEST(RsM8194hAxis, AnExternalDriveThatALimitEndsStopsNothing) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V X 8000", "RSM_SET_SV X 100", "RSM_EXD_CP X 1000"});
+  rsm.pin(0, Pin::limit_plus, true);
+  rsm.run(5);
+  rsm.device().set_input(terminal(0, Pin::external_plus), 1);
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("ERROR_CODE_X"), 4);
+  rsm.send("RSM_CONTINUE_MOVE X -300");
+  rsm.run(5);
+  rsm.device().set_input(terminal(0, Pin::external_plus), 2);
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
+}
+
 TEST(RsM8194hAxis, InPositionIsPartOfADrive) {
   OneRsm rsm;
   rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000", "RSM_SET_INPOS X 1 0", "RSM_FIXED_MOVE X 10"});
