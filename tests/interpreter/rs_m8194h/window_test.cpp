@@ -295,6 +295,24 @@ TEST(RsM8194hWindow, RectanglesEndEarlierIfChosen) {
   }
 }
 
+TEST(RsM8194hWindow, FrnetWaitMayHaveOneRegisterLessIfChosen) {
+  const CommandOptions options{.frnet_wait_may_have_7 = true};
+  const Registers full = {macro_code(Verb::frnet_wait), 8, 0, 1, 0, 1, 2, 3};
+  ASSERT_EQ(row_of(Verb::frnet_wait).registers(), 8);
+  for (std::size_t count = 1; count <= 9; ++count) {
+    Registers sent = full;
+    sent.resize(count, 0);
+    for (const bool may : {false, true}) {
+      const Decoded decoded =
+          decode(sent, State::mp_download, WordOrder::high_first, may ? options : CommandOptions{});
+      const bool is_good = count == 8 || (may && count == 7);
+      EXPECT_EQ(decoded.fault, is_good ? Fault::none : Fault::register_count) << count << may;
+      if (!is_good) continue;
+      EXPECT_EQ(decoded.command.values[3], count == 8 ? 0x20003U : 2U);
+    }
+  }
+}
+
 TEST(RsM8194hWindow, CodeOfAMisprintIsItsCommandIfChosen) {
   const Registers sent = {0x0CB2, 1, 2, 0, 0, 300, 0, 18000, 7, 0xA120};
   EXPECT_EQ(decode(sent, State::mp_download, WordOrder::high_first).fault, Fault::undefined_command);

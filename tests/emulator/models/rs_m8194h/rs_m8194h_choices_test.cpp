@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "emulator/device/program_error.h"
@@ -255,6 +256,46 @@ TEST(RsM8194hChoices, HoldsAtOnceOvertakeWhatWaits) {
   rsm.send("RSM_DRV_START Y");
   rsm.run_to_rest();
   EXPECT_EQ(rsm.get("LP_Y"), 100);
+}
+
+TEST(RsM8194hChoices, LatchesOutliveACardResetLikeTheCounters) {
+  for (const bool are_kept : {false, true}) {
+    OneRsm rsm({.choices = {{"reset_card_counters", are_kept ? "kept" : "zero"}}});
+    rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_SET_LP X 500",
+              "RSM_SYNC_ACTION X X 32 0 1 0 0 0 0 0 0 0", "RSM_FIXED_MOVE X 100"});
+    rsm.run_to_rest();
+    rsm.run(2);
+    EXPECT_EQ(rsm.get("LATCH_X"), 600);
+    rsm.send("RSM_RESET_CARD");
+    rsm.run(2);
+    EXPECT_EQ(rsm.get("LATCH_X"), are_kept ? 600 : 0);
+    EXPECT_EQ(rsm.get("LP_X"), are_kept ? 600 : 0);
+  }
+}
+
+TEST(RsM8194hChoices, ACardResetThatKeepsSettingsKeepsTheirOrder) {
+  const auto counts = [](int number) {
+    return "ISR " + std::to_string(number) +
+           "\nRSM_MACRO_VAR_CALCULATE VAR0 + 1 VAR0\nRSM_MACRO_SET_VAR VAR" + std::to_string(number) +
+           " VAR0\nEND\n";
+  };
+  OneRsm rsm({.program = counts(1) + counts(2),
+              .choices = {{"reset_card_settings", "kept"}, {"isr_order", "by_order_of_enabling"}}});
+  rsm.send({"RSM_SET_SV XY 1000", "RSM_SET_V XY 1000", "RSM_ENABLE_INT", "RSM_INTFACTOR_ENABLE Y 7 2",
+            "RSM_INTFACTOR_ENABLE X 7 1", "RSM_RESET_CARD", "RSM_FIXED_MOVE XY 10"});
+  rsm.run(50);
+  EXPECT_EQ(rsm.get("VAR2"), 1);
+  EXPECT_EQ(rsm.get("VAR1"), 2);
+}
+
+TEST(RsM8194hChoices, ACardResetLeavesAWordOrderThatIsKept) {
+  for (const bool is_kept : {false, true}) {
+    OneRsm rsm({.choices = {{"reset_card_own_words", "as_at_power_on"},
+                            {"word_order_kept", is_kept ? "kept" : "0"}}});
+    rsm.set("WORD_ORDER", 1);
+    rsm.send("RSM_RESET_CARD");
+    EXPECT_EQ(rsm.get("WORD_ORDER"), is_kept ? 1 : 0);
+  }
 }
 
 TEST(RsM8194hChoices, PulsesThatOutHasGivenAreCountedBehindACardReset) {

@@ -340,19 +340,25 @@ TEST(RsM8194hAxis, AnExternalDriveThatWasVoidStopsNothing) {
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
 }
 
-TEST(RsM8194hAxis, AnExternalDriveThatALimitEndsStopsNothing) {
+/// Neither does it keep the other input from beginning one.
+TEST(RsM8194hAxis, AnExternalDriveThatALimitEndsIsNone) {
   OneRsm rsm;
-  rsm.send({"RSM_SET_MAX_V X 8000", "RSM_SET_SV X 100", "RSM_EXD_CP X 1000"});
+  rsm.send({"RSM_SET_MAX_V X 8000", "RSM_SET_SV X 100", "RSM_SET_A X 1000000", "RSM_EXD_CP X 1000"});
   rsm.pin(0, Pin::limit_plus, true);
   rsm.run(5);
   rsm.device().set_input(terminal(0, Pin::external_plus), 1);
   rsm.run(5);
   EXPECT_EQ(rsm.get("ERROR_CODE_X"), 4);
-  rsm.send("RSM_CONTINUE_MOVE X -300");
-  rsm.run(5);
+  rsm.device().set_input(terminal(0, Pin::external_minus), 1);
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("CV_X"), 1000);
+  EXPECT_LT(rsm.get("LP_X"), 0);
   rsm.device().set_input(terminal(0, Pin::external_plus), 2);
   rsm.run(20);
-  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
+  EXPECT_EQ(rsm.get("CV_X"), 1000);
+  rsm.device().set_input(terminal(0, Pin::external_minus), 2);
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
 }
 
 TEST(RsM8194hAxis, InPositionIsPartOfADrive) {
