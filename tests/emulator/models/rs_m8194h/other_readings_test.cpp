@@ -119,6 +119,39 @@ TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathSlowsDownByItsOwnRamp) {
   }
 }
 
+TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathHasBegunAlready) {
+  SteadyRsm rsm(Choices{{"stop_one_of_path", "it_alone_stops"}});
+  rsm.send({"RSM_VECTOR_SPEED 0", "RSM_SET_SV X 100", "RSM_SET_A X 5000", "RSM_SET_PRESET U 77",
+            "RSM_SYNC_ACTION X U 16 0 0 1 0 0 0 0 0 0", "RSM_LINE_2D 2000 0"});
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("LP_U"), 77);
+  rsm.send({"RSM_SET_LP U 0", "RSM_STOP_SLOWLY X"});
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS") & 1, 1) << "it slows down";
+  EXPECT_EQ(rsm.get("LP_U"), 0) << "D-STA came with the path";
+}
+
+TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathAtItsStartSpeedStands) {
+  SteadyRsm rsm(Choices{{"stop_one_of_path", "it_alone_stops"}});
+  rsm.send({"RSM_VECTOR_SPEED 0", "RSM_LINE_2D 2000 0"});
+  rsm.run(100);
+  const Value at = rsm.get("LP_X");
+  rsm.send("RSM_STOP_SLOWLY X");
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 2);
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("LP_X"), at);
+}
+
+TEST(RsM8194hOtherReadings, ASegmentMayComeOnceTheNextHasBegun) {
+  SteadyRsm rsm(Choices{{"rint_stream", "a_segment_may_come"}});
+  rsm.send({"RSM_LINE_2D_INITIAL X Y 1000 1000 1000", "RSM_LINE_2D_CONTINUE 0 100 0",
+            "RSM_LINE_2D_CONTINUE 0 100 0"});
+  rsm.run(90);
+  EXPECT_EQ(rsm.get("Continuous_Inp_Interrupt"), 0);
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("Continuous_Inp_Interrupt"), 1);
+}
+
 TEST(RsM8194hOtherReadings, ADriveThatIsTakenAlongIsDroppedByAStop) {
   for (const bool stops : {false, true}) {
     SteadyRsm rsm(Choices{{"mask_drive", "axis_by_axis"}});

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "emulator/device/program_error.h"
@@ -296,6 +297,31 @@ TEST(RsM8194hChoices, ACardResetLeavesAWordOrderThatIsKept) {
     rsm.send("RSM_RESET_CARD");
     EXPECT_EQ(rsm.get("WORD_ORDER"), is_kept ? 1 : 0);
   }
+}
+
+TEST(RsM8194hChoices, VariablesThatHaveEndsTakeThem) {
+  OneRsm rsm({.choices = {{"variable_range", "exception_3"}}});
+  const std::pair<const char*, bool> kCases[] = {{"88 CA 6C 00", true},    // -2,000,000,000
+                                                 {"88 CA 6B FF", false},   // one less
+                                                 {"77 35 94 00", true},    // 2,000,000,000
+                                                 {"77 35 94 01", false}};  // one more
+  for (const auto& [value, is_good] : kCases) {
+    // VAR1 and VAR2; a fault in the one keeps the other as it was.
+    rsm.set("VAR1", 7);
+    const std::string sent = std::string(" 00 04 08 00 00 00 05 ") + value;
+    EXPECT_EQ(rsm.ask("10 01 2E" + sent), is_good ? "10 01 2E 00 04" : "90 03") << value;
+    EXPECT_EQ(rsm.get("VAR1"), is_good ? 5 : 7) << value;
+  }
+}
+
+TEST(RsM8194hChoices, WhatHasNoSpeedDoesNotGoHomeEither) {
+  OneRsm rsm({.choices = {{"power_on_values", "0_and_no_drive"}}});
+  rsm.send({"RSM_SET_V X 1000", "RSM_SET_HOME_MODE X 1 1 0 0 0", "RSM_HOME_START X"});
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+  rsm.send({"RSM_SET_HV X 500", "RSM_HOME_START X"});
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
 }
 
 TEST(RsM8194hChoices, PulsesThatOutHasGivenAreCountedBehindACardReset) {

@@ -340,6 +340,22 @@ TEST(RsM8194hAxis, AnExternalDriveThatWasVoidStopsNothing) {
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
 }
 
+TEST(RsM8194hAxis, ANewSpeedOnTheWayMayBeBelowTheStartSpeed) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V X 8000", "RSM_SET_SV X 1000", "RSM_SET_A X 10000", "RSM_CONTINUE_MOVE X 2000"});
+  rsm.run(500);
+  EXPECT_EQ(rsm.get("CV_X"), 2000);
+  rsm.send("RSM_SET_V X 500");
+  rsm.run(50);
+  EXPECT_LT(rsm.get("CV_X"), 2000);
+  EXPECT_GT(rsm.get("CV_X"), 1400);
+  rsm.run(200);
+  EXPECT_EQ(rsm.get("CV_X"), 500);
+  const Value at = rsm.get("LP_X");
+  rsm.run(1000);
+  EXPECT_EQ(rsm.get("LP_X") - at, 500);
+}
+
 /// Neither does it keep the other input from beginning one.
 TEST(RsM8194hAxis, AnExternalDriveThatALimitEndsIsNone) {
   OneRsm rsm;
