@@ -142,6 +142,19 @@ TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathAtItsStartSpeedStands) {
   EXPECT_EQ(rsm.get("LP_X"), at);
 }
 
+TEST(RsM8194hOtherReadings, AConstantPathWithoutItsAxis1TellsNobody) {
+  SteadyRsm rsm(Choices{{"stop_one_of_path", "it_alone_stops"}, {"c_sta_in_interpolation", "for_axis1"}});
+  rsm.send({"RSM_VECTOR_SPEED 1", "RSM_SET_VSV 100", "RSM_SET_VA 1000", "RSM_INTFACTOR_ENABLE XY 5 1",
+            "RSM_INTFACTOR_ENABLE XY 6 1", "RSM_LINE_2D 2000 2000"});
+  rsm.run(100);
+  rsm.send("RSM_STOP_SUDDENLY X");
+  rsm.run_to_rest();
+  rsm.run(2);
+  EXPECT_EQ(rsm.get("LP_Y"), 2000);
+  EXPECT_EQ(rsm.get("INT_C-STA"), 0);
+  EXPECT_EQ(rsm.get("INT_C-END"), 0);
+}
+
 TEST(RsM8194hOtherReadings, ASegmentMayComeOnceTheNextHasBegun) {
   SteadyRsm rsm(Choices{{"rint_stream", "a_segment_may_come"}});
   rsm.send({"RSM_LINE_2D_INITIAL X Y 1000 1000 1000", "RSM_LINE_2D_CONTINUE 0 100 0",
