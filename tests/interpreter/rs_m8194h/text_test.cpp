@@ -153,7 +153,7 @@ TEST(RsM8194hText, WhatAChoiceRefusesIsToldAsThat) {
   const Case kCases[] = {
       {"RSM_MACRO_FIXED_MOVE X VAR1",
        {.few_take_references = true},
-       "1:25: parameter data: 'VAR1' is refused by a choice of the bench; expected a constant"},
+       "1:24: parameter data: 'VAR1' is refused by a choice of the bench; expected a constant"},
       {"RSM_RECTANGLE X Y 0 0 0 300000000 1000 10 1 1 1 1",
        {.rectangles_end_earlier = true},
        "1:25: parameter Lp: '300000000' is refused by a choice of the bench; expected another value"},
