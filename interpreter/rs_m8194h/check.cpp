@@ -1,7 +1,9 @@
 #include "interpreter/rs_m8194h/check.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -126,6 +128,17 @@ std::optional<std::size_t> beyond_ends(const Command& command, std::size_t param
   return parameter;
 }
 
+/// Whose sections say that a variable may stand for a constant (5.2.1, 9.3 to 9.8).
+constexpr Verb kSayReferences[] = {Verb::frnet_out, Verb::set_var, Verb::var_calculate,
+                                   Verb::for_,      Verb::if_,     Verb::timer};
+
+std::optional<std::size_t> first_reference(const Command& command) {
+  for (std::size_t i = 0; i < command.row().parameter_count(); ++i) {
+    if (is_reference(command, i)) return i;
+  }
+  return std::nullopt;
+}
+
 /// What only some options refuse.
 std::optional<std::size_t> bad_by_choice(const Command& command, const CommandOptions& options) {
   const Verb verb = command.verb();
@@ -133,6 +146,16 @@ std::optional<std::size_t> bad_by_choice(const Command& command, const CommandOp
     for (const SpeedEnds& ends : kSpeedEnds) {
       if (ends.verb != verb) continue;
       return beyond_ends(command, command.row().parameter_count() - 1, ends.least, ends.most);
+    }
+  }
+  if (options.few_take_references && std::ranges::find(kSayReferences, verb) == std::end(kSayReferences)) {
+    if (const auto reference = first_reference(command)) return reference;
+  }
+  if (options.rectangles_end_earlier && verb == Verb::rectangle) {
+    constexpr std::int64_t kEarlierEnd = 200'000'000;
+    for (const std::string_view name : {"Lp", "Wp", "Rp"}) {
+      if (const auto beyond = beyond_ends(command, place_of(command.row(), name), 1, kEarlierEnd))
+        return beyond;
     }
   }
   if (options.variables_have_ends && verb == Verb::write_var) return beyond_ends(command, 1, kLeast, kMost);
@@ -158,7 +181,9 @@ std::optional<std::size_t> bad_parameter(const Command& command, const CommandOp
     if (is_scan_type && options.uneven_scans_start && command.number(i) <= 3) continue;
     if (!is_good(command, i, options)) return i;
   }
-  if (command.verb() == Verb::rectangle && options.rectangle_corners_must_fit) return bad_radius(command);
+  if (command.verb() == Verb::rectangle && options.rectangle_corners_must_fit) {
+    if (const auto radius = bad_radius(command)) return radius;
+  }
   return bad_by_choice(command, options);
 }
 

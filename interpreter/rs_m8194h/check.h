@@ -40,6 +40,12 @@ struct CommandOptions {
   bool codes_of_12_3 = false;
   /// FRNET_WAIT also as 12.3 counts its registers: its time is one of them.
   bool frnet_wait_may_have_7 = false;
+  /// A code that only a frame of 7.4.8 has is that of MIX_2D_INITIAL.
+  bool knows_0cb2 = false;
+  /// A variable may stand for a constant only where the command's section says so.
+  bool few_take_references = false;
+  /// Sides and radii of a rectangle end at 200,000,000.
+  bool rectangles_end_earlier = false;
   /// The Initial Table is stored in by macros as well.
   bool macros_store_initial = false;
   /// Which of two faults answers.

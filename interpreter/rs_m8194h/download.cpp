@@ -87,8 +87,9 @@ Fault line_fault(const Download& download, const Command& command, const Downloa
   return block_fault(download.lines, command, options);
 }
 
-void fail(Download& download, Fault fault, std::uint16_t code, std::size_t line) {
-  if (download.fault != Fault::none) return;
+void fail(Download& download, Fault fault, std::uint16_t code, std::size_t line,
+          const DownloadOptions& options) {
+  if (download.fault != Fault::none && !options.last_error_counts) return;
   download.fault = fault;
   download.code = code;
   download.line = static_cast<std::uint16_t>(line);
@@ -115,14 +116,14 @@ Fault add(Download& download, const Command& command, const DownloadOptions& opt
   if (fault == Fault::none) {
     download.lines.push_back(command);
   } else {
-    fail(download, fault, command.code, download.lines.size());
+    fail(download, fault, command.code, download.lines.size(), options);
   }
   return options.faults_show_at_close ? Fault::none : fault;
 }
 
 void refuse(Download& download, std::uint16_t code, Fault fault, const DownloadOptions& options) {
   if (is_download_error(fault)) {
-    fail(download, fault, code, download.lines.size());
+    fail(download, fault, code, download.lines.size(), options);
   } else if (options.refused_line == DownloadOptions::RefusedLine::spoils) {
     download.is_spoilt = true;
   }
@@ -134,11 +135,12 @@ Closed close(Download& download, const DownloadOptions& options) {
   if (const Blocks blocks = blocks_behind(lines); !blocks.empty()) {
     const Block& open = blocks.front();
     const Fault fault = open.opener == Verb::if_ ? Fault::if_open : Fault::for_open;
-    fail(download, fault, lines[open.line].code, open.line);
+    fail(download, fault, lines[open.line].code, open.line, options);
     return {.fault = fault};
   }
   if (const Command* jump = lost_jump(lines)) {
-    fail(download, Fault::goto_without_label, jump->code, static_cast<std::size_t>(jump - lines.data()));
+    const auto line = static_cast<std::size_t>(jump - lines.data());
+    fail(download, Fault::goto_without_label, jump->code, line, options);
     return {.fault = Fault::goto_without_label};
   }
   if (download.fault != Fault::none || download.is_spoilt) return {};

@@ -27,6 +27,8 @@ struct DownloadOptions {
   bool operators_share_error = false;
   /// A line with an error is told of it, or CLOSE is.
   bool faults_show_at_close = false;
+  /// Of several errors the last one is shown, not the first.
+  bool last_error_counts = false;
   /// A line that is refused for its class, its registers or a parameter is left out, or spoils the download.
   enum class RefusedLine : std::uint8_t { is_left_out, spoils } refused_line = RefusedLine::is_left_out;
 
@@ -44,11 +46,11 @@ struct DownloadStatus {
   bool operator==(const DownloadStatus&) const = default;
 };
 
-/// A macro on its way. The first error is the one that counts; a line with an error is not stored.
+/// A macro on its way. One error counts, the first or the last; a line with an error is not stored.
 struct Download {
   MacroName name = {};
   std::vector<Command> lines = {};
-  Fault fault = Fault::none;  // the first
+  Fault fault = Fault::none;  // the one that counts
   std::uint16_t code = 0;     // of the line with it, as it was sent
   std::uint16_t line = 0;     // its number
   bool is_spoilt = false;     // by a line that was refused

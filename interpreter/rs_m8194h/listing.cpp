@@ -159,7 +159,8 @@ class ListingReader {
   void end_macro() {
     if (!download_) return;
     Closed closed = close(*download_);
-    if (closed.fault != Fault::none) fail_structure(places_[download_->line], *download_);
+    // Of a macro that has an error already the line is not CLOSE's, and may be none that was taken.
+    if (closed.fault != Fault::none && is_sound_) fail_structure(places_[download_->line], *download_);
     if (closed.macro) listing_.macros.push_back({download_->name, std::move(*closed.macro)});
     download_.reset();
   }

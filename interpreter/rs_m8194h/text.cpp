@@ -292,7 +292,14 @@ ParsedCommand parse_command(std::span<const Token> tokens, const CommandOptions&
     if (!value || !fits(*value, row.parameters[i].width)) return misfit(i);
     command.values[i] = static_cast<std::uint32_t>(*value);
   }
-  if (const std::optional<std::size_t> bad = bad_parameter(command, options)) return misfit(*bad);
+  if (const std::optional<std::size_t> bad = bad_parameter(command, options)) {
+    if (bad_parameter(command)) return misfit(*bad);
+    // Its range is not the reason.
+    return failed(tokens[*bad + 1], "parameter " + std::string(row.parameters[*bad].name) + ": " +
+                                        quoted(tokens[*bad + 1].text) +
+                                        " is refused by a choice of the bench; expected " +
+                                        (is_reference(command, *bad) ? "a constant" : "another value"));
+  }
   if (const std::optional<std::size_t> bad = bad_operand(command)) return misfit(*bad);
   return {.command = command, .error = {}};
 }

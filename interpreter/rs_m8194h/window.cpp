@@ -37,7 +37,11 @@ constexpr Pair parted(std::uint32_t value, WordOrder order) {
 /// The codes that chapter 7 and table 12.3 give to each other's command.
 constexpr std::uint16_t kSwapped[][2] = {{0x0C81, 0x0CFC}, {0x0A84, 0x0AFD}, {0x0C84, 0x0CFD}};
 
+/// Printed in a frame of 7.4.8, and nowhere else.
+constexpr std::uint16_t kMisprint = 0x0CB2;
+
 std::uint16_t meant_by(std::uint16_t code, const CommandOptions& options) {
+  if (code == kMisprint && options.knows_0cb2) return macro_code(Verb::mix_2d_initial);
   if (!options.codes_of_12_3) return code;
   for (const auto& [one, other] : kSwapped) {
     if (code == one) return other;

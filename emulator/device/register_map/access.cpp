@@ -138,7 +138,7 @@ Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& requ
       continue;
     }
     if (pairs_whole && is_cut(place, i == 0, i + 1 == words.size(), low_first)) {
-      return objection(Refusal::no_register, Cause::cut_pair, address);
+      return objection(policy.cut_pair, Cause::cut_pair, address);
     }
     const bool continues = changes.count > 0 && changes.all[changes.count - 1].place.is_same_register(place);
     if (!continues) changes.all[changes.count++] = {.place = place, .bits = present_bits(bank, place)};
@@ -196,6 +196,15 @@ Objection write_message(RegisterBank& bank, const Place& window, const RegisterR
   Objection refused = objection_of(answer, request);
   if (refused.cause == Cause::no_register) refused.cause = Cause::bad_message;
   return refused;
+}
+
+/// A write that is no window's, and one message all the same.
+Objection write_whole(RegisterBank& bank, const RegisterRequest& request) {
+  if (const Objection refused = admission(bank, request, Checked::addresses)) return refused;
+  if (const Objection refused = admission(bank, request, Checked::everything)) return refused;
+  const DeviceAnswer answer = bank.take_whole(request);
+  if (answer.refusal == Refusal::none) bank.registers_written();
+  return objection_of(answer, request);
 }
 
 void store(RegisterBank& bank, Change& change) {
@@ -281,6 +290,7 @@ Objection write_request(RegisterBank& bank, Table table, std::uint16_t first,
   const RegisterRequest request{
       .table = table, .first = first, .count = words.size(), .words = words, .is_single = is_single};
   if (const Place window = window_at(bank, table, first)) return write_message(bank, window, request);
+  if (bank.takes_whole(request)) return write_whole(bank, request);
   return with_room_for(words.size(), [&](Changes& changes) {
     const Objection refused = gather(bank, request, changes);
     if (!refused || changes.count > 0) carry_out(bank, changes);

@@ -94,7 +94,7 @@ Objection read_request(const RegisterBank& bank, Table table, std::uint16_t firs
       continue;
     }
     if (pairs_whole && is_cut(place, i == 0, i + 1 == words.size(), low_first)) {
-      return objection(Refusal::no_register, Cause::cut_pair, address);
+      return objection(bank.map_policy().cut_pair, Cause::cut_pair, address);
     }
     mention_if_missed(bank, place);
     if (is_whole_pair(place, low_first, words.size() - i)) {

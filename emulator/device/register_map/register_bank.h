@@ -56,6 +56,11 @@ class RegisterBank {
   virtual DeviceAnswer admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
     return Refusal::none;
   }
+  /// Whether a write is one message to the device although it begins in no window (see row.h). Asked before
+  /// what it writes is looked up, so registers that can only be read may be among it.
+  virtual bool takes_whole(const RegisterRequest& /*request*/) const { return false; }
+  /// Takes it, once admits() has; or refuses it, and has changed nothing.
+  virtual DeviceAnswer take_whole(const RegisterRequest& /*request*/) { return Refusal::none; }
   /// Whether a message may also begin behind its window's first word: the device keeps such a part.
   virtual bool takes_parts() const { return false; }
   /// Asked of each register of a good write before anything is stored, in ascending order: whether the device

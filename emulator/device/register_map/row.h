@@ -353,6 +353,8 @@ struct MapPolicy {
     may_be_read_alone,
     come_whole
   } read_halves = ReadHalves::may_be_read_alone;
+  /// How a request is refused that cuts a register where that may not be.
+  Refusal cut_pair = Refusal::no_register;
   /// `stored`: as it comes, and limited where it is used: the range is what the manual says.
   enum class OutOfRange : std::uint8_t { refused, clamped, stored } out_of_range = OutOfRange::refused;
   /// What a request with a value out of range leaves behind: nothing, or the registers before that one.

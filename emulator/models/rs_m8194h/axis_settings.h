@@ -55,6 +55,7 @@ struct BasicSettings {
 struct SpeedRules {
   bool rounds_to_nearest = false;
   bool has_offset = true;              // AO
+  bool mode_3_is_symmetric = false;    // of NORMAL_SPEED, as it is printed
   double least_jerk_part = 0.0119211;  // of MAX_V
 };
 

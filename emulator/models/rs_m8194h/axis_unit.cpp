@@ -48,8 +48,9 @@ SpeedRange range_of(const AxisUnit& axis, const SpeedRules& rules) {
 }
 
 motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps, const SpeedRules& rules) {
-  return law_of(axis.speed, drive_pps, range_of(axis, rules), kNormalShapes[axis.speed.mode],
-                axis.basic.avoids_triangles);
+  const bool is_like_1 = axis.speed.mode == 3 && rules.mode_3_is_symmetric;
+  const Shape& shape = kNormalShapes[is_like_1 ? 1 : axis.speed.mode];
+  return law_of(axis.speed, drive_pps, range_of(axis, rules), shape, axis.basic.avoids_triangles);
 }
 
 motion::SpeedLaw law_of(const AxisUnit& axis, const SpeedRules& rules) {

@@ -48,6 +48,12 @@ std::uint16_t word_of(std::span<const std::uint16_t> words, int number) {
   return words[static_cast<std::size_t>(number)];
 }
 
+MapPolicy policy_by_choice(const Device& device) {
+  MapPolicy policy = rs_m8194h::model().registers->policy();
+  if (device.chose(option("half_items", "exception_3"))) policy.cut_pair = Refusal::bad_value;
+  return policy;
+}
+
 }  // namespace
 
 RsM8194h::RsM8194h(const DeviceSettings& given)
@@ -55,7 +61,8 @@ RsM8194h::RsM8194h(const DeviceSettings& given)
       RegisterBankOf(*this, *rs_m8194h::model().registers, given.firmware),
       KeptMemory(rs_m8194h::model().name, given.firmware),
       options_(rs_m8194h::language_options(given)),
-      machine_(rs_m8194h::machine_options(given)) {
+      machine_(rs_m8194h::machine_options(given)),
+      policy_(policy_by_choice(*this)) {
   state_.blocks = TextBlocks(block_kinds());
   state_.eeprom = factory_memory();
   blank();

@@ -46,7 +46,10 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::span<const std::uint32_t> image() const override { return state_.image; }
   bool low_word_first() const override { return state_.image[kWordOrderSlot] == 1; }
   bool takes_parts() const override { return chose(option("window_parts", "kept_for_the_command")); }
+  const MapPolicy& map_policy() const override { return policy_; }
   DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override;
+  bool takes_whole(const RegisterRequest& request) const override;
+  DeviceAnswer take_whole(const RegisterRequest& request) override;
   bool diverts(const Place& place, std::uint32_t bits) override;
   void read_answered(const RegisterRequest& request) override;
   void exception_answered(const RefusedRequest& request) override;
@@ -246,6 +249,9 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   bool lacks_speed(std::size_t axis, Drive::What what) const;
   /// Of writes that become lines of the macro that is being downloaded.
   DeviceAnswer admits_lines(const RegisterRequest& request) const;
+  /// Of writes that are one message by choice (whole_writes.cpp).
+  DeviceAnswer admits_whole(const RegisterRequest& request, Checked checked) const;
+  void write_group(std::size_t group, std::uint32_t number);
   void start_held();
   std::array<std::uint8_t, 3> codes_of_path(const lang::Command& command) const;
   bool streams_need_initial() const;
@@ -287,6 +293,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   int isr_of(const IsrMark& mark) const;
   const LanguageOptions options_;
   const MachineOptions machine_;
+  const MapPolicy policy_;
 
   std::array<MachineEdges, kAxes> edges_{};  // not state: they are told again
 };

@@ -83,7 +83,9 @@ inline Took set_compare(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 inline Took set_preset(RsM8194h& it, const Command& command) {
-  for_each_axis(axes_at(command, 0),
+  const AxisMask axes =
+      it.chose(option("preset_values", "one_for_all")) ? AxisMask{kAllAxes} : axes_at(command, 0);
+  for_each_axis(axes,
                 [&](std::size_t a) { it.state().sync.actions[a].preset_value = command.signed_value(1); });
   return Took::done;
 }

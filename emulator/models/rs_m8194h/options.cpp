@@ -35,6 +35,9 @@ lang::CommandOptions command_options(std::span<const std::uint8_t> chosen) {
           .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
           .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
           .frnet_wait_may_have_7 = chose(option("frnet_wait_registers", "8_or_7_with_a_time_of_one")),
+          .knows_0cb2 = chose(option("code_0cb2", "that_command")),
+          .few_take_references = chose(option("references", "exception_3")),
+          .rectangles_end_earlier = chose(option("rectangle_ends", "200000000")),
           .macros_store_initial = chose(option("initial_in_macros", "stored_when_the_line_runs")),
           .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
 }
@@ -56,6 +59,7 @@ LanguageOptions language_options(const DeviceSettings& settings) {
                                                                               : Download::GoodStatus::zero,
       .operators_share_error = chose(option("wrong_arithmetic", "06_as_of_an_operator")),
       .faults_show_at_close = chose(option("structure_faults", "at_close")),
+      .last_error_counts = chose(option("kept_error", "the_last")),
       .refused_line = chose(option("refused_lines", "spoil_the_download"))
                           ? Download::RefusedLine::spoils
                           : Download::RefusedLine::is_left_out};
@@ -106,12 +110,14 @@ MachineOptions machine_options(const DeviceSettings& settings) {
   options.fifo_waits_for_download = chose(option("fifo_during_download", "held"));
   options.one_block_each = chose(option("fifo_cost", "one_each"));
   options.holds_are_at_once = chose(option("holds_bypass_fifo", "at_once"));
+  options.isr_calls_are_at_once = chose(option("isr_call_bypasses_fifo", "at_once"));
   options.stops_wait = chose(option("stops_bypass_fifo", "wait_like_others"));
   options.pitch_is_distance = chose(option("scan_positive_pitch", "pitch"));
   options.axis.ring_takes_absolute = chose(option("ring_and_absolute", "turns_round_too"));
   options.axis.homing_heeds_soft_limits = !chose(option("home_soft_limit", "is_ignored"));
   options.axis.comparisons_fire_when_armed = chose(option("factor_edges", "fires_at_once"));
   options.speed.rounds_to_nearest = chose(option("speed_quantum", "the_nearest_one"));
+  options.speed.mode_3_is_symmetric = chose(option("normal_speed_3", "symmetric"));
   options.speed.has_offset = !chose(option("deceleration_offset", "nothing"));
   if (chose(option("least_jerk", "0.119211"))) options.speed.least_jerk_part *= 10;
   options.fifo_goes_on_beside_macros = chose(option("fifo_while_macro", "goes_on"));

@@ -48,6 +48,7 @@ struct MachineOptions {
   bool one_block_each = false;
   bool stops_wait = false;
   bool holds_are_at_once = false;
+  bool isr_calls_are_at_once = false;
   bool pitch_is_distance = false;
   bool fifo_goes_on_beside_macros = false;
   bool pause_holds_fifo = true;

@@ -21,6 +21,7 @@ int RsM8194h::fifo_blocks_of(const lang::Command& command) const {
                                    lang::Verb::clear_vstop};
   const bool is_hold = std::find(std::begin(kHolds), std::end(kHolds), command.verb()) != std::end(kHolds);
   if (is_hold && machine_.holds_are_at_once) return 0;
+  if (command.verb() == lang::Verb::isr_call && machine_.isr_calls_are_at_once) return 0;
   const bool waits = row.use.real_time == lang::RealTime::queued ||
                      (machine_.stops_wait && row.use.real_time == lang::RealTime::stop);
   if (!waits) return 0;

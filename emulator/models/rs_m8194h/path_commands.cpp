@@ -15,6 +15,7 @@
 #include "emulator/models/rs_m8194h/path_rows.h"
 #include "emulator/models/rs_m8194h/paths.h"
 #include "emulator/models/rs_m8194h/state.h"
+#include "emulator/models/rs_m8194h/unmodelled.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/commands.h"
 #include "motion/axis.h"
@@ -150,7 +151,9 @@ Took RsM8194h::begin_path(const HeldPath& path) {
   }
   try {
     draw(command, codes, joins);
-  } catch (const motion::BadMotion&) {
+  } catch (const motion::BadMotion& bad) {
+    if (bad.refusal() == motion::Refusal::out_of_range)
+      Device::mention_unmodelled(kLongHelix, kWhyNoLongHelix);
     module_error();  // no such arc, for example
   }
   return Took::done;

@@ -29,6 +29,11 @@ inline constexpr UnmodelledRow kUnmodelledRows[] = {
     {interpreter::rs_m8194h::Verb::set_out, 2, 4, kShortPulses, kWhyNoShortPulses},
     {interpreter::rs_m8194h::Verb::line_scan, 3, 4, kShortPulses, kWhyNoShortPulses},
 };
+/// What a path's kernel does not reach (motion/path.h).
+inline constexpr std::string_view kLongHelix =
+    "a helix of more than 159,154 turns, or that rises by more than 1,000,000,000,000 pulses";
+inline constexpr std::string_view kWhyNoLongHelix =
+    "arcs end at 1,000,000 rad; it is void, with the module's error (RINT bit 7)";
 
 constexpr bool is_meant(const UnmodelledRow& row, const interpreter::rs_m8194h::Command& command) {
   // A filter of no input delays none.

@@ -152,6 +152,13 @@ std::uint8_t RsM8194h::reason_of(lang::Fault fault) const {
 
 DeviceAnswer RsM8194h::answer_of(lang::Fault fault) const {
   const lang::FaultRow& row = lang::row_of(fault);
+  const bool is_of_state = fault == lang::Fault::mp_in_isr || fault == lang::Fault::isr_in_mp ||
+                           fault == lang::Fault::real_time_in_macro || fault == lang::Fault::macro_outside;
+  if (is_of_state && chose(option("state_exception", "exception_6")))
+    return {Refusal::busy, reason_of(fault)};
+  if (fault == lang::Fault::macro_runs && chose(option("calls_while_an_mp_runs", "exception_3"))) {
+    return {Refusal::bad_value, reason_of(fault)};
+  }
   const Refusal refusal = row.exception == 0   ? Refusal::none
                           : row.exception == 2 ? Refusal::no_register
                           : row.exception == 4 ? Refusal::failure
@@ -189,6 +196,7 @@ DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) c
   if (is_downloading && is_table && chose(option("table_writes", "all_refused"))) {
     return answer_of(lang::Fault::real_time_in_macro);
   }
+  if (takes_whole(request)) return admits_whole(request, checked);
   if (is_downloading && is_table && machine_.table_writes_become_lines) return admits_lines(request);
   const int commands = commands_of(request);
   if (commands == 0) return Refusal::none;
@@ -245,7 +253,9 @@ void RsM8194h::register_written(const RegisterRow& row, std::size_t slot) {
   if (keeps(row)) state_.eeprom.write(slot, state_.image[slot], 0, now());
 }
 
-bool RsM8194h::are_calls_refused() const { return chose(option("calls_while_an_mp_runs", "exception_6")); }
+bool RsM8194h::are_calls_refused() const {
+  return !chose(option("calls_while_an_mp_runs", "wait_their_turn"));
+}
 
 DeviceAnswer RsM8194h::take(const lang::Command& command) {
   const lang::CommandRow& row = command.row();
@@ -297,7 +307,10 @@ DeviceAnswer take_message(RsM8194h& it, Cell cell, std::span<const std::uint16_t
   }
   if (!is_ready ||
       (decoded.fault == lang::Fault::none && lang::is_one_of(decoded.command.verb(), lang::kDownloadVerbs))) {
-    return it.answer_of(it.take_download(decoded));
+    const lang::Fault fault = it.take_download(decoded);
+    const bool shows_elsewhere = lang::is_download_error(fault) && fault != lang::Fault::undefined_command;
+    if (shows_elsewhere && it.chose(option("macro_errors", "an_echo"))) return Refusal::none;
+    return it.answer_of(fault);
   }
   if (decoded.fault != lang::Fault::none) return it.answer_of(decoded.fault);
   return it.take(decoded.command);

@@ -35,7 +35,7 @@ Outcome download(const MacroName& name, const std::vector<Command>& lines,
   for (const Command& line : lines) {
     if (const Fault fault = add(going, line, options); fault != Fault::none) outcome.answers.push_back(fault);
   }
-  const Closed closed = close(going);
+  const Closed closed = close(going, options);
   if (closed.fault != Fault::none) outcome.answers.push_back(closed.fault);
   outcome.is_stored = closed.macro.has_value();
   outcome.status = status_of(going, {.mp = 7, .isr = 3}, options);
@@ -206,6 +206,26 @@ TEST(RsM8194hDownload, FirstErrorIsTheOneThatCounts) {
   EXPECT_EQ(outcome.answers, (std::vector{Fault::next_outside, Fault::else_outside, Fault::for_open}));
   EXPECT_EQ(outcome.status.error, 0x09);
   EXPECT_EQ(outcome.status.line, 0);
+}
+
+TEST(RsM8194hDownload, LastErrorIsTheOneThatCountsIfChosen) {
+  const DownloadOptions options{.last_error_counts = true};
+  const Outcome outcome = download({"NEXT", "SET_VAR VAR1 1", "ELSE"}, options);
+  EXPECT_EQ(outcome.status.error, 0x03);
+  EXPECT_EQ(outcome.status.line, 1);
+  EXPECT_FALSE(outcome.is_stored);
+  EXPECT_EQ(download({"NEXT", "FOR 1"}, options).status.error, 0x0A);
+  EXPECT_EQ(download({"GOTO 0", "NEXT"}, options).status.error, 0x0E) << "CLOSE finds it last";
+}
+
+TEST(RsM8194hDownload, OnlyGotoStaysInItsBlockIfChosen) {
+  const DownloadOptions options{.goto_stays_in_its_block = true};
+  const Outcome inside = download({"LABEL 0", "FOR 1", "SET_VAR VAR1 1", "NEXT", "GOTO 0"}, options);
+  EXPECT_EQ(inside.answers, std::vector<Fault>{});
+  EXPECT_TRUE(inside.is_stored);
+  EXPECT_EQ(download({"LABEL 0", "FOR 1", "GOTO 0", "NEXT"}, options).answers,
+            std::vector{Fault::goto_without_label});
+  EXPECT_TRUE(download({"LABEL 0", "FOR 1", "GOTO 0", "NEXT"}).is_stored);
 }
 
 TEST(RsM8194hDownload, CloseTakesALineIfChosen) {

@@ -115,5 +115,30 @@ TEST(RsM8194hListing, AllErrorsAreTold) {
             std::vector<std::string>{"10:1: RSM_MACRO_SET_VAR: more lines than this macro has room for"});
 }
 
+TEST(RsM8194hListing, TheFirstErrorOfAMacroIsToldWhicheverCounts) {
+  struct Case {
+    std::string lines;
+    std::string error;
+  };
+  const Case kCases[] = {
+      {"FOR 1\nRSM_MACRO_ELSE", "3:1: RSM_MACRO_ELSE: ELSE outside an IF"},  // and nothing closes the FOR
+      {"NEXT\nRSM_MACRO_ELSE", "2:1: RSM_MACRO_NEXT: NEXT without a FOR"},
+      {"GOTO 1\nRSM_MACRO_NEXT", "3:1: RSM_MACRO_NEXT: NEXT without a FOR"},
+  };
+  for (const bool last_counts : {false, true}) {
+    for (const Case& each : kCases) {
+      const std::string text = "MP 1\nRSM_MACRO_" + each.lines + "\nEND";
+      const ParsedListing parsed = parse_listing(text, {}, {.last_error_counts = last_counts});
+      ASSERT_EQ(parsed.errors.size(), 1U) << text;
+      EXPECT_EQ(to_string(parsed.errors[0]), each.error) << text;
+    }
+  }
+}
+
+TEST(RsM8194hListing, AMacroThatAppearsTwiceIsNotReadFurther) {
+  EXPECT_EQ(errors_of("MP 1\nEND\nMP 1\nRSM_MACRO_NEXT\nEND\nMP 2\nRSM_MACRO_ELSE\nEND"),
+            (std::vector<std::string>{"3:4: MP1 appears twice", "7:1: RSM_MACRO_ELSE: ELSE outside an IF"}));
+}
+
 }  // namespace listing_test
 }  // namespace understudy::interpreter::rs_m8194h

@@ -144,5 +144,33 @@ TEST(RsM8194hText, ErrorsHaveAPlaceAndWhatIsExpected) {
             "1:18: parameter ldata: '99999999999' does not fit; expected -2147483648 to 2147483647");
 }
 
+TEST(RsM8194hText, WhatAChoiceRefusesIsToldAsThat) {
+  struct Case {
+    const char* text;
+    CommandOptions options;
+    const char* error;
+  };
+  const Case kCases[] = {
+      {"RSM_MACRO_FIXED_MOVE X VAR1",
+       {.few_take_references = true},
+       "1:24: parameter data: 'VAR1' is refused by a choice of the bench; expected a constant"},
+      {"RSM_RECTANGLE X Y 0 0 0 300000000 1000 10 1 1 1 1",
+       {.rectangles_end_earlier = true},
+       "1:25: parameter Lp: '300000000' is refused by a choice of the bench; expected another value"},
+      {"RSM_SET_V X 4000001",
+       {.speeds_have_ends = true},
+       "1:13: parameter data: '4000001' is refused by a choice of the bench; expected another value"},
+      {"RSM_FIXED_MOVE X 2000000001",
+       {.zero_moves_are_refused = true},
+       "1:18: parameter data: '2000000001' does not fit; expected -2000000000 to 2000000000"},
+  };
+  for (const Case& each : kCases) {
+    EXPECT_TRUE(parse_command(each.text).command || each.options.zero_moves_are_refused) << each.text;
+    const ParsedCommand parsed = parse_command(each.text, each.options);
+    ASSERT_TRUE(parsed.error) << each.text;
+    EXPECT_EQ(to_string(*parsed.error), each.error);
+  }
+}
+
 }  // namespace text_test
 }  // namespace understudy::interpreter::rs_m8194h

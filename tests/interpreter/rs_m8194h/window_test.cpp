@@ -4,11 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "interpreter/rs_m8194h/check.h"
+#include "interpreter/rs_m8194h/text.h"
 #include "tests/interpreter/rs_m8194h/printed.h"
 
 namespace understudy::interpreter::rs_m8194h {
@@ -242,6 +247,81 @@ TEST(RsM8194hWindow, ReferencesStandInMacroLinesOnly) {
         ++count;
       });
   EXPECT_GT(count, 200U);
+}
+
+TEST(RsM8194hWindow, FewLinesTakeReferencesIfChosen) {
+  const CommandOptions options{.few_take_references = true};
+  struct Case {
+    const char* line;
+    std::optional<std::size_t> bad;
+  };
+  const Case kCases[] = {
+      {"FRNET_OUT bVAR0 VAR1", std::nullopt},
+      {"SET_VAR VAR1 VAR2", std::nullopt},
+      {"FOR VAR1", std::nullopt},
+      {"IF VAR1 < VAR2", std::nullopt},
+      {"TIMER VAR1", std::nullopt},
+      {"VAR_CALCULATE VAR1 + VAR2 VAR3", std::nullopt},
+      {"FIXED_MOVE X VAR1", 1},
+      {"FIXED_MOVE X 1", std::nullopt},
+      {"SET_V X VAR1", 1},
+      {"LINE_2D 1 VAR1", 1},
+      {"ABS_SET_POSITION X VAR511", 1},
+      {"HELIX_3D X Y Z 0 1 2 3 4 VAR0", 8},
+  };
+  for (const Case& each : kCases) {
+    const ParsedCommand parsed = parse_command(std::string("RSM_MACRO_") + each.line);
+    ASSERT_TRUE(parsed.command) << each.line;
+    EXPECT_EQ(bad_parameter(*parsed.command), std::nullopt) << each.line;
+    EXPECT_EQ(bad_parameter(*parsed.command, options), each.bad) << each.line;
+  }
+}
+
+TEST(RsM8194hWindow, RectanglesEndEarlierIfChosen) {
+  const CommandOptions options{.rectangles_end_earlier = true};
+  constexpr std::size_t kSides[] = {5, 6, 7};  // Lp, Wp, Rp
+  for (const std::size_t side : kSides) {
+    for (const std::int64_t length : {200'000'000, 200'000'001, 2'000'000'000}) {
+      Command command = *parse_command("RSM_RECTANGLE X Y 0 0 0 1000 1000 10 1 1 1 1").command;
+      if (side == 7) command.values[5] = command.values[6] = 200'000'000;
+      CommandOptions loose = options;
+      loose.rectangle_corners_must_fit = false;
+      command.values[side] = static_cast<std::uint32_t>(length);
+      const bool is_bad = length > 200'000'000;
+      EXPECT_EQ(bad_parameter(command, loose), is_bad ? std::optional(side) : std::nullopt) << length;
+      loose.rectangles_end_earlier = false;
+      EXPECT_EQ(bad_parameter(command, loose), std::nullopt);
+    }
+  }
+}
+
+TEST(RsM8194hWindow, FrnetWaitMayHaveOneRegisterLessIfChosen) {
+  const CommandOptions options{.frnet_wait_may_have_7 = true};
+  const Registers full = {macro_code(Verb::frnet_wait), 8, 0, 1, 0, 1, 2, 3};
+  ASSERT_EQ(row_of(Verb::frnet_wait).registers(), 8);
+  for (std::size_t count = 1; count <= 9; ++count) {
+    Registers sent = full;
+    sent.resize(count, 0);
+    for (const bool may : {false, true}) {
+      const Decoded decoded =
+          decode(sent, State::mp_download, WordOrder::high_first, may ? options : CommandOptions{});
+      const bool is_good = count == 8 || (may && count == 7);
+      EXPECT_EQ(decoded.fault, is_good ? Fault::none : Fault::register_count) << count << may;
+      if (!is_good) continue;
+      EXPECT_EQ(decoded.command.values[3], count == 8 ? 0x20003U : 2U);
+    }
+  }
+}
+
+TEST(RsM8194hWindow, CodeOfAMisprintIsItsCommandIfChosen) {
+  const Registers sent = {0x0CB2, 1, 2, 0, 0, 300, 0, 18000, 7, 0xA120};
+  EXPECT_EQ(decode(sent, State::mp_download, WordOrder::high_first).fault, Fault::undefined_command);
+  const CommandOptions options{.knows_0cb2 = true};
+  const Decoded decoded = decode(sent, State::mp_download, WordOrder::high_first, options);
+  EXPECT_EQ(decoded.fault, Fault::none);
+  EXPECT_EQ(text_of(decoded.command), "RSM_MACRO_MIX_2D_INITIAL X Y 0 300 18000 500000");
+  EXPECT_EQ(encode(decoded.command, WordOrder::high_first, options)[0], 0x0C82);
+  EXPECT_EQ(decode(sent, State::ready, WordOrder::high_first, options).fault, Fault::macro_outside);
 }
 
 TEST(RsM8194hWindow, FaultsHaveTheReasonsOfTheManual) {

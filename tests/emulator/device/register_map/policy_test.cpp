@@ -189,6 +189,42 @@ TEST(Policy, A32BitRegisterMayHaveToComeWhole) {
   EXPECT_EQ(toy.value("Count"), 76);
 }
 
+TEST(Policy, ACutRegisterIsRefusedAsThePolicySays) {
+  Toy toy(kToyRows, {.halves = MapPolicy::Halves::come_whole,
+                     .read_halves = MapPolicy::ReadHalves::come_whole,
+                     .cut_pair = Refusal::bad_value});
+  EXPECT_EQ(world::answer(toy.device, world::write_request(0x0014, 1)), "86 03");
+  EXPECT_EQ(world::answer(toy.device, world::read_pdu(3, 0x0015, 1)), "83 03");
+  EXPECT_EQ(world::answer(toy.device, world::read_pdu(3, 0x0018, 1)), "83 02") << "a hole is a hole";
+}
+
+TEST(WriteWords, AWriteMayBeOneMessageWithoutAWindow) {
+  Toy toy(kToyRows);
+  toy.device.whole_at = 0x0017;  // State, which can only be read, and a hole
+  const auto before = image_of(toy);
+  EXPECT_EQ(write(toy, 0x0017, {8, 9}), Refusal::none);
+  EXPECT_EQ(toy.device.events, (Events{"whole 8 9", "written"}));
+  EXPECT_EQ(image_of(toy), before);
+  const world::Words refused{0, 9};
+  EXPECT_EQ(write_request(toy.device, Table::holding, 0x0017, refused),
+            (Objection{.refusal = Refusal::busy, .cause = Cause::busy, .address = 0x0017, .reason = 9}));
+  // Another count, or another place, is none.
+  EXPECT_EQ(write(toy, 0x0017, {8}), Refusal::no_register);
+  EXPECT_EQ(write(toy, 0x0010, {8, 9}), Refusal::none);
+  EXPECT_EQ(toy.device.events, (Events{"whole 8 9", "written", "written"}));
+}
+
+TEST(WriteWords, AWholeMessageIsAdmittedFirst) {
+  for (const Checked checked : {Checked::addresses, Checked::everything}) {
+    Toy toy(kToyRows);
+    toy.device.whole_at = 0x0010;
+    toy.device.not_admitted = checked;
+    const world::Words words{8, 9};
+    EXPECT_EQ(write_request(toy.device, Table::holding, 0x0010, words).reason, 7);
+    EXPECT_TRUE(toy.device.events.empty());
+  }
+}
+
 TEST(Policy, TheHighWordMayComeFirst) {
   Toy toy(kToyRows, {.low_word_first = false});
   EXPECT_EQ(write(toy, 0x0012, {0xFFFF, 0xFFFE}), Refusal::none);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <span>
 #include <string>
@@ -44,7 +45,20 @@ class ToyDevice final : public DeviceOf<ToyDevice>, public RegisterBankOf<ToyDev
     Device::mention_unmodelled(row.name, row.unmodelled);
   }
   bool same_state(const Device&) const override { return false; }
+  bool takes_whole(const RegisterRequest& request) const override {
+    return request.count == 2 && request.first == whole_at;
+  }
+  DeviceAnswer take_whole(const RegisterRequest& request) override {
+    if (request.words[0] == 0) return {Refusal::busy, 9};
+    events.push_back("whole " + std::to_string(request.words[0]) + " " + std::to_string(request.words[1]));
+    return Refusal::none;
+  }
+  DeviceAnswer admits(const RegisterRequest& /*request*/, Checked checked) const override {
+    return checked == not_admitted ? DeviceAnswer{Refusal::failure, 7} : DeviceAnswer{Refusal::none};
+  }
 
+  int whole_at = -1;  // two words from there on are one message
+  std::optional<Checked> not_admitted;
   bool is_low_word_first = true;
   std::vector<std::string> events;  // effects in the order in which they came
 

@@ -201,6 +201,28 @@ TEST(RsM8194hEvents, LineScansTriggerAtTheirPitch) {
   EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
 }
 
+TEST(RsM8194hEvents, ScansAreCompletedOnceAllOfThemStand) {
+  SteadyRsm rsm;
+  // Y has no setting, and goes without triggers.
+  rsm.send({"RSM_LINE_SCAN_START Y 0 2000", "RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN_START X 0 200"});
+  rsm.run(200);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 2);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0);
+  rsm.run_to_rest();
+  rsm.run(1);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
+}
+
+TEST(RsM8194hEvents, AScanThatDoesNotMoveLeavesItsFirstPlaceInCPlus) {
+  SteadyRsm rsm;
+  rsm.pin(0, Pin::limit_plus, true);
+  rsm.send({"RSM_SET_LP X 500", "RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN_START X 0 1000"});
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("LP_X"), 500);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
+  EXPECT_EQ(rsm.state().units[0].compare[0].value, 510);
+}
+
 // A ring comes round, and the counter may be set on the way: what counts is the way.
 TEST(RsM8194hEvents, LineScansGoOnWhenTheirCounterJumps) {
   for (const int type : {0, 2}) {

@@ -251,5 +251,34 @@ TEST(RsM8194hMacros, TriggersRunWithoutAHost) {
   EXPECT_EQ(rsm.get("LP_Y"), 100);
 }
 
+TEST(RsM8194hMacros, AnAxisThatSeveralLevelsHoldIsLetGoByTheLast) {
+  OneRsm rsm({.program = "TRIGGER 8.0 on hold X\nTRIGGER 8.1 on hold X\n"});
+  rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000"});
+  EXPECT_EQ(rsm.ask("06 00 09 00 01"), "06 00 09 00 01");
+  rsm.input(kFirstDi, true);
+  rsm.input(kFirstDi + 1, true);
+  rsm.run(10);
+  rsm.send("RSM_FIXED_MOVE X 100");
+  rsm.input(kFirstDi, false);
+  rsm.run(10);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+  rsm.input(kFirstDi + 1, false);
+  rsm.run(10);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
+}
+
+TEST(RsM8194hMacros, AnAbortedStopWaitTakesNothingElseAlong) {
+  OneRsm rsm({.program = "TRIGGER 8.0 off_to_on abort_command\n"});
+  rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000"});
+  EXPECT_EQ(rsm.ask("06 00 09 00 01"), "06 00 09 00 01");
+  rsm.send({"RSM_CONTINUE_MOVE X 1000", "RSM_STOP_WAIT X", "RSM_SET_LP Y 5"});
+  rsm.run(10);
+  EXPECT_EQ(rsm.get("LP_Y"), 0);
+  rsm.input(kFirstDi, true);
+  rsm.run(10);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+  EXPECT_EQ(rsm.get("LP_Y"), 5);
+}
+
 }  // namespace macros_test
 }  // namespace understudy::emulator::models::rs_m8194h

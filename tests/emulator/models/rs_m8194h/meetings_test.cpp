@@ -321,6 +321,20 @@ TEST(RsM8194hMeetings, AlarmStopsRefusesAndIsCleared) {
   EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
 }
 
+TEST(RsM8194hMeetings, AHeldStreamHasTheRoomOfTheFifo) {
+  PreparedRsm rsm;
+  rsm.send({"RSM_LINE_2D_INITIAL X Y 1000 1000 1000", "RSM_DRV_HOLD XY"});
+  for (int i = 0; i < 30; ++i) {
+    rsm.send("RSM_LINE_2D_CONTINUE 0 10 0");
+    rsm.run(1);
+  }
+  EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 30) << "all of them are held";
+  rsm.send({"RSM_LINE_2D_CONTINUE 0 10 0", "RSM_LINE_2D_CONTINUE 1 10 0", "RSM_SET_LP Z 5"});
+  rsm.run(10);
+  EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 27) << "these wait";
+  EXPECT_EQ(rsm.get("LP_Z"), 0);
+}
+
 TEST(RsM8194hMeetings, TheEmergencyInputStopsAllThatMoves) {
   PreparedRsm rsm;
   rsm.send({"RSM_CONTINUE_MOVE XZ 10000", "RSM_SET_LP U 1"});

@@ -119,6 +119,52 @@ TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathSlowsDownByItsOwnRamp) {
   }
 }
 
+TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathHasBegunAlready) {
+  SteadyRsm rsm(Choices{{"stop_one_of_path", "it_alone_stops"}});
+  rsm.send({"RSM_VECTOR_SPEED 0", "RSM_SET_SV X 100", "RSM_SET_A X 5000", "RSM_SET_PRESET U 77",
+            "RSM_SYNC_ACTION X U 16 0 0 1 0 0 0 0 0 0", "RSM_LINE_2D 2000 0"});
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("LP_U"), 77);
+  rsm.send({"RSM_SET_LP U 0", "RSM_STOP_SLOWLY X"});
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS") & 1, 1) << "it slows down";
+  EXPECT_EQ(rsm.get("LP_U"), 0) << "D-STA came with the path";
+}
+
+TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathAtItsStartSpeedStands) {
+  SteadyRsm rsm(Choices{{"stop_one_of_path", "it_alone_stops"}});
+  rsm.send({"RSM_VECTOR_SPEED 0", "RSM_LINE_2D 2000 0"});
+  rsm.run(100);
+  const Value at = rsm.get("LP_X");
+  rsm.send("RSM_STOP_SLOWLY X");
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 2);
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("LP_X"), at);
+}
+
+TEST(RsM8194hOtherReadings, AConstantPathWithoutItsAxis1TellsNobody) {
+  SteadyRsm rsm(Choices{{"stop_one_of_path", "it_alone_stops"}, {"c_sta_in_interpolation", "for_axis1"}});
+  rsm.send({"RSM_VECTOR_SPEED 1", "RSM_SET_VSV 100", "RSM_SET_VA 1000", "RSM_INTFACTOR_ENABLE XY 5 1",
+            "RSM_INTFACTOR_ENABLE XY 6 1", "RSM_LINE_2D 2000 2000"});
+  rsm.run(100);
+  rsm.send("RSM_STOP_SUDDENLY X");
+  rsm.run_to_rest();
+  rsm.run(2);
+  EXPECT_EQ(rsm.get("LP_Y"), 2000);
+  EXPECT_EQ(rsm.get("INT_C-STA"), 0);
+  EXPECT_EQ(rsm.get("INT_C-END"), 0);
+}
+
+TEST(RsM8194hOtherReadings, ASegmentMayComeOnceTheNextHasBegun) {
+  SteadyRsm rsm(Choices{{"rint_stream", "a_segment_may_come"}});
+  rsm.send({"RSM_LINE_2D_INITIAL X Y 1000 1000 1000", "RSM_LINE_2D_CONTINUE 0 100 0",
+            "RSM_LINE_2D_CONTINUE 0 100 0"});
+  rsm.run(90);
+  EXPECT_EQ(rsm.get("Continuous_Inp_Interrupt"), 0);
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("Continuous_Inp_Interrupt"), 1);
+}
+
 TEST(RsM8194hOtherReadings, ADriveThatIsTakenAlongIsDroppedByAStop) {
   for (const bool stops : {false, true}) {
     SteadyRsm rsm(Choices{{"mask_drive", "axis_by_axis"}});

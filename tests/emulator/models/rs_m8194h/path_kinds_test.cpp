@@ -126,5 +126,37 @@ TEST(RsM8194hPathKinds, RectanglesCloseFromEachOfTheirPoints) {
   }
 }
 
+/// As far as the kernel's arcs go; beyond that the log says it once.
+TEST(RsM8194hPathKinds, AHelixBeyondTheKernelIsVoidAndToldOnce) {
+  struct Case {
+    const char* turns_and_pitch;
+    bool runs;
+    std::size_t told;
+  };
+  const Case kCases[] = {
+      {"159154 100", true, 0},      {"-159154 100", true, 0},      {"159155 100", false, 1},
+      {"-159155 100", false, 1},    {"2000000000 0", false, 1},    {"500 2000000000", true, 0},
+      {"501 2000000000", false, 1}, {"501 -2000000000", false, 1},
+  };
+  for (const Case& each : kCases) {
+    OneRsm rsm;
+    std::vector<std::string> told;
+    rsm.device().set_log([&](const std::string& text) { told.push_back(text); });
+    for (int i = 0; i < 2; ++i) {
+      rsm.send("RSM_HELIX_3D X Y Z 1 1000 0 100 " + std::string(each.turns_and_pitch));
+      rsm.run(3);
+      EXPECT_EQ(rsm.get("DRIVING_AXIS"), each.runs ? 7 : 0) << each.turns_and_pitch;
+      EXPECT_EQ(rsm.get("RINT_STATE_ALL"), each.runs ? 0 : 0x80) << each.turns_and_pitch;
+    }
+    EXPECT_EQ(told.size(), each.told) << each.turns_and_pitch;
+  }
+  // Another one that cannot be drawn: its centre is where it begins.
+  OneRsm rsm;
+  rsm.device().set_log([&](const std::string& text) { ADD_FAILURE() << text; });
+  rsm.send("RSM_HELIX_3D X Y Z 1 1000 0 0 1 1");
+  rsm.run(3);
+  EXPECT_EQ(rsm.get("RINT_STATE_ALL"), 0x80);
+}
+
 }  // namespace path_kinds_test
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -330,5 +330,25 @@ TEST(RsM8194hPaths, AStreamOf20001SegmentsNeverStops) {
   EXPECT_LT(static_cast<double>(rsm.now() - begin - kStep), (at_v + ramp_s - ramp_pulses / 18000) * 1000 + 1);
 }
 
+/// A limit whose active level has been changed since the last tick keeps a path from beginning.
+TEST(RsM8194hPaths, APathFindsTheSignalsOfThisMoment) {
+  for (const std::string axis : {"X", "Y", "Z", "U"}) {
+    OneRsm rsm;
+    rsm.send({"RSM_SET_VSV 1000", "RSM_SET_VV 1000"});
+    rsm.send("RSM_AXIS_ASSIGN " + axis + (axis == "Y" ? " Z 0" : " Y 0"));
+    rsm.run(5);
+    rsm.send("RSM_SET_HLMT " + axis + " 1 1");
+    rsm.send("RSM_LINE_2D 100 100");
+    EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0) << axis;
+    EXPECT_EQ(rsm.get("ERROR_CODE_" + axis), 4) << axis;
+    // And the other way round.
+    rsm.send("RSM_SET_HLMT " + axis + " 0 0");
+    rsm.send("RSM_LINE_2D 100 100");
+    EXPECT_NE(rsm.get("DRIVING_AXIS"), 0) << axis;
+    rsm.run_to_rest();
+    EXPECT_EQ(rsm.get("LP_" + axis), 100);
+  }
+}
+
 }  // namespace paths_test
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -132,5 +132,34 @@ TEST(RsM8194hRefusals, FirmwaresShowTheirVersions) {
   EXPECT_EQ(later.get("I8094H_FIRMWARE"), 0x02210300);
 }
 
+/// Reasons 4 to 7, whatever exception goes with them; other reasons keep theirs.
+TEST(RsM8194hRefusals, ExceptionOfTheStateIsOfItsReasonsAlone) {
+  struct StateCase {
+    const char* state;  // a command that leads there, and one back
+    const char* back;
+    const char* sent;
+    Value reason;
+    bool is_of_state;
+  };
+  const StateCase kStateCases[] = {
+      {nullptr, nullptr, "RSM_MACRO_SET_V X 1", 7, true},
+      {"RSM_MP_CREATE 1", "RSM_MACRO_MP_CLOSE", "RSM_SET_V X 1", 6, true},
+      {"RSM_MP_CREATE 1", "RSM_MACRO_MP_CLOSE", "RSM_MACRO_MP_ISR_CLOSE", 5, true},
+      {"RSM_MP_ISR_CREATE 1", "RSM_MACRO_MP_ISR_CLOSE", "RSM_MACRO_STOP_SLOWLY X", 4, true},
+      {"RSM_MP_CREATE 1", "RSM_MACRO_MP_CLOSE", "RSM_MACRO_NEXT", 0xB7, false},
+  };
+  for (const bool is_busy : {false, true}) {
+    OneRsm rsm({.choices = {{"state_exception", is_busy ? "exception_6" : "exception_3"}}});
+    for (const StateCase& each : kStateCases) {
+      if (each.state != nullptr) rsm.send(each.state);
+      EXPECT_EQ(rsm.exception(each.sent), is_busy && each.is_of_state ? 6 : 3) << each.sent;
+      EXPECT_EQ(rsm.get("IllegalFuncErr"), each.reason) << each.sent;
+      if (each.back != nullptr) rsm.send(each.back);
+    }
+    EXPECT_EQ(rsm.ask("10 1F 40 00 01 02 0A FF"), "90 03") << "undefined";
+    EXPECT_EQ(rsm.ask("03 01 2D 00 01"), "83 02") << "half of VAR0";
+  }
+}
+
 }  // namespace refusals_test
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "emulator/device/program_error.h"
@@ -255,6 +257,71 @@ TEST(RsM8194hChoices, HoldsAtOnceOvertakeWhatWaits) {
   rsm.send("RSM_DRV_START Y");
   rsm.run_to_rest();
   EXPECT_EQ(rsm.get("LP_Y"), 100);
+}
+
+TEST(RsM8194hChoices, LatchesOutliveACardResetLikeTheCounters) {
+  for (const bool are_kept : {false, true}) {
+    OneRsm rsm({.choices = {{"reset_card_counters", are_kept ? "kept" : "zero"}}});
+    rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_SET_LP X 500",
+              "RSM_SYNC_ACTION X X 32 0 1 0 0 0 0 0 0 0", "RSM_FIXED_MOVE X 100"});
+    rsm.run_to_rest();
+    rsm.run(2);
+    EXPECT_EQ(rsm.get("LATCH_X"), 600);
+    rsm.send("RSM_RESET_CARD");
+    rsm.run(2);
+    EXPECT_EQ(rsm.get("LATCH_X"), are_kept ? 600 : 0);
+    EXPECT_EQ(rsm.get("LP_X"), are_kept ? 600 : 0);
+  }
+}
+
+TEST(RsM8194hChoices, ACardResetThatKeepsSettingsKeepsTheirOrder) {
+  const auto counts = [](int number) {
+    return "ISR " + std::to_string(number) +
+           "\nRSM_MACRO_VAR_CALCULATE VAR0 + 1 VAR0\nRSM_MACRO_SET_VAR VAR" + std::to_string(number) +
+           " VAR0\nEND\n";
+  };
+  OneRsm rsm({.program = counts(1) + counts(2),
+              .choices = {{"reset_card_settings", "kept"}, {"isr_order", "by_order_of_enabling"}}});
+  rsm.send({"RSM_SET_SV XY 1000", "RSM_SET_V XY 1000", "RSM_ENABLE_INT", "RSM_INTFACTOR_ENABLE Y 7 2",
+            "RSM_INTFACTOR_ENABLE X 7 1", "RSM_RESET_CARD", "RSM_FIXED_MOVE XY 10"});
+  rsm.run(50);
+  EXPECT_EQ(rsm.get("VAR2"), 1);
+  EXPECT_EQ(rsm.get("VAR1"), 2);
+}
+
+TEST(RsM8194hChoices, ACardResetLeavesAWordOrderThatIsKept) {
+  for (const bool is_kept : {false, true}) {
+    OneRsm rsm({.choices = {{"reset_card_own_words", "as_at_power_on"},
+                            {"word_order_kept", is_kept ? "kept" : "0"}}});
+    rsm.set("WORD_ORDER", 1);
+    rsm.send("RSM_RESET_CARD");
+    EXPECT_EQ(rsm.get("WORD_ORDER"), is_kept ? 1 : 0);
+  }
+}
+
+TEST(RsM8194hChoices, VariablesThatHaveEndsTakeThem) {
+  OneRsm rsm({.choices = {{"variable_range", "exception_3"}}});
+  const std::pair<const char*, bool> kCases[] = {{"88 CA 6C 00", true},    // -2,000,000,000
+                                                 {"88 CA 6B FF", false},   // one less
+                                                 {"77 35 94 00", true},    // 2,000,000,000
+                                                 {"77 35 94 01", false}};  // one more
+  for (const auto& [value, is_good] : kCases) {
+    // VAR1 and VAR2; a fault in the one keeps the other as it was.
+    rsm.set("VAR1", 7);
+    const std::string sent = std::string(" 00 04 08 00 00 00 05 ") + value;
+    EXPECT_EQ(rsm.ask("10 01 2E" + sent), is_good ? "10 01 2E 00 04" : "90 03") << value;
+    EXPECT_EQ(rsm.get("VAR1"), is_good ? 5 : 7) << value;
+  }
+}
+
+TEST(RsM8194hChoices, WhatHasNoSpeedDoesNotGoHomeEither) {
+  OneRsm rsm({.choices = {{"power_on_values", "0_and_no_drive"}}});
+  rsm.send({"RSM_SET_V X 1000", "RSM_SET_HOME_MODE X 1 1 0 0 0", "RSM_HOME_START X"});
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+  rsm.send({"RSM_SET_HV X 500", "RSM_HOME_START X"});
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
 }
 
 TEST(RsM8194hChoices, PulsesThatOutHasGivenAreCountedBehindACardReset) {

@@ -340,6 +340,45 @@ TEST(RsM8194hAxis, AnExternalDriveThatWasVoidStopsNothing) {
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
 }
 
+TEST(RsM8194hAxis, ANewSpeedOnTheWayMayBeBelowTheStartSpeed) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V X 8000", "RSM_SET_SV X 1000", "RSM_SET_A X 10000", "RSM_CONTINUE_MOVE X 2000"});
+  rsm.run(500);
+  EXPECT_EQ(rsm.get("CV_X"), 2000);
+  rsm.send("RSM_SET_V X 500");
+  rsm.run(50);
+  EXPECT_LT(rsm.get("CV_X"), 2000);
+  EXPECT_GT(rsm.get("CV_X"), 1400);
+  rsm.run(70);
+  // Below its start speed, and still by its ramp.
+  EXPECT_NEAR(static_cast<double>(rsm.get("CV_X")), 800, 30);
+  rsm.run(200);
+  EXPECT_EQ(rsm.get("CV_X"), 500);
+  const Value at = rsm.get("LP_X");
+  rsm.run(1000);
+  EXPECT_EQ(rsm.get("LP_X") - at, 500);
+}
+
+/// Neither does it keep the other input from beginning one.
+TEST(RsM8194hAxis, AnExternalDriveThatALimitEndsIsNone) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V X 8000", "RSM_SET_SV X 100", "RSM_SET_A X 1000000", "RSM_EXD_CP X 1000"});
+  rsm.pin(0, Pin::limit_plus, true);
+  rsm.run(5);
+  // Both close in the same tick.
+  rsm.device().set_input(terminal(0, Pin::external_plus), 1);
+  rsm.device().set_input(terminal(0, Pin::external_minus), 1);
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("CV_X"), 1000);
+  EXPECT_LT(rsm.get("LP_X"), 0);
+  rsm.device().set_input(terminal(0, Pin::external_plus), 2);
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("CV_X"), 1000);
+  rsm.device().set_input(terminal(0, Pin::external_minus), 2);
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+}
+
 TEST(RsM8194hAxis, InPositionIsPartOfADrive) {
   OneRsm rsm;
   rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000", "RSM_SET_INPOS X 1 0", "RSM_FIXED_MOVE X 10"});

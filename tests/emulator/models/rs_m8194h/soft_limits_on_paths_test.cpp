@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
@@ -227,6 +228,28 @@ TEST(RsM8194hSoftLimitsOnPaths, WhoSeesThatItStandsSeesWhyAndMayClearIt) {
   EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
   rsm.run(3);
   EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
+}
+
+/// A path along one axis slows down as a drive of that axis does, from the same tick on.
+TEST(RsM8194hSoftLimitsOnPaths, APathSlowsDownWhereADriveDoes) {
+  for (const LimitKind& limit : kLimits) {
+    if (limit.at_once) continue;
+    std::vector<std::pair<Value, Tick>> ends;
+    for (const char* const way : {"RSM_FIXED_MOVE X 6000", "RSM_LINE_2D 6000 0"}) {
+      OneRsm rsm(Run::given(limit));
+      rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_SET_SV X 400", "RSM_SET_V X 2000", "RSM_SET_A X 4000",
+                "RSM_AXIS_ASSIGN X Y 0", "RSM_VECTOR_SPEED 1", "RSM_SET_VSV 400", "RSM_SET_VV 2000",
+                "RSM_SET_VA 4000"});
+      rsm.send("RSM_SET_SLMT X 1500 -1500 " + std::to_string(limit.source));
+      rsm.run(3);
+      rsm.send(way);
+      const Tick took = rsm.run_to_rest();
+      EXPECT_EQ(rsm.get("ERROR_CODE_X"), 1) << limit.name;
+      EXPECT_NEAR(static_cast<double>(rsm.get("LP_X")), 1500 + 480, 4) << limit.name;
+      ends.emplace_back(rsm.get("LP_X"), took);
+    }
+    EXPECT_EQ(ends[0], ends[1]) << limit.name;
+  }
 }
 
 }  // namespace soft_limits_on_paths_test

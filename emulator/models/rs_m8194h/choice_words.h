@@ -1,0 +1,12 @@
+// How sure RS-M8194H's choices are, in short.
+#pragma once
+
+#include "emulator/device/choices.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+inline constexpr Confidence kFollows = Confidence::follows;
+inline constexpr Confidence kLikely = Confidence::likely;
+inline constexpr Confidence kProposal = Confidence::proposal;
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,99 @@
+// Writes to the tables that are one message by choice: two words as one number for a group of FRnet outputs
+// (5.2.4), and coils that switch servos although they are of type R (12.4.2).
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/device/register_map/refusal.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/verbs.h"
+#include "interpreter/rs_m8194h/window.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+constexpr std::size_t kFirstServoCoil = 128;
+
+bool is_group_number(const RegisterRequest& request) {
+  return request.is_write() && request.table == Table::holding && request.count == 2 &&
+         request.first < kFrnetGroups;
+}
+
+bool is_of_servos(const RegisterRequest& request) {
+  const std::size_t end = request.first + request.count;
+  return request.is_write() && request.table == Table::coil && end > kFirstServoCoil &&
+         end <= kFirstServoCoil + kAxes;
+}
+
+std::uint32_t number_in(const RegisterRequest& request, bool low_word_first) {
+  const std::uint32_t high = request.words[low_word_first ? 1 : 0];
+  return high << 16U | request.words[low_word_first ? 0 : 1];
+}
+
+lang::Command group_line(std::size_t group, std::uint32_t number) {
+  lang::Command line{.code = lang::macro_code(lang::Verb::frnet_out)};
+  line.values[0] = static_cast<std::uint32_t>(group);
+  line.values[1] = number;
+  return line;
+}
+
+}  // namespace
+
+bool RsM8194h::takes_whole(const RegisterRequest& request) const {
+  if (is_group_number(request)) return chose(option("frnet_group_write", "one_number_for_the_first"));
+  return is_of_servos(request) && chose(option("servo_coils", "switch_the_servos"));
+}
+
+DeviceAnswer RsM8194h::admits_whole(const RegisterRequest& request, Checked checked) const {
+  if (request.table == Table::coil || checked != Checked::everything) return Refusal::none;
+  const std::uint32_t number = number_in(request, low_word_first());
+  if (number > UINT16_MAX && !lang::is_variable(number)) return answer_of(lang::Fault::parameter);
+  if (state_.rsm == lang::State::ready || !machine_.table_writes_become_lines) return Refusal::none;
+  const lang::Command line = group_line(request.first, number);
+  const lang::Fault not_here = lang::why_not_now(line.code, state_.rsm);
+  if (not_here != lang::Fault::none) return answer_of(not_here);
+  const bool fits = line.row().macro_lines() <= lang::room_of(state_.download, options_.download);
+  return fits ? DeviceAnswer(Refusal::none) : answer_of(lang::Fault::macro_memory);
+}
+
+DeviceAnswer RsM8194h::take_whole(const RegisterRequest& request) {
+  if (is_group_number(request)) {
+    write_group(request.first, number_in(request, low_word_first()));
+    return Refusal::none;
+  }
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const std::size_t coil = request.first + i;
+    const bool is_on = request.words[i] != 0;
+    if (coil < kFirstServoCoil) {
+      std::uint16_t& word = state_.outputs[coil / kFrnetChannels];
+      const auto bit = static_cast<std::uint16_t>(1U << coil % kFrnetChannels);
+      word = static_cast<std::uint16_t>(is_on ? word | bit : word & ~bit);
+      continue;
+    }
+    lang::Command command{.code = lang::real_time_code(is_on ? lang::Verb::servo_on : lang::Verb::servo_off)};
+    command.values[0] = mask_of(coil - kFirstServoCoil);
+    carry_out(command);
+  }
+  return Refusal::none;
+}
+
+/// A number, or a variable that stands for it.
+void RsM8194h::write_group(std::size_t group, std::uint32_t number) {
+  if (state_.rsm != lang::State::ready && machine_.table_writes_become_lines) {
+    lang::add(state_.download, group_line(group, number), options_.download);
+    return;
+  }
+  const bool is_variable = lang::is_variable(number);
+  const std::uint32_t bits =
+      is_variable ? static_cast<std::uint32_t>(variable(lang::variable_number(number))) : number;
+  state_.outputs[group] = static_cast<std::uint16_t>(bits);
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h
