@@ -73,7 +73,13 @@ void Axis::set_comparator(std::size_t number, const Comparator& comparator) {
 void Axis::set_encoder(std::int64_t pulses) {
   if (pulses == encoder_pulses) return;
   encoder_pulses = pulses;
-  attentive = true;
+  const bool is_compared = std::any_of(comparators.begin(), comparators.end(),
+                                       [](const Comparator& mine) { return mine.count == Count::encoder; });
+  if (is_compared) {
+    attentive = true;
+  } else {
+    encoder_seen = pulses;  // nobody meets what lies between
+  }
 }
 
 /// The encoder's count goes from where it was to where it is: comparators meet all that lies between.

@@ -8,6 +8,7 @@
 #include "base/text/suggestion.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
+#include "emulator/device/command_window.h"
 #include "emulator/device/describe/describe.h"
 #include "emulator/device/describe/fidelity_page.h"
 #include "emulator/device/describe/sheet.h"
@@ -58,7 +59,12 @@ int describe_model(ModelList models, const DescribeArguments& arguments) {
                      "ports or blocks");
   }
   if (sheet->rows.empty() && *format == SheetFormat::table) {
-    std::printf("%s has no %s\n", arguments.model.c_str(), arguments.what.c_str());
+    const bool has_window = arguments.what == "commands" && model.window != nullptr;
+    const std::string more = has_window
+                                 ? " of text; its window takes those that `instructions` lists, such as " +
+                                       std::string(model.window->example())
+                                 : "";
+    std::printf("%s has no %s%s\n", arguments.model.c_str(), arguments.what.c_str(), more.c_str());
     return kExitWell;
   }
   // As Markdown the choices are a page of the documentation, whole.

@@ -195,11 +195,13 @@ void set_register(Device& device, const std::string& name, const std::string& to
   const auto value = value_for(*place);
   switch (value ? write_value(*bank, *place, *value) : Refusal::bad_value) {
     case Refusal::none: break;
-    case Refusal::no_register:
-      throw SettingEntryError("set", name, "cannot be written; it is read-only",
-                              name + " cannot be written; it is read-only");
+    case Refusal::no_register: {
+      const std::string why = why_not_writable(*place);
+      throw SettingEntryError("set", name, why, name + " " + why);
+    }
     case Refusal::bad_value: {
-      const std::string expected = "; expected " + range_text(*place->place.row);
+      const std::string expected =
+          "; expected " + (value ? range_text(*place, *value) : range_text(*place->place.row));
       throw SettingEntryError("set", name, told + " is out of range" + expected,
                               told + " is out of range for " + name + expected);
     }

@@ -120,6 +120,23 @@ TEST(AxisEvent, AComparatorOfTheEncoderLooksAtTheEncoder) {
   EXPECT_EQ(firings(course, 5, 1).size(), 1U);
 }
 
+/// And an axis whose encoder nothing is compared with has nothing to look at.
+TEST(AxisEvent, AComparatorOfTheEncoderMeetsWhatComesAfterIt) {
+  AxisCourse course;
+  course.axis.run(+1, constant(1'000), 0);
+  EXPECT_TRUE(firings(course, 5, 1).empty());
+  course.axis.set_encoder(50);
+  EXPECT_FALSE(course.axis.attentive);
+  course.axis.set_comparator(
+      1, {.relation = Comparator::Relation::equal_upwards, .count = Count::encoder, .value = 30});
+  EXPECT_TRUE(firings(course, 5, 1).empty()) << "it was passed before";
+  course.axis.set_encoder(20);
+  EXPECT_TRUE(course.axis.attentive);
+  EXPECT_TRUE(firings(course, 5, 1).empty());
+  course.axis.set_encoder(40);
+  EXPECT_EQ(firings(course, 5, 1).size(), 1U);
+}
+
 TEST(AxisEvent, AnEncoderThatJumpsFarPassesNothing) {
   // 100,000 counts within a tick are a motion, which passes what lies between; more are a jump.
   for (const int way : {+1, -1}) {

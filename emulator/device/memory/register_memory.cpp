@@ -24,6 +24,14 @@ namespace {
 
 using List = NvEntryError::List;
 
+/// Whether a register may hold a value: also beyond its range where values are stored as they come, or half
+/// of one has been written alone. What is not a finite number is not given by one who writes images by hand.
+bool may_hold(const MapPolicy& policy, const RegisterRow& row, Value value) {
+  const bool is_odd = row.type == Type::f32 && !std::isfinite(real_of(value));
+  return is_odd || policy.out_of_range == MapPolicy::OutOfRange::stored ||
+         (is_32_bit(row.type) && policy.halves != MapPolicy::Halves::come_whole) || is_in_range(row, value);
+}
+
 void write_kept_registers(const RegisterMap& map, const std::vector<bool>& keeps_row,
                           const std::vector<std::uint32_t>& kept, NvImage& image) {
   std::size_t slot = 0;
@@ -85,28 +93,27 @@ std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImag
     }
     entries.emplace_back(name, *value);
   }
-  for (const auto& [name, value] : entries) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const auto& [name, value] = entries[i];
+    const List list = i < image.registers.size() ? List::registers : List::reals;
     const auto found = map.find(name, newest);
     if (!found || found->bit >= 0 || found->place.part != Place::Part::whole) {
-      throw refused_value(List::registers, name, map.why_not(name, newest));
+      throw refused_value(list, name, map.why_not(name, newest));
     }
     const RegisterRow& row = *found->place.row;
     if (!bank.keeps(row)) {
-      throw refused_value(List::registers, name,
-                          quoted(name) + " is not kept through power-off; expected one that is");
+      throw refused_value(list, name, quoted(name) + " is not kept through power-off; expected one that is");
     }
     const auto bits = static_cast<std::uint32_t>(value);
-    // Half of a 32-bit value may have been written alone, so it can be beyond its range; nothing else can.
-    const bool in_range = !row.ranged || is_32_bit(row.type) || (value >= row.min && value <= row.max);
+    const bool in_range = may_hold(bank.map_policy(), row, value_of(bits, row.type));
     if (value_of(bits, row.type) != value || (bits & row.stored_bits) != bits || !in_range) {
       throw refused_value(
-          List::registers, name,
-          quoted(name) + ": " + std::to_string(value) + " does not fit; expected " + range_text(row));
+          list, name,
+          quoted(name) + ": " + value_text(value, row.type) + " does not fit; expected " + range_text(row));
     }
     const auto slot = static_cast<std::size_t>(found->place.slot);
     if (is_named[slot]) {
-      throw refused_value(List::registers, name,
-                          quoted(name) + ": appears twice, by two names; expected it once");
+      throw refused_value(list, name, quoted(name) + ": appears twice, by two names; expected it once");
     }
     is_named[slot] = true;
     values[slot] = bits;

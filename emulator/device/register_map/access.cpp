@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/simulated_time.h"
@@ -44,12 +45,7 @@ bool complete(const Change& change) {
 
 bool in_range(const Change& change) {
   const RegisterRow& row = *change.place.row;
-  if (!row.ranged) return true;
-  const Value value = value_of(change.bits, row.type);
-  if (row.type == Type::f32) {  // what is not a number is in no range
-    return real_of(value) >= real_of(row.min) && real_of(value) <= real_of(row.max);
-  }
-  return value >= row.min && value <= row.max;
+  return is_in_range(row, value_of(change.bits, row.type));
 }
 
 void bring_into_range(Change& change) {
@@ -332,6 +328,15 @@ std::optional<Value> value_of_number(const NamedPlace& place, double number) {
   constexpr double kMost = 1e15;  // beyond it every number is whole, and none fits
   if (!(std::abs(number) <= kMost) || number != std::trunc(number)) return std::nullopt;
   return static_cast<Value>(number);
+}
+
+std::string why_not_writable(const NamedPlace& named) {
+  const Place& place = named.place;
+  const RegisterRow& row = *place.row;
+  if (row.message != nullptr) return "takes whole messages; expected a request from the line";
+  if (row.access == Access::read || place.part == Place::Part::whole)
+    return "cannot be written; it is read-only";
+  return "cannot be written alone; expected the whole " + RegisterMap::name_of(row, place.index);
 }
 
 Refusal prepare_value(const RegisterBank& bank, const NamedPlace& place, Value value, PreparedWrite& write) {

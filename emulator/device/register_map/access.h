@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "emulator/device/register_map/register_bank.h"
 
@@ -42,6 +43,9 @@ double number_of(const NamedPlace& place, Value value);
 /// The value of a number for a place: a real's bits where it holds a real. None: a fraction for a whole
 /// number, or more than a single can hold.
 std::optional<Value> value_of_number(const NamedPlace& place, double number);
+
+/// Why nothing can be written to a place, whatever the value: "cannot be written; it is read-only".
+std::string why_not_writable(const NamedPlace& place);
 
 /// A value for a named place, as the words that bring it.
 struct PreparedWrite {

@@ -184,11 +184,14 @@ Place RegisterMap::at(Table table, std::uint16_t address, Firmware firmware, boo
 
 namespace {
 
-/// "0x1000": the address that a name is.
-std::optional<std::uint16_t> address_of(std::string_view name) {
+/// "0x1000": the address that a name is. Behind its table it may be decimal as well: "coil.20".
+std::optional<std::uint16_t> address_of(std::string_view name, std::optional<Table> table) {
   std::uint16_t address = 0;
-  if (!name.starts_with("0x") || name.size() < 3) return std::nullopt;
-  const auto [end, error] = std::from_chars(name.data() + 2, name.data() + name.size(), address, 16);
+  const bool is_hexadecimal = name.starts_with("0x");
+  if (!is_hexadecimal && !table) return std::nullopt;
+  const char* const first = name.data() + (is_hexadecimal ? 2 : 0);
+  const auto [end, error] =
+      std::from_chars(first, name.data() + name.size(), address, is_hexadecimal ? 16 : 10);
   if (error != std::errc{} || end != name.data() + name.size()) return std::nullopt;
   return address;
 }
@@ -264,7 +267,7 @@ std::optional<NamedPlace> RegisterMap::find(std::string_view name, Firmware firm
   const std::size_t dot = alone.rfind('.');
   const std::string_view base = alone.substr(0, dot);
   Place place;
-  if (const auto address = address_of(base)) {
+  if (const auto address = address_of(base, table)) {
     place = word_at(*this, table, *address, firmware);
   } else if (const auto places = places_called(table, base, firmware); places.size() == 1) {
     place = places.front();
@@ -299,11 +302,12 @@ std::string RegisterMap::why_not(std::string_view name, Firmware firmware) const
     return "register " + quoted(base) + " exists from firmware " + version_text(newer.front().row->since) +
            " on";
   }
-  if (const auto address = address_of(base)) {
+  if (const auto address = address_of(base, table)) {
     if (const Place place = word_at(*this, table, *address, firmware)) {
       return std::string(base) + " has no bit " + quoted(bit) + "; " + expected_bits(place);
     }
-    return "no register is at " + std::string(base);
+    const std::string in_table = table ? " of the table " + quoted(to_string(*table)) : "";
+    return "no register is at " + std::string(base) + in_table;
   }
   if (table && !places_called(std::nullopt, base, firmware).empty()) {
     return quoted(base) + " is not in the table " + quoted(to_string(*table)) + "; expected " +
@@ -342,6 +346,12 @@ std::string value_text(Value value, Type type) {
   return type == Type::f32 ? real_text(value) : std::to_string(value);
 }
 
+bool is_in_range(const RegisterRow& row, Value value) {
+  if (!row.ranged) return true;
+  if (row.type != Type::f32) return value >= row.min && value <= row.max;
+  return real_of(value) >= real_of(row.min) && real_of(value) <= real_of(row.max);
+}
+
 std::string range_text(const RegisterRow& row) {
   if (row.stored_bits < 0xFFFF && row.type != Type::bit) return "0 to " + std::to_string(row.stored_bits);
   if (row.type == Type::f32) {
@@ -350,6 +360,15 @@ std::string range_text(const RegisterRow& row) {
   const TypeLimits limits = row.ranged ? TypeLimits{row.min, row.max} : limits_of(row.type);
   return std::to_string(limits.lowest) + (row.type == Type::bit ? " or " : " to ") +
          std::to_string(limits.highest);
+}
+
+std::string range_text(const NamedPlace& named, Value value) {
+  const RegisterRow& row = *named.place.row;
+  const bool is_half = named.place.part != Place::Part::whole;
+  if (named.bit < 0 && !is_half) return range_text(row);
+  const Value most = named.bit < 0 ? limits_of(Type::u16).highest : (Value{1} << named.width) - 1;
+  if (value < 0 || value > most) return (most == 1 ? "0 or " : "0 to ") + std::to_string(most);
+  return RegisterMap::name_of(row, named.place.index) + " within " + range_text(row);
 }
 
 }  // namespace understudy::emulator

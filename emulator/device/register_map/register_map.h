@@ -91,7 +91,7 @@ class RegisterMap {
 
   /// "Aaxis_Pulse", "Aaxis_Pulse_L" (a half), "STATUS.4" (a bit), "STATUS.READY" (a field), "input.NAME"
   /// where several tables have that name. "0x1000" is an address of the first table that has it: holding
-  /// registers, coils, input registers, discrete inputs.
+  /// registers, coils, input registers, discrete inputs. "coil.0x0010" and "coil.16" are of that table.
   std::optional<NamedPlace> find(std::string_view name, Firmware firmware) const;
   /// Why find() found nothing, as one line: no such name (and the nearest), no such bit, a newer firmware.
   std::string why_not(std::string_view name, Firmware firmware) const;
@@ -137,8 +137,14 @@ class RegisterMap {
 std::string_view to_string(Table table);
 std::optional<Table> table_called(std::string_view name);
 
+/// Of a value as the row's type has it. What is not a number is in no range of reals.
+bool is_in_range(const RegisterRow& row, Value value);
+
 /// "0 to 3000", or what the width allows where the manual gives no range.
 std::string range_text(const RegisterRow& row);
+/// The same of a bit, a field or a half that was to become `value`; "NAME within ..." where that would fit,
+/// and it is the whole register that would be out of its range.
+std::string range_text(const NamedPlace& named, Value value);
 
 /// A value as its type has it: "-5", of a real "321.65".
 std::string value_text(Value value, Type type);

@@ -1,5 +1,6 @@
 #include "emulator/models/rs_m8194h/axis_unit.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -187,6 +188,13 @@ motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& mo
   if (way > 0 && count >= axis.basic.forward_soft_limit + beyond) return motion::Cause::soft_limit_plus;
   if (way < 0 && count <= axis.basic.reverse_soft_limit - beyond) return motion::Cause::soft_limit_minus;
   return motion::Cause::none;
+}
+
+bool heeds_encoder(const AxisUnit& axis, const motion::Axis& motor) {
+  if (!axis.has_encoder) return false;
+  return (axis.basic.soft_limits && axis.basic.soft_limit_source == 1) ||
+         std::any_of(motor.comparators.begin(), motor.comparators.end(),
+                     [](const motion::Comparator& its) { return its.count == motion::Count::encoder; });
 }
 
 std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving, UpperBits upper) {

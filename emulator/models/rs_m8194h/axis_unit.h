@@ -166,6 +166,8 @@ void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const Ax
 /// Of a soft limit on a bench's encoder, which the motor does not watch: the cause of a motion in `way` that
 /// may not begin there, or, with one count `beyond` it, not go on.
 motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way, int beyond = 0);
+/// Whether something may happen because of what a bench's encoder tells, from tick to tick.
+bool heeds_encoder(const AxisUnit& axis, const motion::Axis& motor);
 
 /// Bits 5 to 9 of DI_ALL: the levels of the lines, or whether they are active by their settings.
 enum class UpperBits : std::uint8_t { line_levels, active };

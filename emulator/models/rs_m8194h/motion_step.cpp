@@ -368,7 +368,7 @@ Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) 
   if (state_.unscanned || state_.sent != state_.outputs) last = std::min(last, next_scan(done) - 1);
   for (std::size_t a = 0; a < kAxes && last > done; ++a) {
     const AxisUnit& unit = state_.units[a];
-    if (unit.has_encoder || is_filtering(unit)) return done + 1;
+    if (heeds_encoder(unit, state_.motors[a]) || is_filtering(unit)) return done + 1;
     if (unit.out.pulse_until > done) last = std::min(last, unit.out.pulse_until - 1);
     if (unit.held_drive.what != Drive::What::none && !unit.held) return done + 1;
     const motion::Axis& motor = state_.motors[a];
@@ -383,12 +383,14 @@ Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) 
   return last + 1;
 }
 
-void RsM8194h::cross_to(Tick, Tick tick, const MachineAhead&, std::span<std::int64_t> pulses) {
+void RsM8194h::cross_to(Tick, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     motion::Axis& motor = state_.motors[a];
     pulses[a] += motor.cross_to(tick - 1);
     state_.units[a].sent_pulses = motor.step(tick, state_.here[a]);
     pulses[a] += state_.units[a].sent_pulses;
+    const auto axis = static_cast<int>(a);
+    if (ahead.has_encoder(axis)) set_encoder(axis, ahead.encoder_counts(axis, pulses[a]));
   }
 }
 

@@ -113,16 +113,13 @@ world::NamedNumber resolve(const world::World& world, const world::Probes& probe
   }
 }
 
-void demand_accepted(Refusal refusal, const std::string& name, const std::string& value,
-                     const RegisterRow& row) {
+void demand_accepted(Refusal refusal, const std::string& name, const std::string& told,
+                     const NamedPlace& place, Value value) {
   switch (refusal) {
     case Refusal::none: return;
-    case Refusal::no_register:
-      throw MessageError(row.message != nullptr
-                             ? name + " takes whole messages; expected a request from the line"
-                             : name + " cannot be written; it is read-only");
+    case Refusal::no_register: throw MessageError(name + " " + why_not_writable(place));
     case Refusal::bad_value:
-      throw MessageError(name + ": " + value + " is out of range; expected " + range_text(row));
+      throw MessageError(name + ": " + told + " is out of range; expected " + range_text(place, value));
     case Refusal::busy: throw MessageError(name + " cannot be written now; the device is busy");
     case Refusal::failure: throw MessageError(name + " cannot be written; the device has failed");
   }
@@ -246,15 +243,17 @@ Json set_message(Daemon& daemon, const Json& message) {
     demand_power(world.device(place.device));
     const RegisterBank& bank = *world.device(place.device).register_bank();
     low_first.push_back(bank.low_word_first());
-    const Refusal refusal = prepare_value(bank, place.place, value_for(place, wanted[i]), writes[i]);
-    demand_accepted(refusal, name, wanted[i].number.dump(), *place.place.place.row);
+    const Value value = value_for(place, wanted[i]);
+    const Refusal refusal = prepare_value(bank, place.place, value, writes[i]);
+    demand_accepted(refusal, name, wanted[i].number.dump(), place.place, value);
   }
   for (std::size_t i = 0; i < writes.size(); ++i) {
     // The order of words may be what has just been written.
     const RegisterBank& bank = *world.device(places[i].device).register_bank();
     if (bank.low_word_first() != low_first[i]) {
-      demand_accepted(prepare_value(bank, places[i].place, value_for(places[i], wanted[i]), writes[i]),
-                      wanted[i].name, wanted[i].number.dump(), *places[i].place.place.row);
+      const Value value = value_for(places[i], wanted[i]);
+      demand_accepted(prepare_value(bank, places[i].place, value, writes[i]), wanted[i].name,
+                      wanted[i].number.dump(), places[i].place, value);
     }
     if (world.write(places[i].device, writes[i]) == Refusal::none) continue;
     throw MessageError(wanted[i].name + " was not written: " +

@@ -14,6 +14,7 @@
 
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
 #include "base/text/parse_real.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/device.h"
@@ -80,6 +81,10 @@ bool is_real_register(const Model& model, std::string_view name) {
   return place && place->is_real();
 }
 
+bool is_register(const Model& model, std::string_view name) {
+  return find_register(model, name, model.firmwares.back()).has_value();
+}
+
 /// The registers and blocks of a memory, given in the bench: they have no file, so what changes lasts as long
 /// as the run.
 NvImage read_memory(const YamlFields& field, const Model& model, Complaints& complaints) {
@@ -91,6 +96,9 @@ NvImage read_memory(const YamlFields& field, const Model& model, Complaints& com
       if (model.registers == nullptr) return read_value_of_memory(name, number, image);
       if (is_real_register(model, name)) {
         image.reals.emplace_back(name, demand_real(number));
+      } else if (!is_register(model, name) && !(number.is_scalar() && parse_integer(number.text()))) {
+        number.fail(why_no_register(model, name, model.firmwares.back()) +
+                    " (texts of a kind are a map, as in `files: { NAME: TEXT }`)");
       } else {
         image.registers.emplace_back(name, number.integer(kRegisterValueForm));
       }

@@ -98,8 +98,8 @@ IndexSetup read_index(const YamlFields& index, const Model& model, int pulses_pe
   keys.read("period", [&](const YamlFields& field) { setup.period = field.integer(kWidthForm); });
   keys.read("input", [&](const YamlFields& field) { setup.input = read_own_input(field, model); });
   complaints.attempt([&] {
-    if (setup.period <= 0) index.fail("has no period; expected `period`, or `motor_pulses_per_revolution`");
-    if (setup.width < setup.period) return;
+    const bool is_known = setup.period > 0;  // else the encoder is complained of
+    if (!is_known || setup.width < setup.period) return;
     (index.has("width") ? index.at("width") : index)
         .fail("is on for " + std::to_string(setup.width) + " of " + std::to_string(setup.period) +
               " positions; expected fewer than its period");
@@ -117,6 +117,13 @@ void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& set
   keys.read("motor_pulses_per_revolution",
             [&](const YamlFields& field) { setup.pulses_per_revolution = per_revolution(field); });
   keys.read("on", [&](const YamlFields& field) { setup.has_wheel = read_word(field, "wheel", "machine"); });
+  complaints.attempt([&] {
+    if (setup.pulses_per_revolution > 0 || encoder.has("motor_pulses_per_revolution")) return;
+    if (!setup.has_wheel)
+      encoder.fail(
+          "turns with a motor of unknown pulses a revolution; expected `motor_pulses_per_revolution`");
+    setup.pulses_per_revolution = 1;  // no motor turns it
+  });
   keys.read("reversed",
             [&](const YamlFields& field) { setup.encoder_reversed = read_word(field, "true", "false"); });
   keys.read("index", [&](const YamlFields& field) {

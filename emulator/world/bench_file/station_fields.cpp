@@ -1,5 +1,6 @@
 #include "emulator/world/bench_file/station_fields.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -61,12 +62,28 @@ std::optional<int> read_address(const YamlFields& station, DeviceSetup& device) 
 
 namespace {
 
+/// Whether the bench writes the register in which the device keeps its number.
+bool sets_number(const DeviceSetup& device) {
+  const Model& model = *device.model;
+  const Firmware firmware = device.settings.firmware != 0 ? device.settings.firmware : model.firmwares.back();
+  const auto kept_in = find_register(model, model.line.station_numbers->kept_in, firmware);
+  const auto is_it = [&](const auto& pair) {
+    const auto named = find_register(model, pair.first, firmware);
+    return named && kept_in && named->place.is_same_register(kept_in->place);
+  };
+  return std::any_of(device.settings.set.begin(), device.settings.set.end(), is_it);
+}
+
+/// None where only a file knows it.
 std::optional<int> number_of(const NumberedStation& station, const Bench& bench,
                              const BenchInventory& inventory) {
-  if (station.address || !station.device) return station.address;
+  if (!station.device) return station.address;
   const DeviceSetup& device = bench.devices[*station.device];
-  if (device.settings.address || !device.model->line.station_numbers || !device.nv_path.empty())
-    return device.settings.address;
+  const auto& numbers = device.model->line.station_numbers;
+  if (!numbers || numbers->kept_in.empty())
+    return station.address ? station.address : device.settings.address;
+  const bool is_set = sets_number(device);
+  if (!is_set && (device.settings.address || !device.nv_path.empty())) return device.settings.address;
   return inventory.device(*station.device).station_number();
 }
 

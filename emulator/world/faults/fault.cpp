@@ -83,7 +83,7 @@ void set_place(const KnownDevices& devices, const FaultKindRow& row, const std::
       }
       [[fallthrough]];
     case At::axis: {
-      const AxisName axis = find_axis(devices, place);
+      const AxisName axis = find_axis(devices, place, row.place == At::wheel);
       fault.device = axis.device;
       fault.place = axis.axis;
       return;

@@ -125,7 +125,7 @@ void demand_level(const TerminalRow& row, std::string_view name, std::int64_t le
                                           (is_in_millivolts(row.kind) ? " millivolts" : "")));
 }
 
-AxisName find_axis(const KnownDevices& devices, std::string_view name) {
+AxisName find_axis(const KnownDevices& devices, std::string_view name, bool or_counted) {
   const auto has_axis = [](const KnownDevice& device, std::string_view axis) {
     return find_axis(*device.model, axis) >= 0;
   };
@@ -134,8 +134,13 @@ AxisName find_axis(const KnownDevices& devices, std::string_view name) {
   if (const int axis = find_axis(model, rest); axis >= 0) return {number, axis};
   std::string axes;
   for (const AxisRow& row : model.axes) axes += (axes.empty() ? "" : ", ") + std::string(row.name);
-  throw NameError("no axis of " + devices[number].name + " is called " + quoted(rest) + "; expected one of " +
-                  axes);
+  std::string counted;
+  for (const TerminalRow& row : model.terminals) {
+    if (or_counted && row.kind == TerminalRow::Kind::counted_in) counted += ", " + std::string(row.name);
+  }
+  throw NameError("no axis" + std::string(counted.empty() ? "" : " or counted input") + " of " +
+                  devices[number].name + " is called " + quoted(rest) + "; expected one of " + axes +
+                  counted);
 }
 
 std::size_t find_device(const KnownDevices& devices, std::string_view name) {

@@ -62,7 +62,8 @@ struct AxisName {
   std::size_t device = 0;
   int axis = 0;
 };
-AxisName find_axis(const KnownDevices& devices, std::string_view name);
+/// `or_counted`: a counted input would have done as well, which is said where there is neither.
+AxisName find_axis(const KnownDevices& devices, std::string_view name, bool or_counted = false);
 
 /// Whether something of that name is at a device.
 using HasName = std::function<bool(const KnownDevice& device, std::string_view name)>;

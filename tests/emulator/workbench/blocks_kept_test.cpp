@@ -102,7 +102,9 @@ TEST(KeptBlocks, ThoseOfABenchAreToldWithTheirLines) {
   const std::string text =
       "understudy: 1\nlines:\n  rs485:\n    stations:\n      - name: it\n        model: workbench\n"
       "        nv:\n          files:\n            \"07\": good\n            \"B\": no number\n"
-      "            \"08\": \"\xFF\"\n          fils:\n            \"01\": a\n          Nix: 1\n";
+      "            \"08\": \"\xFF\"\n          fils:\n            \"01\": a\n          Nix: 1\n          "
+      "Nix2: MAIN\n"
+      "          Gain_Y: 11\n";
   try {
     world::parse_bench(kWorkbenchModels, text, "bench.yaml", "/tmp");
     ADD_FAILURE() << "it is taken";
@@ -118,7 +120,10 @@ TEST(KeptBlocks, ThoseOfABenchAreToldWithTheirLines) {
         "bench.yaml:13:13: lines.rs485.stations[0].nv.fils: 'fils' is not a kind of block; the nearest "
         "is 'files'\n"
         "bench.yaml:14:16: lines.rs485.stations[0].nv.Nix: no register is called 'Nix'; expected one such as "
-        "'Speed_X'\n");
+        "'Speed_X'\n"
+        "bench.yaml:15:17: lines.rs485.stations[0].nv.Nix2: no register is called 'Nix2'; expected one such "
+        "as 'Speed_X' (texts of a kind are a map, as in `files: { NAME: TEXT }`)\n"
+        "bench.yaml:16:19: lines.rs485.stations[0].nv.Gain_Y: 'Gain_Y': 11 does not fit; expected 0 to 10\n");
   }
 }
 

@@ -34,7 +34,8 @@ TEST(Names, StandForOneRegisterOfOneTable) {
       {"coil.Output_79", Table::coil, 79, -1, 1},   {"DRIVING_Y", Table::discrete, 32, -1, 1},
       {"Step8301", Table::holding, 0x220, -1, 1},   {"input.0x0014", Table::input, 20, -1, 1},
       {"0x0030.4", Table::holding, 0x30, 4, 1},     {"input.Position_X.31", Table::input, 2, 31, 1},
-      {"0x17CF", Table::coil, 0x17CF, -1, 1},
+      {"0x17CF", Table::coil, 0x17CF, -1, 1},       {"input.20", Table::input, 20, -1, 1},
+      {"coil.4096", Table::coil, 0x1000, -1, 1},    {"holding.48.4", Table::holding, 0x30, 4, 1},
   };
   for (const Case& c : cases) {
     const auto found = find(c.name);
@@ -56,7 +57,12 @@ TEST(Names, ThatStandForNoneSayWhy) {
       {"Mode.RUN", "register 'Mode' has no bit 'RUN'; expected 0 to 15, AUTO, HOLD, PROGRAM"},
       {"Output_3.0", "register 'Output_3' has no bit '0'; expected none: it is a bit itself"},
       {"Speed_W", "no register is called 'Speed_W'; the nearest is 'Speed_X'"},
-      {"input.0x0001", "no register is at 0x0001"},
+      {"input.0x0001", "no register is at 0x0001 of the table 'input'"},
+      {"coil.200", "no register is at 200 of the table 'coil'"},
+      {"coil.20x", "no register is called 'coil.20x'; expected one such as 'Speed_X'"},
+      {"coil.65536", "no register is called 'coil.65536'; expected one such as 'Speed_X'"},
+      {"20", "no register is called '20'; the nearest is 'D0'"},
+      {"0x1001.0", "0x1001 has no bit '0'; expected none: it is a bit itself"},
   };
   for (const auto& [name, wanted] : cases) {
     EXPECT_FALSE(find(name)) << name;
@@ -123,6 +129,10 @@ TEST(Memory, NamesRealsAndRegistersOfSeveralTables) {
       {{.model = "workbench", .firmware = {}, .reals = {{"Speed_X", 1.5}}}, "reals: 'Speed_X' does not hold"},
       {{.model = "workbench", .firmware = {}, .registers = {{"Position_X", 1}}}, "is in several tables"},
       {{.model = "workbench", .firmware = {}, .registers = {{"holding.Position_X", 1}}}, "is not kept"},
+      {{.model = "workbench", .firmware = {}, .reals = {{"Gain_X", 10.5}}},
+       "reals: 'Gain_X': 10.5 does not fit; expected 0 to 10"},
+      {{.model = "workbench", .firmware = {}, .registers = {{"Speed_X", 4001}}},
+       "registers: 'Speed_X': 4001 does not fit; expected 1 to 4000"},
   };
   for (const auto& [wrong, complaint] : bad) {
     try {

@@ -104,6 +104,19 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
       {lines_ab("{ device: mill }, { device: lathe, address: 5 }", "{ device: mill, port: HMI, address: 5 }",
                 devices),
        "bench.yaml:3:38: lines.a.stations[1]: address 5 is taken on this line; expected another"},
+      // The register of its number may be set, which comes after the address; by number as well.
+      {lines_ab(
+           "{ device: mill, address: 4 }, { device: lathe, address: 5 }", "{ device: mill, port: HMI }",
+           "devices:\n  mill: { model: workbench, set: { Station: 5 } }\n  lathe: { model: workbench }\n"),
+       "bench.yaml:3:50: lines.a.stations[1]: address 5 is taken on this line; expected another"},
+      {lines_ab("{ device: mill }, { device: lathe, address: 5 }", "{ device: mill, port: HMI }",
+                "devices:\n  mill: { model: workbench, nv: m.json, set: { 0x0033: 5 } }\n"
+                "  lathe: { model: workbench }\n"),
+       "bench.yaml:3:38: lines.a.stations[1]: address 5 is taken on this line; expected another"},
+      {lines_ab(
+           "{ device: mill, address: 5 }, { device: lathe, address: 5 }", "{ device: mill, port: HMI }",
+           "devices:\n  mill: { model: workbench, set: { Station: 4 } }\n  lathe: { model: workbench }\n"),
+       "none"},
       {lines_ab("{ device: mill, address: 5 }", "{ device: mill, port: HMI, address: 6 }", one),
        "bench.yaml:4:56: lines.b.stations[0].address: the device has one station number, and on another line "
        "it is 5; expected the same"},

@@ -68,6 +68,8 @@ TEST(ServedNames, ABenchAndTheControlSocketKnowTablesAndReals) {
   EXPECT_EQ(served.get("Gain_Z"), 4);
   EXPECT_EQ(served.complaint_of_setting("coil.Output_9", 1), "");
   EXPECT_EQ(served.get("Output_9"), 1);
+  EXPECT_EQ(served.get("coil.9"), 1);
+  EXPECT_EQ(served.get("it.input.20"), 0x44);
   EXPECT_EQ(served.complaint_of_setting("Mode.PROGRAM", 15), "");
   EXPECT_EQ(served.get("Mode.PROGRAM"), 15);
 }
@@ -111,18 +113,32 @@ TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
       {"Gain_Z", 1e300, "Gain_Z: 1e+300 is more than a 32-bit real can hold"},
       {"Speed_X", 2.5, "Speed_X: expected a whole number"},
       {"Output_9", 2, "Output_9: 2 is out of range; expected 0 or 1"},
+      {"Mode.PROGRAM", 16, "Mode.PROGRAM: 16 is out of range; expected 0 to 15"},
+      {"Mode.3", -1, "Mode.3: -1 is out of range; expected 0 or 1"},
+      {"Offset.15", 1, "Offset.15: 1 is out of range; expected Offset within -500 to 500"},
+      {"holding.Position_X_L", 1,
+       "holding.Position_X_L cannot be written alone; expected the whole Position_X"},
       {"Command0", kStop, "Command0 takes whole messages; expected a request from the line"},
       {"Servo_X", 1, "Servo_X cannot be written; it is read-only"},
       {"Position_X", 1,
        "it: 'Position_X' is in several tables; expected one of holding.Position_X, input.Position_X"},
   };
   for (const auto& [name, value, wanted] : cases) EXPECT_EQ(served.complaint_of_setting(name, value), wanted);
-  try {
-    bench_with("Gain_X: 11");
-    ADD_FAILURE() << "a gain of 11 is taken";
-  } catch (const std::exception& error) {
-    EXPECT_STREQ(error.what(),
-                 "bench.yaml:5:54: lines.rs485.stations[0].set.Gain_X: 11 is out of range; expected 0 to 10");
+  const std::pair<const char*, const char*> of_benches[] = {
+      {"Gain_X: 11", "54: lines.rs485.stations[0].set.Gain_X: 11 is out of range; expected 0 to 10"},
+      {"Mode.PROGRAM: 16",
+       "60: lines.rs485.stations[0].set.Mode.PROGRAM: 16 is out of range; expected 0 to 15"},
+      {"Command0: 5",
+       "56: lines.rs485.stations[0].set.Command0: takes whole messages; expected a request from the line"},
+      {"input.20: 5", "56: lines.rs485.stations[0].set.input.20: cannot be written; it is read-only"},
+  };
+  for (const auto& [set, complaint] : of_benches) {
+    try {
+      bench_with(set);
+      ADD_FAILURE() << set << " is taken";
+    } catch (const std::exception& error) {
+      EXPECT_EQ(error.what(), std::string("bench.yaml:5:") + complaint);
+    }
   }
 }
 

@@ -230,7 +230,7 @@ TEST(GroupedTerminals, AreWordsInStatusAndWatch) {
   EXPECT_NE(table.find("  groups     DI_3 0x201\n"), std::string::npos) << table;
   EXPECT_NE(table.find("  counts     CMP.pulses 0  EXPP 0  MPG 15\n"), std::string::npos) << table;
   EXPECT_EQ(served.ask({{"do", "turn"}, {"values", {{"it.IN0", 30}}}})["error"],
-            "no axis of it is called 'IN0'; expected one of A, B");
+            "no axis or counted input of it is called 'IN0'; expected one of A, B, MPG, EXPP");
 }
 
 }  // namespace terminals_test

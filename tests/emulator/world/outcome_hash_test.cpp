@@ -1,7 +1,10 @@
 // One scenario, one outcome: every byte, pulse and output at its time.
 #include <set>
 
+#include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/outcome_hash.h"
 #include "tests/emulator/play/performing/played.h"
+#include "tests/emulator/world/stations/pdus.h"
 
 namespace understudy::emulator::world {
 namespace outcome_hash_test {
@@ -65,6 +68,26 @@ TEST(OutcomeHash, DiffersWithWhateverComesOut) {
       outcome(play::kServoOn + play::kServoOn, true, "gap: 1ms\n"),
   };
   EXPECT_EQ(outcomes.size(), 10U);
+}
+
+/// Two hosts say the same at the same time, which nobody answers: one is heard, the other has set something
+/// else than the device.
+TEST(OutcomeHash, DiffersWithWhatWasHeard) {
+  const auto of_host = [](int stop_bits) {
+    World world(parse_bench(models::all_models(),
+                            "understudy: 1\nlines: { a: { stations: [ { name: x, model: simple2-r3 } ] } }\n",
+                            "bench.yaml", "/tmp"),
+                {}, {});
+    OutcomeHash hash(world);
+    world.host_opened(0);
+    world.host_settings(0, pty::HostSettings{.baud = 19200, .stop_bits = stop_bits});
+    world.receive(0, hex("07 03 00 01"));
+    world.advance_to(std::chrono::milliseconds(20));
+    EXPECT_EQ(world.line(0).line.counters().bytes_unheard, stop_bits == 1 ? 0U : 4U);
+    return hash.value();
+  };
+  EXPECT_EQ(of_host(1), of_host(1));
+  EXPECT_NE(of_host(1), of_host(2));
 }
 
 }  // namespace outcome_hash_test

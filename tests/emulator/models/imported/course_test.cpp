@@ -128,6 +128,17 @@ TEST(DescribedMemory, KeepsWhatTheListCallsPersistent) {
   EXPECT_EQ(read_value(*device->register_bank(), *device->register_bank()->find("SETPOINT")), -5);
 }
 
+/// Where values are stored as they come, a memory has them, and is read back.
+TEST(DescribedMemory, KeepsWhatIsBeyondItsRange) {
+  OneDescribed one(axis_model() + "map: { out_of_range: stored }\n");
+  one.write("SETPOINT", 5000);
+  DeviceSettings settings;
+  settings.name = "it";
+  settings.nv = one.device().memory()->nv_image();
+  const auto device = make_device(one.device().model(), settings);
+  EXPECT_EQ(read_value(*device->register_bank(), *device->register_bank()->find("SETPOINT")), 5000);
+}
+
 TEST(DescribedTerminals, AreWhatTheirRegistersSay) {
   OneDescribed one;
   EXPECT_FALSE(one.device().terminals()->output(4));

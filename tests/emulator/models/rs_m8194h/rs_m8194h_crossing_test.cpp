@@ -57,7 +57,7 @@ class Course {
   std::string command() {
     const std::string axis(1, "XYZU"[between(0, 3)]);
     const std::string speed = of_any_size(500'000);
-    switch (between(0, 17)) {
+    switch (between(0, 20)) {
       case 0:
       case 1:
       case 2: return "RSM_FIXED_MOVE " + axis + " " + of_any_size(30'000, true);
@@ -74,6 +74,12 @@ class Course {
       case 13: return "RSM_SET_COMPARE " + axis + " 0 0 " + of_any_size(9000, true);
       case 14: return "RSM_SET_LP " + axis + " " + of_any_size(9000, true);
       case 15: return "RSM_MP_CALL " + std::to_string(between(1, 2));
+      // What the encoder tells matters, and no more.
+      case 17: return "RSM_SET_COMPARE " + axis + " 0 1 " + of_any_size(9000, true);
+      case 18: return "RSM_SET_EP " + axis + " " + of_any_size(9000, true);
+      case 19:
+        return one_in(4) ? "RSM_CLEAR_SLMT " + axis
+                         : "RSM_SET_SLMT " + axis + " " + of_any_size(9000) + " -" + of_any_size(9000) + " 1";
       case 16: return one_in(2) ? "RSM_ENABLE_INT" : "RSM_INTFACTOR_ENABLE X 4 1";
       default:
         return one_in(4) ? "RSM_EMERGENCY_STOP " + std::to_string(between(0, 1)) : "RSM_CLEAR_STOP XYZU";
@@ -164,6 +170,19 @@ TEST(RsM8194hCrossing, AMoveWithNothingToMeetIsCrossed) {
   rsm.run(5000);
   EXPECT_GT(rsm.world().ticks_crossed() - before, 4900U);
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 3);
+}
+
+/// An encoder that nothing is compared with is nothing to meet.
+TEST(RsM8194hCrossing, AMoveWithAnEncoderIsCrossedAsWell) {
+  GivenRsm given;
+  given.plant[0] = {.encoder_counts_per_revolution = 4000, .pulses_per_revolution = 1000};
+  OneRsm rsm(given);
+  rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_FIXED_MOVE X 10000"});
+  const std::uint64_t before = rsm.world().ticks_crossed();
+  rsm.run(5000);
+  EXPECT_GT(rsm.world().ticks_crossed() - before, 4900U);
+  EXPECT_GT(rsm.get("LP_X"), 4900);
+  EXPECT_EQ(rsm.get("EP_X"), 4 * rsm.get("LP_X"));
 }
 
 }  // namespace rs_m8194h_crossing_test

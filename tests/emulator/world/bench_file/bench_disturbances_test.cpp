@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include "emulator/models/models.h"
+#include "emulator/world/bench/bench_text.h"
+#include "emulator/world/world.h"
 #include "tests/emulator/world/bench_file/bench_texts.h"
 
 namespace understudy::emulator::world {
@@ -85,6 +87,28 @@ struct Bad {
 
 void expect_complaints(const std::vector<Bad>& files) {
   for (const Bad& file : files) EXPECT_EQ(complaint(file.text), "bench.yaml:" + file.complaint) << file.text;
+}
+
+/// RS-M8194H knows no pulses a revolution: the bench has to, where its motor turns the encoder.
+TEST(BenchErrors, AnEncoderKnowsTheMotorThatTurnsIt) {
+  const auto with_encoder = [](const std::string& what) {
+    return "understudy: 1\nlines: { a: { stations: [ { name: x, model: rs-m8194h } ] } }\nplant:\n  x.X: { "
+           "encoder: { " +
+           what + " } }\n";
+  };
+  const std::string unknown =
+      "4: plant.x.X.encoder: turns with a motor of unknown pulses a revolution; expected "
+      "`motor_pulses_per_revolution`";
+  expect_complaints({{with_encoder("per_revolution: 4000"), unknown},
+                     {with_encoder("per_revolution: 4000, index: { at: 40 }"), unknown},
+                     {with_encoder("per_revolution: 4000, index: { at: 40, period: 100 }"), unknown}});
+  for (const char* what : {"per_revolution: 4000, on: wheel",
+                           "per_revolution: 4000, motor_pulses_per_revolution: 200, index: { at: 40 }"}) {
+    const Bench bench = parse(to_text(parse(with_encoder(what))));
+    World world(bench, {}, {});
+    world.advance_to(std::chrono::milliseconds(5));
+    EXPECT_EQ(world.plant(0, 0).encoder_counts(), 0) << what;
+  }
 }
 
 TEST(BenchErrors, DrivesEncodersAndHysteresis) {
