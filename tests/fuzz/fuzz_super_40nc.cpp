@@ -173,7 +173,7 @@ class Listener {
   static bool is_whole(std::span<const std::uint8_t> frame) {
     if (frame.size() < 8 || frame[1] == 4) return false;
     const bool is_long = frame[1] == 0x0F || frame[1] == 0x10;
-    const bool is_known = frame[1] <= 6 || is_long;
+    const bool is_known = (frame[1] >= 1 && frame[1] <= 6) || is_long;
     return is_known && pty::rtu_crc_ok(frame) && frame.size() == (is_long ? 9U + frame[6] : 8U);
   }
   /// `function`: of a request.
