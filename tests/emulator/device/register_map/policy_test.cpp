@@ -145,16 +145,20 @@ TEST(Policy, NeighboursThatNeverChangeAreReadAloneAndTogether) {
 }
 
 /// Neighbours on the wire are not neighbours in the image then.
-TEST(Policy, BitsOfTwoRowsMayTakeTurns) {
-  const RegisterRow rows[] = {coil(0, "A{}").times(2, 2, 0), coil(1, "B{}").times(2, 2, 0)};
-  for (int bits = 0; bits < 16; ++bits) {
-    Toy toy(rows);
-    world::Words each;
-    for (int i = 0; i < 4; ++i) each.push_back(static_cast<std::uint16_t>(bits >> i & 1));
-    EXPECT_EQ(write_words(toy.device, Table::coil, 0, each), Refusal::none);
-    std::array<std::uint8_t, 1> packed{};
-    EXPECT_EQ(read_bits_request(toy.device, Table::coil, 0, 4, packed), Objection{});
-    EXPECT_EQ(packed[0], bits);
+TEST(Policy, BitsMayStandInAnotherOrderThanTheirRows) {
+  const RegisterRow in_turns[] = {coil(0, "A{}").times(2, 2, 0), coil(1, "B{}").times(2, 2, 0)};
+  const RegisterRow backwards[] = {coil(3, "D"), coil(2, "C"), coil(1, "B"), coil(0, "A")};
+  for (const std::span<const RegisterRow> rows :
+       {std::span<const RegisterRow>(in_turns), std::span<const RegisterRow>(backwards)}) {
+    for (int bits = 0; bits < 16; ++bits) {
+      Toy toy(rows);
+      world::Words each;
+      for (int i = 0; i < 4; ++i) each.push_back(static_cast<std::uint16_t>(bits >> i & 1));
+      EXPECT_EQ(write_words(toy.device, Table::coil, 0, each), Refusal::none);
+      std::array<std::uint8_t, 1> packed{};
+      EXPECT_EQ(read_bits_request(toy.device, Table::coil, 0, 4, packed), Objection{});
+      EXPECT_EQ(packed[0], bits);
+    }
   }
 }
 
