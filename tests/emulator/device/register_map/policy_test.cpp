@@ -240,5 +240,22 @@ TEST(Unmodelled, IsMentionedOnceForEachRow) {
   EXPECT_EQ(world::read(toy.device, 0x10, 2), (world::Words{1, 2}));
 }
 
+/// What the controller should say by itself, by a word and by a bit, beside what it does say.
+TEST(Unmodelled, IsMentionedToWhoReadsIt) {
+  const RegisterRow rows[] = {reg(0x10, "Fine", Type::u16, Access::read),
+                              reg(0x11, "Word", Type::u16, Access::read).not_modelled("no word"),
+                              reg(0x12, "Pair", Type::u32, Access::read).not_modelled("no pair"),
+                              coil(0, "Good", Access::read),
+                              coil(1, "Bit", Access::read).always(1).not_modelled("no bit")};
+  Toy toy(rows);
+  std::string log;
+  toy.device.set_log([&](const std::string& line) { log += line + "\n"; });
+  EXPECT_EQ(world::read(toy.device, 0x10, 4).size(), 4U);
+  std::array<std::uint8_t, 1> packed{};
+  EXPECT_EQ(read_bits_request(toy.device, Table::coil, 0, 2, packed), Objection{});
+  for (const char* missing : {"no word", "no pair", "no bit"})
+    EXPECT_NE(log.find(missing), std::string::npos) << log;
+}
+
 }  // namespace policy_test
 }  // namespace understudy::emulator
