@@ -144,6 +144,24 @@ TEST(Policy, NeighboursThatNeverChangeAreReadAloneAndTogether) {
   }
 }
 
+/// Neighbours on the wire are not neighbours in the image then.
+TEST(Policy, BitsMayStandInAnotherOrderThanTheirRows) {
+  const RegisterRow in_turns[] = {coil(0, "A{}").times(2, 2, 0), coil(1, "B{}").times(2, 2, 0)};
+  const RegisterRow backwards[] = {coil(3, "D"), coil(2, "C"), coil(1, "B"), coil(0, "A")};
+  for (const std::span<const RegisterRow> rows :
+       {std::span<const RegisterRow>(in_turns), std::span<const RegisterRow>(backwards)}) {
+    for (int bits = 0; bits < 16; ++bits) {
+      Toy toy(rows);
+      world::Words each;
+      for (int i = 0; i < 4; ++i) each.push_back(static_cast<std::uint16_t>(bits >> i & 1));
+      EXPECT_EQ(write_words(toy.device, Table::coil, 0, each), Refusal::none);
+      std::array<std::uint8_t, 1> packed{};
+      EXPECT_EQ(read_bits_request(toy.device, Table::coil, 0, 4, packed), Objection{});
+      EXPECT_EQ(packed[0], bits);
+    }
+  }
+}
+
 TEST(Policy, WhatChangesIsNotTakenForTheConstantBeforeIt) {
   const RegisterRow rows[] = {coil(0, "A", Access::read).always(0), coil(1, "B")};
   Toy toy(rows);
@@ -256,6 +274,23 @@ TEST(Unmodelled, IsMentionedOnceForEachRow) {
   EXPECT_NE(log[0].find("toy"), std::string::npos);
   EXPECT_NE(log[0].find("it only stores"), std::string::npos);
   EXPECT_EQ(world::read(toy.device, 0x10, 2), (world::Words{1, 2}));
+}
+
+/// What the controller should say by itself, by a word and by a bit, beside what it does say.
+TEST(Unmodelled, IsMentionedToWhoReadsIt) {
+  const RegisterRow rows[] = {reg(0x10, "Fine", Type::u16, Access::read),
+                              reg(0x11, "Word", Type::u16, Access::read).not_modelled("no word"),
+                              reg(0x12, "Pair", Type::u32, Access::read).not_modelled("no pair"),
+                              coil(0, "Good", Access::read),
+                              coil(1, "Bit", Access::read).always(1).not_modelled("no bit")};
+  Toy toy(rows);
+  std::string log;
+  toy.device.set_log([&](const std::string& line) { log += line + "\n"; });
+  EXPECT_EQ(world::read(toy.device, 0x10, 4).size(), 4U);
+  std::array<std::uint8_t, 1> packed{};
+  EXPECT_EQ(read_bits_request(toy.device, Table::coil, 0, 2, packed), Objection{});
+  for (const char* missing : {"no word", "no pair", "no bit"})
+    EXPECT_NE(log.find(missing), std::string::npos) << log;
 }
 
 }  // namespace policy_test
