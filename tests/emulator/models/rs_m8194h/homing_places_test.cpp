@@ -184,5 +184,19 @@ TEST(RsM8194hHomingPlaces, IrregularWaysPassTheirStates) {
   }
 }
 
+/// Z that is active outside its mark: it is met where the mark ends.
+TEST(RsM8194hHomingPlaces, AnIndexMayBeActiveBetweenItsMarks) {
+  for (const int way : {1, 2}) {
+    OneRsm rsm({.plant = {{0, machine(kIndexAt + 1)}}});
+    rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_SET_HV X 1000", "RSM_SET_ENCODER X 0 0 1"});
+    rsm.send("RSM_SET_HOME_MODE X 0 0 " + std::to_string(way) + " 0 0");
+    rsm.run(3);
+    rsm.send("RSM_HOME_START X");
+    rsm.run_to_rest();
+    EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0) << way;
+    EXPECT_EQ(rsm.get("LP_X"), way == 1 ? kIndexWidth - 1 : -2) << way;
+  }
+}
+
 }  // namespace homing_places_test
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -327,6 +327,37 @@ TEST(RsM8194hOtherReadings, APauseHoldsWhatMovesWhereItIs) {
   }
 }
 
+TEST(RsM8194hOtherReadings, APauseLeavesAloneWhatComesToRest) {
+  PausedRsm rsm;
+  rsm.send({"RSM_SET_SV X 100", "RSM_SET_A X 1000", "RSM_CONTINUE_MOVE X 1000"});
+  rsm.run(1200);
+  rsm.send("RSM_STOP_SLOWLY X");
+  rsm.run(100);
+  rsm.pause();
+  rsm.run(2000);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+  const Value x = rsm.get("LP_X");
+  rsm.go_on();
+  rsm.run(500);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+  EXPECT_EQ(rsm.get("LP_X"), x);
+}
+
+TEST(RsM8194hOtherReadings, AShortPauseIsOverOnceTheAxisStands) {
+  PausedRsm rsm;
+  rsm.send({"RSM_SET_SV X 100", "RSM_SET_A X 1000", "RSM_SET_V X 1000", "RSM_FIXED_MOVE X 3000"});
+  rsm.run(1200);
+  EXPECT_EQ(rsm.get("CV_X"), 1000);
+  rsm.pause();
+  rsm.go_on();
+  // It has not come to rest yet: it goes on slowing down.
+  EXPECT_GT(rsm.get("CV_X"), 900);
+  rsm.run(500);
+  EXPECT_NEAR(static_cast<double>(rsm.get("CV_X")), 490, 20);
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 3000);
+}
+
 TEST(RsM8194hOtherReadings, APauseHoldsAPathOnItsWay) {
   PausedRsm rsm;
   rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_VECTOR_SPEED 5", "RSM_SET_VSV 100", "RSM_SET_VV 1000",

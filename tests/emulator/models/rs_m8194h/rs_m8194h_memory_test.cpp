@@ -71,6 +71,7 @@ constexpr Block kBlocks[] = {
     {"initial", "X", "MAX_V 5\n", false},
     {"initial", "W", "RSM_SET_MAX_V INITIAL_X 50000\n", false},
     {"mp", "157", "MP 157\n  RSM_MACRO_TIMER 5\nEND\n", true},
+    {"mp", "01", "MP 1\n  RSM_MACRO_TIMER 5\nEND\n", false},
     {"mp", "158", "MP 158\n  RSM_MACRO_TIMER 5\nEND\n", false},
     {"mp", "0", "MP 1\n  RSM_MACRO_TIMER 5\nEND\n", false},
     {"mp", "1", "MP 1\n  RSM_MACRO_NEXT\nEND\n", false},
