@@ -169,7 +169,9 @@ void expect_alike(Drawn& drawn, Table table, int first, int count, std::uint64_t
     std::vector<std::uint8_t> packed((size + 7) / 8, 0xAA);
     objection = read_bits_request(drawn.toy->device, table, static_cast<std::uint16_t>(first), size, packed);
     for (std::size_t i = 0; i < size; ++i) got[i] = packed[i / 8] >> i % 8 & 1;
-    if (!objection && size % 8 != 0) EXPECT_EQ(packed.back() >> size % 8, 0) << "behind the last bit";
+    if (!objection && size % 8 != 0) {
+      EXPECT_EQ(packed.back() >> size % 8, 0) << "behind the last bit";
+    }
   } else {
     objection = read_request(drawn.toy->device, table, static_cast<std::uint16_t>(first), got);
   }

@@ -175,7 +175,8 @@ TEST(RsM8194hCrossing, AMoveWithNothingToMeetIsCrossed) {
 /// An encoder that nothing is compared with is nothing to meet.
 TEST(RsM8194hCrossing, AMoveWithAnEncoderIsCrossedAsWell) {
   GivenRsm given;
-  given.plant[0] = {.encoder_counts_per_revolution = 4000, .pulses_per_revolution = 1000};
+  given.plant[0].encoder_counts_per_revolution = 4000;
+  given.plant[0].pulses_per_revolution = 1000;
   OneRsm rsm(given);
   rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_FIXED_MOVE X 10000"});
   const std::uint64_t before = rsm.world().ticks_crossed();
