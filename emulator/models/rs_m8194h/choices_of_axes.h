@@ -22,7 +22,7 @@ inline constexpr ChoiceRow kAxisChoices[] = {
     {"deceleration_offset", "7.1.8", "what AO does", "slows_down_so_many_pulses_earlier|nothing", kFollows,
      "all four profiles list it"},
     {"normal_speed_3", "7.1.1", "mode 3 of NORMAL_SPEED, printed as a symmetric S-curve with K and L",
-     "asymmetric|symmetric", kFollows, "L would have no use; 1 is the symmetric one"},
+     "asymmetric|symmetric", kLikely, "L would have no use; 1 is the symmetric one"},
     {"drive_of_moving_axis", "9.9", "a drive for an axis that moves", "waits|is_void", kFollows,
      "the example of 9.5.1 needs it"},
     {"speed_change_in_s", "7.1", "SET_V during an S-curve", "the_next_drive|at_once", kLikely,

@@ -16,7 +16,7 @@ inline constexpr ChoiceRow kEventChoices[] = {
     {"pulse_factor", "4.15", "PULSE", "once_a_tick|each_pulse", kProposal,
      "a mark for each source: more are lost, unless isr_requests are counted"},
     {"preset_values", "7.3.8", "values of SET_PRESET for axes that are set one after the other",
-     "one_an_axis|one_for_all", kFollows,
+     "one_an_axis|one_for_all", kLikely,
      "it names axes; that these cannot be set independently is then said of those of one command"},
     {"sync_order", "7.3.1", "several synchronous actions of one tick", "by_axis|by_moment", kProposal,
      "all act within the tick; stops of the own axis at their pulse"},

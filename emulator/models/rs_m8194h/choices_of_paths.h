@@ -27,7 +27,7 @@ inline constexpr ChoiceRow kPathChoices[] = {
     {"rectangle_sides", "7.4.1", "Lp and Wp of a RECTANGLE", "outer_length_and_width|straight_parts",
      kProposal, "the drawing is lost"},
     {"rectangle_ends", "7.4.1", "the greatest Lp, Wp and Rp, printed as 2,000,000,00", "2000000000|200000000",
-     kFollows, "all other distances end at 2,000,000,000"},
+     kLikely, "all other distances end at 2,000,000,000"},
     {"rectangle_start_points", "7.4.1", "where Sp0 to Sp7 are",
      "counter_clockwise_from_the_lower_side|clockwise_from_the_left_side|middles_from_the_lower_side",
      kProposal, "the drawing is lost"},

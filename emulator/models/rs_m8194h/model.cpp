@@ -32,8 +32,7 @@ constexpr std::string_view kGaps[] = {
     "Pulses at OUT_X and OUT_Y below 1 ms are counted, and have no length: levels are those of ticks.",
     "The pulse modes of SET_PULSE_MODE are names (`rsm.pulse_format`): no levels on the pulse terminals.",
     ("A helix of more than 159,154 turns, or that rises by more than 1,000,000,000,000 pulses, is void, with "
-     "the "
-     "module's error (RINT bit 7)."),
+     "the module's error (RINT bit 7)."),
     "What is spoken at the switch's position Init is not documented: the box is deaf there.",
     "The IP settings from holding 20 on store, and do nothing.",
 };
