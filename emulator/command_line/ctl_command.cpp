@@ -13,6 +13,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/ctl_looks.h"
 #include "emulator/command_line/text_argument.h"
+#include "emulator/device/program_error.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/value_text.h"
 
@@ -276,9 +277,9 @@ int control(const ControlArguments& arguments) {
     }
     if (accepted && !arguments.json && reply.contains("warnings")) {
       for (const Json& odd : reply.at("warnings")) {
-        std::fprintf(stderr, "understudy: ctl program: line %d, column %d: warning: %s\n",
-                     odd.at("line").get<int>(), odd.at("column").get<int>(),
-                     one_line(odd.at("what").get<std::string>()).c_str());
+        const ProgramMistake warning{odd.at("line").get<int>(), odd.at("column").get<int>(),
+                                     "warning: " + one_line(odd.at("what").get<std::string>())};
+        std::fprintf(stderr, "understudy: ctl program: %s\n", in_text(warning).c_str());
       }
     }
     if (accepted && !reply.value("reached", true)) {
