@@ -308,7 +308,9 @@ struct CommandLine {
         ->allow_extra_args(false);
     command->add_option("--station", poll.station, "Station to ask")->capture_default_str();
     command->add_option("--model", poll.model, "Model whose names to use")->check(kNotEmpty);
-    command->add_option("--word-order", poll.word_order, "low or high word first; else as the device has it")
+    command
+        ->add_option("--word-order", poll.word_order,
+                     "low or high word first; without it as the device has it, or low without --model")
         ->check(kNotEmpty);
     command->add_option("--baud", poll.baud, "Line speed; without it the model's, or 19200");
     command->add_option("--parity", poll.parity, "even, odd or none; without it the model's, or even")
