@@ -293,5 +293,17 @@ TEST(Unmodelled, IsMentionedToWhoReadsIt) {
     EXPECT_NE(log.find(missing), std::string::npos) << log;
 }
 
+TEST(Unmodelled, IsMentionedToWhoReadsItByName) {
+  const RegisterRow rows[] = {reg(0x10, "Set", Type::u16, Access::read_write).not_modelled("no use"),
+                              reg(0x11, "Told", Type::u16, Access::read).not_modelled("no word")};
+  Toy toy(rows);
+  std::string log;
+  toy.device.set_log([&](const std::string& line) { log += line + "\n"; });
+  EXPECT_EQ(toy.value("Set"), 0);
+  EXPECT_EQ(log, "") << "what was written is read back";
+  EXPECT_EQ(toy.value("Told.3"), 0);
+  EXPECT_NE(log.find("no word"), std::string::npos) << log;
+}
+
 }  // namespace policy_test
 }  // namespace understudy::emulator
