@@ -45,7 +45,7 @@ double number_of(const NamedPlace& place, Value value);
 std::optional<Value> value_of_number(const NamedPlace& place, double number);
 
 /// Why nothing can be written to a place, whatever the value: "cannot be written; it is read-only".
-std::string why_not_writable(const NamedPlace& place);
+std::string why_not_writable(const NamedPlace& named);
 
 /// A value for a named place, as the words that bring it.
 struct PreparedWrite {

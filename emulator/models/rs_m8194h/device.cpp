@@ -21,6 +21,7 @@
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
+#include "emulator/device/register_map/refusal.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/terminals.h"

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <iterator>
 
+#include "emulator/device/device.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"

@@ -16,6 +16,8 @@
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
 #include "emulator/models/super_40nc/settings.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/events.h"
 #include "motion/axis.h"
 #include "motion/homing.h"
 #include "motion/ramp.h"

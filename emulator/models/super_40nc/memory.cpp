@@ -1,9 +1,4 @@
 // What a SUPER-40NC keeps: latched contacts and registers at once, recipes; what power-up finds, and M8008.
-#include "emulator/device/device.h"
-#include "emulator/device/memory/eeprom.h"
-#include "emulator/device/memory/nv_image.h"
-#include "emulator/device/memory/register_memory.h"
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "emulator/device/device.h"
+#include "emulator/device/memory/eeprom.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/register_memory.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/data_rows.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/options.h"

@@ -10,6 +10,7 @@
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/model.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/yaml_fields.h"
