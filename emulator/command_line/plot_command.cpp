@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include "base/files/file_claims.h"
 #include "base/files/growing_file.h"
 #include "base/files/text_file.h"
+#include "base/text/lines.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/output_paths.h"
@@ -74,11 +74,8 @@ int run_gnuplot(WorkFolder& folder) {
 /// The most telling line of what gnuplot has said: the last one with words in it.
 std::string complaint_in(const std::string& text) {
   std::string complaint = "it said nothing";
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string line = text.substr(begin, end - begin);
-    if (line.find_first_not_of(" \t^") != std::string::npos) complaint = line;
-    begin = end + 1;
+  for (const TextLine line : TextLines(text)) {
+    if (line.text.find_first_not_of(" \t^") != std::string_view::npos) complaint = line.text;
   }
   return complaint;
 }

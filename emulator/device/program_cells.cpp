@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/lines.h"
 #include "base/text/one_line.h"
 #include "emulator/device/program_error.h"
 
@@ -85,14 +86,12 @@ std::string to_text(const std::vector<CellRow>& rows) {
 
 std::vector<CellRow> read_cells(std::string_view text, const CellForm& form) {
   std::vector<CellRow> rows;
-  for (int line = 1; !text.empty(); ++line) {
-    const std::size_t end = text.find('\n');
-    const std::vector<PlacedWord> words = words_of(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  for (const TextLine line : TextLines(text)) {
+    const std::vector<PlacedWord> words = words_of(line.text);
     if (words.empty()) continue;
-    CellRow row{.cells = read_row(words, line, form), .line = line};
+    CellRow row{.cells = read_row(words, line.number, form), .line = line.number};
     if (rows.size() == form.most_rows) {
-      throw ProgramError(line, words.front().column,
+      throw ProgramError(line.number, words.front().column,
                          "one line too many; expected at most " + std::to_string(form.most_rows));
     }
     rows.push_back(std::move(row));

@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "base/files/file_error.h"
+#include "base/text/lines.h"
 #include "base/text/one_line.h"
 
 namespace understudy::emulator::model_file {
 
 namespace {
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string without_blanks(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r");

@@ -1,4 +1,5 @@
 #include "interpreter/rs_m8194h/listing.h"
+#include "base/text/lines.h"
 #include "base/text/tokens.h"
 
 #include <algorithm>
@@ -56,13 +57,9 @@ class ListingReader {
   }
 
   ParsedListing run(std::string_view text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-    for (int line = 1; !text.empty(); ++line) {
-      const std::size_t end = text.find('\n');
-      const std::vector<Token> tokens = tokens_of(text.substr(0, end), line);
+    for (const TextLine line : TextLines(without_byte_order_mark(text))) {
+      const std::vector<Token> tokens = tokens_of(line.text, line.number);
       if (!tokens.empty()) read(tokens);
-      text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
     end_macro();
     ParsedListing parsed;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/lines.h"
 #include "base/text/tokens.h"
 #include "interpreter/simple2/instructions.h"
 #include "interpreter/simple2/listing.h"
@@ -41,12 +42,8 @@ bool is_name(std::string_view text) {
 class Assembler {
  public:
   Assembly run(std::string_view text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-    for (int line = 1; !text.empty(); ++line) {
-      const std::size_t end = text.find('\n');
-      read(tokens_of(text.substr(0, end), line, Colon::ends_its_token));
-      text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    for (const TextLine line : TextLines(without_byte_order_mark(text))) {
+      read(tokens_of(line.text, line.number, Colon::ends_its_token));
     }
     if (pending_.mark)
       fail(*pending_.mark, "label", quoted(pending_.mark->text) + " does not mark a line", "an instruction");

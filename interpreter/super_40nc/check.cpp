@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/lines.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
@@ -68,12 +69,8 @@ class Checker {
   explicit Checker(const Options& options) : options_(options) {}
 
   Checked run(std::string_view text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-    for (int line = 1; !text.empty(); ++line) {
-      const std::size_t end = text.find('\n');
-      read(tokens_of(text.substr(0, end), line));
-      text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    for (const TextLine line : TextLines(without_byte_order_mark(text))) {
+      read(tokens_of(line.text, line.number));
     }
     end_area();
     if (options_.labels_are_common) look_at_common_labels();

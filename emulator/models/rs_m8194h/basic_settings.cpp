@@ -8,6 +8,7 @@
 
 #include "base/complete_table.h"
 #include "base/state/shared_text.h"
+#include "base/text/lines.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/memory.h"
@@ -159,12 +160,9 @@ InitialTable initial_table_of(const TextBlocks& blocks, const BasicSettings& fac
   for (std::size_t a = 0; a < kAxes; ++a) {
     const SharedText* const text = blocks.find(kInitialBlocks, std::string(kAxisNames[a]));
     if (text == nullptr) continue;
-    std::string_view rest = text->text();
-    while (!rest.empty()) {
-      const std::size_t end = rest.find('\n');
-      const lang::ParsedCommand parsed = lang::parse_command(rest.substr(0, end));
+    for (const TextLine line : TextLines(text->text())) {
+      const lang::ParsedCommand parsed = lang::parse_command(line.text);
       if (parsed.command) apply_setting(table[a], *parsed.command);
-      rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     }
   }
   return table;

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/text/lines.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/device/memory/nv_image.h"
@@ -63,14 +64,11 @@ std::string why_not_listing(const std::string& text) {
   return parsed.errors.empty() ? "" : "line " + to_string(parsed.errors.front());
 }
 std::string why_not_settings(const std::string& text) {
-  std::string_view rest = text;
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::size_t end = rest.find('\n');
-    const lang::ParsedCommand parsed = lang::parse_command(rest.substr(0, end));
+  for (const TextLine line : TextLines(text)) {
+    const lang::ParsedCommand parsed = lang::parse_command(line.text);
     if (!parsed.command || !parsed.command->row().use.initial) {
-      return "line " + std::to_string(line) + ": is not a setting of the Initial Table";
+      return "line " + std::to_string(line.number) + ": is not a setting of the Initial Table";
     }
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
   }
   return "";
 }

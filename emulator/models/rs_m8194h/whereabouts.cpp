@@ -1,5 +1,4 @@
 // Where its macros are, for onlookers.
-#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -7,6 +6,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "base/text/lines.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/rs_m8194h/device.h"
 #include "interpreter/rs_m8194h/macro.h"
@@ -31,11 +31,8 @@ std::string_view awaited_by(lang::Hold hold) {
 
 /// The line of the text behind the one that begins the macro: "MP 21".
 int line_in(std::string_view text, const std::string& head, int number) {
-  int line = 1;
-  for (std::size_t at = 0; at < text.size(); ++line) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    if (text.substr(at, end - at) == head) return line + 1 + number;
-    at = end + 1;
+  for (const TextLine line : TextLines(text)) {
+    if (line.text == head) return line.number + 1 + number;
   }
   return 0;
 }

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/state/shared_text.h"
+#include "base/text/lines.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
@@ -57,26 +58,14 @@ std::optional<RecipeLine> parse_line(std::string_view line) {
   return parsed;
 }
 
-/// Calls visit(line, its number from 1) until that returns false.
-template <typename Visit>
-void for_each_line(std::string_view text, Visit visit) {
-  for (int number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    if (!visit(text.substr(0, end), number)) return;
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-}
-
 std::string why_not_recipe(const std::string& text) {
-  std::string complaint;
-  for_each_line(text, [&](std::string_view line, int number) {
-    if (!parse_line(line)) {
-      complaint =
-          "line " + std::to_string(number) + ": is not a register of a recipe; expected such as D500 12";
+  for (const TextLine line : TextLines(text)) {
+    if (!parse_line(line.text)) {
+      return "line " + std::to_string(line.number) +
+             ": is not a register of a recipe; expected such as D500 12";
     }
-    return complaint.empty();
-  });
-  return complaint;
+  }
+  return "";
 }
 
 std::string why_not_program_name(const std::string& name) {
@@ -142,13 +131,12 @@ std::string recipe_text(std::span<const std::uint32_t> values, int first) {
 
 void read_recipe(std::string_view text, std::span<std::uint32_t> values, int first) {
   std::fill(values.begin(), values.end(), 0U);
-  for_each_line(text, [&](std::string_view line, int) {
-    const auto parsed = parse_line(line);
+  for (const TextLine line : TextLines(text)) {
+    const auto parsed = parse_line(line.text);
     if (parsed && parsed->number >= first) {
       values[static_cast<std::size_t>(parsed->number - first)] = static_cast<std::uint32_t>(parsed->value);
     }
-    return true;
-  });
+  }
 }
 
 /// To D999; three texts of the manual have three ranges.

@@ -1,5 +1,4 @@
 // Where its step programs are, for onlookers.
-#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -7,12 +6,15 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "base/text/lines.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/program_machine.h"  // IWYU pragma: keep (namespace language)
 #include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/step_code.h"
 #include "interpreter/super_40nc/step_programs.h"
 
@@ -24,16 +26,12 @@ namespace {
 int line_of_step(std::string_view text, std::string_view area, const std::string& begin) {
   const std::string head = "AREA " + std::string(area);
   bool is_inside = false;
-  int line = 1;
-  for (std::size_t at = 0; at < text.size(); ++line) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view one = text.substr(at, end - at);
-    if (one.starts_with("AREA ") || one.starts_with("FILE ")) {
-      is_inside = one == head || one.starts_with(head + " ");
-    } else if (is_inside && one == begin) {
-      return line;
+  for (const TextLine line : TextLines(text)) {
+    if (line.text.starts_with("AREA ") || line.text.starts_with("FILE ")) {
+      is_inside = line.text == head || line.text.starts_with(head + " ");
+    } else if (is_inside && line.text == begin) {
+      return line.number;
     }
-    at = end + 1;
   }
   return 0;
 }

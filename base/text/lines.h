@@ -1,0 +1,55 @@
+// A text line by line.
+#pragma once
+
+#include <cstddef>
+#include <iterator>
+#include <string_view>
+
+namespace understudy {
+
+/// A line without its end, and its number from 1.
+struct TextLine {
+  std::string_view text;
+  int number = 1;
+};
+
+/// A text for a loop over its lines. The end of the last line begins no further one.
+class TextLines {
+ public:
+  explicit constexpr TextLines(std::string_view text) : text_(text) {}
+
+  class Iterator {
+   public:
+    explicit constexpr Iterator(std::string_view rest) : rest_(rest) {}
+    constexpr TextLine operator*() const { return {rest_.substr(0, rest_.find('\n')), number_}; }
+    constexpr Iterator& operator++() {
+      const std::size_t end = rest_.find('\n');
+      rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+      ++number_;
+      return *this;
+    }
+    friend constexpr bool operator==(const Iterator& at, std::default_sentinel_t /*end*/) {
+      return at.rest_.empty();
+    }
+
+   private:
+    std::string_view rest_;
+    int number_ = 1;
+  };
+
+  constexpr Iterator begin() const { return Iterator(text_); }
+  constexpr std::default_sentinel_t end() const { return {}; }
+
+ private:
+  std::string_view text_;
+};
+
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+/// What editors of Windows put before a text in UTF-8 is none of it.
+constexpr std::string_view without_byte_order_mark(std::string_view text) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
+
+}  // namespace understudy
