@@ -268,9 +268,7 @@ struct alignas(64) Axis {
   /// but at the tick's end in time. Pulses left over after a reaction are not sent.
   std::int64_t carry(std::int64_t pulses, Tick tick, const Surroundings& here) {
     const std::int64_t travel = travel_pulses + pulses;
-    const bool turns = settings.backlash_pulses > 0;
-    if (here.version == seen_version && !attentive && !turns && travel >= watch_low && travel <= watch_high &&
-        task == Task::coordinated) [[likely]] {
+    if (carries_quietly(here) && travel >= watch_low && travel <= watch_high) [[likely]] {
       return carry_across(pulses);
     }
     carried_pulses = pulses;
@@ -294,8 +292,7 @@ struct alignas(64) Axis {
   std::int64_t cross_to(Tick tick);
   /// Whether carry() does nothing but count while travel stays within watch_low and watch_high.
   bool carries_quietly(const Surroundings& here) const {
-    return here.version == seen_version && !attentive && settings.backlash_pulses <= 0 &&
-           task == Task::coordinated;
+    return task == Task::coordinated && is_undisturbed(here);
   }
   /// So many pulses of carry(), of one sign, in ticks of which that is true.
   std::int64_t carry_across(std::int64_t pulses) {
@@ -311,6 +308,10 @@ struct alignas(64) Axis {
  private:
   Cause forbidden(int way, Signals ignored) const;
   std::int64_t step_with_care(Tick tick, const Surroundings& here);
+  /// Nothing has changed since the last tick but what it is carried by, and all that it sends is travel.
+  bool is_undisturbed(const Surroundings& here) const {
+    return here.version == seen_version && !attentive && settings.backlash_pulses <= 0 && play_pulses == 0;
+  }
 
   // Starting and ending, at moments within a tick.
   Cause begin(Task what, int way, std::int64_t distance_pulses, const SpeedLaw& speed, Instant at,

@@ -23,6 +23,13 @@ constexpr std::int64_t kMostInATick = 1'000'000;
 }  // namespace
 
 std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
+  std::int64_t followed = 0;
+  const bool only_follows = task == Task::following && is_undisturbed(here);
+  if (only_follows) {
+    followed = follower.step();
+    const std::int64_t travel = travel_pulses + followed;
+    if (travel >= watch_low && travel <= watch_high) return carry_across(followed);
+  }
   const std::int64_t travel_before = travel_pulses;
   const std::int64_t backlash_before = backlash_sent;
   Instant at{.tick = tick - 1};
@@ -32,7 +39,7 @@ std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
   follow_encoder_count(at);
 
   if (task == Task::following) {
-    go_by(follower.step(), {.tick = tick}, here);
+    go_by(only_follows ? followed : follower.step(), {.tick = tick}, here);
   } else if (task == Task::coordinated) {
     go_by(carried_pulses, {.tick = tick}, here);
     carried_pulses = 0;
@@ -46,13 +53,14 @@ std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
     } while (turned);
   }
   watch(here);
-  // A path may turn towards the limit that the axis stands on, or stands still at first.
-  const bool at_a_limit =
-      task == Task::coordinated && (forbidden(+1) != Cause::none || forbidden(-1) != Cause::none);
+  // A path or a wheel may turn towards the limit that the axis stands on, or stands still at first.
+  const bool may_turn = task == Task::coordinated || task == Task::following;
+  const bool at_a_limit = may_turn && (forbidden(+1) != Cause::none || forbidden(-1) != Cause::none);
   const std::int64_t pulses = travel_pulses - travel_before + backlash_sent - backlash_before;
   if (pulses != 0) raise(Event::pulse, {.tick = tick});
-  attentive = attentive || in_backlash || at_a_limit || task == Task::following ||
-              (settings.raises & bit(Event::pulse)) != 0 || waits_for_constant_speed();
+  attentive = attentive || in_backlash || at_a_limit || (settings.raises & bit(Event::pulse)) != 0 ||
+              waits_for_constant_speed();
+  if (task == Task::following) drive.next_look = 0;  // it goes by no plan, and comes here in each tick
   events = events_between;
   events_between = 0;
   Instant& ended_at = event_at[static_cast<std::size_t>(Event::constant_ended)];
