@@ -1,6 +1,5 @@
 #include "motion/profile.h"
 
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,28 +13,6 @@ Profile Profile::from(double position_u) {
   Profile profile;
   profile.end_position_u = position_u;
   return profile;
-}
-
-void Profile::append(double segment_duration_s, double speed_u_s, double acceleration_u_s2,
-                     double jerk_u_s3) {
-  if (!(segment_duration_s > 0)) return;
-  assert(segment_count < static_cast<std::int32_t>(kMaxSegments));
-  Segment& added = segments[static_cast<std::size_t>(segment_count)];
-  added = {.begin_s = duration_s,
-           .position_u = end_position_u,
-           .speed_u_s = speed_u_s,
-           .acceleration_u_s2 = acceleration_u_s2,
-           .jerk_u_s3 = jerk_u_s3};
-  ++segment_count;
-  duration_s += segment_duration_s;
-  if (std::isinf(segment_duration_s)) {
-    end_position_u = std::numeric_limits<double>::infinity();
-    end_speed_u_s = speed_u_s;
-    return;
-  }
-  const Sample end = sample_segment(added, segment_duration_s);
-  end_position_u = end.position_u;
-  end_speed_u_s = end.speed_u_s;
 }
 
 void Profile::cut_at(double position_u) {

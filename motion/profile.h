@@ -12,8 +12,11 @@
 #pragma once
 
 #include <array>
+#include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace understudy::motion {
 
@@ -88,6 +91,28 @@ struct Profile {
 
   bool endless() const;
 };
+
+inline void Profile::append(double segment_duration_s, double speed_u_s, double acceleration_u_s2,
+                            double jerk_u_s3) {
+  if (!(segment_duration_s > 0)) return;
+  assert(segment_count < static_cast<std::int32_t>(kMaxSegments));
+  Segment& added = segments[static_cast<std::size_t>(segment_count)];
+  added = {.begin_s = duration_s,
+           .position_u = end_position_u,
+           .speed_u_s = speed_u_s,
+           .acceleration_u_s2 = acceleration_u_s2,
+           .jerk_u_s3 = jerk_u_s3};
+  ++segment_count;
+  duration_s += segment_duration_s;
+  if (std::isinf(segment_duration_s)) {
+    end_position_u = std::numeric_limits<double>::infinity();
+    end_speed_u_s = speed_u_s;
+    return;
+  }
+  const Sample end = sample_segment(added, segment_duration_s);
+  end_position_u = end.position_u;
+  end_speed_u_s = end.speed_u_s;
+}
 
 // Here, so that whoever needs the place alone, as each tick of a path does, does not pay for the rest.
 inline Sample Profile::sample(double t_s) const {
