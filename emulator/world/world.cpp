@@ -153,7 +153,8 @@ void World::advance_to(SimTime time) {
     }
     // Ticks at which nothing happens by itself are left out, up to the next thing that does happen.
     const Tick reachable = tick_at(std::min(time, line_time));
-    const Tick active = bulk_ticks_ ? std::min(next_active_tick(), next_fault_tick()) : done_ + 1;
+    Tick active = bulk_ticks_ ? next_active_tick() : done_ + 1;
+    if (active > done_ + 1) active = std::min(active, next_fault_tick());
     const bool tries = active == done_ + 1 && may_cross(reachable);
     const Tick crossed = tries ? last_tick_to_cross(reachable) : done_;
     bool is_rest = false;
@@ -217,6 +218,7 @@ Tick World::next_active_tick() const {
   Tick next = kNever;
   for (std::size_t d = 0; d < devices_.size() && next > done_ + 1; ++d) {
     if (devices_[d]->powered()) next = std::min(next, devices_[d]->next_active_tick(done_));
+    if (next == done_ + 1) break;
     for (const PlantAxis& plant : plants_[d]) next = std::min(next, plant.next_active_tick(done_));
   }
   return next;

@@ -227,7 +227,8 @@ void Simple2R3::heed_servo(int axis_number) {
   if (lacks_servo(axis_number)) stop(axis_number);
 }
 
-DriveSettings Simple2R3::drive_settings(int number) const {
+// Of each axis in each tick.
+[[gnu::always_inline]] inline DriveSettings Simple2R3::drive_settings(int number) const {
   const AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
   DriveSettings settings{.encoder_counts = followed_count(number),
                          .stops_with_encoder = stops_with_encoder_,
@@ -295,11 +296,12 @@ Tick Simple2R3::next_tick_without_axes(Tick done) const {
 }
 
 Tick Simple2R3::next_active_tick(Tick done) const {
-  Tick next = next_tick_without_axes(done);
+  // In the order of what they take: where an axis moves, which is so in every tick then, the rest need not be
+  // asked.
   for (const AxisState& axis : state_.axes) {
-    next = std::min(next, simple2_r3::next_active_tick(axis, done));
+    if (simple2_r3::next_active_tick(axis, done) == done + 1) return done + 1;
   }
-  // Last, because it takes longest, and what moves need not be asked.
+  const Tick next = next_tick_without_axes(done);
   if (next > done + 1 && sees_something_new()) return done + 1;
   return next;
 }
