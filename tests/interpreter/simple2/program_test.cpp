@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "interpreter/simple2/instructions.h"
+
 namespace understudy::interpreter::simple2 {
 namespace program_test {
 
@@ -42,6 +46,23 @@ TEST(Simple2Program, KnowsOnlyFlags1To64) {
     const auto line = program.line_with_flag(static_cast<std::uint8_t>(flag));
     EXPECT_EQ(line.has_value(), flag >= 1 && flag <= 64) << flag;
     EXPECT_EQ(line.value_or(flag), flag);
+  }
+}
+
+// Cells written at random, against a program made of its lines at once.
+TEST(Simple2Program, ItsFlagsAreThoseOfItsLinesAfterAnyWrites) {
+  constexpr std::uint8_t kEnd = opcode_of("END");
+  std::mt19937_64 random(5);
+  const auto below = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
+  for (const auto after_end : {FlagRules::AfterEnd::count, FlagRules::AfterEnd::do_not_count}) {
+    const FlagRules rules{.after_end = after_end};
+    Program program({}, rules);
+    for (int write = 0; write < 20'000; ++write) {
+      const int column = below(4);
+      const int value = column == 3 ? below(4) * below(30) : below(8) == 0 ? kEnd : below(256);
+      program.set_cell(4 * below(40) + column, static_cast<std::uint8_t>(value));
+      ASSERT_EQ(program, Program(program.lines(), rules)) << write;
+    }
   }
 }
 
