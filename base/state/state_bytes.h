@@ -2,6 +2,7 @@
 // StateOf (fields.h) says what a value consists of; by it the value is saved, restored and hashed.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <chrono>
@@ -94,7 +95,7 @@ class StateWriter {
  public:
   /// With `shared`, texts that copies share are put there, and the bytes have their digests only.
   explicit StateWriter(std::size_t expected_bytes = 0, SharedTexts* shared = nullptr) : shared_(shared) {
-    bytes_.reserve(expected_bytes);
+    bytes_.resize(expected_bytes);
   }
 
   template <class T>
@@ -105,15 +106,21 @@ class StateWriter {
     shared_->push_back(value);
   }
   /// What has been saved already.
-  void append(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  void append(std::span<const std::byte> bytes) {
+    if (!bytes.empty()) std::memcpy(room_for(bytes.size()), bytes.data(), bytes.size());
+  }
 
-  std::vector<std::byte> take() { return std::move(bytes_); }
+  std::vector<std::byte> take() {
+    bytes_.resize(size_);
+    size_ = 0;
+    return std::exchange(bytes_, {});
+  }
 
  private:
   std::byte* room_for(std::size_t count) {
-    const std::size_t at = bytes_.size();
-    bytes_.resize(at + count);
-    return bytes_.data() + at;
+    if (bytes_.size() - size_ < count) [[unlikely]]
+      bytes_.resize(std::max(2 * bytes_.size(), size_ + count));
+    return bytes_.data() + std::exchange(size_, size_ + count);
   }
 
   static_assert(sizeof(std::size_t) == 8, "a size is saved as 64 bits");
@@ -144,7 +151,9 @@ class StateWriter {
     }
   }
 
+  // More than is written yet: thousands of numbers are put there one by one.
   std::vector<std::byte> bytes_;
+  std::size_t size_ = 0;
   SharedTexts* shared_ = nullptr;
 };
 

@@ -89,14 +89,12 @@ void Eeprom::lose_power() { forget_jobs(); }
 
 void Eeprom::check_restored(const Eeprom& earlier) const {
   constexpr Tick kLongestJob = 1'000'000;
-  demand_state(kept_.size() == earlier.kept_.size() && slots_.size() == earlier.slots_.size(),
+  const auto is_alike = [](Slot a, Slot b) {
+    const auto lasts = [](Slot slot) { return slot == Slot::not_kept || slot == Slot::at_once; };
+    return a == b || (!lasts(a) && !lasts(b));
+  };
+  demand_state(kept_.size() == earlier.kept_.size() && std::ranges::equal(slots_, earlier.slots_, is_alike),
                "it is the memory of other registers");
-  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-    for (const Slot lasting : {Slot::not_kept, Slot::at_once}) {
-      demand_state((slots_[slot] == lasting) == (earlier.slots_[slot] == lasting),
-                   "it is the memory of other registers");
-    }
-  }
   // A waiting register has one job, whose place it keeps; to write everything comes before all others.
   std::vector<Slot> left = slots_;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
