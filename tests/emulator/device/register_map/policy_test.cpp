@@ -77,6 +77,17 @@ TEST(WriteWords, ARefusedRequestChangesNothingHoweverMuchOfItIsGood) {
   }
 }
 
+// More than any frame can bring, with room to spare.
+TEST(WriteWords, AreAtMost2000) {
+  const RegisterRow rows[] = {coil(0, "C{}", Access::read_write).times(2001, 1, 0)};
+  Toy toy(rows);
+  EXPECT_EQ(write_words(toy.device, Table::coil, 0, world::Words(2001, 1)), Refusal::no_register);
+  EXPECT_EQ(toy.device.image().front(), 0U);
+  EXPECT_EQ(write_words(toy.device, Table::coil, 0, world::Words(2000, 1)), Refusal::none);
+  EXPECT_EQ(toy.device.image()[1999], 1U);
+  EXPECT_EQ(toy.device.image()[2000], 0U);
+}
+
 TEST(Policy, WhereNothingIsMayReadAsZeroAndSwallowWrites) {
   Toy toy(kToyRows, {.unmapped = MapPolicy::Unmapped::reads_zero});
   EXPECT_EQ(world::read(toy.device, 0x0017, 3), (world::Words{0x8421, 0, 0}));
@@ -214,6 +225,35 @@ TEST(Policy, ACutRegisterIsRefusedAsThePolicySays) {
   EXPECT_EQ(world::answer(toy.device, world::write_request(0x0014, 1)), "86 03");
   EXPECT_EQ(world::answer(toy.device, world::read_pdu(3, 0x0015, 1)), "83 03");
   EXPECT_EQ(world::answer(toy.device, world::read_pdu(3, 0x0018, 1)), "83 02") << "a hole is a hole";
+}
+
+/// A window's reader: refuses as the first word says.
+DeviceAnswer heard(ToyDevice& toy, Cell, std::span<const std::uint16_t> words) {
+  toy.events.push_back("heard");
+  return {static_cast<Refusal>(words[0]), 40 + words[0]};
+}
+
+TEST(WriteWords, AWindowSaysWhyItRefuses) {
+  struct Case {
+    Refusal refusal;
+    Cause cause;
+  };
+  constexpr Case kCases[] = {{Refusal::no_register, Cause::bad_message},
+                             {Refusal::bad_value, Cause::bad_message},
+                             {Refusal::busy, Cause::busy},
+                             {Refusal::failure, Cause::failure}};
+  const RegisterRow rows[] = {window<heard>(0x0030, "W{}", 3)};
+  for (const auto& [refusal, cause] : kCases) {
+    Toy toy(rows);
+    const world::Words words{static_cast<std::uint16_t>(refusal), 1};
+    const auto reason = static_cast<std::uint16_t>(40 + words[0]);
+    EXPECT_EQ(write_request(toy.device, Table::holding, 0x0030, words),
+              (Objection{.refusal = refusal, .cause = cause, .address = 0x0030, .reason = reason}));
+    EXPECT_EQ(toy.device.events, Events{"heard"}) << "nothing was written";
+  }
+  Toy toy(rows);
+  EXPECT_EQ(write(toy, 0x0030, {0}), Refusal::none);
+  EXPECT_EQ(toy.device.events, (Events{"heard", "written"}));
 }
 
 TEST(WriteWords, AWriteMayBeOneMessageWithoutAWindow) {
