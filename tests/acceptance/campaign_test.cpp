@@ -274,8 +274,9 @@ TEST_F(Campaign, MemoryDoesNotGrowWithTheNumberOfCases) {
   const long few = memory(1000);
   const long many = memory(12'000);
   ASSERT_GT(few, 0);
-  // A result alone, with its steps and names, takes more than 1 KiB.
-  EXPECT_LT(many - few, 4000) << few << " KiB for 1000, " << many << " KiB for 12000";
+  // A result alone, with its steps and names, takes more than 1 KiB. What the allocator keeps differs by 5
+  // MiB from run to run, however many cases there are.
+  EXPECT_LT(many - few, 8000) << few << " KiB for 1000, " << many << " KiB for 12000";
 }
 
 TEST_F(Campaign, TheExampleIsWhatItSays) {
