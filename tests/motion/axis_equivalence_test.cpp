@@ -25,28 +25,36 @@ std::int64_t step_with_care(AxisCourse& course, std::int64_t counts) {
   return step(course, counts);
 }
 
+void expect_alike(AxisScenario scenario) {
+  AxisCourse quick = scenario.course();
+  AxisCourse careful = quick;
+  for (int tick = 0; tick < kTicks; ++tick) {
+    const auto command = scenario.next();
+    const std::int64_t counts = scenario.counts();
+    act(command, quick);
+    act(command, careful);
+    ASSERT_EQ(step(quick, counts), step_with_care(careful, counts)) << scenario.code() << " " << quick.now;
+    ASSERT_EQ(quick.axis.events, careful.axis.events) << scenario.code() << " " << quick.now;
+    ASSERT_EQ(quick.axis.travel_pulses, careful.axis.travel_pulses) << scenario.code() << " " << quick.now;
+    ASSERT_EQ(quick.axis.cause, careful.axis.cause) << scenario.code() << " " << quick.now;
+    if (tick % 16 == 0) {
+      ASSERT_EQ(first_difference(state_of(quick.axis), state_of(careful.axis)), "")
+          << scenario.code() << " " << quick.now;
+    }
+  }
+  ASSERT_EQ(first_difference(state_of(quick.axis), state_of(careful.axis)), "") << scenario.code();
+}
+
 TEST(AxisEquivalence, TheShortWayThroughATickIsTheCarefulOne) {
   RandomMoves seeds(seed());
-  for (int i = 0; i < random_cases(600); ++i) {
-    AxisScenario scenario(static_cast<std::uint64_t>(seeds.between(1, INT64_MAX)));
-    AxisCourse quick = scenario.course();
-    AxisCourse careful = quick;
-    for (int tick = 0; tick < kTicks; ++tick) {
-      const auto command = scenario.next();
-      const std::int64_t counts = scenario.counts();
-      act(command, quick);
-      act(command, careful);
-      ASSERT_EQ(step(quick, counts), step_with_care(careful, counts)) << scenario.code() << " " << quick.now;
-      ASSERT_EQ(quick.axis.events, careful.axis.events) << scenario.code() << " " << quick.now;
-      ASSERT_EQ(quick.axis.travel_pulses, careful.axis.travel_pulses) << scenario.code() << " " << quick.now;
-      ASSERT_EQ(quick.axis.cause, careful.axis.cause) << scenario.code() << " " << quick.now;
-      if (tick % 16 == 0) {
-        ASSERT_EQ(first_difference(state_of(quick.axis), state_of(careful.axis)), "")
-            << scenario.code() << " " << quick.now;
-      }
-    }
-    ASSERT_EQ(first_difference(state_of(quick.axis), state_of(careful.axis)), "") << scenario.code();
+  for (int i = 0; i < random_cases(600) && !testing::Test::HasFatalFailure(); ++i) {
+    expect_alike(AxisScenario(static_cast<std::uint64_t>(seeds.between(1, INT64_MAX))));
   }
+}
+
+/// Found once in 20,000: play is left over when the settings have none any more.
+TEST(AxisEquivalence, PlayThatIsLeftOverIsForgottenByBoth) {
+  expect_alike(AxisScenario(1600278233990034164));
 }
 
 TEST(AxisEquivalence, ACopyGoesOnAsItsOriginalDoes) {
