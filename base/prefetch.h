@@ -11,7 +11,7 @@ inline constexpr std::size_t kCacheLine = 64;  // bytes
 /// The one line that an address is on. Only speed depends on it; any address will do.
 inline void prefetch_line(const void* address) {
   __builtin_prefetch(address, 1);
-  // To the compiler a function that does only this does nothing, and it leaves out the calls.
+  // Otherwise the compiler sees a function that only prefetches as one without effect, and drops the calls.
   asm volatile("");
 }
 

@@ -2,6 +2,7 @@
 // own; and how late a 1 kHz loop wakes up that does it, beside a loop that does nothing. The two of each pair
 // take turns, so that what else runs on the machine meets both. Loops wait as the daemon does.
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>

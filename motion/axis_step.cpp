@@ -60,7 +60,7 @@ std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
   if (pulses != 0) raise(Event::pulse, {.tick = tick});
   attentive = attentive || in_backlash || at_a_limit || (settings.raises & bit(Event::pulse)) != 0 ||
               waits_for_constant_speed();
-  if (task == Task::following) drive.next_look = 0;  // it goes by no plan, and comes here in each tick
+  if (task == Task::following) drive.next_look = 0;  // it has no plan: each of its ticks comes here
   events = events_between;
   events_between = 0;
   Instant& ended_at = event_at[static_cast<std::size_t>(Event::constant_ended)];

@@ -46,7 +46,7 @@ class TextLines {
 
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// What editors of Windows put before a text in UTF-8 is none of it.
+/// Editors on Windows write a byte order mark before a text in UTF-8. It is not part of the text.
 constexpr std::string_view without_byte_order_mark(std::string_view text) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   return text;

@@ -227,7 +227,7 @@ void Simple2R3::heed_servo(int axis_number) {
   if (lacks_servo(axis_number)) stop(axis_number);
 }
 
-// Of each axis in each tick.
+// Called for each axis in every tick; with two callers the compiler would not inline it by itself.
 [[gnu::always_inline]] inline DriveSettings Simple2R3::drive_settings(int number) const {
   const AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
   DriveSettings settings{.encoder_counts = followed_count(number),
@@ -296,8 +296,7 @@ Tick Simple2R3::next_tick_without_axes(Tick done) const {
 }
 
 Tick Simple2R3::next_active_tick(Tick done) const {
-  // In the order of what they take: where an axis moves, which is so in every tick then, the rest need not be
-  // asked.
+  // Cheapest first: an axis that moves is active in every tick, and then nothing else needs to be asked.
   for (const AxisState& axis : state_.axes) {
     if (simple2_r3::next_active_tick(axis, done) == done + 1) return done + 1;
   }
