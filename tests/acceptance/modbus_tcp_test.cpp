@@ -93,6 +93,25 @@ TEST(ModbusTcpLine, LetsGoWhoSpeaksSomethingElse) {
   EXPECT_EQ(client.read(kReply.size()), kReply);
 }
 
+// Whoever reaches the port can send this, without knowing a station.
+TEST(ModbusTcpLine, OutlivesLengthsThatNoRequestHas) {
+  const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
+  for (const char* header : {"00 00 00 00 00 00", "00 00 00 00 00 01", "00 00 00 00 01 2C"}) {
+    for (const Bytes& before : {Bytes{}, kRequest, pty::hex("00 01 00 07 00 03 01 02 03")}) {
+      Bytes said = before;
+      const Bytes wrong = pty::hex(header);
+      said.insert(said.end(), wrong.begin(), wrong.end());
+      said.resize(said.size() + 300);
+      for (std::size_t size : {before.size() + 6, before.size() + 7, said.size()}) {
+        TcpClient(listened_port(served)).write(Bytes(said.begin(), said.begin() + std::ptrdiff_t(size)));
+      }
+    }
+  }
+  const Libmodbus host = connected(listened_port(served));
+  std::uint16_t value = 0;
+  EXPECT_EQ(modbus_read_registers(host.get(), 1, 1, &value), 1) << modbus_strerror(errno);
+}
+
 TEST(ModbusTcpLine, ForgetsTheRequestsOfAClientThatHasGone) {
   const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
   {

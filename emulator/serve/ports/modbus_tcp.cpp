@@ -48,19 +48,23 @@ bool is_length_possible(std::span<const std::uint8_t> heard) {
   return length >= kLeastLength && length <= kMostLength;
 }
 
-bool is_whole(std::span<const std::uint8_t> heard) {
-  return heard.size() >= kHeader && heard.size() >= kHeader + word_at(heard, 4);
+/// How long the message is that begins so; nothing: it has not come wholly, or no message begins so.
+std::optional<std::size_t> size_of_message(std::span<const std::uint8_t> heard) {
+  if (heard.size() < kHeader || !is_length_possible(heard)) return std::nullopt;
+  const std::size_t size = kHeader + word_at(heard, 4);
+  return heard.size() >= size ? std::optional(size) : std::nullopt;
 }
 
 }  // namespace
 
 bool ModbusTcp::hear_client(std::span<const std::uint8_t> bytes) {
+  if (is_refused_) return false;
   heard_.insert(heard_.end(), bytes.begin(), bytes.end());
   std::span<const std::uint8_t> rest = heard_;
-  while (is_length_possible(rest)) {
-    if (!is_whole(rest)) return true;
-    rest = rest.subspan(kHeader + word_at(rest, 4));
-  }
+  while (const auto size = size_of_message(rest)) rest = rest.subspan(*size);
+  if (is_length_possible(rest)) return true;
+  heard_.resize(heard_.size() - rest.size());
+  is_refused_ = true;
   return false;
 }
 
@@ -70,8 +74,10 @@ std::optional<int> ModbusTcp::patience_ms() const {
 }
 
 ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
-  while (room >= kLongestFrame && !on_line_ && to_client_.empty() && is_whole(heard_)) {
-    const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(kHeader + word_at(heard_, 4));
+  while (room >= kLongestFrame && !on_line_ && to_client_.empty()) {
+    const auto size = size_of_message(heard_);
+    if (!size) break;
+    const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(*size);
     const bool is_modbus = word_at(heard_, 2) == 0;
     Bytes frame(heard_.begin() + kHeader, end);
     if (is_modbus)

@@ -14,7 +14,8 @@ namespace understudy::emulator::serve {
 
 class ModbusTcp final : public TcpSpeech {
  public:
-  /// False: they tell of a length that no request has, so where the next begins is not known.
+  /// False: they tell of a length that no request has, so where the next begins is not known. What came
+  /// before that is still served; that message, and whatever follows it, never is.
   [[nodiscard]] bool hear_client(std::span<const std::uint8_t> bytes) override;
   void hear_line(std::span<const std::uint8_t> bytes) override;
   std::optional<int> patience_ms() const override;
@@ -42,8 +43,9 @@ class ModbusTcp final : public TcpSpeech {
   };
   void answer(std::span<const std::uint8_t> pdu);
 
-  Bytes heard_;  // of the client: whole requests, and the beginning of one
-  Bytes reply_;  // of the line, as far as it has come
+  Bytes heard_;              // of the client: whole requests, and the beginning of one
+  bool is_refused_ = false;  // it has sent what is not Modbus TCP
+  Bytes reply_;              // of the line, as far as it has come
   Bytes to_client_;
   std::optional<Request> on_line_;
 };

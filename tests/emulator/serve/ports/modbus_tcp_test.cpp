@@ -160,6 +160,32 @@ TEST(ModbusTcp, LetsALengthGoThatNoRequestHas) {
   EXPECT_TRUE(gateway.hear_client(hex("00 01 00 00 00 FE")));
 }
 
+// Cut anywhere, and whatever is heard behind it: what was refused never goes to the line.
+TEST(ModbusTcp, NeverServesWhatItHasRefused) {
+  for (const char* length : {"00 00", "00 01", "00 FF", "01 2C", "FF FF"}) {
+    for (const bool has_good : {false, true}) {
+      Bytes said = has_good ? kRequest : Bytes{};
+      const Bytes wrong = hex("00 01 00 00 " + std::string(length));
+      said.insert(said.end(), wrong.begin(), wrong.end());
+      said.resize(said.size() + 300);
+      for (std::size_t cut = 1; cut <= said.size(); ++cut) {
+        ModbusTcp gateway;
+        const bool is_refused = cut >= (has_good ? kRequest.size() : 0) + wrong.size();
+        EXPECT_EQ(gateway.hear_client(std::span(said).first(cut)), !is_refused) << length << " " << cut;
+        if (is_refused) {
+          EXPECT_FALSE(gateway.hear_client(std::span(said).subspan(cut)));
+          EXPECT_FALSE(gateway.hear_client(kRequest));
+        }
+        const bool is_served = has_good && cut >= kRequest.size();
+        EXPECT_EQ(gateway.take_for_line(kRoom), is_served ? kFrame : Bytes{}) << length << " " << cut;
+        gateway.give_up();
+        gateway.take_for_client();
+        EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << length << " " << cut;
+      }
+    }
+  }
+}
+
 TEST(ModbusTcp, HasRoomForSoMuch) {
   ModbusTcp gateway;
   for (int i = 0; gateway.has_room(); ++i) {
