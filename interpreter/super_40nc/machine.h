@@ -33,6 +33,8 @@ enum class Begun : std::uint8_t {
   refused,  // a limit or an alarm, reported: it resets the program
 };
 
+/// Whatever it is told to do may start, stop and replace programs, also the one whose line tells it (D8000,
+/// D8020, D9001): a line at work is a copy, and whoever has a scan run keeps its ladder until that is over.
 class Machine {
  public:
   virtual ~Machine() = default;

@@ -1,6 +1,8 @@
 // What of programs at work a state consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
+#include <cstddef>
+
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "interpreter/super_40nc/plc.h"
@@ -62,6 +64,7 @@ struct StateOf<interpreter::super_40nc::StepState> {
                                            field("targets", &Value::targets),
                                            field("rpm", &Value::rpm),
                                            field("waits_for_drive", &Value::waits_for_drive)};
+  static constexpr std::size_t apart = 1;  // owns_pointer: false between lines
   /// Steps may be anything: a program stops at one that no instruction begins at.
   static void check(const Value& state);
 };

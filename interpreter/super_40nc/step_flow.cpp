@@ -21,13 +21,21 @@
 
 namespace understudy::interpreter::super_40nc {
 
-StepPrograms::Slice StepPrograms::execute(Area area, const Instruction& line) {
+StepPrograms::Slice StepPrograms::execute(Area area, const Instruction line) {
+  state(area).owns_pointer = true;
+  const Slice slice = carry_out(area, line);
+  state(area).owns_pointer = false;
+  return slice;
+}
+
+StepPrograms::Slice StepPrograms::carry_out(Area area, const Instruction& line) {
   const std::size_t needed = place_of_needed(line.op);
   if (needed < line.fields.size() && !line.fields[needed].is_set()) return advance(area, line);
   if (is_contact(line.op) || joins_blocks(line.op)) return read_contact(area, line);
   if (is_calculation(line.op)) {
+    const int step = base_of(area, options_) + state(area).step;
     const Calculated result = calculate(line, access_, options_);
-    if (result.code != Code::none) report(area, result.code);
+    if (result.code != Code::none) machine_.report(result.code, area, step);
     return advance(area, line);
   }
   if (row_of(line.op).group == Group::motion) return set_mode(area, line);
@@ -55,8 +63,10 @@ StepPrograms::Slice StepPrograms::execute(Area area, const Instruction& line) {
   return advance(area, line);  // LAB, ENDI, NOP; CJ, CJN and IF that do not jump
 }
 
+/// Unless what the line did has stopped its program, or has moved the pointer elsewhere.
 StepPrograms::Slice StepPrograms::advance(Area area, const Instruction& line) {
   StepState& program = state(area);
+  if (!program.owns_pointer) return Slice::goes_on;
   program.phase = Phase::executing;
   program.step += steps_of(line);
   return Slice::goes_on;

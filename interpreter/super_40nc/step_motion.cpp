@@ -99,6 +99,7 @@ StepPrograms::Slice StepPrograms::begin_motion(Area area, const Instruction& lin
                                                bool waits) {
   StepState& program = state(area);
   const Begun begun = machine_.begin(area, request);
+  if (!program.owns_pointer) return Slice::is_over;
   switch (begun) {
     case Begun::taken: program.phase = Phase::waiting; return Slice::is_over;
     case Begun::refused:

@@ -177,6 +177,7 @@ void StepPrograms::change_file(Area area) {
 void StepPrograms::move_pointer(StepState& program, int step) {
   if (program.phase == Phase::moving || program.phase == Phase::homing) {
     program.next_step = step;
+  program.owns_pointer = false;
     return;
   }
   program.phase = Phase::executing;

@@ -35,6 +35,8 @@ struct StepState {
   std::int32_t wait_ms = 0;          // what TMR has read last, where it goes on reading
   std::vector<Call> calls = {};
   std::uint64_t blocks = 0;  // the result of the last contacts
+  bool owns_pointer =
+      false;  // not state: a line is at work, and nothing else has moved its program's pointer
   // Modal: loaded at a fresh start, kept by any other. F and the plane are D8006 and D8007.
   bool has_modes = false;
   Targets targets = Targets::absolute;
@@ -121,7 +123,9 @@ class StepPrograms : public StepControl {
   bool finds_line(Area area);
 
   // step_flow.cpp
-  Slice execute(Area area, const Instruction& line);
+  /// Not by reference: what the line stores may put another program in place of its own (D9001).
+  Slice execute(Area area, Instruction line);
+  Slice carry_out(Area area, const Instruction& line);
   Slice advance(Area area, const Instruction& line);
   Slice jump(Area area, int step);
   Slice jump_to_label(Area area);

@@ -163,6 +163,68 @@ TEST(ShippedScenarios, DoTheSameOnAProcessorWithoutFusedMultiplication) {
   EXPECT_EQ(printed({}, {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2"}}), printed());
 }
 
+/// Programs that change the file which stands under them, in each scan and in each area.
+const char* const kChangesItsFiles = R"(understudy: 1
+name: files are changed by their own lines
+bench:
+  lines: { a: { timing: instant, stations: [ { device: mill, port: RS232 } ] } }
+  devices:
+    mill:
+      model: super-40nc
+      program: |
+        AREA C
+        LAB K1
+        INC D9001
+        INC D1
+        LD= D9001 K3
+        IF
+        MOV K0 D9001
+        ENDI
+        JMP K1
+        END
+        AREA X
+        LAB K1
+        FMV K5 D9001 K1
+        INC D2
+        INC D3
+        JMP K1
+        END
+        AREA PLC
+        LD M8003
+        ADD D9001 K1 D9001
+        INC D4
+        DEC D9001
+        INC D5
+        END
+steps:
+  - for:
+      each: [ 0, 1, 2, 3 ]
+      as: file
+      steps:
+        - program: { mill: "FILE ${file}\nLAB K1\nINC D9001\nINC D6\nLD= D9001 K3\nIF\nMOV K0 D9001\nENDI\nJMP K1\nEND\n" }
+  - write: { mill.M8000: 1, mill.M8100: 1 }
+  - advance: 300ms
+)";
+
+/// Freed memory is filled with something else in each run, and none of it is kept back.
+TEST(ShippedScenarios, DoTheSameWhateverFreedMemoryHolds) {
+  const PrivateFolder folder;
+  const std::string path = folder.write("files.yaml", kChangesItsFiles);
+  const auto hash_of = [&](const Environment& environment) {
+    const Finished finished = run({UNDERSTUDY_BINARY, "run", "--hash", path}, environment);
+    EXPECT_EQ(finished.exit_code, 0) << finished.output << finished.errors;
+    return finished.output;
+  };
+  const std::string of_files = hash_of({});
+  const std::string usual = printed();
+  for (const char* fill : {"90", "165"}) {
+    const Environment environment{{"MALLOC_PERTURB_", fill},
+                                  {"GLIBC_TUNABLES", "glibc.malloc.tcache_count=0"}};
+    EXPECT_EQ(hash_of(environment), of_files) << fill;
+    EXPECT_EQ(printed({}, environment), usual) << fill;
+  }
+}
+
 TEST(ShippedScenarios, DoTheSameInAnotherBuild) {
   const char* const other = std::getenv("UNDERSTUDY_OTHER_BINARY");
   if (other == nullptr || *other == '\0') {

@@ -29,8 +29,8 @@ bool latches_by_comparator(const Settings& its, int axis) { return its.of(kept_x
 
 /// Ticks that the PLC needs no scan in, if nothing that it reads changes.
 Tick Super40nc::quiet_scans(bool moves) const {
-  if (ladder_.is_empty() || !state_.plc.runs) return kNever;
-  return moves && ladder_.reads_special() ? 0 : state_.plc_quiet_scans;
+  if (ladder_->is_empty() || !state_.plc.runs) return kNever;
+  return moves && ladder_->reads_special() ? 0 : state_.plc_quiet_scans;
 }
 
 bool Super40nc::is_quiet(int axis_number) const {
@@ -42,7 +42,7 @@ bool Super40nc::is_quiet(int axis_number) const {
 }
 
 Tick Super40nc::next_active_tick(Tick done) const {
-  const bool scans = !ladder_.is_empty() && state_.plc.runs;  // they are crossed, not skipped
+  const bool scans = !ladder_->is_empty() && state_.plc.runs;  // they are crossed, not skipped
   if (scans || state_.touched || inputs_changed() || programs_are_busy() || has_errors_for_a_scan()) {
     return done + 1;
   }
@@ -81,9 +81,9 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead)
 void Super40nc::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
   const Tick ticks = tick - done;
   state_.has_ticked = true;
-  if (!ladder_.is_empty() && state_.plc.runs) {
+  if (!ladder_->is_empty() && state_.plc.runs) {
     ProgramMachine machine(*this);
-    language::cross(state_.plc, ladder_, machine, ticks, options_);
+    language::cross(state_.plc, *ladder_, machine, ticks, options_);
     if (state_.plc_quiet_scans != kNever) state_.plc_quiet_scans -= ticks;
   }
   for (int number = 0; number < kAxisCount; ++number) {

@@ -154,7 +154,7 @@ void Super40nc::sample_inputs(Tick) {
   // What is ON before the first scan is no edge, also where a listing came before the inputs did.
   if (state_.plc.runs && state_.plc.is_first_scan) {
     ProgramMachine machine(*this);
-    language::run(state_.plc, ladder_, machine, options_);
+    language::run(state_.plc, *ladder_, machine, options_);
   }
   if (was_emergency != state_.emergency) state_.touched = true;
 }
@@ -177,10 +177,11 @@ void Super40nc::run_interpreters(Tick tick) {
 void Super40nc::run_plc() {
   ProgramMachine machine(*this);
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
-  if (!ladder_.is_empty() && state_.plc.runs) {
+  const auto ladder = ladder_;
+  if (!ladder->is_empty() && state_.plc.runs) {
     // A scan that changed nothing, and was not told of anything new, is the same again.
     const bool was_told = state_.touched;
-    const language::Scanned scanned = language::scan(state_.plc, ladder_, machine, steps, options_);
+    const language::Scanned scanned = language::scan(state_.plc, *ladder, machine, steps, options_);
     state_.plc_quiet_scans = was_told || scanned.has_changed ? 0 : scanned.quiet_scans;
   }
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -416,7 +417,9 @@ class Super40nc final : public DeviceOf<Super40nc>,
   State state_;
   // Made from the listings that the memory has: not state.
   interpreter::super_40nc::StepCodes codes_;
-  interpreter::super_40nc::Ladder ladder_;
+  /// Shared: a scan keeps the one that it has begun with.
+  std::shared_ptr<const interpreter::super_40nc::Ladder> ladder_ =
+      std::make_shared<const interpreter::super_40nc::Ladder>();
   std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
   NamedBlocks::mapped_type ready_texts_;        // that those two are made of
   std::vector<int> table_lines_;                // of the user table, while it runs

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -67,7 +68,7 @@ void Super40nc::make_programs_ready() {
     const auto stored = stored_area(state_.blocks, kPrograms, row.name, row.area, options_);
     const language::AreaProgram program = stored.value_or(language::AreaProgram{.base = row.base});
     if (row.area == language::Area::plc) {
-      ladder_ = language::Ladder(program, machine.layout(), options_);
+      ladder_ = std::make_shared<const language::Ladder>(program, machine.layout(), options_);
     } else {
       codes_[language::index_of(row.area)] = language::StepCode(program, labels);
     }
@@ -231,7 +232,7 @@ void Super40nc::set_pointer(int program, std::int32_t step) {
 /// "plc 初始": what does not run begins anew.
 void Super40nc::plc_to_run() {
   ProgramMachine machine(*this);
-  language::run(state_.plc, ladder_, machine, options_);
+  language::run(state_.plc, *ladder_, machine, options_);
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
   for (const language::AreaRow& row : language::kAreas) {
     if (row.area == language::Area::plc || chose(option("run_resets_steps", "stay"))) continue;

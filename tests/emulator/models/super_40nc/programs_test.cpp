@@ -327,5 +327,65 @@ TEST(Super40ncPrograms, ARestoredSnapshotHasItsOwnPrograms) {
   expect_program(1);
 }
 
+// --- a line that changes the file, or its own program
+// --------------------------------------------------------
+
+/// By every instruction that stores, in every area: the line is carried out to its end, and the next one
+/// runs.
+TEST(Super40ncPrograms, ALineThatChangesTheFileIsCarriedOut) {
+  struct Store {
+    const char* line;
+    Value file;  // that it selects; 2 was selected
+  };
+  for (const Store& store : {Store{"MOV K1 D9001", 1}, Store{"MOV K1 D8002", 1}, Store{"FMV K1 D9001 K1", 1},
+                             Store{"ADD D9001 K2 D9001", 4}, Store{"SUB D9001 K1 D9001", 1},
+                             Store{"MUL D9001 K2 D9001", 4}, Store{"DIV D9001 K2 D9001", 1},
+                             Store{"INC D9001", 3}, Store{"DEC D9001", 1}, Store{"ZRST D9001 D9001", 0}}) {
+    for (const std::string area : {"C", "X", "PLC"}) {
+      SCOPED_TRACE(area + ": " + store.line);
+      const std::string lines = std::string(store.line) + "\nINC D5\nEND\n";
+      std::string program = "AREA " + area + "\n" + (area == "PLC" ? "LDP M10\n" : "") + lines;
+      for (int file = 0; file < 5; ++file) program += "FILE " + std::to_string(file) + "\n" + lines;
+      OneSuper40nc one({.set = {{"D9001", 2}}, .program = program});
+      one.run(2);
+      one.set(area == "C" ? "M8000" : area == "X" ? "M8100" : "M10", 1);
+      one.run(10);
+      EXPECT_EQ(one.get("D9001"), store.file);
+      EXPECT_EQ(one.get("D5"), 1);
+      EXPECT_EQ(one.get("D8094"), 0);
+    }
+  }
+}
+
+TEST(Super40ncPrograms, ALineGoesOnOnlyWhereItsPointerStands) {
+  OneSuper40nc reset({.program = "AREA C\nMOV K1 D9001\nINC D5\nEND\nFILE 1\nMOV K1 D9001\nINC D5\nEND\n",
+                      .choices = {{"file_change_running", "resets_c"}}});
+  reset.set("M8000", 1);
+  reset.run(10);
+  EXPECT_EQ(reset.get("D9001"), 1);
+  EXPECT_EQ(reset.get("D5"), 0);
+  EXPECT_EQ(reset.get("D8000"), 0);
+  EXPECT_FALSE(reset.on("M8000"));
+  EXPECT_EQ(reset.it().state().steps.programs[0].phase, interpreter::super_40nc::Phase::idle);
+
+  OneSuper40nc moved({.program = "AREA C\nMOV K3 D8000\nINC D5\nINC D6\nINC D7\nEND\n",
+                      .choices = {{"pointer_write_running", "goes_on_there"}}});
+  moved.set("M8000", 1);
+  moved.run(10);
+  EXPECT_EQ(moved.get("D5"), 0);
+  EXPECT_EQ(moved.get("D6"), 1);
+  EXPECT_EQ(moved.get("D7"), 1);
+}
+
+/// The user table takes the place of C, and is gone when it is over; the line is X's own.
+TEST(Super40ncPrograms, ALineMayHaveADirectCommandCarriedOut) {
+  OneSuper40nc one({.program = "AREA X\nMOV K105 D8020\nINC D5\nMOV K100 D8020\nINC D5\nEND\n",
+                    .choices = {{"user_table", "on"}}});
+  one.set("M8100", 1);
+  one.run(10);
+  EXPECT_EQ(one.get("D5"), 2);
+  EXPECT_FALSE(one.on("M8100"));
+}
+
 }  // namespace programs_test
 }  // namespace understudy::emulator::models::super_40nc
