@@ -91,6 +91,8 @@ class Machine {
   /// STP: C: all that C moves stops at once. Another one: whatever moves its axis. Returns the programs that
   /// have lost the motion of a line by it, besides `area`: they are reset.
   virtual Areas stop(Area area) = 0;
+  /// A program is over, or begins anew: what it has waited for goes on by itself, if it does.
+  virtual void waits_no_more(Area by) = 0;
 
   // --- the PLC --------------------------------------------------------------------------------------
   /// Starts each axis that is free; the others are void. `rpm` is the PLC's own, `step` the line's as D8095

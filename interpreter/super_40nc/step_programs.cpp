@@ -98,8 +98,9 @@ void StepPrograms::begin(Area area, Reaction how) {
 void StepPrograms::resume(Area area) {
   StepState& program = state(area);
   program.waits_to_resume = false;
-  if (std::exchange(program.machine_holds, false)) machine_.go_on(area);
   program.phase = std::exchange(program.resumes, Phase::executing);
+  // What cannot go on any more, because of a limit, resets it.
+  if (std::exchange(program.machine_holds, false)) machine_.go_on(area);
 }
 
 void StepPrograms::load_modes(Area area) {
@@ -126,6 +127,7 @@ void StepPrograms::clear(Area area) {
   cleared.rpm = program.rpm;
   cleared.waits_for_drive = program.waits_for_drive;
   program = cleared;
+  machine_.waits_no_more(area);
 }
 
 void StepPrograms::forget(Area area) {
@@ -175,9 +177,9 @@ void StepPrograms::change_file(Area area) {
 
 /// Of a program that runs: behind its motion, or at once.
 void StepPrograms::move_pointer(StepState& program, int step) {
+  program.owns_pointer = false;
   if (program.phase == Phase::moving || program.phase == Phase::homing) {
     program.next_step = step;
-  program.owns_pointer = false;
     return;
   }
   program.phase = Phase::executing;

@@ -11,6 +11,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/marks.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -229,9 +230,8 @@ void Super40nc::begun(int axis_number, motion::Cause why_not, Holder holder) {
   }
   // Of a program only its start does.
   if (state.mover >= Mover::plc) error_is_over();
+  take_off(state, MarkEvent::motion_begins);
   state.holder = holder;
-  state.has_ended = state.has_error = false;
-  state.stands_on_target = false;
   Tick& erc = state_.erc_until[static_cast<std::size_t>(axis_number)];
   if (erc == kNever) erc = 0;  // a level, until the next start
 }
@@ -286,14 +286,8 @@ void Super40nc::release_jog(int axis_number, bool AxisState::*asked_by) {
 
 void Super40nc::let_go(int axis_number) {
   AxisState& state = axis(axis_number);
-  state.holder = Holder::nobody;
-  state.asked_by_contact = state.asked_by_plc = false;
-  state.wheel = WheelSource::none;
-  state.order = 0;
-  state.mover = state.stop_awaited_by = Mover::hand;
-  state.awaited = state.shows_finish = state.is_held = false;
   const bool looked_for_mark = state.rest.kind == RestKind::mark || state.rest.limits_count;
-  state.rest = {};
+  take_off(state, MarkEvent::motion_ends);
   if (looked_for_mark) look_round(axis_number);
 }
 
@@ -323,7 +317,8 @@ void Super40nc::ended(int axis_number) {
   state.has_ended = true;
   if (held == Holder::nobody || held == Holder::rest) return;
   const bool has_found = (motor.events & motion::bit(motion::Event::homed)) != 0;
-  const bool is_stopped = why == motion::Cause::stopped || motor.homing.ended_by == motion::Cause::stopped;
+  // What the search or mark before ended by is not asked for: its result stays until the next one.
+  const bool is_stopped = why == motion::Cause::stopped;
   if (state.is_held && is_stopped && !has_found) return rest_axis(axis_number);
   if (held == Holder::wheel) return wheel_ended(axis_number);
 

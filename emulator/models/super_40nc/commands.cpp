@@ -10,6 +10,7 @@
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/keys.h"
 #include "emulator/models/super_40nc/manual_motions.h"
+#include "emulator/models/super_40nc/marks.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -145,7 +146,7 @@ void Super40nc::obey_stops() {
       if (code == Code::emergency_input) axis(number).has_error = true;
       give_erc_behind(number, code);
     }
-    state_.homing_by_key = state_.zeroing_by_key = {};
+    give_up_orders();
     for (const language::AreaRow& row : language::kAreas) {
       if (row.area != Area::plc) stop_by_emergency(row.area, is_new);
     }
@@ -153,7 +154,7 @@ void Super40nc::obey_stops() {
   state_.emergency_obeyed = state_.emergency;
   for (int number = 0; number < kAxisCount; ++number) {
     const bool is_reset = is_on(of_axis(number, kReset));
-    if (is_reset) axis(number).has_error = false;
+    if (is_reset) take_off(axis(number), MarkEvent::reset);
     if (is_reset) tell(Event::reset, language::area_of_axis(number));
     if (!is_pressed(KeyDoes::stop, number)) continue;
     tell(Event::stop, language::area_of_axis(number));
@@ -161,7 +162,7 @@ void Super40nc::obey_stops() {
   }
   if (is_pressed(KeyDoes::stop_c, -1)) {
     for (int number = 0; number < kAxisCount; ++number) meet(number, ManualEvent::main_stop);
-    state_.homing_by_key = state_.zeroing_by_key = {};
+    give_up_orders();
     tell(Event::stop, Area::c);
     set_contact(8000, false);
   }

@@ -290,6 +290,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool is_locked(const Key& key) const;
   /// In this scan; axis -1: on the main page.
   bool is_pressed(KeyDoes what, int axis) const;
+  void give_up_orders();
   void obey_order_keys();
   void follow_order(OrderKey& key, Holder holder, Kept order_of_axis, void (Super40nc::*start)(int, int));
   void obey_contacts();
@@ -344,6 +345,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   }
 
   void rest_axis(int axis_number);
+  void cannot_go_on(int axis_number, const Rest& rest, Mover mover, bool is_awaited);
   /// What has ended between ticks has been dealt with.
   void forget_end(int axis);
   void path_ended();

@@ -8,6 +8,7 @@
 
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/marks.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -136,6 +137,12 @@ void Super40nc::follow_order(OrderKey& key, Holder holder, Kept order_of_axis,
       }
     }
   }
+}
+
+/// Axes that still come to rest are not those of a key that is pressed meanwhile.
+void Super40nc::give_up_orders() {
+  state_.homing_by_key = state_.zeroing_by_key = {};
+  for (AxisState& its : state_.axes) take_off(its, MarkEvent::orders_given_up);
 }
 
 void Super40nc::obey_order_keys() {

@@ -10,6 +10,7 @@
 #include "base/simulated_time.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/marks.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -233,7 +234,7 @@ void Super40nc::stop_path() {
   state_.path.stop(state_.chips, motion::Cause::stopped);
   state_.path = {};
   state_.path_is_held = false;
-  for (AxisState& its : state_.axes) its.path_backlash = its.arc_backlash = 0;
+  for (AxisState& its : state_.axes) take_off(its, MarkEvent::path_ends);
   for (int number = 0; number < kAxisCount; ++number) {
     if (!took[static_cast<std::size_t>(number)]) continue;
     forget_end(number);
@@ -261,7 +262,7 @@ void Super40nc::path_ended() {
   const Code code = code_of(why);
   for (int number = 0; number < kAxisCount; ++number) {
     AxisState& state = axis(number);
-    state.path_backlash = state.arc_backlash = 0;
+    take_off(state, MarkEvent::path_ends);
     if (state.rest.kind != RestKind::path) continue;
     forget_end(number);
     state.has_ended = true;

@@ -296,6 +296,13 @@ language::Areas ProgramMachine::stop(Area area) {
   return lost;
 }
 
+void ProgramMachine::waits_no_more(Area by) {
+  for (AxisState& state : device_.state().axes) {
+    if (state.mover == mover_of(by)) state.awaited = false;
+    if (state.stop_awaited_by == mover_of(by)) state.stop_awaited_by = Mover::hand;
+  }
+}
+
 // ---- both
 
 bool ProgramMachine::set_positions(const language::SetPositions& positions) {

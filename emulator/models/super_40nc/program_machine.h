@@ -52,6 +52,7 @@ class ProgramMachine final : public language::Machine {
   void go_on(language::Area by) override;
   void drop_held(language::Area by) override;
   language::Areas stop(language::Area area) override;
+  void waits_no_more(language::Area by) override;
 
   void plc_drive(const language::Drive& drive, int step) override;
   void plc_home(const language::HomeSearch& search, int step) override;

@@ -252,9 +252,27 @@ void Super40nc::go_on_axis(int axis_number) {
     case RestKind::turning: begin_turning(axis_number, rest.rpm, mover); break;
     case RestKind::home: start_home(axis_number); break;
   }
-  if (state.holder == Holder::nobody) return let_go(axis_number);
+  if (state.holder == Holder::nobody) return cannot_go_on(axis_number, rest, mover, is_awaited);
   state.mover = mover;
   state.awaited = is_awaited;
+}
+
+/// As if it had met in motion what it stands at now: its program is reset.
+void Super40nc::cannot_go_on(int axis_number, const Rest& rest, Mover mover, bool is_awaited) {
+  const motion::Axis& motor = chip(axis_number);
+  let_go(axis_number);
+  const bool is_void = rest.kind == RestKind::mark && rest.search == 0;
+  const bool may_fail = rest.kind == RestKind::home && chose(option("home_failure", "the_program_goes_on"));
+  if (mover >= Mover::plc || is_void || may_fail) return;
+  motion::Cause why = blocked_both_ways(axis_number);
+  if (why == motion::Cause::none) {
+    const std::int64_t ahead = rest.kind == RestKind::turning ? rest.rpm
+                               : rest.kind == RestKind::move  ? rest.travel - motor.travel_pulses
+                               : rest.distance != 0           ? rest.distance
+                                                              : rest.search;
+    why = rest.kind == RestKind::home ? motion::Cause::homing_failed : motor.forbidden(way_of(ahead));
+  }
+  program_broken(mover, axis_number, is_awaited, why);
 }
 
 /// X16, of MRK.

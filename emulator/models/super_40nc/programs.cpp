@@ -22,6 +22,7 @@
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/language.h"
 #include "emulator/models/super_40nc/manual_motions.h"
+#include "emulator/models/super_40nc/marks.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -240,7 +241,7 @@ void Super40nc::plc_to_run() {
     steps.set_step(row.area, 0);
   }
   clear_error();
-  for (AxisState& state : state_.axes) state.has_error = false;
+  for (AxisState& state : state_.axes) take_off(state, MarkEvent::plc_run);
 }
 
 void Super40nc::plc_to_stop() {

@@ -48,6 +48,7 @@ class PlainMachine : public Machine {
   void go_on(Area) override {}
   void drop_held(Area) override {}
   Areas stop(Area) override { return 0; }
+  void waits_no_more(Area) override {}
   void plc_drive(const Drive&, int) override {}
   void plc_home(const HomeSearch&, int) override {}
   bool plc_jog(const Jogs&, const JogSteps&) override { return false; }

@@ -122,6 +122,7 @@ class ScriptedMachine : public Machine {
     left.at(index_of(area)) = 0;
     return lost;
   }
+  void waits_no_more(Area) override {}
 
   void plc_drive(const Drive& drive, int) override {
     say(Area::plc,

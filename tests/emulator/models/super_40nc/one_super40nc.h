@@ -49,6 +49,7 @@ class OneSuper40nc {
   world::World& world() { return world_; }
   Device& device() { return world_.device(0); }
   Super40nc& it() { return static_cast<Super40nc&>(world_.device(0)); }
+  const Super40nc& it() const { return static_cast<const Super40nc&>(world_.device(0)); }
 
   // --- registers: "D8117", "M8103", "coil.T5" -----------------------------------------------------------
   Value get(std::string_view name) const {
