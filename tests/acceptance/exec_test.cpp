@@ -288,8 +288,8 @@ TEST_F(ExecWith, LooksAtWhatTheCommandDoes) {
   // more.
   const Finished finished = with(
       "- never: feeder.A.pulses > 3200\n"
-      "- wait: { until: feeder.Aaxis_SVON == 1, within: 5s }\n"
-      "- wait: { until: feeder.STATUS.4 == 1, within: 5s }\n"
+      "- wait: { until: feeder.Aaxis_SVON == 1, within: 60s }\n"
+      "- wait: { until: feeder.STATUS.4 == 1, within: 60s }\n"
       "- wait: { until: feeder.STATUS.4 == 0, within: 5s, takes: 310ms +- 2ms }\n"
       "- assert: feeder.A.pulses == 3200\n",
       kMove);
@@ -298,7 +298,9 @@ TEST_F(ExecWith, LooksAtWhatTheCommandDoes) {
 }
 
 TEST_F(ExecWith, FailsWhereTheScenarioDoes) {
-  const Finished finished = with("- never: feeder.A.pulses > 100\n- advance: 1s\n", kMove);
+  const Finished finished = with(
+      "- never: feeder.A.pulses > 100\n- wait: { until: feeder.A.pulses > 0, within: 60s }\n- advance: 1s\n",
+      kMove);
   EXPECT_EQ(finished.exit_code, 1);
   EXPECT_NE(finished.errors.find("beside.yaml:5"), std::string::npos) << finished.errors;
 }
@@ -309,9 +311,9 @@ TEST_F(ExecWith, LetsTheCommandsExitCodeWin) {
 }
 
 TEST_F(ExecWith, GivesInputsAndFaults) {
-  const Finished finished = with(
-      "- input: { feeder.DIN_3: on }\n",
-      "for i in 1 2 3 4 5 6 7 8 9 10; do $U poll $UNDERSTUDY_PORT --model simple2-r3 DIN_3; sleep 0.1; done");
+  const Finished finished = with("- input: { feeder.DIN_3: on }\n",
+                                 "for i in $(seq 300); do $U poll $UNDERSTUDY_PORT --model simple2-r3 DIN_3 "
+                                 "| grep 1$ && break; sleep 0.1; done");
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
   EXPECT_NE(finished.output.find("DIN_3 1\n"), std::string::npos) << finished.output;
 }

@@ -118,7 +118,7 @@ TEST(ControlPower, OffSilencesAStationOnTheWireAndOnBringsItBack) {
   EXPECT_FALSE(host.write(kAaxisSpeed, 100));
   EXPECT_EQ(host.error(), ETIMEDOUT);
   host.set_station(2);
-  host.set_patience(std::chrono::seconds(1));
+  host.set_patience(kPatience);
   EXPECT_EQ(host.read(kHardwareCode), Registers{0xC001}) << "the other station on the line goes on";
 
   const std::string why = "feeder has no power; expected it switched on";

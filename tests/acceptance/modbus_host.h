@@ -31,7 +31,8 @@ struct HostSetup {
   int baud = 19200;
   char parity = 'E';
   int station = 1;
-  std::chrono::milliseconds patience{1000};
+  std::chrono::milliseconds patience{
+      10'000};  // a reply that comes is not waited for, however busy the machine is
 
   friend std::ostream& operator<<(std::ostream& out, const HostSetup& setup) {
     return out << setup.baud << " 8" << setup.parity << "1";
@@ -45,10 +46,21 @@ using Bits = std::vector<std::uint8_t>;  // 0 or 1 each
 class ModbusHost {
  public:
   explicit ModbusHost(const std::string& port, const HostSetup& setup = {})
-      : context_(modbus_new_rtu(port.c_str(), setup.baud, setup.parity, 8, 1)) {
+      : context_(modbus_new_rtu(port.c_str(), setup.baud, setup.parity, 8, 1)), patience_(setup.patience) {
     set_station(setup.station);
     set_patience(setup.patience);
     connected_ = note(modbus_connect(context_.get())) == 0;
+  }
+
+  /// What is asked so gets no reply, and is not waited for long.
+  template <class Ask>
+  auto in_vain(const Ask& ask, std::chrono::milliseconds patience = std::chrono::milliseconds(200)) {
+    set_patience(patience);
+    auto got = ask(*this);
+    const int error = error_;
+    set_patience(patience_);
+    error_ = error;
+    return got;
   }
 
   bool connected() const { return connected_; }
@@ -130,6 +142,7 @@ class ModbusHost {
   }
 
   std::unique_ptr<modbus_t, Close> context_;
+  std::chrono::milliseconds patience_;
   bool connected_ = false;
   int error_ = 0;
 };

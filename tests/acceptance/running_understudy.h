@@ -21,7 +21,7 @@ using Words = std::vector<std::string>;
 using Environment = std::vector<std::pair<std::string, std::string>>;  // added to the test's own
 using Wait = std::chrono::milliseconds;                                // by the wall clock
 
-inline constexpr Wait kPatience{10'000};  // of a test that fails; one that passes waits for events only
+inline constexpr Wait kPatience{60'000};  // of a test that fails; one that passes waits for events only
 
 /// Asks again and again until `holds` does; false if it never did.
 bool eventually(const std::function<bool()>& holds, Wait patience = kPatience);

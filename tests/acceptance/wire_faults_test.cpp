@@ -20,14 +20,15 @@ std::string obeyed(const RunningUnderstudy& daemon, const Words& words) {
 }
 
 const Registers kCode{0xC001};
+Registers ask_code(ModbusHost& host) { return host.read(kHardwareCode); }
 
 TEST(WireFaults, ADroppedReplyIsATimeoutOfTheHostAndTheNextOneComes) {
   const RunningUnderstudy daemon;
-  ModbusHost host(daemon.port(), {.patience = 200ms});
+  ModbusHost host(daemon.port());
   EXPECT_EQ(obeyed(daemon, {"inject", "drop", "device", "function=3", "nth=2"}), "fault 1\n");
   EXPECT_EQ(host.read(kHardwareCode), kCode);
   EXPECT_TRUE(host.write(kAaxisSpeed, 200)) << "another function";
-  EXPECT_TRUE(host.read(kHardwareCode).empty());
+  EXPECT_TRUE(host.in_vain(ask_code).empty());
   EXPECT_EQ(host.error(), ETIMEDOUT);
   EXPECT_EQ(host.read(kHardwareCode), kCode);
   EXPECT_EQ(obeyed(daemon, {"list"}), "1 drop device function=3 nth=2: seen 4, matched 3, hit 1\n");
@@ -35,9 +36,9 @@ TEST(WireFaults, ADroppedReplyIsATimeoutOfTheHostAndTheNextOneComes) {
 
 TEST(WireFaults, ADroppedRequestIsNotCarriedOut) {
   const RunningUnderstudy daemon;
-  ModbusHost host(daemon.port(), {.patience = 200ms});
+  ModbusHost host(daemon.port());
   obeyed(daemon, {"inject", "drop", "line", "of=request", "address=Aaxis_Speed"});
-  EXPECT_FALSE(host.write(kAaxisSpeed, 200));
+  EXPECT_FALSE(host.in_vain([](ModbusHost& asked) { return asked.write(kAaxisSpeed, 200); }));
   EXPECT_EQ(host.error(), ETIMEDOUT);
   obeyed(daemon, {"clear", "all"});
   EXPECT_EQ(host.read(kAaxisSpeed), Registers{0});
@@ -45,7 +46,7 @@ TEST(WireFaults, ADroppedRequestIsNotCarriedOut) {
 
 TEST(WireFaults, AWrongChecksumIsOneForTheHost) {
   const RunningUnderstudy daemon;
-  ModbusHost host(daemon.port(), {.patience = 200ms});
+  ModbusHost host(daemon.port());
   obeyed(daemon, {"inject", "corrupt_checksum", "device", "times=1"});
   EXPECT_TRUE(host.read(kHardwareCode).empty());
   EXPECT_EQ(host.error(), EMBBADCRC);
@@ -108,13 +109,14 @@ TEST(WireFaults, OfABenchReachTheBytesOnThePty) {
 
 TEST(WireFaults, AConditionOfTheMachineDecidesWhichReplyIsLost) {
   const RunningUnderstudy daemon;
-  ModbusHost host(daemon.port(), {.patience = 200ms});
+  ModbusHost host(daemon.port());
   obeyed(daemon, {"inject", "drop", "device", "when=device.A.pulses > 12000", "times=1"});
   EXPECT_TRUE(host.write(kAaxisSvon, 1));
   EXPECT_TRUE(host.write(kAaxisPulse, Registers{0x7D00, 0, 200, 5, 5}));
   EXPECT_TRUE(host.write(kAaxisMoveInc, 1));
   int answered = 0;
-  while (!host.read(kCordA, 2).empty() && answered < 10'000) ++answered;
+  const auto coordinate = [](ModbusHost& asked) { return asked.read(kCordA, 2); };
+  while (!host.in_vain(coordinate, 2'000ms).empty() && answered < 10'000) ++answered;
   EXPECT_EQ(host.error(), ETIMEDOUT);
   EXPECT_GT(answered, 0);
   EXPECT_GT(host.read_long(kCordA), 12'000);
