@@ -19,7 +19,32 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/ DESTINATION ${scenarios_folde
 install(FILES ${packaging}/vscode/settings.json DESTINATION ${CMAKE_INSTALL_DATADIR}/understudy/vscode)
 install(DIRECTORY ${packaging}/campaign DESTINATION ${CMAKE_INSTALL_DATADIR}/understudy USE_SOURCE_PERMISSIONS
   PATTERN "__pycache__" EXCLUDE)
-install(FILES ${PROJECT_SOURCE_DIR}/README.md ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md ${packaging}/copyright
+        DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# What the pages lead to stands beside them as in the source: links from a page to it hold.
+foreach(linked benchmarks/README.md emulator/play/README.md cmake/rooms.cmake)
+  cmake_path(GET linked PARENT_PATH folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/${linked} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "__pycache__" EXCLUDE
+  PATTERN "*.port" EXCLUDE)
+install(DIRECTORY ${packaging}/ci DESTINATION ${CMAKE_INSTALL_DOCDIR}/packaging)
+
+# link_installed(PLACE FOLDER): below the prefix, a link at PLACE to the FOLDER that is installed elsewhere.
+function(link_installed place folder)
+  cmake_path(GET place PARENT_PATH parent)
+  cmake_path(GET place FILENAME name)
+  file(RELATIVE_PATH target /${parent} /${folder})
+  set(links ${PROJECT_BINARY_DIR}/packaging/links/${parent})
+  file(MAKE_DIRECTORY ${links})
+  file(CREATE_LINK ${target} ${links}/${name} SYMBOLIC)
+  install(FILES ${links}/${name} DESTINATION ${parent})
+endfunction()
+set(shared ${CMAKE_INSTALL_DATADIR}/understudy)
+link_installed(${CMAKE_INSTALL_DOCDIR}/scenarios ${scenarios_folder})
+link_installed(${CMAKE_INSTALL_DOCDIR}/packaging/campaign ${shared}/campaign)
+link_installed(${CMAKE_INSTALL_DOCDIR}/packaging/vscode ${shared}/vscode)
+link_installed(${shared}/docs ${CMAKE_INSTALL_DOCDIR}/docs)  # a scenario's page leads to ../docs
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 
 # Pages and pictures only; install(DIRECTORY) would leave empty folders where there are none.
@@ -62,7 +87,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS OFF)  # see debian_depends.cmake
 set(CPACK_UNDERSTUDY_PROGRAMS ${PROJECT_BINARY_DIR}/understudy ${PROJECT_BINARY_DIR}/lib/understudy/tty_shim.so)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, gtkwave, mbpoll, wireshark")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, gtkwave, mbpoll, python3:any, wireshark")  # two examples are in Python
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${packaging}/postinst ${packaging}/prerm ${packaging}/postrm)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)

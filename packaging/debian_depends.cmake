@@ -1,7 +1,15 @@
-# Read by cpack: what the Debian package depends on. CPack's own way runs `file` on each of the package's
+# Read by cpack: what the Debian package depends on, and which time its files have. CPack's own way runs `file` on each of the package's
 # hundreds of scenarios and pages, half a minute of it; only two files are programs. And without
 # dpkg-shlibdeps it would make a package that depends on nothing, and only warn.
 if(CPACK_GENERATOR STREQUAL "DEB")
+  # Equal input gives an equal package: its files have the time of the changelog, unless somebody says another.
+  if("$ENV{SOURCE_DATE_EPOCH}" STREQUAL "")
+    file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/changelog.in date REGEX "^ -- ")
+    string(REGEX REPLACE "^ -- .*  " "" date "${date}")
+    execute_process(COMMAND date -u -d "${date}" +%s OUTPUT_VARIABLE epoch OUTPUT_STRIP_TRAILING_WHITESPACE
+                    COMMAND_ERROR_IS_FATAL ANY)
+    set(ENV{SOURCE_DATE_EPOCH} ${epoch})
+  endif()
   find_program(found_dpkg-shlibdeps dpkg-shlibdeps)
   if(NOT found_dpkg-shlibdeps)
     message(FATAL_ERROR "dpkg-shlibdeps is missing; expected the package dpkg-dev")

@@ -1,4 +1,4 @@
-# Sourced by ./run and ./test: what they need from Debian, and how it is installed.
+# Sourced by ./run and ./test: what they need from Debian, how it is installed, and how CMake is called.
 
 build_packages=(g++ cmake ninja-build ccache pkg-config libboost-dev libcli11-dev libmodbus-dev libspdlog-dev
                 libyaml-cpp-dev nlohmann-json3-dev libsqlite3-dev libgtest-dev libeigen3-dev)
@@ -23,18 +23,27 @@ can_install() {
   [ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null
 }
 
+# missing_of PACKAGE...: those that are not installed, a line each; all of them where there is no dpkg to ask.
+missing_of() {
+  local package status
+  for package in "$@"; do
+    status=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null) || status=
+    [ "$status" = 'install ok installed' ] || echo "$package"
+  done
+}
+
 # install_missing PACKAGE...: says what is missing and installs that; silent when nothing is. Where that cannot be done
-# it lists what is needed, and what is there is used.
+# it lists what is missing, and what is there is used.
 install_missing() {
+  local missing why  # no name of a package has a space in it
+  missing=($(missing_of "$@"))
+  [ ${#missing[@]} -eq 0 ] && return 0
   if ! can_install; then
-    echo "nothing can be installed here (no apt-get, or not root); needed, by Debian 12's names: $*"
+    why="no apt-get"
+    ! command -v apt-get >/dev/null || why="not root, and no sudo"
+    echo "nothing can be installed here ($why); needed, by Debian 12's names: ${missing[*]}"
     return 0
   fi
-  local missing=() package
-  for package in "$@"; do
-    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
-  done
-  [ ${#missing[@]} -eq 0 ] && return 0
   echo "installing: ${missing[*]}"
   local as_root=()
   [ "$(id -u)" -eq 0 ] || as_root=(sudo)
@@ -42,4 +51,19 @@ install_missing() {
   # The list of packages may be old, or never fetched.
   "${as_root[@]}" apt-get update -qq
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# configure PRESET: by CMake; from the beginning where the folder has been moved or renamed since the last time.
+configure() {
+  local said
+  if said=$(cmake --preset "$1" 2>&1); then
+    printf '%s\n' "$said"
+    return 0
+  fi
+  if [[ $said == *'is different than the directory'* || $said == *'does not match the source'* ]]; then
+    cmake --fresh --preset "$1"
+    return
+  fi
+  printf '%s\n' "$said"
+  return 1
 }

@@ -5,6 +5,7 @@ set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "${1:-.}"
 folder=$(cd "${1:-.}" && pwd)
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-1700000000}
 staging=$(mktemp -d)
 trap 'rm -rf "$staging"' EXIT
 wheel=$("$here/wheel.sh" "$staging/wheel")
@@ -15,6 +16,7 @@ documents=$root/usr/share/doc/python3-understudy
 mkdir -p "$modules" "$documents" "$root/DEBIAN"
 /usr/bin/python3 -m zipfile -e "$wheel" "$modules"
 rm "$modules"/understudy-*.dist-info/RECORD  # pip's; the files are dpkg's
+rm "$modules"/understudy-*.dist-info/LICENSE  # Debian has it
 cp "$here/copyright" "$documents/copyright"
 sed "s/@DEBIAN_VERSION@/$version-1/; s/^understudy /python3-understudy /; s/@MAINTAINER@/Understudy maintainers <maintainers@understudy.invalid>/" \
   "$here/changelog.in" | gzip -9n >"$documents/changelog.Debian.gz"

@@ -7,7 +7,7 @@ mkdir -p "${1:-.}"
 folder=$(cd "${1:-.}" && pwd)
 copy=$(mktemp -d)  # setuptools leaves folders in what it builds
 trap 'rm -rf "$copy"' EXIT
-cp -r "$source/understudy" "$source/pyproject.toml" "$source/README.md" "$copy"
+cp -r "$source/understudy" "$source/pyproject.toml" "$source/README.md" "$source/../LICENSE" "$copy"
 rm -rf "$copy/understudy/__pycache__"
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-1700000000} /usr/bin/python3 -m pip --disable-pip-version-check wheel --quiet \
   --no-build-isolation --no-deps --no-index --wheel-dir "$folder" "$copy"

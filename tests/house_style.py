@@ -32,15 +32,12 @@ FOREIGN = [  # what a native speaker would not write, in messages and comments o
 
 
 def files_of(project):
-    """What git tracks, or would: what is new counts, what is ignored or deleted does not."""
-    said = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.h", "*.cpp"], cwd=project,
-                          capture_output=True, text=True)
-    if said.returncode == 0:
-        return [name for name in said.stdout.split("\n") if name and os.path.exists(os.path.join(project, name))]
+    """All sources below the folder, as a tarball or a clone has them: without git, which need not be installed."""
     found = []
     for folder, folders, names in os.walk(project):
-        folders[:] = [name for name in folders if name not in ("build", ".git")]
-        found += [os.path.relpath(os.path.join(folder, n), project) for n in names if n.endswith((".h", ".cpp"))]
+        folders[:] = sorted(name for name in folders if not name.startswith(".") and name != "build" and
+                            not os.path.exists(os.path.join(folder, name, "CMakeCache.txt")))
+        found += [os.path.relpath(os.path.join(folder, name), project) for name in sorted(names) if name.endswith((".h", ".cpp"))]
     return found
 
 

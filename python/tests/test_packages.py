@@ -30,6 +30,7 @@ def test_the_wheel_has_the_programs_version_and_the_plugin(tmp_path):
         points = whole.read(f"understudy-{VERSION}.dist-info/entry_points.txt").decode()
     modules = {f"understudy/{file.name}" for file in (PROJECT / "python/understudy").iterdir() if file.is_file()}
     assert modules == {name for name in names if name.startswith("understudy/")}
+    assert f"understudy-{VERSION}.dist-info/LICENSE" in names
     assert points.split() == ["[pytest11]", "understudy.pytest_plugin", "=", "understudy.pytest_plugin"]
 
 

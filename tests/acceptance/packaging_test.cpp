@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <thread>
 
 #include "tests/acceptance/modbus_host.h"
 #include "tests/acceptance/running_understudy.h"
@@ -81,6 +84,33 @@ TEST_F(Installation, BringsBenchesThatAreValidAndPagesThatReadmeLinksTo) {
     EXPECT_TRUE(fs::exists(documentation + (*it)[1].str())) << (*it)[1];
   EXPECT_TRUE(fs::exists(documentation + "LICENSE"));
   EXPECT_TRUE(fs::exists(documentation + "copyright"));
+}
+
+/// Relative links of all pages below a folder, those of folders that are links themselves included.
+Words dead_links_below(const std::string& folder) {
+  Words dead;
+  const std::regex link("\\]\\(([^)#\\s]+)[^)]*\\)");
+  int links = 0;
+  const auto options = fs::directory_options::follow_directory_symlink;
+  for (const auto& file : fs::recursive_directory_iterator(folder, options)) {
+    if (file.path().extension() != ".md") continue;
+    const std::string text = contents(file.path());
+    for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
+      const std::string target = (*it)[1];
+      if (target.find("://") != std::string::npos) continue;
+      ++links;
+      // As the system follows it, and as a browser does, to which a link to a folder is that folder.
+      const fs::path followed = file.path().parent_path() / target;
+      if (!fs::exists(followed) || !fs::exists(followed.lexically_normal()))
+        dead.push_back(file.path().string() + ": " + target);
+    }
+  }
+  EXPECT_GT(links, 800) << folder;
+  return dead;
+}
+
+TEST_F(Installation, HasNoDeadLinkOnItsPages) {
+  EXPECT_EQ(dead_links_below(prefix() + "/share/doc/understudy"), Words());
 }
 
 TEST_F(Installation, BringsCompletionForShells) {
@@ -224,9 +254,120 @@ TEST(DebianPackages, AreListedWhereTheyCannotBeInstalled) {
   const Finished listed = with_programs({"id"}, "install_missing g++ no-such-package; echo on we go");
   EXPECT_EQ(listed.exit_code, 0) << listed.errors;
   EXPECT_EQ(listed.output,
-            "nothing can be installed here (no apt-get, or not root); needed, by Debian 12's names: g++ "
+            "nothing can be installed here (no apt-get); needed, by Debian 12's names: g++ "
             "no-such-package\non we go\n");
   EXPECT_EQ(listed.errors, "");
+}
+
+/// An ordinary user can ask what is installed, too.
+TEST(DebianPackages, ThatAreThereAreNotListed) {
+  if (!is_here("dpkg-query")) GTEST_SKIP() << "this is not Debian";
+  const std::string user = "id() { echo 1000; }; apt-get() { false; }; ";
+  const Finished one = with_programs({"dpkg-query"}, user + "install_missing dpkg no-such-package bash");
+  EXPECT_EQ(one.output,
+            "nothing can be installed here (not root, and no sudo); needed, by Debian 12's names: "
+            "no-such-package\n")
+      << one.errors;
+  EXPECT_EQ(with_programs({"dpkg-query"}, user + "install_missing dpkg bash").output, "");
+}
+
+/// The two scripts around a project that is built in a moment.
+class RunScript : public testing::Test {
+ protected:
+  RunScript() {
+    for (const char* const part : {"packaging", "scenarios"}) fs::create_directories(project() + "/" + part);
+    for (const char* const file : {"run", "CMakePresets.json", "packaging/debian_packages.sh"})
+      fs::copy_file(std::string(PROJECT_FOLDER) + "/" + file, project() + "/" + file);
+    folder_.write("a project/CMakeLists.txt",
+                  "cmake_minimum_required(VERSION 3.25)\nproject(small NONE)\n"
+                  "add_custom_target(understudy COMMAND cp ${CMAKE_SOURCE_DIR}/program "
+                  "${CMAKE_BINARY_DIR}/understudy VERBATIM)\n");
+    fs::permissions(folder_.write("a project/program", "#!/bin/sh\necho \"it runs $*\"\n"),
+                    fs::perms::owner_exec, fs::perm_options::add);
+  }
+  std::string project() const { return folder_ / "a project"; }
+  Finished in(const std::string& project, const Words& words = {}) const {
+    // Nothing is installed by a test.
+    Words command = {"env",  "-C",
+                     "/",    "bash",
+                     "-c",   "id() { echo 1000; }; sudo() { false; }; export -f id sudo; exec \"$@\"",
+                     "bash", project + "/run"};
+    command.insert(command.end(), words.begin(), words.end());
+    return run(command, {}, Wait(60'000));
+  }
+  PrivateFolder folder_;
+};
+
+TEST_F(RunScript, BuildsAgainWhereItsFolderWasMoved) {
+  EXPECT_EQ(in(project(), {"models"}).output, "it runs models\n");
+  fs::rename(project(), folder_ / "moved");
+  const Finished moved = in(folder_ / "moved", {"models"});
+  EXPECT_EQ(moved.exit_code, 0) << moved.errors;
+  EXPECT_EQ(moved.output, "it runs models\n") << moved.errors;
+}
+
+TEST_F(RunScript, PrintsLinesThatCanBePastedWhereThePathHasASpace) {
+  const Finished shown = in(project());
+  ASSERT_EQ(shown.exit_code, 0) << shown.errors;
+  int pasted = 0;
+  for (const std::string& line : lines_of(shown.output)) {
+    if (line.find("  mbpoll ") != 0) continue;
+    ++pasted;
+    const Finished words = run({"bash", "-c", "mbpoll() { printf '%s\n' \"$@\"; }; " + line});
+    const Words said = lines_of(words.output);
+    EXPECT_NE(std::find(said.begin(), said.end(), project() + "/scenarios/quickstart.port"), said.end())
+        << line << "\n"
+        << words.output;
+  }
+  EXPECT_EQ(pasted, 3) << shown.output;
+}
+
+std::string judged(const std::string& latenesses) {
+  const std::string script = std::string(PROJECT_FOLDER) + "/tests/reference_timer.py";
+  return run({"bash", "-c", "printf '" + latenesses + "' | /usr/bin/python3 " + script + " --judge"}).output;
+}
+
+TEST(ReferenceTimer, TellsABusyMachineFromAQuietOne) {
+  std::string quiet;
+  for (int i = 0; i < 1000; ++i) quiet += i % 200 == 0 ? "60\\n" : "0.1\\n";
+  EXPECT_EQ(judged(quiet), "") << "now and then it is late everywhere";
+  EXPECT_NE(judged(quiet + "700\\n").find("came up to 700 ms late"), std::string::npos);
+  std::string busy;
+  for (int i = 0; i < 1000; ++i) busy += i % 50 == 0 ? "60\\n" : "0.1\\n";
+  EXPECT_NE(judged(busy).find("in 2.0 % of its rounds more than 50 ms"), std::string::npos) << judged(busy);
+}
+
+/// A machine that does nothing else for a second: its process stands.
+TEST(ReferenceTimer, NoticesThatItStoodStill) {
+  Process timer({"/usr/bin/python3", std::string(PROJECT_FOLDER) + "/tests/reference_timer.py"});
+  ASSERT_TRUE(eventually([&] { return timer.errors() == "begins\n"; })) << timer.errors();
+  timer.send(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));  // this is the time that it misses
+  timer.send(SIGCONT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // and here it wakes
+  timer.send(SIGTERM);
+  EXPECT_EQ(timer.wait(kPatience), 0) << timer.errors();
+  EXPECT_NE(timer.output().find("too busy to judge"), std::string::npos) << timer.output();
+}
+
+/// What ./test begins with needs no git: a tarball is enough, on a machine that has none.
+TEST(HouseStyle, IsJudgedWithoutGit) {
+  if (!is_here("clang-format")) GTEST_SKIP() << "clang-format is not installed";
+  const PrivateFolder folder;
+  for (const char* const part : {"project/base", "project/build/release", "project/other", "bin"})
+    fs::create_directories(folder / part);
+  const std::string formatter = run({"which", "clang-format"}).output;
+  fs::create_symlink(formatter.substr(0, formatter.size() - 1), folder / "bin/clang-format");
+  folder.write("project/base/a.h", "int x();\n");
+  folder.write("project/build/release/b.h", "int x();\n");
+  folder.write("project/other/CMakeCache.txt", "");
+  folder.write("project/other/c.h", "int x();\n");
+  const Finished judged = run({"env", "PATH=" + folder / "bin", "/usr/bin/python3",
+                               std::string(PROJECT_FOLDER) + "/tests/house_style.py", folder / "project"});
+  EXPECT_EQ(judged.exit_code, 1);
+  EXPECT_EQ(judged.output,
+            "base/a.h:1: has no `#pragma once`; expected it behind the comment that begins the file\n");
+  EXPECT_EQ(judged.errors, "");
 }
 
 TEST(DebianPackages, OfTheBuildAreNamedOnThePage) {
@@ -245,7 +386,7 @@ TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
   const PrivateFolder folder;
   Process cpack(
       {CPACK_PROGRAM, "--config", BUILD_FOLDER "/CPackConfig.cmake", "-G", "DEB", "-B", folder.path()});
-  ASSERT_EQ(cpack.wait(Wait(60'000)), 0) << cpack.output() << cpack.errors();
+  ASSERT_EQ(cpack.wait(Wait(300'000)), 0) << cpack.output() << cpack.errors();
   std::string package;
   for (const auto& file : fs::directory_iterator(folder.path()))
     if (file.path().extension() == ".deb") package = file.path();
@@ -267,6 +408,15 @@ TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
     }
   }
 
+  // Equal sources make an equal package: no file has the time of this run.
+  std::set<std::string> times;
+  const std::regex time("[0-9]{4}-[0-9]{2}-[0-9]{2} [0-9]{2}:[0-9]{2}");
+  for (const std::string& line : lines_of(run({"dpkg-deb", "-c", package}).output)) {
+    std::smatch found;
+    if (std::regex_search(line, found, time)) times.insert(found[0]);
+  }
+  EXPECT_EQ(times.size(), 1U) << *times.begin() << " to " << *times.rbegin();
+
   ASSERT_EQ(run({"dpkg-deb", "-x", package, folder / "root"}).exit_code, 0);
   EXPECT_EQ(run({folder / "root/usr/bin/understudy", "models"}).output, understudy({"models"}).output);
   const std::string unit = contents(folder / "root/usr/lib/systemd/system/understudy@.service");
@@ -274,6 +424,8 @@ TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
   const std::string page = run({"zcat", folder / "root/usr/share/man/man1/understudy.1.gz"}).output;
   EXPECT_NE(page.find("cp /usr/share/understudy/scenarios/quickstart.yaml"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "root/usr/share/doc/understudy/LICENSE")) << "Debian has it";
+
+  EXPECT_EQ(dead_links_below(folder / "root/usr/share/doc/understudy"), Words());
 
   ASSERT_EQ(run({"dpkg-deb", "-e", package, folder / "control"}).exit_code, 0);
   for (const char* script : {"postinst", "prerm", "postrm"})
