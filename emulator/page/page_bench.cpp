@@ -26,12 +26,14 @@ std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::e
 
 std::string quoted_json(const std::string& text) { return text_of(Json(text)); }
 
-/// `"frames":[...],"next_frame":N` of those from `next` on; how many were not kept is told as well.
+/// `"frames":[...]` of those from `next` on, and how many before or between them were missed: those that the
+/// browser was too slow for, and those that this page was. What has a number below `from` is gone, and nobody
+/// misses it.
 template <class Ring>
-std::string listed(const Ring& ring, std::uint64_t& next, const std::string& key) {
+std::string listed(const Ring& ring, std::uint64_t from, std::uint64_t& next, const std::string& key) {
   if (ring.empty() || ring.back().number < next) return {};
-  const std::uint64_t first = ring.front().number;
-  const std::uint64_t lost = next != 0 && first > next ? first - next : 0;
+  std::uint64_t expected = next == 0 ? 0 : std::max(next, from);  // 0: whatever comes
+  std::uint64_t lost = 0;
   std::string text = ",\"" + key + "\":[";
   std::size_t count = 0;
   const auto begin =
@@ -39,9 +41,16 @@ std::string listed(const Ring& ring, std::uint64_t& next, const std::string& key
                        [](const auto& one, std::uint64_t number) { return one.number < number; });
   for (auto it = begin; it != ring.end() && count < kMostInAnUpdate; ++it, ++count) {
     text += (count > 0 ? "," : "") + it->text;
-    next = it->number + 1;
+    if (expected != 0 && it->number > expected) lost += it->number - expected;
+    expected = next = it->number + 1;
   }
   return text + "]" + (lost > 0 ? ",\"" + key + "_lost\":" + std::to_string(lost) : "");
+}
+
+/// The number of the first one that a look brings, or of the one that comes next.
+std::uint64_t first_of(const Json& look, const char* key, const char* next_key) {
+  const Json& list = look.at(key);
+  return (list.empty() ? look.at(next_key) : list.front().at("number")).get<std::uint64_t>();
 }
 
 }  // namespace
@@ -177,7 +186,7 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
       if (is_by_number) return;
       who_ = who;
       ++epoch_;
-      next_frame_ = next_event_ = 0;
+      next_frame_ = next_event_ = frames_from_ = events_from_ = 0;
       for (auto& [name, known] : values_) known = {};
       status_changed_ = 0;
       frames_.clear();
@@ -189,6 +198,8 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
     if (std::exchange(restores_, restores) != restores) {
       frames_.clear();
       events_.clear();
+      if (look.contains("next_frame")) frames_from_ = first_of(look, "frames", "next_frame");
+      if (look.contains("next_event")) events_from_ = first_of(look, "events", "next_event");
     }
     be(State::there);
     if (time != time_text_) {
@@ -246,8 +257,8 @@ std::string PageBench::news_for(Watching& watching) const {
   }
   std::string news;
   if (!values.empty()) news += ",\"values\":{" + values + "}";
-  if (watching.frames) news += listed(frames_, watching.next_frame, "frames");
-  if (watching.events) news += listed(events_, watching.next_event, "events");
+  if (watching.frames) news += listed(frames_, frames_from_, watching.next_frame, "frames");
+  if (watching.events) news += listed(events_, events_from_, watching.next_event, "events");
   if (watching.status && status_changed_ > watching.status_seen) {
     news += ",\"status\":" + status_;
     watching.status_seen = status_changed_;

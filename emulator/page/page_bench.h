@@ -122,6 +122,8 @@ class PageBench {
   std::deque<Numbered> events_;
   std::uint64_t next_frame_ = 0;
   std::uint64_t next_event_ = 0;
+  std::uint64_t frames_from_ = 0;  // what has a lower number was before the world was restored
+  std::uint64_t events_from_ = 0;
   std::string status_;
   std::uint64_t status_changed_ = 0;
   std::uint64_t who_ = 0;       // which process answers

@@ -328,6 +328,62 @@ TEST(PageLooks, TellEveryFrameOnce) {
   }
 }
 
+/// Of a bench that has forgotten some before it was asked: frames 5 to 8, then 20 to 22, then 23.
+class PageLosses : public testing::TestWithParam<const char*> {};
+
+TEST_P(PageLosses, AreToldWhereverTheHoleIs) {
+  const std::string key = GetParam();
+  const std::string next_key = key == "frames" ? "next_frame" : "next_event";
+  PageRig rig;
+  std::atomic<int> asked = 0;
+  std::atomic<int> most = 1;
+  const auto answer = [&](const TestJson& message) {
+    if (message["do"] != "look" || !message.contains(key)) return std::string(R"({"ok":true})");
+    constexpr int kBegin[] = {5, 20, 23, 40};
+    constexpr int kEnd[] = {9, 23, 24, 41};
+    const int at = asked;
+    const bool is_restored = most == 4;
+    const int begin = at < most ? kBegin[at] : 0;
+    const int end = at < most ? kEnd[at] : 0;
+    TestJson reply{
+        {"ok", true},     {"pid", 7},        {"simulated_time_ns", at}, {"restores", is_restored ? 1 : 0},
+        {"paused", true}, {"speed", "real"}, {"advancing", false},      {key, TestJson::array()}};
+    for (int number = begin; number < end; ++number) reply[key].push_back({{"number", number}});
+    reply[next_key] = at < most ? end : kEnd[at - 1];
+    if (at < most) asked = at + 1;
+    return reply.dump();
+  };
+  MadeUpBench bench(rig.socket(), answer);
+  const auto wait_for = [&](TestBrowser& browser, int last) {
+    std::pair<std::vector<int>, int> told;
+    while (told.first.empty() || told.first.back() < last) {
+      const TestJson look = browser.hear_one("look");
+      if (look.is_null()) break;
+      for (const TestJson& one : look.value(key, TestJson::array())) told.first.push_back(one["number"]);
+      told.second += look.value(key + "_lost", 0);
+    }
+    return told;
+  };
+  using Told = std::pair<std::vector<int>, int>;
+  const auto browser = rig.browser();
+  browser->say({{"do", "watch"}, {"bench", 0}, {key, true}});
+  EXPECT_EQ(wait_for(*browser, 8), Told({5, 6, 7, 8}, 0)) << "what was before it looked, it does not miss";
+  most = 2;
+  EXPECT_EQ(wait_for(*browser, 22), Told({20, 21, 22}, 11));
+  // Within what the page has kept there is a hole as well.
+  const auto later = rig.browser();
+  later->say({{"do", "watch"}, {"bench", 0}, {key, true}});
+  EXPECT_EQ(wait_for(*later, 22), Told({5, 6, 7, 8, 20, 21, 22}, 11));
+  most = 3;
+  EXPECT_EQ(wait_for(*browser, 23), Told({23}, 0));
+  // What has not happened, as the world was restored, is not missed.
+  most = 4;
+  EXPECT_EQ(wait_for(*browser, 40), Told({40}, 0));
+}
+
+INSTANTIATE_TEST_SUITE_P(, PageLosses, testing::Values("frames", "events"),
+                         [](const auto& key) { return std::string(key.param); });
+
 TEST(PageLooks, ForgetWhatWasBeforeTheWorldWasRestored) {
   PageRig rig;
   std::atomic<int> restores = 0;
