@@ -125,6 +125,54 @@ TEST_F(PageOfAFailure, TellsWhatLedToEachMoment) {
   EXPECT_EQ(told("events"), events);
 }
 
+/// It shows what happened: whoever could change that would show something else to all who look.
+TEST_F(PageOfAFailure, RefusesWhateverActs) {
+  const std::int64_t end = ask({{"do", "timeline"}})["timeline"]["end_ns"].get<std::int64_t>();
+  position_at(end / 2);
+  const auto seen = [&] {
+    return ask({{"do", "get"},
+                {"names",
+                 {"feeder.A.position", "feeder.A.speed", "feeder.A.target", "feeder.power", "feeder.STATUS",
+                  "feeder.Aaxis_Speed", "feeder.DIN_2", "time"}}})["values"];
+  };
+  const TestJson before = seen();
+  const std::vector<TestJson> acting = {
+      {{"do", "power"}, {"device", "feeder"}, {"to", "off"}},
+      {{"do", "set"}, {"values", {{"feeder.Aaxis_Speed", 7}}}},
+      {{"do", "input"}, {"values", {{"feeder.DIN_2", 1}}}},
+      {{"do", "turn"}, {"values", {{"feeder.A", 5}}}},
+      {{"do", "command"}, {"device", "feeder"}, {"text", "x"}},
+      {{"do", "program"}, {"device", "feeder"}, {"text", "NOP"}},
+      {{"do", "inject"}, {"fault", {{"slip", "feeder.A"}, {"pulses", 50}}}},
+      {{"do", "inject"}, {"fault", {{"drop", "feeder"}}}},
+      {{"do", "clear"}},
+      {{"do", "send"}, {"line", "rs485"}, {"bytes", "01 03 00 00 00 01"}, {"checksum", true}},
+      {{"do", "snapshot"}, {"name", "here"}},
+      {{"do", "restore"}, {"name", "here"}},
+      {{"do", "snapshots"}, {"drop", "here"}},
+      {{"do", "advance"}, {"by", "5ms"}},
+      {{"do", "run-until"}, {"condition", "time > 0"}},
+      {{"do", "step"}, {"ticks", 1}},
+      {{"do", "pause"}},
+      {{"do", "resume"}},
+      {{"do", "speed"}, {"to", "real"}}};
+  for (const TestJson& message : acting) {
+    const TestJson reply = ask(message);
+    EXPECT_EQ(reply["ok"], false) << message.dump();
+    EXPECT_NE(reply.value("error", "").find("recording"), std::string::npos) << reply.dump();
+    // By the control socket it is the same.
+    const std::string word = message["do"];
+    if (word == "power") {
+      EXPECT_EQ(understudy({"ctl", "--control", folder_ / "control", "power", "off"}).exit_code, 2);
+    }
+  }
+  EXPECT_EQ(seen(), before);
+  for (const char* const word :
+       {"status", "identify", "bench", "faults", "list", "frames", "events", "scope", "snapshots"})
+    EXPECT_EQ(ask({{"do", word}})["ok"], true) << word;
+  EXPECT_EQ(ask({{"do", "program"}, {"device", "feeder"}})["ok"], true);
+}
+
 TEST_F(PageOfAFailure, OpensAtTheTimeOfUntilOrAtItsEnd) {
   const std::int64_t half_way = position_at(250'000'000);
   open_page({"--until", "250ms"});

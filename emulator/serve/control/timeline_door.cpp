@@ -1,6 +1,7 @@
 #include "emulator/serve/control/timeline_door.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -36,6 +37,17 @@ constexpr std::size_t kMostBefore = 200;  // frames, and events, that are told o
 bool is_mark(std::string_view what) {
   return what == "fault" || what == "inject" || what == "clear" || what == "exception" || what == "dropped" ||
          what == "power" || what == "program";
+}
+
+/// What only looks. Nothing else is done in a recording: it shows what happened.
+constexpr std::array<std::string_view, 15> kLooks{"status", "identify", "bench", "registers", "choices",
+                                                  "faults", "get",      "eval",  "list",      "frames",
+                                                  "events", "where",    "look",  "scope",     "snapshots"};
+
+bool only_looks(const Json& message, const std::string& word) {
+  if (word == "program") return !message.contains("text");  // it is read
+  if (message.contains("drop")) return false;
+  return std::find(kLooks.begin(), kLooks.end(), word) != kLooks.end();
 }
 
 /// The daemon is made with its door, so the recording is played when it is first asked for.
@@ -200,6 +212,12 @@ DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
                                    : std::string();
       if (word == "timeline") return answer(reply, [&] { return (*travel)->timeline(message); });
       if (word == "seek") return answer(reply, [&] { return (*travel)->seek(message); });
+      if (!word.empty() && !only_looks(message, word)) {
+        return answer(reply, [&]() -> Json {
+          throw MessageError(word +
+                             ": this is a recording, which nothing changes; expected `seek`, or what looks");
+        });
+      }
       handle_message(daemon, line, reply);
     };
     return std::make_unique<ControlServer>(daemon.loop(), path.empty() ? own_control_path() : path, handle);
