@@ -181,6 +181,47 @@ TEST(SchemaOfABench, ListsItsNames) {
   EXPECT_EQ(understudy({"schema", "scenario", "--bench", files.torn}).exit_code, 2);
 }
 
+/// The first bench that somebody serves: what its switches are wired to, the controller uses.
+struct FirstBench {
+  const char* bench;  // of scenarios/; "": what `init` writes
+  const char* steps;
+};
+
+class FirstBenches : public testing::TestWithParam<FirstBench> {};
+
+TEST_P(FirstBenches, StopAtASwitchThatIsPressed) {
+  const PrivateFolder folder;
+  std::string bench = std::string(PROJECT_FOLDER) + "/scenarios/" + GetParam().bench;
+  if (GetParam().bench == std::string()) {
+    ASSERT_EQ(understudy({"init", folder.path()}).exit_code, 0);
+    bench = folder / "bench.yaml";
+  }
+  const std::string scenario =
+      folder.write("pressed.yaml", "understudy: 1\nbench: " + bench + "\nsteps:\n" + GetParam().steps);
+  const Finished played = understudy({"run", scenario});
+  EXPECT_EQ(played.exit_code, 0) << played.output << played.errors;
+}
+
+constexpr const char* kPressedInAMove =
+    "  - write: { feeder.Aaxis_SVON: 1 }\n"
+    "  - write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Speed: 200, feeder.Aaxis_Move_INC: 1 }\n"
+    "  - wait: { until: feeder.A.pulses > 5000, within: 5s }\n"
+    "  - input: { feeder.DIN_2: on }\n"
+    "  - wait: { until: feeder.A.speed == 0, within: 1s }\n"
+    "  - assert: feeder.STATUS.12 == 1 and feeder.A.pulses < 10000\n";
+
+INSTANTIATE_TEST_SUITE_P(, FirstBenches,
+                         testing::Values(FirstBench{"quickstart.yaml", kPressedInAMove},
+                                         FirstBench{"", kPressedInAMove},
+                                         FirstBench{"rs_m8194h_quickstart.yaml",
+                                                    "  - command: { cell: RSM_SET_V X 5000 }\n"
+                                                    "  - command: { cell: RSM_FIXED_MOVE X 40000 }\n"
+                                                    "  - wait: { until: cell.X.pulses > 5000, within: 9s }\n"
+                                                    "  - input: { cell.LMTP_X: on }\n"
+                                                    "  - wait: { until: cell.X.speed == 0, within: 1s }\n"
+                                                    "  - assert: cell.X.pulses < 10000\n"}),
+                         [](const auto& bench) { return "N" + std::to_string(bench.index); });
+
 std::vector<std::string> blocks(const std::string& language) { return page_blocks("editors.md", language); }
 
 TEST(EditorsPage, ItsCommandsRunAsTheyStand) {

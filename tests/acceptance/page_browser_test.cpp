@@ -20,14 +20,15 @@ TEST_P(PageInABrowser, ShowsAndDoesWhatItShould) {
   }
   Process visit({"/usr/bin/python3", std::string(TEST_FACTS) + "/hosts/browser/live.py", UNDERSTUDY_BINARY,
                  "--only", GetParam()});
-  EXPECT_EQ(visit.wait(std::chrono::seconds(110)), 0) << visit.output() << visit.errors();
+  EXPECT_EQ(visit.wait(std::chrono::seconds(500)), 0) << visit.output() << visit.errors();
 }
 
 INSTANTIATE_TEST_SUITE_P(Parts, PageInABrowser,
                          testing::Values("panels_simple2-r3", "panels_slim", "panels_rs-m8194h",
                                          "panels_super-40nc", "does_axes", "does_signals", "does_plot",
                                          "does_registers", "does_bus", "does_program", "does_faults",
-                                         "does_keyboard", "host", "restart", "recording", "crowd", "firefox"),
+                                         "does_keyboard", "does_keeps", "host", "before", "burst", "restart",
+                                         "recording", "crowd", "firefox"),
                          [](const testing::TestParamInfo<const char*>& part) {
                            std::string name = part.param;
                            std::replace(name.begin(), name.end(), '-', '_');

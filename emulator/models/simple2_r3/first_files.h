@@ -7,14 +7,17 @@ namespace understudy::emulator::models::simple2_r3 {
 
 inline constexpr FirstFiles kFirstFiles{
     .bench =
-        R"(# One Simple2-R3 on a serial line, with a machine on axis A. `understudy serve bench.yaml` opens its port.
+        R"(# One Simple2-R3 on a serial line, with a machine on axis A; the memory gives the inputs of its switches their
+# functions. `understudy serve bench.yaml` opens its port.
 understudy: 1
 lines:
   rs485:
     link: ./feeder.port
     baud: 19200
     stations:
-      - { name: feeder, model: simple2-r3, address: 1 }
+      - { device: feeder, address: 1 }
+devices:
+  feeder: { model: simple2-r3, nv: { DIN2_Aaxis_UP_Limit: 1, DIN3_Aaxis_DN_Limit: 1, DIN4_Aaxis_Home: 1 } }
 plant:
   feeder.A:
     travel: [-120000, 120000]

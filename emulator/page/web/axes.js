@@ -1,11 +1,13 @@
 // Axes: for each a rail with what lies along it, where it is, and what can be done to it.
-import { html, useEffect, useState } from './preact.js';
-import { ask, isReadOnly, store, unwant, valueOf, want } from './store.js';
+import { html, useEffect } from './preact.js';
+import { ask, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Lamp, grouped, inTenths, isOn, spaced } from './small.js';
 import { Plane } from './plane.js';
 import { Rail, kSwitches } from './rail.js';
+import { usesOf, whyUnused } from './uses.js';
 import { useDevices } from './devices.js';
 import { FaultForm } from './fault_form.js';
+import { useKept } from './kept.js';
 
 const kValues = ['position', 'pulses', 'target', 'speed', 'servo', 'lost', 'encoder', 'ready', 'alarm', 'pwm'];
 const kMostAxes = 64;
@@ -38,7 +40,8 @@ function Switch({ device, axis, contact }) {
   const input = valueOf(`${device.name}.${terminal.name}`);
   const drivers = valueOf(`${device.name}.${terminal.name}@by`) ?? '';
   const isStuck = drivers.includes('fault');
-  const locked = isReadOnly();
+  const locked = isLocked();
+  const unused = whyUnused(device.name, terminal);
   const say = `${contact} of ${axis.name}, ${terminal.name}`;
   return html`<span class="switch joined" role="group" aria-label=${say}>
     <${Button} kind="small" title=${`${say}: hold or let go`} pressed=${drivers.includes('held')} disabled=${locked}
@@ -48,6 +51,7 @@ function Switch({ device, axis, contact }) {
           does=${() => loosen(device.name, terminal.name)}>stuck, mend<//>`
       : ['on', 'off'].map((to) => html`<${Button} kind="small faint" title=${`${say}: stuck ${to}`} disabled=${locked}
           does=${() => stick(device.name, terminal.name, to)}>stuck ${to}<//>`)}
+    ${unused && html`<small class="unused">${unused}</small>`}
   </span>`;
 }
 
@@ -56,8 +60,8 @@ function Figure({ value, unit, wide, as = grouped }) {
 }
 
 function Axis({ device, axis }) {
-  const [breaking, setBreaking] = useState(false);
   const name = `${device.name}.${axis.name}`;
+  const [breaking, setBreaking] = useKept(`breaking ${name}`, false);
   const value = (what) => valueOf(`${name}.${what}`);
   const present = (what) => value(what) !== undefined && value(what) !== null;
   const broken = (store.status?.faults ?? []).filter(({ fault }) => fault.split(/[ ,]/)[1] === name);
@@ -76,19 +80,19 @@ function Axis({ device, axis }) {
         ${present('ready') && axis.machine.drive && html`<span class="lampline"><${Lamp} on=${value('ready')} says="ready" /> ready</span>`}
         ${present('alarm') && (axis.machine.drive || isOn(value('alarm'))) && html`<span class=${`lampline ${isOn(value('alarm')) ? 'bad' : ''}`}>
           <${Lamp} on=${value('alarm')} says="alarm" /> alarm</span>`}
-        <${Button} kind="small faint" title=${`break ${name}`} pressed=${breaking} disabled=${isReadOnly()}
+        <${Button} kind="small faint" title=${`break ${name}`} pressed=${breaking} disabled=${isLocked()}
           does=${() => setBreaking(!breaking)}>break ...<//>
       </span>
     </header>
     <${Rail} device=${device} axis=${axis} press=${(contact) => {
       const terminal = terminalOf(device, axis.name, contact);
-      return terminal && !isReadOnly() ? () => press(device.name, terminal.name, valueOf(`${device.name}.${terminal.name}@by`)) : undefined;
-    }} slip=${isReadOnly() ? undefined : (by) => ask({ do: 'inject', fault: { slip: name, pulses: by } })} />
+      return terminal && !isLocked() ? () => press(device.name, terminal.name, valueOf(`${device.name}.${terminal.name}@by`)) : undefined;
+    }} slip=${isLocked() ? undefined : (by) => ask({ do: 'inject', fault: { slip: name, pulses: by } })} />
     <div class="switches">
       ${kSwitches.filter((contact) => axis.machine[contact] || terminalOf(device, axis.name, contact))
         .map((contact) => html`<${Switch} key=${contact} device=${device} axis=${axis} contact=${contact} />`)}
       ${broken.map(({ number, fault }) => html`<span class="bad bar" key=${number}>${spaced(fault.split(' ')[0])}
-        <${Button} kind="small" title=${`clear fault ${number}`} disabled=${isReadOnly()}
+        <${Button} kind="small" title=${`clear fault ${number}`} disabled=${isLocked()}
           does=${() => ask({ do: 'clear', number })}>clear<//></span>`)}
     </div>
     ${breaking && html`<${FaultForm} places=${['axis']} place=${name} done=${() => setBreaking(false)} />`}
@@ -96,15 +100,16 @@ function Axis({ device, axis }) {
 }
 
 export function Axes() {
-  const [devices, choice] = useDevices((device) => device.axes.length, kMostAxes);
+  const [devices, choice] = useDevices('axes', (device) => device.axes.length, kMostAxes);
   const shown = devices.map((device) => device.name).join();
   useEffect(() => {
     want('axes', devices.flatMap((device) => device.axes.flatMap((axis) => {
       const name = `${device.name}.${axis.name}`;
       const contacts = kSwitches.filter((it) => axis.machine[it] || terminalOf(device, axis.name, it));
-      const terminals = contacts.map((it) => terminalOf(device, axis.name, it)).filter(Boolean).map((it) => `${device.name}.${it.name}`);
+      const found = contacts.map((it) => terminalOf(device, axis.name, it)).filter(Boolean);
+      const terminals = found.map((it) => `${device.name}.${it.name}`);
       return [...kValues, ...contacts].map((what) => `${name}.${what}`)
-        .concat(terminals, terminals.map((terminal) => `${terminal}@by`));
+        .concat(terminals, terminals.map((terminal) => `${terminal}@by`), usesOf(device.name, found));
     })));
     return () => unwant('axes');
   }, [store.bench, shown]);

@@ -1,7 +1,8 @@
 // The bus: what goes over the lines, in words; send by hand; drop the next like this; keep as a capture.
-import { html, useState } from './preact.js';
-import { ask, isReadOnly, store } from './store.js';
-import { Button, Choice, Field, grouped, save, seconds } from './small.js';
+import { html } from './preact.js';
+import { ask, isLocked, store, withHoles } from './store.js';
+import { Button, Choice, Field, Missed, grouped, save, seconds } from './small.js';
+import { useKept } from './kept.js';
 import { pcapng } from './pcapng.js';
 
 const kShown = 200;
@@ -28,13 +29,13 @@ function Frame({ frame }) {
     <td class="way" aria-label=${isRequest ? 'from the host' : 'to the host'}>${isRequest ? '→' : '←'}</td>
     <td class="words">${frame.text} ${frame.remark && html`<em>${frame.remark}</em>`}</td>
     <td class="figure">${latency}</td>
-    <td>${frame.bytes && html`<${Button} kind="small faint" title=${`drop the next ${isRequest ? 'request' : 'reply'} like this`} disabled=${isReadOnly()}
+    <td>${frame.bytes && html`<${Button} kind="small faint" title=${`drop the next ${isRequest ? 'request' : 'reply'} like this`} disabled=${isLocked()}
       does=${() => dropNext(frame)}>drop next<//>`}</td></tr>`;
 }
 
 function ByHand() {
   const lines = store.bench?.lines ?? [];
-  const [line, setLine] = useState('');
+  const [line, setLine] = useKept('line to send on', '');
   const chosen = lines.find((it) => it.name === line) ?? lines[0];
   if (!chosen) return null;
   const send = async (text) => (await ask(chosen.text
@@ -45,7 +46,7 @@ function ByHand() {
   return html`<div class="bar"><span>Send by hand:</span>
     <${Choice} label="line" value=${chosen.name} options=${lines.map((it) => it.name)} takes=${setLine} />
     <${Field} label=${chosen.text ? 'a line of text' : 'bytes of a request, without its checksum'} size="28"
-      placeholder=${chosen.text ? 'text' : '01 03 00 00 00 01'} disabled=${isReadOnly()} takes=${send} />
+      placeholder=${chosen.text ? 'text' : '01 03 00 00 00 01'} disabled=${isLocked()} takes=${send} />
     <small>while no host has the line open; on it: ${some.join(', ')}</small></div>`;
 }
 
@@ -54,17 +55,18 @@ function Drops() {
   const drops = (store.status?.faults ?? []).filter(({ fault }) => fault.startsWith('drop '));
   if (drops.length === 0) return null;
   return html`<div class="bar">${drops.map(({ number, fault, hits }) => html`<span class="bad bar" key=${number}>${fault}${hits ? `: ${hits} dropped` : ''}
-    <${Button} kind="small" title=${`clear fault ${number}`} disabled=${isReadOnly()} does=${() => ask({ do: 'clear', number })}>clear<//></span>`)}</div>`;
+    <${Button} kind="small" title=${`clear fault ${number}`} disabled=${isLocked()} does=${() => ask({ do: 'clear', number })}>clear<//></span>`)}</div>`;
 }
 
 export function Bus() {
-  const [filter, setFilter] = useState('');
-  const [what, setWhat] = useState('all');
-  const [held, hold] = useState(null);
+  const [filter, setFilter] = useKept('filter of frames', '');
+  const [what, setWhat] = useKept('which frames', 'all');
+  const [held, hold] = useKept('held frames', null, false);
   const frames = held ?? store.frames;
   const fits = (frame) => (filter === '' || `${frame.line} ${frame.text} ${frame.remark ?? ''}`.toLowerCase().includes(filter.toLowerCase())) &&
     (what === 'all' || (what === 'exceptions' ? frame.exception : what === 'dropped' ? frame.remark : frame.way === what));
-  const shown = frames.filter(fits);
+  const shown = withHoles(frames, fits);
+  const count = shown.filter((it) => !it.key).length;
   return html`<div class="bar">
       <input type="search" aria-label="find in frames" placeholder="find" value=${filter} onInput=${(event) => setFilter(event.target.value)} />
       <${Choice} label="which frames" value=${what} takes=${setWhat} options=${[['all', 'all frames'], ['in', 'requests'], ['out', 'replies'],
@@ -72,11 +74,12 @@ export function Bus() {
       <${Button} title="hold the list still" pressed=${held !== null} does=${() => hold(held ? null : [...store.frames])}>pause<//>
       <${Button} title="save these frames as a capture" does=${() => save('bus.pcapng', [pcapng(shown, store.bench?.lines ?? [])],
         'application/x-pcapng')}>pcapng<//>
-      <small class="figure count">${grouped(shown.length)} of ${grouped(frames.length)}${store.framesLost ? `, ${grouped(store.framesLost)} not kept` : ''}</small>
+      <small class="figure count">${grouped(count)} of ${grouped(frames.length)}${store.framesLost ? `, ${grouped(store.framesLost)} not shown` : ''}</small>
     </div>
     <${ByHand} /><${Drops} />
     ${frames.length === 0 && html`<p>Nothing has gone over the lines yet.</p>`}
     ${frames.length > 0 && html`<div class="scroll"><table class="frames"><thead><tr><th>time</th><th>line</th><th></th><th>what</th><th>latency</th><th></th></tr></thead>
-      <tbody>${shown.slice(-kShown).reverse().map((frame) => html`<${Frame} key=${frame.number} frame=${frame} />`)}</tbody></table></div>`}
+      <tbody>${shown.slice(-kShown).reverse().map((frame) => (frame.key
+        ? html`<${Missed} key=${frame.key} count=${frame.missed} what="frames" columns="6" />` : html`<${Frame} key=${frame.number} frame=${frame} />`))}</tbody></table></div>`}
     ${shown.length > kShown && html`<small>the last ${kShown}; pcapng has all</small>`}`;
 }

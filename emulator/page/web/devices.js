@@ -1,15 +1,17 @@
 // Which of a bench's devices a panel shows: all of them while they are few.
-import { html, useState } from './preact.js';
+import { html } from './preact.js';
 import { store } from './store.js';
 import { Choice } from './small.js';
+import { useKept } from './kept.js';
 
-/// `weigh`: how much of a panel a device fills; more than `most` of it together is too much to be told at once.
+/// `panel`: which one asks. `weigh`: how much of a panel a device fills; more than `most` of it together is too much to be told at once.
 /// Returns the devices, and a choice to put above them (nothing where there is only one).
-export function useDevices(weigh, most) {
-  const [chosen, choose] = useState(null);
+export function useDevices(panel, weigh, most) {
+  const [chosen, choose] = useKept(`devices of ${panel}`, null);
   const all = Object.values(store.devices);
   const fits = all.reduce((sum, device) => sum + weigh(device), 0) <= most;
-  const name = chosen ?? (fits ? '' : all[0]?.name);
+  const isThere = chosen !== null && (chosen === '' ? fits : all.some((device) => device.name === chosen));
+  const name = isThere ? chosen : fits ? '' : all[0]?.name;
   const shown = name === '' ? all : all.filter((device) => device.name === name);
   const options = [...(fits ? [['', 'all devices']] : []), ...all.map((device) => [device.name, device.name])];
   return [shown, all.length > 1 && html`<${Choice} label="device" value=${name} options=${options} takes=${choose} />`];

@@ -1,7 +1,8 @@
 // A fault, put together from what the program itself says about faults.
-import { html, useState } from './preact.js';
+import { html } from './preact.js';
 import { ask, store } from './store.js';
 import { Button, Choice, spaced } from './small.js';
+import { useKept } from './kept.js';
 
 /// Where a kind may be, as names.
 function placesFor(place) {
@@ -37,12 +38,12 @@ function Line({ field, values, setValues }) {
 }
 
 /// `places`: the kinds to offer, all without it. `place`: where, if it is settled.
-export function FaultForm({ places, place, done, given = {} }) {
+export function FaultForm({ places, place, done }) {
   const kinds = store.kinds.filter((kind) => !places || places.includes(kind.place));
-  const [kindName, setKind] = useState(given.kind ?? kinds[0]?.name);
-  const [where, setWhere] = useState(given.where ?? '');
-  const [values, setValues] = useState(given.values ?? {});
-  const [withTrigger, setTrigger] = useState(Object.keys(given.values ?? {}).length > 0);
+  const [kindName, setKind] = useKept(`fault at ${place}`, kinds[0]?.name);
+  const [where, setWhere] = useKept(`place of the fault at ${place}`, '');
+  const [values, setValues] = useKept(`fields of the fault at ${place}`, {});
+  const [withTrigger, setTrigger] = useKept(`trigger of the fault at ${place}`, false);
   const kind = kinds.find((it) => it.name === kindName) ?? kinds[0];
   if (!kind) return null;
   const options = placesFor(kind.place);
@@ -54,7 +55,7 @@ export function FaultForm({ places, place, done, given = {} }) {
       const text = (values[name] ?? (required && words ? words[0] : '')).trim();
       if (text !== '') fault[name] = /^-?\d+(\.\d+)?$/.test(text) ? Number(text) : text;
     }
-    if ((await ask({ do: 'inject', fault })).ok) done?.();
+    if ((await ask({ do: 'inject', fault })).ok && done) { setValues({}); done(); }
   };
   return html`<form class="fault_form" onSubmit=${(event) => { event.preventDefault(); inject(); }}>
     <div class="bar"><${Choice} label="kind of fault" value=${kind.name} options=${kinds.map((it) => [it.name, spaced(it.name)])} takes=${setKind} />

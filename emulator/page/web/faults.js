@@ -1,7 +1,7 @@
 // Faults in force, power, snapshots, and what has happened.
 import { html, useEffect, useState } from './preact.js';
-import { ask, askQuietly, isReadOnly, store } from './store.js';
-import { Button, Field, seconds } from './small.js';
+import { ask, askQuietly, isLocked, store, withHoles } from './store.js';
+import { Button, Field, Missed, seconds } from './small.js';
 import { FaultForm } from './fault_form.js';
 
 function InForce() {
@@ -10,16 +10,16 @@ function InForce() {
   return html`<div class="scroll"><table><thead><tr><th>no.</th><th>fault</th><th>seen</th><th>matched</th><th>hits</th><th></th></tr></thead>
     <tbody>${faults.map((it) => html`<tr key=${it.number}><td>${it.number}</td><td>${it.fault}${it.in_force ?? it.seen === undefined ? html` <b class="bad">in force</b>` : ''}</td>
       <td>${it.seen ?? ''}</td><td>${it.matched ?? ''}</td><td>${it.hits ?? ''}</td>
-      <td><${Button} kind="small" title=${`clear fault ${it.number}`} disabled=${isReadOnly()}
+      <td><${Button} kind="small" title=${`clear fault ${it.number}`} disabled=${isLocked()}
         does=${() => ask({ do: 'clear', number: it.number })}>clear<//></td></tr>`)}</tbody></table></div>
-    ${faults.length > 1 && html`<${Button} title="clear all faults" disabled=${isReadOnly()} does=${() => ask({ do: 'clear' })}>clear all<//>`}`;
+    ${faults.length > 1 && html`<${Button} title="clear all faults" disabled=${isLocked()} does=${() => ask({ do: 'clear' })}>clear all<//>`}`;
 }
 
 function Power() {
   return html`<div class="bar">${(store.status?.devices ?? []).map((device) => html`<span class="joined named" role="group" key=${device.name}
       aria-label=${`power of ${device.name}`}><b>${device.name}</b>
     ${['on', 'off', 'cycle'].map((to) => html`<${Button} kind="small" key=${to} title=${`power of ${device.name}: ${to}`}
-      pressed=${to === 'cycle' ? undefined : device.power === to} disabled=${isReadOnly()} does=${() => ask({ do: 'power', device: device.name, to })}>${to}<//>`)}</span>`)}</div>`;
+      pressed=${to === 'cycle' ? undefined : device.power === to} disabled=${isLocked()} does=${() => ask({ do: 'power', device: device.name, to })}>${to}<//>`)}</span>`)}</div>`;
 }
 
 function Snapshots() {
@@ -27,11 +27,11 @@ function Snapshots() {
   const look = async () => setKept((await askQuietly({ do: 'snapshots' })).snapshots ?? []);
   useEffect(() => { look(); }, [store.bench]);
   const after = async (message) => { const { ok } = await ask(message); look(); return ok; };
-  return html`<div class="bar"><${Field} label="keep a snapshot under this name" placeholder="keep as ..." disabled=${isReadOnly()}
+  return html`<div class="bar"><${Field} label="keep a snapshot under this name" placeholder="keep as ..." disabled=${isLocked()}
       takes=${(name) => after({ do: 'snapshot', name })} />
     ${kept.map((it) => html`<span class="joined named" key=${it.name}><b>${it.name}</b> <small>${seconds(it.time_ns)}</small>
-      <${Button} kind="small" title=${`go back to ${it.name}`} disabled=${isReadOnly()} does=${() => after({ do: 'restore', name: it.name })}>restore<//>
-      <${Button} kind="small" title=${`forget ${it.name}`} disabled=${isReadOnly()} does=${() => after({ do: 'snapshots', drop: it.name })}>×<//></span>`)}
+      <${Button} kind="small" title=${`go back to ${it.name}`} disabled=${isLocked()} does=${() => after({ do: 'restore', name: it.name })}>restore<//>
+      <${Button} kind="small" title=${`forget ${it.name}`} disabled=${isLocked()} does=${() => after({ do: 'snapshots', drop: it.name })}>×<//></span>`)}
     ${kept.length === 0 && html`<small>A snapshot keeps everything as it is now; restore goes back to it.</small>`}</div>`;
 }
 
@@ -39,12 +39,13 @@ const placeOf = (event) => [event.line, event.name ?? event.device].filter(Boole
 
 export function Faults() {
   return html`<h2>Faults</h2><${InForce} />
-    ${!isReadOnly() && html`<${FaultForm} />`}
+    ${!isLocked() && html`<${FaultForm} />`}
     <h2>Power</h2><${Power} />
     <h2>Snapshots</h2><${Snapshots} />
     <h2>What has happened</h2>
     ${store.events.length === 0 && html`<p>Nothing yet.</p>`}
-    <div class="scroll"><table class="events"><tbody>${store.events.slice(-100).reverse().map((event) => html`<tr key=${event.number}
+    <div class="scroll"><table class="events"><tbody>${withHoles(store.events).slice(-100).reverse().map((event) => event.missed && event.key ? html`<${Missed}
+      key=${event.key} count=${event.missed} what="events" columns="4" />` : html`<tr key=${event.number}
       class=${event.what === 'exception' || event.what === 'dropped' ? 'bad' : ''}>
       <td class="figure">${seconds(event.time_ns)}</td><td>${event.what}</td><td>${event.by ?? ''}</td>
       <td>${placeOf(event)}${event.value !== undefined && !event.text ? ` = ${event.value}` : ''} ${event.text ?? ''}</td></tr>`)}</tbody></table></div>`;

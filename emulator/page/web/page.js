@@ -1,5 +1,5 @@
 // The page: a head with time, tabs, and the panel in view.
-import { html, render, useState } from './preact.js';
+import { html, render } from './preact.js';
 import { ask, complain, draw, drawBy, hasPower, isReadOnly, show, store } from './store.js';
 import { Button, Choice, Field, seconds } from './small.js';
 import { Axes } from './axes.js';
@@ -10,6 +10,7 @@ import { Bus } from './bus.js';
 import { Program } from './program.js';
 import { Faults } from './faults.js';
 import { Travel } from './travel.js';
+import { keep, kept } from './kept.js';
 
 const kPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Registers', Registers], ['Bus', Bus],
                  ['Program', Program], ['Faults', Faults]];
@@ -73,7 +74,8 @@ function nameOf({ socket }, number) {
 }
 
 function Page() {
-  const [panel, setPanel] = useState('Axes');
+  const panel = kept('panel', 'Axes', '');
+  const setPanel = (name) => keep('panel', name, { of: '' });
   const benches = store.hello?.benches ?? [];
   const Shown = kPanels.find(([name]) => name === panel)[1];
   const move = (event) => {
@@ -89,7 +91,7 @@ function Page() {
   return html`<div class="top"><header class="head">
       <h1>Understudy</h1>
       ${benches.length > 1 && html`<${Choice} label="bench" value=${String(store.number)}
-        options=${benches.map((bench, i) => [String(i), nameOf(bench, i)])} takes=${(i) => show(Number(i))} />`}
+        options=${benches.map((bench, i) => [String(i), nameOf(bench, i)])} takes=${(i) => { keep('bench', Number(i), { of: '' }); show(Number(i)); }} />`}
       <${Devices} />
       ${isReadOnly() && html`<span class="badge">read only</span>`}
       <${Time} />
@@ -103,6 +105,7 @@ function Page() {
       ${store.bench ? html`<${Shown} key=${`${store.number}/${panel}`} />` : html`<p>Looking for the bench...</p>`}</div>`;
 }
 
+store.number = kept('bench', 0, '');
 document.getElementById('page').textContent = '';
 drawBy(() => {
   const file = store.bench?.path?.split('/').at(-1);

@@ -55,19 +55,22 @@ function dataOf(frame, number, isText) {
     tag(kDestinationPort, ports[1]), halves(0, 0), bytes);
 }
 
-/// `frames` and `lines` as the server tells them. What each is in words, and what became of it, is its comment.
+/// `frames` and `lines` as the server tells them, with `{ missed }` where some are missing. What each is in words, what
+/// became of it, and how many before it are not here, is its comment.
 export function pcapng(frames, lines) {
   const names = lines.map((line) => line.name);
   const section = block(0x0A0D0D0A, joined(words(0x1A2B3C4D), new Uint8Array([1, 0, 0, 0]), words(0xFFFFFFFF, 0xFFFFFFFF),
     option(4, text('understudy')), words(0)));
   const interfaces = names.map((name) => block(1, joined(new Uint8Array([kUpperPdu, 0, 0, 0]), words(0),
     option(2, text(name)), option(9, new Uint8Array([kNanoseconds])), words(0))));
-  const packets = frames.map((frame) => {
+  const packets = frames.map((frame, i) => {
+    if (frame.key) return new Uint8Array(0);
+    const hole = i > 0 && frames[i - 1].key ? `${frames[i - 1].missed} frames before this one are not here` : '';
     const number = Math.max(names.indexOf(frame.line), 0);
     const data = dataOf(frame, number, lines[number]?.text);
     const padded = new Uint8Array(Math.ceil(data.length / 4) * 4);
     padded.set(data);
-    const comment = [frame.text, frame.remark].filter(Boolean).join('; ');
+    const comment = [frame.text, frame.remark, hole].filter(Boolean).join('; ');
     return block(6, joined(words(number, Math.floor(frame.time_ns / 2 ** 32), frame.time_ns % 2 ** 32, data.length, data.length),
       padded, option(1, text(comment)), option(2, words(frame.way === 'in' ? 1 : 2)), words(0)));
   });

@@ -1,13 +1,14 @@
 // Two axes of a device against each other, with the path behind them.
-import { html, useEffect, useRef, useState } from './preact.js';
+import { html, useEffect, useRef } from './preact.js';
 import { onLook, valueOf } from './store.js';
 import { Button, Choice, grouped } from './small.js';
+import { useKept } from './kept.js';
 
 const kMostPlaces = 6000;
 
 export function Plane({ device }) {
   const names = device.axes.map((axis) => axis.name);
-  const [[across, upwards], choose] = useState([names[0], names[1]]);
+  const [[across, upwards], choose] = useKept(`plane of ${device.name}`, [names[0], names[1]]);
   const canvas = useRef(null);
   const trail = useRef([]);
 

@@ -1,7 +1,8 @@
 // A plot of any names over time, and an oscilloscope with every tick around a moment.
 import { html, useEffect, useRef, useState } from './preact.js';
-import { ask, askQuietly, complain, isReadOnly, onLook, store, unwant, valueOf, want } from './store.js';
+import { ask, askQuietly, complain, isLocked, onLook, store, unwant, valueOf, want } from './store.js';
 import { Button, Choice, Field, grouped, save } from './small.js';
+import { keep, kept, useKept } from './kept.js';
 
 const kMost_s = 60;
 const kMostNames = 8;
@@ -38,21 +39,22 @@ function add(name) {
   names.push(name);
   rows.set(name, new Array(times.length).fill(null));
   want('plot', [...names]);
+  keep('plotted', [...names]);
 }
 function drop(name) {
   names.splice(names.indexOf(name), 1);
   rows.delete(name);
   names.length > 0 ? want('plot', [...names]) : unwant('plot');
+  keep('plotted', [...names]);
 }
-/// Of another bench nothing is left; the first axis is offered.
+/// Of another bench there are the names that were plotted before; at first its first axis is offered.
 function beginWith(bench) {
-  if (of !== bench) {
-    for (const name of [...names]) drop(name);
-    forget();
-    of = bench;
-    const first = suggestions()[0];
-    if (first) add(first);
-  }
+  if (of === bench) return;
+  names.length = 0;
+  rows.clear();
+  forget();
+  of = bench;
+  for (const name of kept('plotted', suggestions().slice(0, 1))) add(name);
 }
 
 /// Names to offer: of axes, terminals and the registers that tell a device's state.
@@ -176,48 +178,67 @@ async function samplesOf(scope) {
   return columns;
 }
 
+// What the daemon says of its scope: it stays armed whichever panel is in view, and whoever has armed it.
+let isWatched = false;
+const sayScope = (state) => keep('state of the scope', state, { isLasting: false });
+async function watchScope(isWanted) {
+  if (isWatched) return;
+  isWatched = true;
+  const number = store.number;
+  for (let wanted = isWanted; number === store.number;) {
+    const { scope } = await askQuietly({ do: 'scope' });
+    if (number !== store.number) break;
+    sayScope(scope ? scope.error ?? scope.state : '');
+    if (!scope || scope.error) break;
+    if (scope.state === 'done') {
+      if (wanted) await showShot(scope);
+      break;
+    }
+    wanted = true;
+    if (kept('condition of the scope', '') === '' && scope.condition) keep('condition of the scope', scope.condition);
+    await new Promise((resolve) => { setTimeout(resolve, 200); });
+  }
+  isWatched = false;
+}
+async function showShot(scope) {
+  const columns = await samplesOf(scope);
+  if (columns) keep('shot', { labels: scope.names, columns }, { isLasting: false });
+}
+
 function Scope({ shot, show }) {
-  const [condition, setCondition] = useState('');
-  const [side, setSide] = useState('1s');
-  const [state, setState] = useState('');
-  const armed = useRef(0);
-  useEffect(() => () => { armed.current = 0; }, []);
+  const [condition, setCondition] = useKept('condition of the scope', '');
+  const [side, setSide] = useKept('side of the scope', '1s');
+  const state = kept('state of the scope', '');
+  useEffect(() => { watchScope(false); }, [store.bench]);
   const arm = async (when = condition) => {
     const wish = { do: 'scope', names: [...names], before: side, after: side };
     if (when.trim() !== '') wish.condition = when.trim();
     if (!(await ask(wish)).ok) return;
-    const mine = armed.current = performance.now();
-    setState('armed');
-    const poll = async () => {
-      const { scope } = await askQuietly({ do: 'scope' });
-      if (armed.current !== mine) return;
-      if (!scope) return setState('');
-      setState(scope.error ?? scope.state);
-      if (scope.error) return;
-      if (scope.state !== 'done') return void setTimeout(poll, 200);
-      const columns = await samplesOf(scope);
-      if (columns && armed.current === mine) show({ labels: scope.names, columns });
-    };
-    setTimeout(poll, 200);
+    sayScope('armed');
+    watchScope(true);
   };
-  const disarm = async () => { armed.current = 0; setState(''); await ask({ do: 'scope', off: true }); };
+  const disarm = async () => { await ask({ do: 'scope', off: true }); sayScope(''); };
   const waits = state === 'armed' || state === 'triggered';
   return html`<div class="bar"><span>Every tick around a moment:</span>
     <input aria-label="condition of the trigger" placeholder="when, such as device.A.home == 1; now" size="34"
-      disabled=${isReadOnly()} value=${condition} onInput=${(event) => setCondition(event.target.value)} spellcheck=${false} autocapitalize="off"
+      disabled=${isLocked()} value=${condition} onInput=${(event) => setCondition(event.target.value)} spellcheck=${false} autocapitalize="off"
       onKeyDown=${(event) => { if (event.key === 'Enter') arm(event.target.value); }} />
     <${Choice} label="this long before and after" value=${side} options=${['100ms', '500ms', '1s', '2s', '5s'].map((it) => [it, `± ${it}`])} takes=${setSide} />
     ${waits ? html`<${Button} title="disarm the trigger" does=${disarm}>disarm<//>`
-            : html`<${Button} title="arm the trigger" does=${() => arm()} disabled=${names.length === 0 || isReadOnly()}>arm<//>`}
+            : html`<${Button} title="arm the trigger" does=${() => arm()} disabled=${names.length === 0 || isLocked()}>arm<//>`}
     <output>${state}</output>
-    ${shot && html`<${Button} title="back to the running plot" does=${() => { setState(''); show(null); }}>back<//>`}</div>`;
+    ${state === 'done' && !shot && html`<${Button} title="show what the scope has kept" does=${async () => {
+      const { scope } = await askQuietly({ do: 'scope' });
+      if (scope) await showShot(scope);
+    }}>show<//>`}
+    ${shot && html`<${Button} title="back to the running plot" does=${() => show(null)}>back<//>`}</div>`;
 }
 
 export function Plot() {
-  const [window_s, setWindow] = useState(10);
-  const [frozen, freeze] = useState(null);
-  const [shot, show] = useState(null);
-  const [isApart, setApart] = useState(false);
+  const [window_s, setWindow] = useKept('seconds of the plot', 10);
+  const [frozen, freeze] = useKept('frozen plot', null, false);
+  const [shot, show] = useKept('shot', null, false);
+  const [isApart, setApart] = useKept('own scales', false);
   if (store.bench) beginWith(store.number);
   const running = () => ({ labels: [...names], columns: [times, ...names.map((name) => rows.get(name))] });
   const { labels, columns } = shot ?? frozen ?? running();

@@ -1,7 +1,8 @@
 // The program: its listing with the line that runs, what it waits for, values beside it; started, stopped and loaded.
 import { html, useEffect, useRef, useState } from './preact.js';
-import { ask, askQuietly, isReadOnly, store, unwant, valueOf, want } from './store.js';
+import { ask, askQuietly, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Choice, Field, grouped } from './small.js';
+import { useKept } from './kept.js';
 
 const kLook_ms = 150;
 const kMostLines = 4000;  // of a listing; more would make the page slow
@@ -43,12 +44,12 @@ async function act(device, control, number) {
 }
 
 function Control({ device, control }) {
-  const [number, setNumber] = useState(String(control.lowest ?? 0));
+  const [number, setNumber] = useKept(`which of ${device.name} ${control.word}`, String(control.lowest ?? 0));
   const word = control.word.replace(' {}', '');
   const does = (which = number) => act(device, control, which);
-  if (control.highest === undefined) return html`<${Button} title=${`${word}: ${control.set ?? control.command ?? control.text}`} disabled=${isReadOnly()} does=${() => does()}>${word}<//>`;
-  return html`<span class="joined"><${Button} title=${`${word} ${number}`} disabled=${isReadOnly()} does=${() => does()}>${word}<//>
-    <input type="number" aria-label=${`${word}: which`} min=${control.lowest} max=${control.highest} value=${number} disabled=${isReadOnly()}
+  if (control.highest === undefined) return html`<${Button} title=${`${word}: ${control.set ?? control.command ?? control.text}`} disabled=${isLocked()} does=${() => does()}>${word}<//>`;
+  return html`<span class="joined"><${Button} title=${`${word} ${number}`} disabled=${isLocked()} does=${() => does()}>${word}<//>
+    <input type="number" aria-label=${`${word}: which`} min=${control.lowest} max=${control.highest} value=${number} disabled=${isLocked()}
       onInput=${(event) => setNumber(event.target.value)} onKeyDown=${(event) => { if (event.key === 'Enter') does(event.target.value); }} /></span>`;
 }
 
@@ -66,40 +67,36 @@ function Listing({ lines, running }) {
     class=${running.has(i + 1) ? 'running' : ''} aria-current=${running.has(i + 1) ? 'step' : undefined}><code>${line || ' '}</code></li>`)}</ol>`;
 }
 
-// Names that somebody wants to see beside the program, by device.
-const watched = new Map();
-
 function Values({ device }) {
-  const [names, setNames] = useState(watched.get(device.name) ?? []);
-  const keep = (next) => { watched.set(device.name, next); setNames(next); };
+  const [names, setNames] = useKept(`values beside ${device.name}`, []);
   const whole = (name) => (name.startsWith(`${device.name}.`) ? name : `${device.name}.${name}`);
   useEffect(() => {
     want('program', [...device.state_registers.map(whole), ...names]);
     return () => unwant('program');
-  }, [device.name, store.bench, names]);
+  }, [device.name, store.bench, names.join()]);
   const add = async (text) => {
     const name = whole(text);
     if (!(await ask({ do: 'get', names: [name] })).ok) return false;
-    if (!names.includes(name)) keep([...names, name]);
+    if (!names.includes(name)) setNames([...names, name]);
   };
   const row = (name, label, extra) => html`<tr key=${name}><th scope="row">${label}</th>
     <td class="figure">${grouped(valueOf(name))}</td><td>${extra}</td></tr>`;
   return html`<div class="values"><table><tbody>
       ${names.map((name) => row(name, name.slice(device.name.length + 1), html`<${Button} kind="small faint" title=${`take ${name} away`}
-        does=${() => keep(names.filter((it) => it !== name))}>×<//>`))}
+        does=${() => setNames(names.filter((it) => it !== name))}>×<//>`))}
       ${device.state_registers.map((name) => row(whole(name), name))}</tbody></table>
     <${Field} label="another value to see here" placeholder="another value" takes=${add} /></div>`;
 }
 
 export function Program() {
   const devices = Object.values(store.devices).filter((device) => device.program);
-  const [deviceName, setDevice] = useState('');
+  const [deviceName, setDevice] = useKept('device of programs', '');
   const [text, setText] = useState('');
-  const [edited, setEdited] = useState(null);
   const [programs, setPrograms] = useState([]);
-  const [mistakes, setMistakes] = useState([]);
   const [unread, setUnread] = useState('');  // why it could not be read
   const device = devices.find((it) => it.name === deviceName) ?? devices[0];
+  const [edited, setEdited] = useKept(`program text of ${device?.name}`, null);
+  const [mistakes, setMistakes] = useKept(`mistakes of ${device?.name}`, []);
 
   const read = async () => {
     const reply = await askQuietly({ do: 'program', device: device.name });
@@ -137,14 +134,14 @@ export function Program() {
   const running = new Set(programs.filter((it) => it.line).map((it) => it.line));
   return html`<div class="bar">
       ${devices.length > 1 && html`<${Choice} label="device" value=${device.name} options=${devices.map((it) => it.name)}
-        takes=${(name) => { setDevice(name); setEdited(null); setMistakes([]); setPrograms([]); }} />`}
+        takes=${(name) => { setDevice(name); setPrograms([]); }} />`}
       ${(device.program.controls ?? []).map((control) => html`<${Control} key=${control.word} device=${device} control=${control} />`)}
     </div>
     <div class="bar">
       ${edited === null
-        ? html`<${Button} title="change the program" disabled=${isReadOnly()} does=${() => setEdited(text)}>edit<//>
+        ? html`<${Button} title="change the program" disabled=${isLocked()} does=${() => setEdited(text)}>edit<//>
             <${Button} title="read it again" does=${read}>read<//>
-            ${!isReadOnly() && html`<label class="file">load a file<input type="file" accept=${`${device.program.file_ending},text/plain`} onChange=${loadFile} /></label>`}`
+            ${!isLocked() && html`<label class="file">load a file<input type="file" accept=${`${device.program.file_ending},text/plain`} onChange=${loadFile} /></label>`}`
         : html`<${Button} kind="main" title="load this text" does=${() => load(edited)}>load<//>
             <${Button} title="give up" does=${() => { setEdited(null); setMistakes([]); }}>give up<//>`}
       <small>${device.program.language}, ${grouped(text === '' ? 0 : lines.length)} ${text !== '' && lines.length === 1 ? 'line' : 'lines'}</small>

@@ -1,7 +1,8 @@
 // Registers by the manual's sections: values, ranges, bits, who changed them; written with the range check's own words.
 import { html, useEffect, useState } from './preact.js';
-import { ask, askQuietly, complain, flashOf, isReadOnly, store, unwant, valueOf, want } from './store.js';
+import { ask, askQuietly, complain, flashOf, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Choice, Field, grouped, save } from './small.js';
+import { useKept } from './kept.js';
 import { isHeard } from './heard.js';
 
 const kPage = 100;
@@ -37,8 +38,8 @@ function Row({ device, row, explain, section }) {
       ${row.meaning && html`<small> ${row.meaning}</small>`}${section && html`<small class="section"> ${section}</small>`}</td>
     <td class="value" title=${hex}>${isPlain(row) ? html`${value ?? '–'} <small>${row.unit ?? ''}</small>` : ''}</td>
     <td class="by">${flash}</td>
-    <td class="write">${row.access !== 'R' && !row.window && html`<${Field} label=${`write ${row.name}`} placeholder="write" size="8"
-      disabled=${isReadOnly()} takes=${(text) => write(name, text)} />`}</td>
+    <td class="write">${row.access !== 'R' && !row.window && html`<${Field} label=${`write ${row.name}`} of=${device} placeholder="write" size="8"
+      disabled=${isLocked()} takes=${(text) => write(name, text)} />`}</td>
     <td class="access"><small>${row.access}${row.kept ? html`, <b>kept</b>` : ''}</small></td>
     <td class="range"><small>${rangeOf(row)}</small></td>
     <td class="factory"><small class=${isOther ? 'other' : ''} title=${isOther ? 'the value is another now' : ''}>${row.factory ?? ''}</small></td>
@@ -69,13 +70,13 @@ function tableOf(device) {
 
 export function Registers() {
   const devices = Object.values(store.devices).filter((device) => device.sections.length > 0);
-  const [deviceName, setDevice] = useState('');
-  const [section, setSection] = useState('0');
-  const [find, setFind] = useState('');
-  const [from, setFrom] = useState(0);
+  const [deviceName, setDevice] = useKept('device of registers', '');
+  const [section, setSection] = useKept('section', '0');
+  const [find, setFind] = useKept('find a register', '');
+  const [from, setFrom] = useKept('first register', 0);
   const [page, setPage] = useState({ registers: [], of: 0 });
-  const [onlyHeard, setHeard] = useState(false);
-  const [choice, setChoice] = useState(null);
+  const [onlyHeard, setHeard] = useKept('only what hosts use', false);
+  const [choice, setChoice] = useKept('choice that is told', null);
   const device = devices.find((it) => it.name === deviceName) ?? devices[0];
   const words = store.heard.get(device?.name);
   const heardSoFar = onlyHeard ? words?.size ?? 0 : 0;

@@ -1,8 +1,10 @@
 // Signals: every terminal, its level, and who drives it. A click holds an input, another lets it go.
-import { html, useEffect, useState } from './preact.js';
-import { ask, complain, isReadOnly, store, unwant, valueOf, want } from './store.js';
+import { html, useEffect } from './preact.js';
+import { ask, complain, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Field, Lamp, Slider, isOn } from './small.js';
 import { useDevices } from './devices.js';
+import { useKept } from './kept.js';
+import { usesOf, whyUnused } from './uses.js';
 
 const kTitles = {
   digital_in: 'Inputs', digital_out: 'Outputs', analog_in: 'Analog inputs', analog_number: 'Numbers',
@@ -22,14 +24,15 @@ function Digital({ device, terminal }) {
   const name = `${device}.${terminal.name}`;
   const [level, by] = [valueOf(name), valueOf(`${name}@by`) ?? ''];
   const uses = (terminal.functions ?? []).join(', ');
-  const says = `${terminal.name}${uses ? `, ${uses}` : ''}${by ? `, driven by ${by}` : ''}`;
+  const unused = whyUnused(device, terminal);
+  const says = `${terminal.name}${uses ? `, ${uses}` : ''}${by ? `, driven by ${by}` : ''}${unused ? `, ${unused}` : ''}`;
   const lit = isOn(level) ? 'lit' : '';
   const cell = html`<${Lamp} on=${level} says=${terminal.name} /><span>${terminal.name}</span>
-    <small>${uses}</small><small class=${`by ${by.includes('fault') ? 'bad' : ''}`}>${by === 'device' ? '' : by}</small>`;
+    <small>${uses}</small>${unused && html`<small class="unused">${unused}</small>`}<small class=${`by ${by.includes('fault') ? 'bad' : ''}`}>${by === 'device' ? '' : by}</small>`;
   if (terminal.kind === 'digital_out' || terminal.kind === 'pulse_out') return html`<span class=${`signal shown ${lit}`} title=${says}>${cell}</span>`;
   const isDip = terminal.kind === 'dip_switch';
   const isDown = isDip ? isOn(level) : by.includes('held');
-  return html`<button type="button" class=${`signal ${lit}`} title=${says} aria-pressed=${isDown} disabled=${isReadOnly()}
+  return html`<button type="button" class=${`signal ${lit}`} title=${says} aria-pressed=${isDown} disabled=${isLocked()}
     onClick=${() => ask({ do: 'input', values: { [name]: isDown ? 0 : 1 } })}>${cell}</button>`;
 }
 
@@ -40,9 +43,9 @@ function Analog({ device, terminal }) {
   const hold = (level) => ask({ do: 'input', values: { [name]: level } });
   return html`<div class="signal analog shown" role="group" aria-label=${terminal.name}><span>${terminal.name}</span>
     ${terminal.kind !== 'analog_out' && html`<${Slider} label=${terminal.name} lowest=${terminal.lowest} highest=${terminal.highest}
-        value=${value} disabled=${isReadOnly()} takes=${hold} />
-      <${Field} label=${`set ${terminal.name}, ${terminal.lowest} to ${terminal.highest} ${unit}`} placeholder=${unit || 'set'} size="6"
-        disabled=${isReadOnly()} takes=${async (text) => { const to = numberFrom(text); return to !== null && (await hold(to)).ok; }} />`}
+        value=${value} disabled=${isLocked()} takes=${hold} />
+      <${Field} label=${`set ${terminal.name}, ${terminal.lowest} to ${terminal.highest} ${unit}`} of=${device} placeholder=${unit || 'set'} size="6"
+        disabled=${isLocked()} takes=${async (text) => { const to = numberFrom(text); return to !== null && (await hold(to)).ok; }} />`}
     <output class="figure">${value ?? '–'} ${unit}</output></div>`;
 }
 
@@ -52,8 +55,8 @@ function Wheel({ device, terminal }) {
     ask({ do: 'turn', values: { [name]: counts }, ...(during ? { in: during } : {}) });
   return html`<div class="signal analog shown" role="group" aria-label=${terminal.name}><span>${terminal.name}</span>
     <span class="joined">${[-100, -10, -1, 1, 10, 100].map((counts) => html`<${Button} kind="small" key=${counts} title=${`turn ${terminal.name} by ${counts}`}
-      disabled=${isReadOnly()} does=${() => turn(counts)}>${counts > 0 ? `+${counts}` : counts}<//>`)}</span>
-    <${Field} label=${`turn ${terminal.name} by, in a second`} placeholder="counts in 1 s" disabled=${isReadOnly()}
+      disabled=${isLocked()} does=${() => turn(counts)}>${counts > 0 ? `+${counts}` : counts}<//>`)}</span>
+    <${Field} label=${`turn ${terminal.name} by, in a second`} of=${device} placeholder="counts in 1 s" disabled=${isLocked()}
       takes=${async (text) => { const by = numberFrom(text); return by !== null && (await turn(by, '1s')).ok; }} />
     <output class="figure">${valueOf(name) ?? '–'}</output></div>`;
 }
@@ -68,14 +71,15 @@ function Terminals({ device, kind, terminals }) {
 }
 
 export function Signals() {
-  const [filter, setFilter] = useState('');
-  const [devices, choice] = useDevices((device) => device.terminals.length, kMostTerminals);
+  const [filter, setFilter] = useKept('filter of signals', '');
+  const [devices, choice] = useDevices('signals', (device) => device.terminals.length, kMostTerminals);
   const fits = (terminal) => [terminal.name, ...(terminal.functions ?? [])]
     .some((text) => text.toLowerCase().includes(filter.toLowerCase()));
   const shown = devices.map((device) => device.name).join();
   useEffect(() => {
     want('signals', devices.flatMap((device) => device.terminals.filter(fits)
-      .flatMap(({ name }) => [`${device.name}.${name}`, `${device.name}.${name}@by`])));
+      .flatMap(({ name }) => [`${device.name}.${name}`, `${device.name}.${name}@by`])
+      .concat(usesOf(device.name, device.terminals.filter(fits)))));
     return () => unwant('signals');
   }, [store.bench, filter, shown]);
   return html`<div class="bar">${choice}<input type="search" aria-label="find a signal" placeholder="find a signal" value=${filter}

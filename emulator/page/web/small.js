@@ -1,5 +1,6 @@
 // Small things that several panels are made of.
 import { html, useRef, useState } from './preact.js';
+import { useKept } from './kept.js';
 
 export const seconds = (ns) => `${(ns / 1e9).toFixed(3)} s`;
 export const grouped = (number) =>
@@ -33,9 +34,10 @@ export function Button({ does, title, pressed, disabled, kind = '', children }) 
     disabled=${disabled} onClick=${does}>${children}</button>`;
 }
 
-/// A text field that hands over what was typed at Enter.
-export function Field({ label, placeholder, takes, list, size = 12, disabled, initial = '' }) {
-  const [text, setText] = useState(initial);
+/// A text field that hands over what was typed at Enter. `of`: whose it is, where several have the same label.
+export function Field({ label, of = '', placeholder, takes, list, size = 12, disabled }) {
+  const [text, keepText] = useKept(`field ${of} ${label}`, '');
+  const setText = (to) => keepText(to === '' ? undefined : to);
   // What stands there, not what was drawn last: who types fast is ahead of the drawing.
   const send = async ({ value }) => {
     if (value.trim() !== '' && await takes(value.trim()) !== false) setText('');
@@ -84,4 +86,9 @@ export function save(name, parts, type) {
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+/// A row of a list where some are missing that have been.
+export function Missed({ count, what, columns }) {
+  return html`<tr class="missed"><td colspan=${columns}>${grouped(count)} ${what} not shown</td></tr>`;
 }

@@ -2,7 +2,7 @@
 import { Wire } from './wire.js';
 import { hear } from './heard.js';
 
-const kMostFrames = 1000;
+const kMostFrames = 1024;
 const kMostEvents = 500;
 const kFlash_ms = 1200;
 
@@ -11,6 +11,7 @@ export const store = {
   hello: null,
   number: 0,        // which bench is shown
   states: [],       // of each: there, silent, gone, unknown
+  epochs: [],       // of each: another daemon has another
   labels: [],       // of each, where there are several: its bench file
   bench: null,      // the reply to `bench`
   devices: {},      // by name: the reply to `bench` with a device
@@ -20,6 +21,7 @@ export const store = {
   frames: [],
   events: [],
   framesLost: 0,
+  eventsLost: 0,
   status: null,
   look: null,       // time_ns, paused, speed, advancing
   changes: {},      // by name: when it changed last, and by whom
@@ -69,11 +71,15 @@ const wire = new Wire({
     store.link = '';
     store.hello = hello;
     store.states = hello.benches.map((bench) => bench.state);
+    store.epochs = hello.benches.map((bench) => bench.epoch);
+    isKnown = false;  // whatever was told before is told again
     show(Math.min(store.number, hello.benches.length - 1));
     hello.benches.forEach((_, number) => learnLabel(number));
   },
   bench: (bench) => {
     store.states[bench.bench] = bench.state;
+    if (store.epochs[bench.bench] !== bench.epoch && bench.bench === store.number) isKnown = false;
+    store.epochs[bench.bench] = bench.epoch;
     if (bench.state === 'there') learnLabel(bench.bench);
     if (bench.bench === store.number && bench.state === 'there') learn();
     draw();
@@ -108,29 +114,66 @@ function take(look) {
   for (const event of look.events ?? []) {
     if (event.what === 'write' && event.name) store.changes[event.name] = { at: now, by: event.by };
   }
-  for (const frame of look.frames ?? []) hear(store.heard, store.bench, frame);
-  store.frames = store.frames.concat(look.frames ?? []).slice(-kMostFrames);
-  store.events = store.events.concat(look.events ?? []).slice(-kMostEvents);
+  // What a host has spoken of is only understood when the bench is known, which takes a few questions.
+  unheard.push(...(look.frames ?? []));
+  hearAll();
+  store.frames = joined(store.frames, look.frames, kMostFrames);
+  store.events = joined(store.events, look.events, kMostEvents);
   store.framesLost += look.frames_lost ?? 0;
+  store.eventsLost += look.events_lost ?? 0;
   if (look.status) store.status = look.status;
   for (const listener of listeners) listener(look);
   draw();
+}
+
+let unheard = [];
+function hearAll() {
+  if (!store.bench) return;
+  for (const frame of unheard) hear(store.heard, store.bench, frame);
+  unheard = [];
+}
+
+/// The last of both, each with how many before it were `missed`.
+function joined(list, more, most) {
+  const all = [...list];
+  for (const one of more ?? []) {
+    const expected = all.length > 0 ? all.at(-1).number + 1 : one.number;
+    all.push(one.number > expected ? { ...one, missed: one.number - expected } : one);
+  }
+  return all.slice(-most);
+}
+
+/// Those that fit, and `{ missed, key }` where some were missed.
+export function withHoles(list, fits = () => true) {
+  const shown = [];
+  let missed = 0;
+  for (const one of list) {
+    missed += one.missed ?? 0;
+    if (!fits(one)) continue;
+    if (missed > 0) shown.push({ missed, key: `missed ${one.number}` });
+    missed = 0;
+    shown.push(one);
+  }
+  if (missed > 0) shown.push({ missed, key: 'missed' });
+  return shown;
 }
 
 /// Another bench, or the same once more.
 export function show(number) {
   const isOther = number !== store.number;
   store.number = number;
-  if (isOther) forget();
+  if (isOther) isKnown = false;
   lastWatch = '';
   watch();
   if (store.states[number] === 'there') learn();
   draw();
 }
 
+let isKnown = false;  // what is told goes on from what was told of this daemon before
 function forget() {
+  unheard = [];
   Object.assign(store, { bench: null, devices: {}, values: {}, frames: [], events: [], status: null, look: null,
-                         changes: {}, framesLost: 0, heard: new Map(), timeline: null });
+                         changes: {}, framesLost: 0, eventsLost: 0, heard: new Map(), timeline: null });
 }
 
 /// Of several benches, what to call each.
@@ -156,7 +199,8 @@ async function timelineOf(number) {
 
 async function learn() {
   const number = store.number;
-  forget();
+  if (!isKnown) forget();
+  isKnown = true;
   const { bench } = await wire.ask(number, { do: 'bench' });
   const kinds = await wire.ask(number, { do: 'faults' });
   if (number !== store.number || !bench) return;
@@ -170,6 +214,7 @@ async function learn() {
   if (number !== store.number) return;
   store.timeline = timeline;
   store.bench = bench;
+  hearAll();
   lastWatch = '';
   watch();
   draw();
@@ -192,6 +237,8 @@ export async function ask(message) {
 export const askQuietly = (message) => wire.ask(store.number, message);
 
 export const isReadOnly = () => store.hello?.read_only ?? false;
+/// Whether nothing may be changed here: a recording shows what happened.
+export const isLocked = () => isReadOnly() || store.timeline !== null;
 export const valueOf = (name) => store.values[name];
 export const hasPower = (device) => store.status?.devices.find((it) => it.name === device)?.power !== 'off';
 /// Whether a device runs a program of its own.

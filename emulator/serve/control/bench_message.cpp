@@ -172,8 +172,23 @@ Json axis_of(const world::World& world, std::size_t device, std::size_t place) {
   return axis;
 }
 
-Json terminal_of(const TerminalRow& row, const std::vector<std::string>& functions) {
+/// The register by which a controller gives a terminal its function, or, while it is 0, leaves it without: a
+/// kept switch that the manual names after the terminal (DIN2_Aaxis_UP_Limit, of DIN_2). Empty where there is
+/// none.
+std::string_view register_using(const Model& model, const TerminalRow& terminal) {
+  std::string begin(terminal.name);
+  std::erase(begin, '_');
+  begin += '_';
+  for (const RegisterRow& row : register_rows(model)) {
+    if (row.persistent && row.min == 0 && row.max == 1 && row.name.starts_with(begin)) return row.name;
+  }
+  return {};
+}
+
+Json terminal_of(const TerminalRow& row, const std::vector<std::string>& functions,
+                 std::string_view used_by) {
   Json terminal{{"name", row.name}, {"kind", kind_word(row.kind)}};
+  if (!used_by.empty()) terminal["used_by"] = used_by;
   if (!has_two_levels(row.kind)) {
     terminal["lowest"] = row.lowest;
     terminal["highest"] = row.highest;
@@ -203,7 +218,7 @@ Telling device_message(Daemon& daemon, std::size_t number) {
   text.open_list("terminals");
   for (std::size_t i = 0; i < model.terminals.size(); ++i) {
     if (device.terminals() != nullptr && !device.terminals()->has_terminal(static_cast<int>(i))) continue;
-    text.element(terminal_of(model.terminals[i], functions[i]));
+    text.element(terminal_of(model.terminals[i], functions[i], register_using(model, model.terminals[i])));
     co_await pause;
   }
   text.close_list();

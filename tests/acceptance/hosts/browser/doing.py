@@ -52,6 +52,13 @@ def saved(visit, name, press):
 
 def axes(visit, stage):
     """The rail shows target, switches and steps that are lost; all of them by the mouse."""
+    unused = lambda: visit.texts('.switch .unused')
+    visit.until('a limit switch that the device does not use is said to be so, and no other', lambda: sorted(unused()) ==
+                ['wired, not used: DIN2_Aaxis_UP_Limit = 0', 'wired, not used: DIN3_Aaxis_DN_Limit = 0'])
+    visit.picture('unused')
+    stage.host_writes(0x0A06, 1)
+    visit.until('until it does', lambda: unused() == ['wired, not used: DIN3_Aaxis_DN_Limit = 0'])
+    stage.host_writes(0x0A06, 0)
     stage.host_writes(0x1014, 1)
     stage.host_writes(0x1000, 30000, 0, 60, 5, 5, 1)  # 30,000 pulses
     visit.until('the target is told', lambda: any('30,000' in text for text in visit.texts('.reading')) and visit.find('.rail .target'))
@@ -307,5 +314,78 @@ def keyboard(visit, stage):
         browse.fail(f'nothing is said of these: {json.dumps(nameless)}')
 
 
-PARTS = {'axes': axes, 'signals': signals, 'plot': plot, 'registers': registers, 'bus': bus, 'program': program, 'faults': faults,
+def keeps(visit, stage):
+    """What was typed, chosen, armed or frozen is there after a look at another panel, and but for what is large after a reload."""
+    value = lambda selector: visit.find(selector)[0].get_attribute('value')
+    visit.press('break feeder.A')
+    select(visit, 'kind of fault', 'slip')
+    visit.until('a slip asks how far', lambda: visit.find('.fault_form .fields input'))
+    visit.find('.fault_form .fields input')[0].send_keys('-77')
+    visit.show('Signals')
+    visit.find('input[aria-label^="set AIN_A"]')[0].send_keys('12')
+    visit.find('input[aria-label="find a signal"]')[0].send_keys('DIN_1')
+    visit.show('Plot')
+    enter(visit, 'a name to plot', 'feeder.A.speed')
+    visit.until('a second curve', lambda: len(visit.find('.curve')) == 2)
+    visit.find('input[aria-label="condition of the trigger"]')[0].send_keys('feeder.A.pulses >= 900000')
+    visit.press('arm the trigger')
+    visit.until('the trigger is armed', lambda: 'armed' in ' '.join(visit.texts('output')))
+    visit.press('freeze the plot')
+    frozen = saved(visit, 'a CSV', 'save as CSV')
+    visit.show('Registers')
+    select(visit, 'section of the manual', '2')
+    section = value('select[aria-label="section of the manual"]')
+    visit.find('input[aria-label^="find a register"]')[0].send_keys('Aaxis_Sp')
+    visit.until('a register is found', lambda: 'Aaxis_Speed' in visit.texts('.registers .name'))
+    visit.find('input[aria-label="write Aaxis_Speed"]')[0].send_keys('77')
+    visit.show('Bus')
+    visit.find('input[aria-label="find in frames"]')[0].send_keys('Speed')
+    select(visit, 'which frames', 'in')
+    visit.find('input[aria-label^="bytes of a request"]')[0].send_keys('01 03')
+    visit.show('Program')
+    visit.press('change the program')
+    visit.find('textarea')[0].send_keys('half a line')
+    visit.show('Faults')
+    select(visit, 'kind of fault', 'drop')
+    visit.find('.fault_form .check input')[0].click()
+    visit.until('the trigger has fields', lambda: len(visit.find('.fault_form .fields label')) > 4)
+    field = lambda: next(it for it in visit.find('.fault_form .fields label') if it.text.split('\n')[0] == 'function').find_element(By.CSS_SELECTOR, 'input')
+    field().send_keys('6')
+
+    def all_is_there(when, is_whole):
+        visit.until(f'{when}: a fault that is half filled in', lambda: field().get_attribute('value') == '6' and value('select[aria-label="kind of fault"]') == 'drop')
+        visit.show('Axes')
+        visit.until('the form at an axis', lambda: value('.fault_form .fields input') == '-77')
+        visit.show('Signals')
+        visit.until('the filter', lambda: value('input[aria-label="find a signal"]') == 'DIN_1')
+        enter(visit, 'find a signal', Keys.DELETE)
+        visit.until('a number that was not sent', lambda: value('input[aria-label^="set AIN_A"]') == '12')
+        visit.find('input[aria-label="find a signal"]')[0].send_keys('DIN_1')
+        visit.show('Plot')
+        visit.until('the curves', lambda: len(visit.find('.curve')) == 2)
+        visit.until('the trigger, armed, with its condition', lambda: visit.find('button[title="disarm the trigger"]') and
+                    value('input[aria-label="condition of the trigger"]') == 'feeder.A.pulses >= 900000')
+        if is_whole and saved(visit, 'the same CSV', 'save as CSV') != frozen:
+            browse.fail('a frozen plot is another after a look elsewhere')
+        visit.show('Registers')
+        visit.until('what was looked for', lambda: value('input[aria-label^="find a register"]') == 'Aaxis_Sp' and
+                    value('select[aria-label="section of the manual"]') == section)
+        visit.until('and typed', lambda: value('input[aria-label="write Aaxis_Speed"]') == '77')
+        visit.show('Bus')
+        visit.until('the filters', lambda: value('input[aria-label="find in frames"]') == 'Speed' and value('select[aria-label="which frames"]') == 'in' and
+                    value('input[aria-label^="bytes of a request"]') == '01 03')
+        visit.show('Program')
+        visit.until('the text that was edited', lambda: 'half a line' in value('textarea'))
+        visit.show('Faults')
+
+    all_is_there('elsewhere and back', True)
+    time.sleep(0.5)
+    visit.driver.refresh()
+    visit.until('after a reload the panel is the same', lambda: visit.driver.find_element(By.ID, 'tab_Faults').get_attribute('aria-selected') == 'true' and
+                visit.find('.fault_form'))
+    all_is_there('after a reload', False)
+    visit.picture('kept')
+
+
+PARTS = {'keeps': keeps, 'axes': axes, 'signals': signals, 'plot': plot, 'registers': registers, 'bus': bus, 'program': program, 'faults': faults,
          'keyboard': keyboard}

@@ -8,10 +8,12 @@ import argparse
 import functools
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import tempfile
 import time
+import tty
 import types
 
 from selenium.webdriver.common.by import By
@@ -22,6 +24,8 @@ import doing
 
 MODELS = ['simple2-r3', 'super-40nc', 'rs-m8194h', 'slim']
 BROWSERS = 16
+# Of a recording: what only looks, or is the browser's own.
+HARMLESS = re.compile('save|freeze|scale|take|hold the list still|read it again|further|back|the choice|forget the path|pcapng|close')
 
 BENCH = """understudy: 1
 lines:
@@ -161,6 +165,52 @@ def host(options):
         visit.close()
 
 
+def before(options):
+    """A host speaks before anybody looks: the page knows what it has used as well."""
+    with Stage(options, 'bench.yaml') as stage:
+        (stage.folder / 'bench.yaml').write_text(BENCH, encoding='utf-8')
+        stage.start_daemon()
+        stage.host_writes(0x1002, 123)
+        stage.start_page()
+        visit = stage.visit()
+        visit.show('Registers')
+        visit.find('.check input')[0].click()
+        visit.until('what the host has used before is there', lambda: visit.texts('.registers .name') == ['Aaxis_Speed'])
+        visit.close()
+
+
+def burst(options):
+    """More frames than a page can take: it says how many are missing, and where."""
+    with Stage(options, 'bench.yaml') as stage:
+        (stage.folder / 'bench.yaml').write_text(BENCH.replace('link:', 'timing: instant\n    link:'), encoding='utf-8')
+        stage.start_daemon()
+        stage.start_page()
+        visit = stage.visit()
+        visit.show('Bus')
+        doing.select(visit, 'which frames', 'exceptions')  # so that those behind the hole do not fill the list
+        port = os.open(stage.port, os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(port)
+        request, end = bytes.fromhex('010300010001D5CA'), time.monotonic() + 3 * browse.PATIENCE_S
+        while not visit.find('.frames .missed') and time.monotonic() < end:
+            stage.page.send_signal(signal.SIGSTOP)  # it is slow; the daemon keeps 1,024 frames meanwhile
+            for _ in range(700):
+                os.write(port, request)
+                answer = b''
+                while len(answer) < 7:
+                    answer += os.read(port, 7 - len(answer))
+            stage.page.send_signal(signal.SIGCONT)
+            time.sleep(0.5)
+        os.close(port)
+        visit.until('a row tells of those that are missing', lambda: any('frames not shown' in text for text in visit.texts('.frames .missed')))
+        visit.until('and how many in all', lambda: 'not shown' in visit.texts('.bar .count')[0])
+        visit.picture('burst')
+        doing.select(visit, 'which frames', 'all')
+        capture = doing.saved(visit, 'a capture', 'save these frames as a capture')
+        if b'frames before this one are not here' not in capture:
+            browse.fail('the capture does not say what is missing in it')
+        visit.close()
+
+
 def restart(options):
     """The daemon goes, and comes back: the page says so, and heals by itself."""
     with Stage(options, '--model', 'simple2-r3', '--link', './host.port') as stage:
@@ -200,6 +250,14 @@ def recording(options):
             bar(), to)
         visit.until('there is a bar', bar)
         visit.until('with the failure on it', lambda: visit.find('.travel .marks .failed'))
+        for panel in browse.PANELS:
+            visit.show(panel)
+            time.sleep(0.3)
+            for button in visit.find('#panel button:not([disabled])'):
+                title = button.get_attribute('title') or button.text
+                if not HARMLESS.search(title):
+                    browse.fail(f'in a recording, which nothing changes, {panel} has a button: {title}')
+        visit.show('Axes')
         for to, fits in [(1, lambda: shown() == 32000), (0.5, lambda: 0 < shown() < 32000), (0, lambda: shown() == 0),
                          (0.5, lambda: 0 < shown() < 32000), (1, lambda: shown() == 32000)]:
             drag(to)
@@ -281,7 +339,7 @@ def does(options, part):
         visit.close()
 
 
-PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'restart': restart, 'recording': recording, 'crowd': crowd, 'firefox': firefox}
+PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'crowd': crowd, 'firefox': firefox}
 
 
 def main():
