@@ -96,7 +96,7 @@ std::optional<NamedPlace> find_register(const Model& model, std::string_view nam
 }
 
 std::string why_no_register(const Model& model, std::string_view name, Firmware firmware) {
-  static const RegisterMap none({}, MapPolicy{});
+  static const RegisterMap none(std::span<const RegisterRow>(), MapPolicy{});
   return (model.registers == nullptr ? none : *model.registers).why_not(name, firmware);
 }
 
