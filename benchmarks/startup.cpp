@@ -1,6 +1,9 @@
-// From exec to the `ready` line, beside the start and end of /bin/true.
+// Short runs of the program, and from exec to the `ready` line, beside the start and end of /bin/true.
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "benchmarks/figures.h"
 #include "benchmarks/understudy_server.h"
@@ -9,42 +12,58 @@ namespace understudy::benchmarks {
 
 namespace {
 
-constexpr double kBar = 50;  // starts and ends of /bin/true
-constexpr double kReadyBar_ms = 50;
 constexpr int kDefaultStarts = 40;
 
 double milliseconds(Nanoseconds time) { return static_cast<double>(time.count()) / 1e6; }
 
-double start_of_true() {
+Nanoseconds run_to_its_end(const std::vector<std::string>& command) {
   const Nanoseconds start = now();
-  if (Process::of_command({"/bin/true"}).wait() != 0) throw CannotRun("/bin/true failed");
-  return milliseconds(now() - start);
+  if (Process::of_command(command).wait() != 0) throw CannotRun(command.front() + " failed");
+  return now() - start;
 }
 
-double start_of_understudy(const std::string& executable, const std::string& model) {
+Nanoseconds run_until_ready(const std::string& executable, const std::string& model) {
   const Nanoseconds start = now();
   const UnderstudyServer server(executable, "wire", Process::kAnyProcessor, model);
-  return milliseconds(now() - start);
+  return now() - start;
+}
+
+struct Start {
+  std::string name;
+  std::function<Nanoseconds()> time;
+  double bar;  // starts and ends of /bin/true
+};
+
+void measure(const Start& start, int starts) {
+  std::vector<double> others;
+  std::vector<double> ours;
+  std::vector<double> ratios;
+  for (int i = 0; i < starts; ++i) {
+    others.push_back(milliseconds(run_to_its_end({"/bin/true"})));
+    ours.push_back(milliseconds(start.time()));
+    ratios.push_back(ours.back() / others.back());
+  }
+  std::printf("%-24s %8.2f %8.2f   /bin/true %8.2f %8.2f\n", start.name.c_str(), median(ours),
+              percentile(ours, 0.9), median(others), percentile(others, 0.9));
+  print_verdict((start.name + " against /bin/true, median of the pairs").c_str(), median(ratios), start.bar);
 }
 
 void run(const std::string& executable, int starts) {
-  std::printf("%d starts; milliseconds %10s %10s\n", starts, "median", "p90");
-  for (const std::string model : {"simple2-r3", "super-40nc"}) {
-    std::vector<double> others;
-    std::vector<double> ours;
-    std::vector<double> ratios;
-    for (int i = 0; i < starts; ++i) {
-      others.push_back(start_of_true());
-      ours.push_back(start_of_understudy(executable, model));
-      ratios.push_back(ours.back() / others.back());
-    }
-    std::printf("%-28s %10.2f %10.2f\n", "/bin/true", median(others), percentile(others, 0.9));
-    std::printf("%-28s %10.2f %10.2f\n", ("serve --model " + model).c_str(), median(ours),
-                percentile(ours, 0.9));
-    print_verdict(("from exec to ready, " + model + ", against /bin/true, median of the pairs").c_str(),
-                  median(ratios), kBar);
-    print_verdict(("from exec to ready, " + model + ", against 50 ms, median").c_str(),
-                  median(ours) / kReadyBar_ms, 1.00);
+  const UnderstudyServer running(executable, "wire");
+  const std::vector<std::string> look{executable, "ctl", "--control", running.control_socket(),
+                                      "get",      "time"};
+  std::printf("%d starts; milliseconds: median, p90\n", starts);
+  for (const Start& start : {
+           Start{"--version",
+                 [&] {
+                   return run_to_its_end({executable, "--version"});
+                 },
+                 2},
+           Start{"ctl get time", [&] { return run_to_its_end(look); }, 2},
+           Start{"exec to ready, simple2-r3", [&] { return run_until_ready(executable, "simple2-r3"); }, 4},
+           Start{"exec to ready, super-40nc", [&] { return run_until_ready(executable, "super-40nc"); }, 7},
+       }) {
+    measure(start, starts);
   }
 }
 

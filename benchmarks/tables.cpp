@@ -57,7 +57,7 @@ Read read_of(const std::string& what, std::uint8_t function, const Responder::Ra
 
 /// Serves it until it is killed.
 void serve(const Controller& controller, const std::string& folder) {
-  const emulator::Model* const models[] = {&controller.model};
+  const emulator::ListedModel models[] = {&controller.model};
   const emulator::world::Bench bench = emulator::world::parse_bench(
       models,
       std::string("understudy: 1\nlines:\n  rs485:\n    link: ./port\n    timing: instant\n    stations:\n") +

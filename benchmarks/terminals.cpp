@@ -39,7 +39,7 @@ const Model& model_without_groups() {
 }
 
 std::unique_ptr<World> make_world(const Model& model) {
-  const Model* const models[] = {&model};
+  const emulator::ListedModel models[] = {&model};
   auto world = std::make_unique<World>(
       emulator::world::parse_bench(
           models,

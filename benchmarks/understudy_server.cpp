@@ -20,10 +20,9 @@ UnderstudyServer::PrivateFolder::~PrivateFolder() {
 UnderstudyServer::UnderstudyServer(std::string executable, const std::string& timing, int processor,
                                    const std::string& model)
     : executable_(std::move(executable)),
-      process_(
-          Process::of_command({executable_, "serve", "--model", model, "--baud", "19200", "--timing", timing,
-                               "--control", folder_.path + "/control", "--link", folder_.path + "/port"},
-                              processor)) {
+      process_(Process::of_command({executable_, "serve", "--model", model, "--baud", "19200", "--timing",
+                                    timing, "--control", control_socket(), "--link", folder_.path + "/port"},
+                                   processor)) {
   std::istringstream ready(process_.read_line());  // ready <line> <pty path> <link path>
   std::string word;
   std::string line;
@@ -46,7 +45,7 @@ void UnderstudyServer::start_long_move() const {
 void UnderstudyServer::start_endless_move() const { control("command", "RSM_CONTINUE_MOVE Y 1000"); }
 
 void UnderstudyServer::control(const std::string& verb, const std::string& what) const {
-  Process ctl = Process::of_command({executable_, "ctl", "--control", folder_.path + "/control", verb, what});
+  Process ctl = Process::of_command({executable_, "ctl", "--control", control_socket(), verb, what});
   if (ctl.wait() != 0) throw CannotRun("understudy ctl " + verb + " " + what + " failed");
 }
 

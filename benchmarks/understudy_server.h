@@ -18,6 +18,7 @@ class UnderstudyServer {
 
   const Process& process() const { return process_; }
   const std::string& port() const { return port_; }  // /dev/pts/N
+  std::string control_socket() const { return folder_.path + "/control"; }
 
   /// Starts axis A on a move that lasts for days, so that every tick has something to do.
   void start_long_move() const;

@@ -1,6 +1,6 @@
 # Sourced by ./run and ./test: what they need from Debian, how it is installed, and how CMake is called.
 
-build_packages=(g++ cmake ninja-build ccache pkg-config libboost-dev libcli11-dev libmodbus-dev libspdlog-dev
+build_packages=(g++ cmake ninja-build ccache pkg-config libboost-dev libcli11-dev libmodbus-dev
                 libyaml-cpp-dev nlohmann-json3-dev libsqlite3-dev libgtest-dev libeigen3-dev)
 host_packages=(mbpoll python3-serial expect)
 plot_packages=(gnuplot-nox)

@@ -26,8 +26,8 @@ void for_each(const CommandWords& command, const std::string& path,
 
 std::string names_of(ModelList models) {
   std::string names;
-  for (const Model* const model : models) {
-    names += (names.empty() ? "" : " ") + std::string(model->name);
+  for (const ListedModel& model : models) {
+    names += (names.empty() ? "" : " ") + std::string(model.name());
   }
   return names;
 }

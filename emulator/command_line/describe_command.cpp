@@ -32,7 +32,7 @@ const Model& demand_model(ModelList models, const std::string& name, std::vector
   if (const Model* model = find_model(models, name)) return *model;
   if (names_model_file(name)) return described_model(models, name, files);
   std::vector<std::string> names;
-  for (const Model* model : models) names.emplace_back(model->name);
+  for (const ListedModel& model : models) names.emplace_back(model.name());
   throw UsageError(quoted(name) + " is not a model" + suggestion(name, names) +
                    " (`understudy models` lists them; a model file ends in .yaml)");
 }

@@ -39,9 +39,9 @@ ProgramMistake no_program(const Model& model) {
 }
 
 const Model* find_model(ModelList models, std::string_view name) {
-  const auto has_name = [&](const Model* model) { return model->name == name; };
+  const auto has_name = [&](const ListedModel& model) { return model.name() == name; };
   const auto found = std::find_if(models.begin(), models.end(), has_name);
-  return found == models.end() ? nullptr : *found;
+  return found == models.end() ? nullptr : static_cast<const Model*>(*found);
 }
 
 bool names_model_file(std::string_view name) { return name.ends_with(".yaml") || name.ends_with(".yml"); }
@@ -96,7 +96,7 @@ std::optional<NamedPlace> find_register(const Model& model, std::string_view nam
 }
 
 std::string why_no_register(const Model& model, std::string_view name, Firmware firmware) {
-  static const RegisterMap none({}, MapPolicy{});
+  static const RegisterMap none(std::span<const RegisterRow>(), MapPolicy{});
   return (model.registers == nullptr ? none : *model.registers).why_not(name, firmware);
 }
 

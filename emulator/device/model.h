@@ -229,15 +229,33 @@ class ModelFiles {
   virtual const Model& parse(const std::string& text, const std::string& name) = 0;
 };
 
+/// A model that a list knows by its name. Its tables are made when somebody asks for it: that takes longer
+/// than most commands do.
+class ListedModel {
+ public:
+  constexpr ListedModel(std::string_view name, const Model& (*make)()) : name_(name), make_(make) {}
+  ListedModel(const Model* made) : name_(made->name), made_(made) {}  // NOLINT(google-explicit-constructor)
+
+  std::string_view name() const { return name_; }
+  operator const Model*() const {  // NOLINT(google-explicit-constructor): in place of the model itself
+    return made_ != nullptr ? made_ : &make_();
+  }
+
+ private:
+  std::string_view name_;
+  const Model* made_ = nullptr;
+  const Model& (*make_)() = nullptr;
+};
+
 /// The models that benches may name, handed down by whoever knows them; and what makes models of files, null
 /// where none are read.
-struct ModelList : std::span<const Model* const> {
-  using std::span<const Model* const>::span;
-  ModelList(std::span<const Model* const> listed, ModelFiles* reader)
-      : std::span<const Model* const>(listed), files(reader) {}
+struct ModelList : std::span<const ListedModel> {
+  using std::span<const ListedModel>::span;
+  ModelList(std::span<const ListedModel> listed, ModelFiles* reader)
+      : std::span<const ListedModel>(listed), files(reader) {}
   ModelFiles* files = nullptr;
 };
-/// Null if there is none of that name.
+/// Null if there is none of that name. Makes no other.
 const Model* find_model(ModelList models, std::string_view name);
 /// Whether a model is named by its file: "drive.yaml".
 bool names_model_file(std::string_view name);

@@ -3,7 +3,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +19,7 @@
 
 namespace understudy::emulator::model_file {
 
-DescribedModels::DescribedModels(std::span<const Model* const> house) : house_(house) {}
+DescribedModels::DescribedModels(ModelList house) : house_(house) {}
 DescribedModels::~DescribedModels() = default;
 
 const Model& DescribedModels::load(const std::string& path, std::vector<FileClaim>& files) {
@@ -38,8 +37,8 @@ const Model& DescribedModels::parse(const std::string& text, const std::string& 
 const Model& DescribedModels::read(const std::string& text, const std::string& name, bool may_read,
                                    std::vector<FileClaim>& files) {
   models::imported::Description described = read_model(text, name, may_read, files);
-  for (const Model* const model : house_) {
-    if (model->name != described.name) continue;
+  for (const ListedModel& model : house_) {
+    if (model.name() != described.name) continue;
     world::YamlFields::parse(text, name, "model", "a model")
         .at("model")
         .fail(quoted(described.name) + " is a model of this program's own; expected another name");

@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,7 @@ namespace understudy::emulator::model_file {
 class DescribedModels final : public ModelFiles {
  public:
   /// `house`: those that have their names already.
-  explicit DescribedModels(std::span<const Model* const> house);
+  explicit DescribedModels(ModelList house);
   ~DescribedModels() override;
 
   const Model& load(const std::string& path, std::vector<FileClaim>& files) override;
@@ -29,7 +28,7 @@ class DescribedModels final : public ModelFiles {
   const Model& read(const std::string& text, const std::string& name, bool may_read,
                     std::vector<FileClaim>& files);
 
-  const std::span<const Model* const> house_;
+  const ModelList house_;
   std::mutex mutex_;
   std::map<std::string, std::unique_ptr<models::imported::ImportedModel>> models_;  // by their whole text
 };

@@ -112,7 +112,10 @@ void read_bits(const YamlFields& field, Description& made, Complaints& complaint
 std::unique_ptr<RegisterMap> plain_map(const Description& made, std::vector<std::vector<BitField>>& fields,
                                        const YamlFields& list) {
   try {
-    return std::make_unique<RegisterMap>(models::imported::plain_rows(made.registers, fields), made.policy);
+    auto map =
+        std::make_unique<RegisterMap>(models::imported::plain_rows(made.registers, fields), made.policy);
+    map->demand_distinct_names();
+    return map;
   } catch (const std::logic_error& error) {
     list.fail(std::string(error.what()) + "; expected a list of which a map can be made");
   }

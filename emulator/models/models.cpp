@@ -11,9 +11,11 @@
 namespace understudy::emulator::models {
 
 ModelList all_models() {
-  static const std::array<const Model*, 4> models{&rs_m8194h::model(), &simple2_r3::model(), &slim::model(),
-                                                  &super_40nc::model()};
-  return models;
+  static constexpr std::array<ListedModel, 4> kModels{{{rs_m8194h::kName, rs_m8194h::model},
+                                                       {simple2_r3::kName, simple2_r3::model},
+                                                       {slim::kName, slim::model},
+                                                       {super_40nc::kName, super_40nc::model}}};
+  return kModels;
 }
 
 }  // namespace understudy::emulator::models

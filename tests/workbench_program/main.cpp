@@ -7,7 +7,7 @@
 
 int main(int argc, char** argv) {
   using namespace understudy::emulator;
-  std::vector<const Model*> models(models::all_models().begin(), models::all_models().end());
+  std::vector<ListedModel> models(models::all_models().begin(), models::all_models().end());
   models.push_back(&workbench::model());
   return command_line::run_program(argc, argv, models);
 }

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <new>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -22,13 +24,7 @@
 namespace understudy::emulator {
 
 std::string RegisterMap::name_of(const RegisterRow& row, int index, std::string_view pattern) {
-  const std::size_t hole = pattern.find("{}");
-  if (hole == std::string_view::npos) return std::string(pattern);
-  const auto label = static_cast<std::size_t>(index);
-  return std::string(pattern.substr(0, hole)) +
-         (row.labels.empty() ? std::to_string(row.first_number + index * row.number_step)
-                             : std::string(row.labels[label])) +
-         std::string(pattern.substr(hole + 2));
+  return RegisterNames::name_of(row, index, pattern);
 }
 
 std::string RegisterMap::name_of(const RegisterRow& row, int index) { return name_of(row, index, row.name); }
@@ -55,7 +51,22 @@ bool reads_plainly(const RegisterRow& row) {
 }  // namespace
 
 RegisterMap::RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy)
-    : rows_(rows.begin(), rows.end()), policy_(policy) {
+    : rows_(rows), names_(rows_), policy_(policy) {
+  place_all();
+}
+
+RegisterMap::RegisterMap(std::vector<RegisterRow> rows, MapPolicy policy)
+    : kept_rows_(std::move(rows)), rows_(kept_rows_), names_(rows_), policy_(policy) {
+  place_all();
+}
+
+void RegisterMap::Entries::make() {
+  constexpr std::size_t kAddresses = 65'536;
+  all.reset(static_cast<Entry*>(std::calloc(kAddresses, sizeof(Entry))));
+  if (all == nullptr) throw std::bad_alloc();
+}
+
+void RegisterMap::place_all() {
   if (rows_.size() >= UINT16_MAX)
     throw std::logic_error("register map: too many rows; expected 65,534 at most");
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -64,29 +75,26 @@ RegisterMap::RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy)
     const int first_slot = row.is_view ? Place::kNoSlot : slot_count_;
     first_slots_.push_back(first_slot);
     place_words(row, static_cast<int>(i) + 1);
-    name_places(row, first_slot);
     if (!row.is_view) slot_count_ += row.count;
   }
   for (const Table bits : {Table::coil, Table::discrete})
     find_bit_sources(tables_[static_cast<std::size_t>(bits)]);
   for (const Table words : {Table::holding, Table::input})
     find_stored_pairs(tables_[static_cast<std::size_t>(words)]);
-  if (policy.word_order_in.empty()) return;
-  const auto& holding = tables_[static_cast<std::size_t>(Table::holding)].names;
-  if (!holding.contains(std::string(policy.word_order_in))) {
-    throw std::logic_error("register map: " + std::string(policy.word_order_in) +
+  if (!policy_.word_order_in.empty() && !names_.find(Table::holding, policy_.word_order_in)) {
+    throw std::logic_error("register map: " + std::string(policy_.word_order_in) +
                            " is to have the order of words, but is not a holding register");
   }
 }
 
 void RegisterMap::place_words(const RegisterRow& row, int row_number) {
   TableIndex& table = tables_[static_cast<std::size_t>(row.table)];
-  if (table.entries.empty()) table.entries.resize(65536);
+  if (table.entries.empty()) table.entries.make();
   const int words = is_32_bit(row.type) ? 2 : 1;
   for (int index = 0; index < row.count; ++index) {
     for (int word = 0; word < words; ++word) {
       const int address = row.address + index * row.stride + word;
-      Entry& entry = table.entries.at(static_cast<std::size_t>(address));
+      Entry& entry = table.entries[static_cast<std::size_t>(address)];
       if (entry.row_number != 0) {
         const RegisterRow& other = rows_[entry.row_number - 1U];
         throw std::logic_error("register map: " + name_of(row, index) + " shares its address with " +
@@ -134,32 +142,6 @@ void RegisterMap::find_stored_pairs(TableIndex& table) const {
     if (!is_32_bit(row.type) || row.is_view || row.reader != nullptr || !reads_plainly(row)) continue;
     table.pairs.resize(address + 1, Place::kNoSlot);
     table.pairs[address] = first_slots_[entry.row_number - 1U] + entry.index_and_part / 2;
-  }
-}
-
-void RegisterMap::add_name(const std::string& name, const Place& place) {
-  if (!tables_[static_cast<std::size_t>(place.row->table)].names.emplace(name, place).second) {
-    throw std::logic_error("register map: two registers are named " + name);
-  }
-  names_in_order_.push_back(name);
-}
-
-void RegisterMap::name_places(const RegisterRow& row, int first_slot) {
-  for (int index = 0; index < row.count; ++index) {
-    Place place{.row = &row, .index = index, .slot = row.is_view ? Place::kNoSlot : first_slot + index};
-    for (const std::string_view pattern : {row.name, row.alias}) {
-      if (pattern.empty()) continue;
-      const bool is_of_the_first = row.count > 1 && pattern.find("{}") == std::string_view::npos;
-      if (is_of_the_first && index > 0) continue;
-      const std::string name = name_of(row, index, pattern);
-      place.part = Place::Part::whole;
-      add_name(name, place);
-      if (!is_32_bit(row.type)) continue;
-      place.part = Place::Part::low;
-      add_name(name + std::string(row.low_half), place);
-      place.part = Place::Part::high;
-      add_name(name + std::string(row.high_half), place);
-    }
   }
 }
 
@@ -252,12 +234,15 @@ std::string expected_bits(const Place& place) {
 std::vector<Place> RegisterMap::places_called(std::optional<Table> table, std::string_view name,
                                               Firmware firmware) const {
   std::vector<Place> places;
-  const std::string key(name);
   for (const auto& [word, listed] : kTables) {
-    if (table && *table != listed) continue;
-    const auto& names = tables_[static_cast<std::size_t>(listed)].names;
-    const auto it = names.find(key);
-    if (it != names.end() && firmware >= it->second.row->since) places.push_back(it->second);
+    if ((table && *table != listed) || !has(listed)) continue;
+    const auto named = names_.find(listed, name);
+    if (!named || firmware < rows_[named->row].since) continue;
+    const RegisterRow& row = rows_[named->row];
+    places.push_back({.row = &row,
+                      .index = named->index,
+                      .slot = row.is_view ? Place::kNoSlot : first_slots_[named->row] + named->index,
+                      .part = named->part});
   }
   return places;
 }
@@ -314,7 +299,9 @@ std::string RegisterMap::why_not(std::string_view name, Firmware firmware) const
            std::string(to_string(places_called(std::nullopt, base, firmware).front().row->table)) + "." +
            std::string(alone);
   }
-  return "no register is called " + quoted(name) + suggestion(base, names_in_order_);
+  std::vector<std::string> names;
+  names_.for_each([&](const RegisterNames::Named&, const std::string& one) { names.push_back(one); });
+  return "no register is called " + quoted(name) + suggestion(base, names);
 }
 
 std::string_view to_string(Table table) {

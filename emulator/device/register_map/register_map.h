@@ -4,13 +4,15 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
+#include "emulator/device/register_map/register_names.h"
 #include "emulator/device/register_map/row.h"
 
 namespace understudy::emulator {
@@ -22,7 +24,8 @@ struct Place {
   const RegisterRow* row = nullptr;
   int index = 0;
   int slot = 0;  // in the register image; kNoSlot: a view of other state
-  enum class Part : std::uint8_t { whole, low, high } part = Part::whole;
+  using Part = RegisterPart;
+  Part part = Part::whole;
 
   explicit operator bool() const { return row != nullptr; }
   std::uint16_t address() const {  // of the whole's first word
@@ -59,9 +62,11 @@ struct BitSource {
 
 class RegisterMap {
  public:
-  /// Throws std::logic_error if two rows of a table claim one address or one name, or a row does not make
-  /// sense.
+  /// Of rows that outlive it. Throws std::logic_error if two rows of a table claim one address, or a row does
+  /// not make sense.
   RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy);
+  /// The same of rows that it keeps.
+  RegisterMap(std::vector<RegisterRow> rows, MapPolicy policy);
   RegisterMap(const RegisterMap&) = delete;  // places point into it
   RegisterMap& operator=(const RegisterMap&) = delete;
 
@@ -101,11 +106,12 @@ class RegisterMap {
   static std::string name_of(const RegisterRow& row, int index, std::string_view pattern);
   /// The same with its table in front where another table has that name as well: find() finds it by that.
   std::string unique_name(const RegisterRow& row, int index) const;
+  /// Throws std::logic_error if two registers of a table have one name.
+  void demand_distinct_names() const { names_.demand_distinct(); }
 
  private:
   void place_words(const RegisterRow& row, int row_number);
-  void name_places(const RegisterRow& row, int first_slot);
-  void add_name(const std::string& name, const Place& place);
+  void place_all();
   /// Those of a name, in one table or all of them, by this firmware.
   std::vector<Place> places_called(std::optional<Table> table, std::string_view name,
                                    Firmware firmware) const;
@@ -115,22 +121,33 @@ class RegisterMap {
     std::uint16_t row_number = 0;
     std::uint16_t index_and_part = 0;  // index * 2 + (second word)
   };
+  /// One for each address that there can be. The kernel gives the pages that something is in, and no others.
+  struct Entries {
+    Entry& operator[](std::size_t address) { return all.get()[address]; }
+    Entry operator[](std::size_t address) const { return all.get()[address]; }
+    bool empty() const { return all == nullptr; }
+    void make();
+    struct Free {
+      void operator()(Entry* entries) const { std::free(entries); }
+    };
+    std::unique_ptr<Entry, Free> all;
+  };
   struct TableIndex {
-    std::vector<Entry> entries;  // 65,536, or none if the model has no such table
+    Entries entries;  // empty if the model has no such table
     int end = 0;
-    std::unordered_map<std::string, Place> names{};  // looked up, never iterated
-    std::vector<BitSource> bits{};                   // by address
-    std::vector<std::int32_t> pairs{};               // by address
+    std::vector<BitSource> bits{};      // by address
+    std::vector<std::int32_t> pairs{};  // by address
   };
   void find_bit_sources(TableIndex& table) const;
   void find_stored_pairs(TableIndex& table) const;
 
-  std::vector<RegisterRow> rows_;
+  std::vector<RegisterRow> kept_rows_;
+  std::span<const RegisterRow> rows_;
+  RegisterNames names_;
   std::vector<int> first_slots_;
   MapPolicy policy_;
   int slot_count_ = 0;
   std::array<TableIndex, 4> tables_;
-  std::vector<std::string> names_in_order_;
 };
 
 /// "holding", "input", "coil", "discrete".

@@ -95,7 +95,7 @@ const Model& model() {
                                                            .low_word_first = false,
                                                            .word_order_in = "WORD_ORDER"});
   static const Model model{
-      .name = "rs-m8194h",
+      .name = kName,
       .title = "4-axis motion controller with macros, Modbus RTU",
       .firmwares = kFirmwares,
       .registers = &registers,

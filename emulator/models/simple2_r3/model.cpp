@@ -119,7 +119,7 @@ constexpr SectionRow kSections[] = {
 const Model& model() {
   static const RegisterMap registers(kRegisters, MapPolicy{});
   static const Model model{
-      .name = "simple2-r3",
+      .name = kName,
       .title = "2-axis pulse controller, Modbus RTU on RS485",
       .firmwares = kFirmwares,
       .registers = &registers,

@@ -129,7 +129,7 @@ const Model& model() {
   static const std::vector<CommandRow> commands = command_rows();
   static const std::vector<NamedParameterRow> parameters = parameter_rows();
   static const Model model{
-      .name = "slim",
+      .name = kName,
       .title = "chain of up to 8 integrated servos, ASCII commands on RS232",
       .firmwares = kFirmwares,
       .named_parameters = parameters,

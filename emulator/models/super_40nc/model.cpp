@@ -103,7 +103,7 @@ constexpr SectionRow kSections[] = {
 const Model& model() {
   static const RegisterMap registers(kRegisters, kPolicy);
   static const Model model{
-      .name = "super-40nc",
+      .name = kName,
       .title = "4-axis motion controller with a PLC, Modbus RTU on RS232 and RS485",
       .firmwares = kFirmwares,
       .registers = &registers,

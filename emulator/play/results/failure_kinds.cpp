@@ -1,5 +1,6 @@
 #include "emulator/play/results/failure_kinds.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <string>
@@ -15,11 +16,69 @@ bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0
 bool is_digit_or_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_figure(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// With # for each number and its unit; what is in a name (Aaxis_2, STATUS.4) stays.
+bool is_hex(char c) { return is_figure(c) || (c >= 'A' && c <= 'F'); }
+
+/// Whether a byte stands here as frames are told: "C0", and nothing that goes on.
+bool is_byte_at(std::string_view text, std::size_t at) {
+  return at + 2 <= text.size() && is_hex(text[at]) && is_hex(text[at + 1]) &&
+         (at == 0 || !(is_digit_or_letter(text[at - 1]) || text[at - 1] == '.')) &&
+         (at + 2 == text.size() || !is_digit_or_letter(text[at + 2])) &&
+         (at + 3 >= text.size() || text[at + 2] != '.' || !is_digit_or_letter(text[at + 3]));
+}
+
+/// How long the bytes are that begin here: "01 03 C0 B8". A single one may as well be a name, unless nothing
+/// more is said of it.
+std::size_t length_of_bytes(std::string_view text, std::size_t begin) {
+  std::size_t end = begin;
+  for (std::size_t at = begin; is_byte_at(text, at) && (at == begin || text[at - 1] == ' '); at += 3) {
+    end = at + 2;
+  }
+  if (end - begin > 2) return end - begin;
+  const bool says_no_more = end == text.size() || text[end] == ';' || text[end] == ',';
+  return says_no_more ? end - begin : 0;
+}
+
+/// Of what one of these words says in hexadecimal digits alone: a digest, or bytes behind an equals sign.
+std::size_t length_of_hex(std::string_view text, std::size_t begin) {
+  constexpr std::size_t kDigest = 8;
+  if (begin > 0 && (is_digit_or_letter(text[begin - 1]) || text[begin - 1] == '.')) return 0;
+  std::size_t end = begin;
+  while (end < text.size() && std::isxdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
+  if (end < text.size() && (is_digit_or_letter(text[end]) || text[end] == '.')) return 0;
+  const std::string_view word = text.substr(begin, end - begin);
+  const bool has_figure = word.find_first_of("0123456789") != std::string_view::npos;
+  const bool is_behind_equals = begin > 0 && text[begin - 1] == '=' && word.size() % 2 == 0;
+  return has_figure && (word.size() >= kDigest || is_behind_equals) ? word.size() : 0;
+}
+
+/// "\x0d", as what cannot be printed is told.
+std::size_t length_of_escape(std::string_view text, std::size_t at) {
+  const bool is_one = text.substr(at).starts_with("\\x") && at + 4 <= text.size() &&
+                      std::isxdigit(static_cast<unsigned char>(text[at + 2])) != 0 &&
+                      std::isxdigit(static_cast<unsigned char>(text[at + 3])) != 0;
+  return is_one ? 4 : 0;
+}
+
+/// One for all that stand side by side, as bytes and numbers look alike.
+void add_sign(std::string& made) {
+  if (made.ends_with("# ")) {
+    made.pop_back();
+  } else {
+    made += '#';
+  }
+}
+
+/// With # for numbers and their units and for bytes, however many; what is in a name (Aaxis_2, STATUS.4)
+/// stays.
 std::string without_numbers(std::string_view text) {
   std::string made;
   for (std::size_t at = 0; at < text.size();) {
-    if (is_letter(text[at])) {
+    const std::size_t hex =
+        std::max({length_of_bytes(text, at), length_of_hex(text, at), length_of_escape(text, at)});
+    if (hex > 0) {
+      at += hex;
+      add_sign(made);
+    } else if (is_letter(text[at])) {
       // A name, with all that its dots join.
       while (at < text.size() && (is_digit_or_letter(text[at]) || (text[at] == '.' && at + 1 < text.size() &&
                                                                    is_digit_or_letter(text[at + 1])))) {
@@ -31,7 +90,7 @@ std::string without_numbers(std::string_view text) {
                                   (text[at] == '.' && at + 1 < text.size() && is_figure(text[at + 1])))) {
         ++at;
       }
-      made += '#';
+      add_sign(made);
     } else {
       made += text[at++];
     }

@@ -1,5 +1,5 @@
 // Failures by kind: a thousand cases that fail for one reason are one thing to look at. Two failures are of
-// one kind if the same step failed with the same words, whatever the numbers in them.
+// one kind if the same step failed with the same words, whatever the numbers and bytes in them.
 #pragma once
 
 #include <cstdint>

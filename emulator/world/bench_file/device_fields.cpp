@@ -133,7 +133,7 @@ const Model& demand_model(ModelList models, const YamlFields& field, const std::
     return models.files->load(path, bench.files);
   }
   std::vector<std::string> names;
-  for (const Model* known : models) names.emplace_back(known->name);
+  for (const ListedModel& known : models) names.emplace_back(known.name());
   field.fail(understudy::quoted(name) + " is not a model" + suggestion(name, names));
 }
 

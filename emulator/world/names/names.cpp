@@ -14,10 +14,11 @@
 
 namespace understudy::emulator::world {
 
-std::vector<const Model*> models_of(const KnownDevices& devices) {
-  std::vector<const Model*> models;
+std::vector<ListedModel> models_of(const KnownDevices& devices) {
+  std::vector<ListedModel> models;
   for (const KnownDevice& device : devices) {
-    if (std::find(models.begin(), models.end(), device.model) == models.end()) models.push_back(device.model);
+    if (std::find(models.begin(), models.end(), device.model) == models.end())
+      models.emplace_back(device.model);
   }
   return models;
 }

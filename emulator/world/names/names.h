@@ -29,7 +29,7 @@ struct KnownDevice {
 using KnownDevices = std::vector<KnownDevice>;
 
 /// The models that they are of, each once.
-std::vector<const Model*> models_of(const KnownDevices& devices);
+std::vector<ListedModel> models_of(const KnownDevices& devices);
 
 /// All of these throw NameError.
 struct RegisterName {

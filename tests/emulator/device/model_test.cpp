@@ -41,6 +41,53 @@ TEST(Models, HaveNamesOfTheirOwn) {
   EXPECT_EQ(find_model(models::all_models(), "SIMPLE2-R3"), nullptr);
 }
 
+TEST(Models, AreMadeOnlyWhenAskedFor) {
+  static int made = 0;
+  const ListedModel listed[] = {{"first",
+                                 []() -> const Model& {
+                                   ++made;
+                                   return simple2();
+                                 }},
+                                {"second", []() -> const Model& { return simple2(); }}};
+  const ModelList models(listed);
+  EXPECT_EQ(find_model(models, "third"), nullptr);
+  EXPECT_EQ(find_model(models, "second"), &simple2());
+  EXPECT_EQ(made, 0);
+  EXPECT_EQ(find_model(models, "first"), &simple2());
+  EXPECT_EQ(made, 1);
+}
+
+TEST(Models, AreListedByTheirOwnNames) {
+  for (const ListedModel& listed : models::all_models()) {
+    const Model* const model = listed;
+    EXPECT_EQ(listed.name(), model->name);
+  }
+}
+
+TEST(Models, GiveEachRegisterANameOfItsOwn) {
+  for (const Model* model : models::all_models()) {
+    if (model->registers == nullptr) continue;
+    EXPECT_NO_THROW(model->registers->demand_distinct_names()) << model->name;
+  }
+}
+
+TEST(Models, FindEachRegisterByItsName) {
+  for (const Model* model : models::all_models()) {
+    int count = 0;
+    for (const RegisterRow& row : register_rows(*model)) {
+      for (int index = 0; index < row.count; ++index, ++count) {
+        const auto found =
+            model->registers->find(model->registers->unique_name(row, index), model->firmwares.back());
+        ASSERT_TRUE(found) << RegisterMap::name_of(row, index);
+        EXPECT_EQ(found->place.row, &row);
+        EXPECT_EQ(found->place.index, index);
+        EXPECT_EQ(found->place.part, Place::Part::whole);
+      }
+    }
+    EXPECT_EQ(count > 0, model->registers != nullptr) << model->name;
+  }
+}
+
 TEST(Firmware, IsWrittenWithTwoDecimals) {
   const std::vector<std::pair<std::string_view, Firmware>> versions = {
       {"1.52", 152}, {"1.40", 140}, {"0.01", 1}, {"9.99", 999}};

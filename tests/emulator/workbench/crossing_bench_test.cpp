@@ -17,7 +17,7 @@ namespace crossing_bench_test {
 
 using world::World;
 
-const Model* const kModels[] = {&model()};
+const ListedModel kModels[] = {&model()};
 
 class Course {
  public:

@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 using motion::Signal;
 using world::World;
 
-const Model* const kModels[] = {&model()};
+const ListedModel kModels[] = {&model()};
 
 //   lower             home        near home            upper
 //   ════╗           ╔══════╗    ╔═══════════╗        ╔══════

@@ -27,7 +27,7 @@ namespace language_test {
 
 using Json = nlohmann::json;
 
-const Model* const kModels[] = {&model()};
+const ListedModel kModels[] = {&model()};
 
 const std::string kGood =
     "; two areas and a file\n"

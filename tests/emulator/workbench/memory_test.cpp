@@ -24,7 +24,7 @@ namespace memory_test {
 using namespace std::chrono_literals;
 
 world::Bench bench_with(const std::string& nv = "") {
-  const Model* const models[] = {&model()};
+  const ListedModel models[] = {&model()};
   return world::parse_bench(models,
                             "understudy: 1\nlines:\n  rs485:\n    timing: instant\n    stations:\n"
                             "      - { name: it, model: workbench" +

@@ -28,7 +28,7 @@ using play::RunOptions;
 using play::Scenario;
 using play::ScenarioResult;
 
-const Model* const kModels[] = {&model()};
+const ListedModel kModels[] = {&model()};
 
 std::vector<Scenario> parsed(const std::string& steps) {
   return play::parse_scenarios(kModels,

@@ -17,7 +17,7 @@ namespace served_names_test {
 
 using Json = nlohmann::json;
 
-const Model* const kModels[] = {&model()};
+const ListedModel kModels[] = {&model()};
 
 world::Bench bench_with(const std::string& set) {
   return world::parse_bench(kModels,

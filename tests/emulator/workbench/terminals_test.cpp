@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 using Json = nlohmann::json;
 using world::World;
 
-const Model* const kModels[] = {&model()};
+const ListedModel kModels[] = {&model()};
 
 const std::string kBench = "lines: { a: { timing: instant, stations: [ { name: it, model: workbench } ] } }";
 

@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::workbench {
 
-inline const Model* const kWorkbenchModels[] = {&model()};
+inline const ListedModel kWorkbenchModels[] = {&model()};
 
 /// Lines "pc" and "hmi"; what is said of each, behind its name, and what follows.
 inline std::string two_lines_text(const std::string& of_line = "", const std::string& more = "") {

@@ -52,7 +52,7 @@ std::string complaint_of_text(std::string steps) {
 
 /// Of steps that send commands by name: to the tests' own controller, which has some.
 std::string complaint_of_commands(const std::string& steps) {
-  const Model* const models[] = {&workbench::model()};
+  const ListedModel models[] = {&workbench::model()};
   try {
     parse_scenarios(models,
                     "understudy: 1\nname: page\nbench: { lines: { serial: { stations: "

@@ -280,8 +280,8 @@ inline Bench echo_bench(pty::Timing timing = pty::Timing::wire, DeviceSettings s
 
 /// The controllers that there are, and this one.
 inline ModelList models_and_echo_box() {
-  static const std::vector<const Model*> models = [] {
-    std::vector<const Model*> list(models::all_models().begin(), models::all_models().end());
+  static const std::vector<ListedModel> models = [] {
+    std::vector<ListedModel> list(models::all_models().begin(), models::all_models().end());
     list.push_back(&echo_box());
     return list;
   }();

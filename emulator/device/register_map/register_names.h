@@ -1,0 +1,62 @@
+// What the registers of a model's rows are called, and which of them a name means. A row names thousands by
+// one pattern ("D{}"): names are found by it, and written down nowhere.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/device/register_map/row.h"
+
+namespace understudy::emulator {
+
+/// Of a 32-bit register, whose halves have names as well.
+enum class RegisterPart : std::uint8_t { whole, low, high };
+
+class RegisterNames {
+ public:
+  /// The rows outlive it.
+  explicit RegisterNames(std::span<const RegisterRow> rows);
+
+  struct Named {
+    std::size_t row = 0;  // its number
+    int index = 0;        // of the register in it
+    RegisterPart part = RegisterPart::whole;
+  };
+  std::optional<Named> find(Table table, std::string_view name) const;
+
+  /// Every name, in the order of the rows.
+  void for_each(const std::function<void(const Named& named, const std::string& name)>& act) const;
+  /// Throws std::logic_error if two registers of a table have one name. That takes as long as looking all of
+  /// them up: for what is made of a user's file, and for tests of our own rows.
+  void demand_distinct() const;
+
+  /// "MAIN_LINE" + number + "_CMD": a row's register by one of its patterns.
+  static std::string name_of(const RegisterRow& row, int index, std::string_view pattern);
+
+ private:
+  /// By what a name begins with: all before the "{}", or all of it.
+  struct Pattern {
+    std::uint32_t hash = 0;
+    std::uint32_t next = 0;  // of those in the same bucket, counted from 1; 0: none
+    std::uint16_t row = 0;
+    bool is_alias = false;
+    RegisterPart part = RegisterPart::whole;
+  };
+  std::string_view text_of(const Pattern& pattern) const;
+  std::optional<int> index_of(const Pattern& pattern, std::size_t begins_with, std::string_view name) const;
+  template <typename Act>
+  void for_each_match(Table table, std::string_view name, Act act) const;
+
+  std::span<const RegisterRow> rows_;
+  std::vector<Pattern> patterns_;
+  std::vector<std::uint32_t> buckets_;  // a power of two of them
+  std::size_t longest_ = 0;             // beginning
+};
+
+}  // namespace understudy::emulator
