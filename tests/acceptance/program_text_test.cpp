@@ -129,4 +129,39 @@ TEST(ProgramTexts, AreDescribed) {
 }
 
 }  // namespace program_text_test
+/// However a program comes to a device: of check each file has its own, run and serve tell each once.
+TEST(ProgramTexts, WarningsOfBenchesAndScenariosAreTold) {
+  const PrivateFolder folder;
+  const std::string listing = folder.write("lab.lst", "AREA C\nLAB K1\nLAB K1\nJMP K2\nEND\n");
+  const std::string head =
+      "understudy: 1\nlines: { a: { timing: instant, stations: [ { device: m, port: RS232 } ] } }\n"
+      "devices: { m: { model: super-40nc, program: ";
+  const std::string bench = folder.write("bench.yaml", head + "lab.lst } }\n");
+  const std::string inside =
+      folder.write("inside.yaml", head + "\"AREA X\\nLAB K4\\nLAB K4\\nEND\\n\" } }\n");
+  const std::string scenario = folder.write(
+      "scenario.yaml",
+      "understudy: 1\nname: warns\nbench: bench.yaml\nsteps:\n  - for:\n      each: [ 1, 2 ]\n"
+      "      as: n\n      steps:\n        - program:\n            m: |\n              AREA X\n"
+      "              LAB K4\n              LAB K4\n              END\n  - program: { m: lab.lst }\n");
+  const std::string of_listing =
+      listing + ":3:1: warning: label K1 appears twice; expected one, as in line 2\n" + listing +
+      ":4:1: warning: JMP K2 names a label that the area does not have; expected LAB K2\n";
+  const std::string of_step =
+      scenario +
+      ":9: warning: program: line 3, column 1: label K4 appears twice; expected one, as in line 2\n";
+  const Finished checked = understudy({"check", bench});
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_EQ(checked.errors, of_listing);
+  EXPECT_EQ(understudy({"check", inside}).errors,
+            "m.program:3:1: warning: label K4 appears twice; expected one, as in line 2\n");
+  EXPECT_EQ(understudy({"check", scenario}).errors, of_listing + of_step);
+  EXPECT_EQ(understudy({"run", scenario, scenario}).errors, of_listing + of_step);
+  EXPECT_EQ(understudy({"run", "--filter", "*other*", scenario}).errors.find("warning"), std::string::npos);
+  const std::string served = understudy({"exec", bench, "--", "true"}).errors;
+  EXPECT_NE(served.find("understudy: " + of_listing.substr(0, of_listing.find('\n') + 1)), std::string::npos)
+      << served;
+  EXPECT_EQ(served.find("appears twice"), served.rfind("appears twice"));
+}
+
 }  // namespace understudy::acceptance
