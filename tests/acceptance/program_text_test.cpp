@@ -114,8 +114,9 @@ TEST(ProgramTexts, OfSlimAreCheckedAndAreNoNumbers) {
   const PrivateFolder folder;
   const std::string file = folder.write("a.slim", "; a remark\nMA 100\n  NONSENSE\n$A DN\n$A DN\n");
   EXPECT_EQ(with_workbench({"check", "--model", "slim", file}).errors,
-            file + ":3:3: is not a command; expected one of `understudy describe slim commands`\n" + file +
-                ":5:1: begins with a label that another line has\n");
+            file +
+                ":3:3: 'NONSENSE' is not a command; expected one of `understudy describe slim commands`\n" +
+                file + ":5:1: begins with a label that another line has\n");
   const Finished cells = with_workbench({"asm", "--model", "slim", file});
   EXPECT_EQ(cells.exit_code, 2);
   EXPECT_NE(cells.errors.find("does not become numbers"), std::string::npos) << cells.errors;
@@ -128,7 +129,6 @@ TEST(ProgramTexts, AreDescribed) {
   EXPECT_NE(with_workbench({"models"}).output.find("workbench  a controller for tests"), std::string::npos);
 }
 
-}  // namespace program_text_test
 /// However a program comes to a device: of check each file has its own, run and serve tell each once.
 TEST(ProgramTexts, WarningsOfBenchesAndScenariosAreTold) {
   const PrivateFolder folder;
@@ -164,4 +164,5 @@ TEST(ProgramTexts, WarningsOfBenchesAndScenariosAreTold) {
   EXPECT_EQ(served.find("appears twice"), served.rfind("appears twice"));
 }
 
+}  // namespace program_text_test
 }  // namespace understudy::acceptance
