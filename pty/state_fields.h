@@ -140,6 +140,8 @@ struct StateOf<pty::RtuFramer::State> {
                                            field("undecided", &Value::undecided),
                                            field("candidate", &Value::candidate),
                                            field("look_again_at", &Value::look_again_at),
+                                           field("is_paused", &Value::is_paused),
+                                           field("resumed", &Value::resumed),
                                            field("oversize", &Value::oversize),
                                            field("last_end", &Value::last_end),
                                            field("character_under_way", &Value::character_under_way),
