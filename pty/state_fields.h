@@ -67,6 +67,13 @@ struct StateOf<pty::Line::Warned> {
 };
 
 template <>
+struct StateOf<pty::Adapter> {
+  using Value = pty::Adapter;
+  static constexpr auto fields = FieldList{field("echoes", &Value::echoes), field("latency", &Value::latency),
+                                           field("is_unplugged", &Value::is_unplugged)};
+};
+
+template <>
 struct StateOf<pty::Line::State> {
   using Value = pty::Line::State;
   static constexpr auto fields = FieldList{field("settings", &Value::settings),
@@ -80,7 +87,10 @@ struct StateOf<pty::Line::State> {
                                            field("input", &Value::input),
                                            field("arriving", &Value::arriving),
                                            field("is_heard", &Value::is_heard),
-                                           field("leaving", &Value::leaving)};
+                                           field("leaving", &Value::leaving),
+                                           field("adapter", &Value::adapter),
+                                           field("lump", &Value::lump),
+                                           field("lump_at", &Value::lump_at)};
   static constexpr std::size_t apart = 1;  // what the stations never notice: Line::Edge
 };
 
