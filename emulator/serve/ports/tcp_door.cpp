@@ -266,7 +266,8 @@ std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
 /// One that says nothing more has got all that it has asked for.
 bool TcpDoor::has_all(const TcpClient& client) const {
   if (client.has_unsent() || client.has_rest()) return false;
-  return is_gateway() ? client.speech().is_idle() : port_.room() > 0 && port_.is_quiet();
+  if (is_gateway()) return client.speech().is_idle();
+  return port_.room() > 0 && (port_.is_quiet() || !client.speech().listens());  // it never will listen again
 }
 
 void TcpDoor::see_off() {
