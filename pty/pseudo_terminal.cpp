@@ -7,7 +7,6 @@
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/types.h>
-#include <sys/uio.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -84,9 +83,7 @@ Pair open_pair(const std::string& link_path) {
   pair.path = name.data();
   pair.slave = open_slave(pair.path);
   if (!pair.slave) throw cannot_have(link_path, pair.path + " cannot be opened", errno);
-  if (!rest(master) || !tell_changes(master, true)) {
-    throw cannot_have(link_path, pair.path + " cannot be set raw", errno);
-  }
+  if (!rest(pair.slave.get())) throw cannot_have(link_path, pair.path + " cannot be set raw", errno);
   return pair;
 }
 
@@ -129,33 +126,18 @@ PseudoTerminal::~PseudoTerminal() = default;
 // --- bytes -------------------------------------------------------------------------------------
 
 std::size_t PseudoTerminal::read(std::span<std::uint8_t> bytes) {
-  const std::size_t size = read_packets(bytes);
-  if (size == 0) return 0;
+  ssize_t size = 0;
+  do {
+    size = ::read(master_.get(), bytes.data(), bytes.size());
+  } while (size < 0 && errno == EINTR);
+  if (size <= 0) return 0;
   // Who has left and come until now is settled before these bytes are answered: otherwise the answer to
   // a new host could be thrown away as one that the old host did not read.
-  if (bell_.has_rung(watch_.get()) || is_in_doubt() || !slave_) follow_presence(false);
+  follow_presence(false);
   if (!is_present_) follow_presence(true);  // its opening was missed, or it has left already
   // A host that writes has done its tcsetattr: now its next one can be prepared without disturbing it.
-  if (may_have_set_) {
-    const Taken taken = take_host_settings(master_.get());
-    if (taken.settings) settings_ = taken.settings;
-    may_have_set_ = !taken.tells_changes;
-  }
-  return size;
-}
-
-/// What the host has written; 0 when there is none. Packets that only tell something are noted.
-std::size_t PseudoTerminal::read_packets(std::span<std::uint8_t> bytes) {
-  for (;;) {
-    std::uint8_t status = TIOCPKT_DATA;
-    const std::array<iovec, 2> parts{{{&status, 1}, {bytes.data(), bytes.size()}}};
-    const ssize_t size = ::readv(master_.get(), parts.data(), static_cast<int>(parts.size()));
-    if (size < 0 && errno == EINTR) continue;
-    if (size <= 0) return 0;
-    if (status == TIOCPKT_DATA) return static_cast<std::size_t>(size) - 1;
-    may_have_set_ = true;
-    tells_changes(master_.get());  // for a host that wants its input processed and may not write for long
-  }
+  if (const auto taken = take_host_settings(master_.get())) settings_ = taken;
+  return static_cast<std::size_t>(size);
 }
 
 std::size_t PseudoTerminal::write(std::span<const std::uint8_t> bytes) {
@@ -205,7 +187,6 @@ void PseudoTerminal::follow_presence(bool must_look) {
 
 /// True if something has closed.
 bool PseudoTerminal::read_presence_events() {
-  bell_.answer();
   bool has_closed = false;
   alignas(inotify_event) std::array<char, 4096> buffer;
   for (;;) {
@@ -252,7 +233,6 @@ void PseudoTerminal::count_arrival() {
   is_present_ = true;
   news_.opened = true;
   settings_.reset();
-  may_have_set_ = true;
 }
 
 /// What a host has not read must not be found by the next host. What it has written stays.
@@ -311,8 +291,6 @@ bool PseudoTerminal::recover() {
     master_ = std::move(fresh.master);
     slave_ = std::move(fresh.slave);
     watch_ = std::move(watch);
-    bell_ = Bell();
-    may_have_set_ = true;
     opens_ = own_opens_ = own_closes_ = 0;
     return true;
   } catch (const PortError&) {

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "base/files/descriptor.h"
-#include "pty/bell.h"
 #include "pty/line_settings.h"
 #include "pty/port_link.h"
 
@@ -71,7 +70,6 @@ class PseudoTerminal {
   std::optional<HostSettings> poll_host_settings() const { return settings_; }
 
  private:
-  std::size_t read_packets(std::span<std::uint8_t> bytes);
   void follow_presence(bool must_look);
   bool read_presence_events();
   bool count_event(std::uint32_t mask);
@@ -87,15 +85,12 @@ class PseudoTerminal {
   Descriptor watch_;  // inotify on the slave
   PortLink link_;
 
-  Bell bell_;  // of watch_
-
   bool is_present_ = false;
   int opens_ = 0;      // by hosts; at least this many, as inotify merges equal neighbours
   int own_opens_ = 0;  // events still to come that we cause ourselves
   int own_closes_ = 0;
   Presence news_;
   std::optional<HostSettings> settings_;
-  bool may_have_set_ = true;  // something since we last looked; always, where the kernel does not tell
 };
 
 }  // namespace understudy::pty

@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 
 #include <csignal>
-#include <fstream>
 
 #include "pty/terminal_settings.h"
 #include "tests/pty/pty_host.h"
@@ -167,99 +166,6 @@ TEST(PseudoTerminal, SeesSpeedAndStopBits) {
     host.close();
     port.poll_presence();
   }
-}
-
-TEST(PseudoTerminal, SeesEachChangeOfAnOpenHostsSettings) {
-  PseudoTerminal port("");
-  Host host(port.path());
-  const speed_t speeds[] = {B9600, B19200, B38400, B115200};
-  const int bauds[] = {9600, 19200, 38400, 115200};
-  for (int i = 0; i < 24; ++i) {
-    const int which = i % 4;
-    // As a program that knows all of them, or keeps what it does not know; at once, or when the server has
-    // seen it.
-    termios settings = {};
-    if (i % 3 != 0) {
-      ASSERT_EQ(::tcgetattr(host.descriptor(), &settings), 0);
-    }
-    ::cfmakeraw(&settings);
-    settings.c_cflag |= CLOCAL | CREAD;
-    ::cfsetspeed(&settings, speeds[which]);
-    ASSERT_EQ(::tcsetattr(host.descriptor(), TCSANOW, &settings), 0);
-    std::array<std::uint8_t, 16> nothing{};
-    if (i % 2 == 0) {
-      EXPECT_EQ(port.read(nothing), 0U);
-    }
-    for (int request = 0; request < 3; ++request) {
-      host.write(kRequest);
-      EXPECT_EQ(read_some(port), kRequest);
-      EXPECT_EQ(port.poll_host_settings(), HostSettings{.baud = bauds[which]}) << i;
-    }
-  }
-}
-
-TEST(PseudoTerminal, AsksForNothingButTheBytes) {
-  PseudoTerminal port("");
-  Host host(port.path());
-  ASSERT_TRUE(host.set_even_parity(B19200));
-  const auto readings = [] {
-    std::ifstream file("/proc/thread-self/io");
-    std::string word;
-    long count = -1;
-    while (file >> word && word != "syscr:") {
-    }
-    file >> count;
-    return count;
-  };
-  const auto exchange = [&] {
-    host.write(kRequest);
-    return read_some(port);
-  };
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(exchange(), kRequest);  // the settings are seen
-  const long before = readings();
-  const long counting = readings() - before;
-  ASSERT_GE(before, 0);
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(exchange(), kRequest);
-  EXPECT_EQ(readings() - before, 100 + 2 * counting);
-  // Nothing is missed for that.
-  Host second(port.path());
-  host.close();
-  second.write(kRequest);
-  EXPECT_EQ(read_some(port), kRequest);
-  second.close();
-  Host third(port.path());
-  third.write(kRequest);
-  EXPECT_EQ(read_some(port), kRequest);
-  EXPECT_TRUE(port.poll_presence().closed);
-}
-
-TEST(PseudoTerminal, GivesWholeLinesToAHostThatOnlyListens) {
-  PseudoTerminal port("");
-  Host host(port.path());
-  termios settings = {};
-  ASSERT_EQ(::tcgetattr(host.descriptor(), &settings), 0);
-  settings.c_lflag |= ICANON;
-  settings.c_iflag |= ICRNL;
-  ::cfsetspeed(&settings, B9600);
-  ASSERT_EQ(::tcsetattr(host.descriptor(), TCSANOW, &settings), 0);
-  std::array<std::uint8_t, 16> nothing{};
-  ASSERT_TRUE(is_readable(port.data_descriptor(), kTimeoutMs));
-  EXPECT_EQ(port.read(nothing), 0U);
-  port.poll_presence();
-  const Bytes half = {'P', 'X', '='};
-  port.write(half);
-  EXPECT_FALSE(is_readable(host.descriptor(), 20));
-  port.write(Bytes{'7', '\r', 'P'});
-  EXPECT_EQ(host.read(5), (Bytes{'P', 'X', '=', '7', '\n'}));
-  EXPECT_FALSE(is_readable(host.descriptor(), 20));
-  // And sees later changes as well.
-  host.write(Bytes{'?'});
-  EXPECT_EQ(read_some(port), Bytes{'?'});
-  EXPECT_EQ(port.poll_host_settings(), HostSettings{.baud = 9600});
-  ASSERT_TRUE(host.set_even_parity(B19200));
-  host.write(Bytes{'?'});
-  EXPECT_EQ(read_some(port), Bytes{'?'});
-  EXPECT_EQ(port.poll_host_settings(), HostSettings{.baud = 19200});
 }
 
 TEST(PseudoTerminal, SeesAHostThatSetsNothing) {

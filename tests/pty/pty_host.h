@@ -10,7 +10,6 @@
 
 #include <array>
 #include <atomic>
-#include <cerrno>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -24,10 +23,7 @@ inline constexpr int kTimeoutMs = 10000;  // of a test that fails; one that pass
 
 inline bool is_readable(int descriptor, int timeout_ms) {
   pollfd entry{.fd = descriptor, .events = POLLIN, .revents = 0};
-  int ready = 0;
-  while ((ready = ::poll(&entry, 1, timeout_ms)) < 0 && errno == EINTR) {
-  }
-  return ready > 0;
+  return ::poll(&entry, 1, timeout_ms) > 0;
 }
 
 class Host {
@@ -85,14 +81,12 @@ class ScratchDirectory {
   std::string path_;
 };
 
-/// Reads what comes within the time-out, at least one byte. What makes it readable may be news without one.
+/// Reads what comes within the time-out, at least one byte.
 inline Bytes read_some(PseudoTerminal& port) {
+  if (!is_readable(port.data_descriptor(), kTimeoutMs)) return {};
   std::array<std::uint8_t, 4096> buffer{};
-  while (is_readable(port.data_descriptor(), kTimeoutMs)) {
-    const std::size_t size = port.read(buffer);
-    if (size > 0) return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size)};
-  }
-  return {};
+  const std::size_t size = port.read(buffer);
+  return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size)};
 }
 
 /// A thread that answers every byte with its complement.
