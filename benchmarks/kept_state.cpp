@@ -26,7 +26,7 @@ std::string text_of(std::size_t bytes) {
 }
 
 double snapshot(bool has_files) {
-  const emulator::Model* const models[] = {&workbench::model()};
+  const emulator::ListedModel models[] = {&workbench::model()};
   const auto bench = emulator::world::parse_bench(
       models, "understudy: 1\nlines:\n  rs485:\n    stations:\n      - { name: it, model: workbench }\n",
       "bench.yaml", "/nonexistent");
