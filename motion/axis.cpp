@@ -413,9 +413,14 @@ void Axis::switch_servo(bool on) {
 
 // ---- Numbers
 
+void check(const AxisSettings& settings) {
+  demand_not_negative(static_cast<double>(settings.backlash_pulses), "backlash", "pulses");
+  demand_finite(settings.backlash_speed_pps, "backlash", "speed");
+  if (settings.backlash_pulses > 0) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
+}
+
 void Axis::set(const AxisSettings& changed) {
-  demand_not_negative(static_cast<double>(changed.backlash_pulses), "backlash", "pulses");
-  if (changed.backlash_pulses > 0) demand_positive(changed.backlash_speed_pps, "backlash", "speed");
+  check(changed);
   // Other backlash is as far taken up in the last direction as the one before was.
   const bool is_positive = last_direction > 0;
   const std::int64_t before = is_positive ? settings.backlash_pulses - play_pulses : play_pulses;

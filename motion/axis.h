@@ -107,6 +107,7 @@ struct AxisSettings {
   Reaction at_mark_off = Reaction::ignore;
   bool needs_servo = true;             // commands are refused and motion ends while the servo is off
   bool waits_for_in_position = false;  // a motion lasts until the in-position signal is on
+  bool waits_beside_limits = false;    // a limit does not end it while that is all that it waits for
   // The last travel allowed; the pulse beyond it triggers. Nothing: no soft limit.
   std::optional<std::int64_t> soft_limit_plus = std::nullopt;
   std::optional<std::int64_t> soft_limit_minus = std::nullopt;
@@ -121,6 +122,9 @@ struct AxisSettings {
 
   bool operator==(const AxisSettings&) const = default;
 };
+
+/// Throws BadMotion for settings that no axis can have. Settings from outside are judged by it as well.
+void check(const AxisSettings& settings);
 
 /// What an axis was asked to do.
 enum class Task : std::uint8_t {

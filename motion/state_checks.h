@@ -105,15 +105,27 @@ inline void check_restored(const Homing& homing) {
 }
 
 inline void check_restored(const AxisSettings& settings) {
+  demand_accepted([&] { check(settings); });
   demand_within(settings.backlash_pulses, 0, std::int64_t{1} << 53);
-  demand_state(settings.backlash_speed_pps >= 0 && std::isfinite(settings.backlash_speed_pps),
-               "a backlash speed must not be negative");
 }
 
 inline void check_restored(const Axis& axis) {
   for (const std::int64_t pulses :
        {axis.travel_pulses, axis.base_pulses, axis.backlash_sent, axis.target_pulses, axis.carried_pulses}) {
     demand_reach(pulses);
+  }
+  // What a tick will plan by its law is what a command would not have been refused.
+  const bool has_law = axis.task == Task::move || axis.task == Task::endless;
+  if (has_law) {
+    demand_accepted([&] {
+      (void)slow_to_stop({.speed_u_s = axis.law.top_speed_u_s}, axis.law);
+      const auto target = static_cast<double>(axis.target_pulses);
+      const bool begins = axis.in_backlash && axis.task == Task::move && !axis.homing.active();
+      if (begins) (void)plan(std::abs(target), axis.law);
+      if (axis.comes_back) {
+        (void)plan(std::abs(std::floor(axis.drive.profile.end_position_u) - target), axis.law);
+      }
+    });
   }
   demand_within(axis.last_direction, -1, +1);
   demand_state(axis.constant_pps >= 0 && std::isfinite(axis.constant_pps), "a speed must not be negative");

@@ -235,6 +235,7 @@ struct StateOf<motion::AxisSettings> {
                 field("at_mark_off", &motion::AxisSettings::at_mark_off),
                 field("needs_servo", &motion::AxisSettings::needs_servo),
                 field("waits_for_in_position", &motion::AxisSettings::waits_for_in_position),
+                field("waits_beside_limits", &motion::AxisSettings::waits_beside_limits),
                 field("raises", &motion::AxisSettings::raises),
                 field("soft_limit_plus", &motion::AxisSettings::soft_limit_plus),
                 field("soft_limit_minus", &motion::AxisSettings::soft_limit_minus),

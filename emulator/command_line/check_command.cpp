@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,11 +24,13 @@
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
 #include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/reading/scenario_warnings.h"
 #include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/daemon/nv_keeper.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/bench_file/program_warnings.h"
 
 namespace understudy::emulator::command_line {
 
@@ -58,12 +61,30 @@ std::string_view kind_name(play::FileKind kind) {
   return "file";
 }
 
+/// Each once: what several cases of a file have in common is one.
+class Warnings {
+ public:
+  void add(const std::vector<FileError::Complaint>& odd, const std::string& file) {
+    for (const FileError::Complaint& each : odd) {
+      if (!told_.insert(each.text).second) continue;
+      findings_.push_back(finding_of(each, file));
+      findings_.back().is_warning = true;
+    }
+  }
+  std::vector<Finding> take() { return std::move(findings_); }
+
+ private:
+  std::set<std::string> told_;
+  std::vector<Finding> findings_;
+};
+
 /// What the file is, if nothing is wrong with it.
 std::string described(ModelList models, const std::string& file, play::FileKind kind,
-                      const std::string& save_below) {
+                      const std::string& save_below, Warnings& warnings) {
   switch (kind) {
     case play::FileKind::bench: {
       world::Bench bench = world::load_bench(models, file);
+      warnings.add(world::program_warnings(bench), file);
       serve::read_memories(bench, "");
       return "a bench with " + counted(bench.lines.size(), "line") + " and " +
              counted(bench.devices.size(), "device");
@@ -75,6 +96,7 @@ std::string described(ModelList models, const std::string& file, play::FileKind 
       std::size_t checked = 0;
       scenarios.check([&](const play::Scenario& scenario) {
         steps += count_steps(scenario.steps);
+        warnings.add(play::warnings_of(scenario), file);
         ++checked;
       });
       const std::string count = std::to_string(scenarios.size());
@@ -100,7 +122,9 @@ CheckedFile checked_file(ModelList models, const std::string& file, const std::s
   try {
     const play::FileKind kind = play::kind_of_file(file);
     checked.kind = kind_name(kind);
-    checked.is = described(models, file, kind, save_below);
+    Warnings warnings;
+    checked.is = described(models, file, kind, save_below, warnings);
+    checked.findings = warnings.take();
   } catch (const FileError& error) {
     for (const FileError::Complaint& complaint : error.complaints()) {
       checked.findings.push_back(finding_of(complaint, file));

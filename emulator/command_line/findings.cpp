@@ -165,11 +165,22 @@ Finding finding_of(const FileError::Complaint& complaint, const std::string& fil
   return finding;
 }
 
+namespace {
+
+std::string line_of(const Finding& finding) {
+  return one_line(place_text(finding.place) + (finding.is_warning ? "warning: " : "") + finding.text);
+}
+
+}  // namespace
+
+std::string warning_line(const FileError::Complaint& odd) {
+  Finding finding = finding_of(odd, odd.place.file);
+  finding.is_warning = true;
+  return line_of(finding);
+}
+
 void print_as_text(const CheckedFile& checked) {
-  for (const Finding& finding : checked.findings) {
-    const std::string weight = finding.is_warning ? "warning: " : "";
-    std::fprintf(stderr, "%s\n", one_line(place_text(finding.place) + weight + finding.text).c_str());
-  }
+  for (const Finding& finding : checked.findings) std::fprintf(stderr, "%s\n", line_of(finding).c_str());
   if (!checked.is_wrong()) std::printf("%s: %s\n", checked.file.c_str(), checked.is.c_str());
 }
 

@@ -33,6 +33,9 @@ std::optional<FindingFormat> finding_format_called(std::string_view name);
 /// off.
 Finding finding_of(const FileError::Complaint& complaint, const std::string& file);
 
+/// "mill.lst:4: warning: label K1 stands twice", of a complaint that only warns.
+std::string warning_line(const FileError::Complaint& odd);
+
 /// As `check` has always said it: what is well on standard output, what is wrong on standard error.
 void print_as_text(const CheckedFile& checked);
 /// The whole of it, ready for standard output.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@
 #include "base/state/state_bytes.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/findings.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_account.h"
@@ -31,6 +33,7 @@
 #include "emulator/play/performing/run.h"
 #include "emulator/play/performing/suite.h"
 #include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/reading/scenario_warnings.h"
 #include "emulator/play/report/camera.h"
 #include "emulator/play/results/junit.h"
 #include "emulator/play/results/result.h"
@@ -67,12 +70,21 @@ struct Known {
   FileClaims claims;      // files that are read
   std::size_t cases = 0;  // that were looked at
   std::vector<SavedFile> saved{};
-  std::string trace_error{};  // why --trace-also does not suit one of them; empty: it does
+  std::set<std::string> warned{};  // of programs, told once however many scenarios have them
+  std::string trace_error{};       // why --trace-also does not suit one of them; empty: it does
 };
+
+void warn(const play::Scenario& scenario, Known& known) {
+  for (const FileError::Complaint& odd : play::warnings_of(scenario)) {
+    const std::string line = warning_line(odd);
+    if (known.warned.insert(line).second) std::fprintf(stderr, "%s\n", line.c_str());
+  }
+}
 
 void note_saved(const play::Scenario& scenario, const RunArguments& arguments, Known& known) {
   ++known.cases;
   if (!play::is_meant(arguments.filter, scenario.name, play::identity_of(scenario.which))) return;
+  warn(scenario, known);
   for (const std::string& path : scenario.saved) {
     known.saved.push_back({path, scenario.file, known.cases, scenario.which.is_varied});
   }

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "base/files/file_claims.h"
+#include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/findings.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/output_paths.h"
@@ -25,6 +27,7 @@
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench/listening.h"
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/bench_file/program_warnings.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/speech/line_speech.h"
 #include "emulator/world/trace/trace.h"
@@ -224,6 +227,7 @@ Serving make_serving(ModelList models, const ServeArguments& arguments, const st
   }
   options.speed = *speed;
   serving.group = demand_group(arguments.group);
+  for (const FileError::Complaint& odd : world::program_warnings(serving.bench)) log_line(warning_line(odd));
   return serving;
 }
 

@@ -107,6 +107,13 @@ struct StateOf<emulator::world::MachineFaults> {
 };
 
 template <>
+struct StateOf<emulator::world::DriveInputs> {
+  using Value = emulator::world::DriveInputs;
+  static constexpr auto fields =
+      FieldList{field("servo", &Value::servo), field("alarm_clear", &Value::alarm_clear)};
+};
+
+template <>
 struct StateOf<emulator::world::PlantAxis::State> {
   using Value = emulator::world::PlantAxis::State;
   static constexpr auto fields = FieldList{field("position_pulses", &Value::position_pulses),
@@ -120,6 +127,8 @@ struct StateOf<emulator::world::PlantAxis::State> {
                                            field("at_mark", &Value::at_mark),
                                            field("alarm_latched", &Value::alarm_latched),
                                            field("ready", &Value::ready),
+                                           field("wired", &Value::wired),
+                                           field("seen", &Value::seen),
                                            field("enabled_at", &Value::enabled_at),
                                            field("faults", &Value::faults),
                                            field("wheel_counts", &Value::wheel_counts),
@@ -141,14 +150,14 @@ struct StateOf<emulator::world::World> {
                                            field("now", &Value::now_),
                                            field("done", &Value::done_),
                                            field("input_turns", &Value::input_turns_)};
-  static constexpr std::size_t members = 26;
+  static constexpr std::size_t members = 27;
   /// What it is made of, who looks at it, and how ticks were run.
-  static constexpr std::size_t apart = 17;
+  static constexpr std::size_t apart = 18;
   static void name_all(Value& all) {  // does not compile if there are others
-    [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, contacts, told_edges,
-                            input_turns, sent_pulses, inputs, supplies, wires, watchers, stops_here, listener,
-                            faults, next_fault, fault_watch, seed, disturbed, now, done, ticks, bulk_ticks,
-                            crossing_tries] = all;
+    [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, driven_axes, contacts,
+                            told_edges, input_turns, sent_pulses, inputs, supplies, wires, watchers,
+                            stops_here, listener, faults, next_fault, fault_watch, seed, disturbed, now, done,
+                            ticks, bulk_ticks, crossing_tries] = all;
   }
 
   static auto& plants(auto& world) { return world.plants_; }

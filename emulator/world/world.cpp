@@ -52,6 +52,7 @@ void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
 World::World(const Bench& bench, const WorldOptions& options,
              const std::function<void(const std::string&)>& log)
     : known_(known_devices_of(bench)),
+      driven_axes_(bench.devices.size()),
       supplies_(bench.devices.size()),
       wires_(bench.wires),
       seed_(bench.seed) {
@@ -97,6 +98,7 @@ World::World(const Bench& bench, const WorldOptions& options,
     set_external_input(setup.device, setup.terminal, setup.level);
   }
   for (const Fault& fault : bench.faults) inject(fault);
+  for (const MachineSetup& machine : bench.machines) connect_drive(machine);
   // A machine may stand on a switch at power-up.
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     wire_contacts(d);
@@ -282,7 +284,12 @@ void World::run_device(std::size_t number) {
   }
   step_plant(number);
   device.set_now(done_);
-  if (powered) device.update_outputs(done_);
+  if (!powered) return;
+  device.update_outputs(done_);
+  // Its drives look in the next tick.
+  for (const std::size_t a : driven_axes_[number]) {
+    if (plants_[number][a].seen_inputs() != drive_inputs(number, a)) disturbed_ = true;
+  }
 }
 
 void World::step_plant(std::size_t number) {
@@ -293,7 +300,6 @@ void World::step_plant(std::size_t number) {
   bool all_quiet = true;
   for (std::size_t a = 0; a < axes.size(); ++a) {
     PlantAxis& plant = plants_[number][a];
-    const AxisRow& axis = axes[a];
     const std::int64_t pulses = driven_axes.pulses_this_tick(static_cast<int>(a));
     count_sent(sent_pulses_[number][a], pulses);
     if (plant.step_quietly(pulses)) {
@@ -302,11 +308,7 @@ void World::step_plant(std::size_t number) {
       continue;
     }
     all_quiet = false;
-    DriveInputs outputs;
-    if (plant.has_drive()) {
-      const auto driven = [&](int terminal) { return terminal >= 0 && device.terminals()->output(terminal); };
-      outputs = {.servo = driven(axis.servo_output), .alarm_clear = driven(axis.alarm_clear_output)};
-    }
+    const DriveInputs outputs = plant.has_drive() ? drive_inputs(number, a) : DriveInputs{};
     const PlantAxis::State& state = plant.save();
     const std::pair before(state.position_pulses, state.wheel_counts);
     plant.step(done_, pulses, outputs);
@@ -336,13 +338,16 @@ bool World::level_of(const WireSetup& wire) const {
 void World::latch_wires() {
   // Several wires on one input act like switches in parallel.
   for (const WireSetup& wire : wires_) {
-    inputs_[wire.to_device][static_cast<std::size_t>(wire.to_terminal)].wired = false;
+    if (wire.to_axis >= 0) latch_drive(wire);
+    if (wire.to_axis < 0) inputs_[wire.to_device][static_cast<std::size_t>(wire.to_terminal)].wired = false;
   }
   for (const WireSetup& wire : wires_) {
+    if (wire.to_axis >= 0) continue;
     Input& input = inputs_[wire.to_device][static_cast<std::size_t>(wire.to_terminal)];
     input.wired = input.wired || level_of(wire);
   }
   for (const WireSetup& wire : wires_) {
+    if (wire.to_axis >= 0) continue;
     apply_input(wire.to_device, wire.to_terminal);
     if (meets_edges(wire.to_device)) tell_edges(wire.to_device);
   }

@@ -230,6 +230,9 @@ class World final : public WorldView {
     sent = static_cast<std::int64_t>(static_cast<std::uint64_t>(sent) + static_cast<std::uint64_t>(pulses));
   }
   void latch_wires();
+  void latch_drive(const WireSetup& wire);
+  void connect_drive(const MachineSetup& machine);
+  DriveInputs drive_inputs(std::size_t number, std::size_t axis) const;
   // Edges between ticks: world_edges.cpp.
   MachineEdges edges_of(std::size_t device, std::size_t axis) const;
   void begin_edges();
@@ -257,10 +260,11 @@ class World final : public WorldView {
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<Axes*> axes_;  // of each device
   std::vector<std::unique_ptr<WorldLine>> lines_;
-  std::vector<WorldLine*> unasked_lines_;           // those of them whose devices may speak unasked
-  std::vector<std::vector<PlantAxis>> plants_;      // [device][axis]
-  std::vector<std::vector<ContactWire>> contacts_;  // by device; as the bench has them
-  std::vector<std::vector<ToldEdges>> told_edges_;  // by device; none where nobody asks
+  std::vector<WorldLine*> unasked_lines_;              // those of them whose devices may speak unasked
+  std::vector<std::vector<PlantAxis>> plants_;         // [device][axis]
+  std::vector<std::vector<std::size_t>> driven_axes_;  // by device: those with a drive
+  std::vector<std::vector<ContactWire>> contacts_;     // by device; as the bench has them
+  std::vector<std::vector<ToldEdges>> told_edges_;     // by device; none where nobody asks
   std::vector<InputTurn> input_turns_;
   std::vector<std::vector<std::int64_t>> sent_pulses_;
   std::vector<std::vector<Input>> inputs_;  // [device][terminal]

@@ -232,11 +232,30 @@ std::optional<std::uint16_t> code_of(std::string_view name) {
   return found->second;
 }
 
-/// Without its beginning a name is a whole one still.
+/// Without its beginning a name is a whole one still; and as all names share theirs, what lies behind it is
+/// compared. One that has the word in it is nearer than one that is spelt alike.
 std::string nearest_names(const std::string& word) {
-  for (const std::string_view beginning : {"RSM_MACRO_", "RSM_ABS_MACRO_", "RSM_"}) {
+  constexpr std::string_view kBeginnings[] = {"RSM_MACRO_", "RSM_ABS_MACRO_", "RSM_ABS_", "RSM_"};
+  std::string_view own = word;
+  for (const std::string_view beginning : kBeginnings) {
     const std::string name = std::string(beginning) + word;
     if (code_of(name)) return "; the nearest is " + quoted(name);
+    if (own.size() == word.size() && own.size() > beginning.size() && own.starts_with(beginning)) {
+      own.remove_prefix(beginning.size());
+    }
+  }
+  const std::string_view family = std::string_view(word).substr(0, word.size() - own.size());
+  std::vector<std::string> known;
+  std::string with_it;
+  for (const std::string& name : known_names()) {
+    if (!name.starts_with(family)) continue;
+    known.push_back(name.substr(family.size()));
+    const bool has_it = ("_" + known.back() + "_").find("_" + std::string(own) + "_") != std::string::npos;
+    if (has_it) with_it += (with_it.empty() ? "" : ", ") + name;
+  }
+  if (!with_it.empty()) return "; expected one such as " + with_it;
+  if (const auto nearest = near_word(own, known)) {
+    return "; the nearest is " + quoted(std::string(family) + *nearest);
   }
   return suggestion(word, known_names());
 }

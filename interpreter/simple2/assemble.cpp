@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/text/lines.h"
+#include "base/text/suggestion.h"
 #include "base/text/tokens.h"
 #include "interpreter/simple2/instructions.h"
 #include "interpreter/simple2/listing.h"
@@ -155,9 +156,8 @@ class Assembler {
         std::find_if(kInstructions.begin(), kInstructions.end(),
                      [&](const Instruction& candidate) { return same_name(candidate.mnemonic, word.text); });
     if (instruction == kInstructions.end()) {
-      const std::string nearest(nearest_mnemonic(word.text));
       fail(word, "mnemonic", "no instruction is called " + quoted(word.text),
-           word.text.starts_with('.') ? ".at or .line" : "an instruction (nearest: '" + nearest + "')");
+           word.text.starts_with('.') ? ".at or .line" : expected_instruction(word.text));
       put(word, {});
       return;
     }
@@ -209,8 +209,31 @@ class Assembler {
     return text;
   }
 
-  static std::string_view nearest_mnemonic(std::string_view word) {
-    return nearest_name(kInstructions, word, [](const Instruction& row) { return row.mnemonic; })->mnemonic;
+  /// What is meant by a word of another language, or the nearest one by its letters, if one is near.
+  static std::string expected_instruction(std::string_view word) {
+    struct ForeignWord {
+      std::string_view word;
+      std::string_view here;
+    };
+    static constexpr ForeignWord kForeign[] = {{"GOTO", "Jump"},
+                                               {"JMP", "Jump"},
+                                               {"MOV", "VAR_Copy, or VAR_Direct for a number"},
+                                               {"IF", "VAR_EQ, VAR_GT, VAR_LT or one of the jumps"},
+                                               {"SLEEP", "Delay_mSec"},
+                                               {"FOR", "Loop, behind what is repeated"},
+                                               {"HOME", "Move_Home_A"},
+                                               {"HOME_A", "Move_Home_A"},
+                                               {"HOME_B", "Move_Home_B"},
+                                               {"SET", "Out, and ON"},
+                                               {"RESET", "Out, and OFF"},
+                                               {"STOP_Main", "END"}};
+    for (const ForeignWord& foreign : kForeign) {
+      if (same_name(foreign.word, word)) return std::string(foreign.here);
+    }
+    std::vector<std::string> known;
+    for (const Instruction& row : kInstructions) known.emplace_back(row.mnemonic);
+    const auto nearest = near_word(word, known);
+    return nearest ? "an instruction (nearest: '" + *nearest + "')" : "an instruction, such as Delay_mSec";
   }
 
   /// Puts a line in its place with the marks before it, and says which it is.
@@ -307,19 +330,19 @@ class Assembler {
     const auto label = labels_.find(lower_case(token.text));
     if (label != labels_.end()) return label->second.flag;
     const bool could_be_label = is_name(token.text);
+    const auto nearest = could_be_label ? nearest_label(token.text) : std::optional<std::string>{};
     fail(token, "operand 1",
          could_be_label ? "no line is labelled " + quoted(token.text) : quoted(token.text) + " is not a flag",
-         could_be_label && !labels_.empty() ? "a label (nearest: '" + nearest_label(token.text) + "')"
-                                            : expected_operand(Operand::flag));
+         nearest ? "a label (nearest: '" + *nearest + "')" : expected_operand(Operand::flag));
     return 0;
   }
 
-  std::string nearest_label(std::string_view word) const {
-    const auto label =
-        nearest_name(labels_, word, [](const auto& entry) { return std::string_view(entry.first); });
-    std::string_view text = label->second.token.text;
-    text.remove_suffix(1);  // the colon
-    return std::string(text);
+  std::optional<std::string> nearest_label(std::string_view word) const {
+    std::vector<std::string> known;
+    for (const auto& [name, label] : labels_) {
+      known.emplace_back(label.token.text.substr(0, label.token.text.size() - 1));  // without the colon
+    }
+    return near_word(word, known);
   }
 
   struct Label {

@@ -102,7 +102,9 @@ ParsedOperand parse_operand(Operand kind, std::string_view text) {
   const NumberKind* const row = number_kind(kind);
   const std::string_view number = row->prefix.empty() ? "" : after_prefix(text, row->prefix);
   ParsedOperand parsed = parse_number(number.empty() ? text : number, row->min, row->max);
+  const bool is_name = !text.empty() && is_name_start(text.front());
   if (!parsed.problem.empty() && !number.empty()) parsed.problem = quoted(text) + " does not exist";
+  if (!parsed.problem.empty() && number.empty() && is_name) parsed.problem = quoted(text) + " is not one";
   return parsed;
 }
 

@@ -13,11 +13,10 @@
 
 #include "base/text/lines.h"
 #include "base/text/one_line.h"
-#include "base/text/parse_integer.h"
-#include "base/text/suggestion.h"
 #include "base/text/tokens.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/foreign_words.h"
 #include "interpreter/super_40nc/instruction_row.h"
 #include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/listing.h"
@@ -28,22 +27,6 @@
 
 namespace understudy::interpreter::super_40nc {
 namespace {
-
-constexpr bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
-
-/// Digits with a sign perhaps; nothing if 64 bits do not hold it.
-std::optional<std::int64_t> decimal(std::string_view text) {
-  const std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
-  if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return {};
-  return parse_integer(text);
-}
-
-const InstructionRow* find_mnemonic(const std::string& word) {
-  for (const InstructionRow& row : kInstructions) {
-    if (word == upper_case(row.mnemonic)) return &row;
-  }
-  return nullptr;
-}
 
 std::string names_of(Letters some) {
   std::string names;
@@ -98,7 +81,7 @@ class Checker {
     if (word == "AREA") return begin_area(tokens);
     if (word == "FILE") return begin_file(tokens);
     std::size_t at = 0;
-    if (is_digit(tokens[0].text.front())) read_step(tokens[at++]);
+    if (is_decimal_digit(tokens[0].text.front())) read_step(tokens[at++]);
     if (at == tokens.size()) return fail(tokens[0], Code::unknown, "a step stands alone", "an instruction");
     read_instruction(tokens, at);
   }
@@ -174,7 +157,8 @@ class Checker {
     }
     const InstructionRow* row = find_mnemonic(upper_case(token.text));
     if (row == nullptr) {
-      return fail(token, Code::unknown, quoted(token.text) + " is not an instruction" + near(token.text));
+      return fail(token, Code::unknown,
+                  quoted(token.text) + " is not an instruction" + nearest_instruction(token.text));
     }
     if (row->group == Group::undocumented || (row->op == Op::mset && !options_.knows_mset)) {
       return fail(token, Code::unknown, quoted(row->mnemonic) + " is a name without a description",
@@ -197,12 +181,6 @@ class Checker {
     places_.push_back(token);
     current_.lines.push_back(instruction);
     step_ += steps_of(instruction);
-  }
-
-  static std::string near(std::string_view word) {
-    std::vector<std::string> known;
-    for (const InstructionRow& row : kInstructions) known.emplace_back(row.mnemonic);
-    return suggestion(word, known);
   }
 
   void look_at_area(const InstructionRow& row, const Token& token) {
@@ -231,12 +209,8 @@ class Checker {
       if (!number) break;
       return read_number(token, letter, *number);
     }
-    if (first == 'S' && decimal(token.text.substr(1))) {
-      fail(token, Code::unknown, "step relay " + upper_case(token.text) + " cannot stand in a program",
-           "X, Y, M, T, C, D or K and a number, or *");
-      return {};
-    }
-    fail(token, Code::unknown, quoted(token.text) + " is not an operand", "a letter and a number, or *");
+    const Unknown why = why_not_operand(token.text);
+    fail(token, Code::unknown, why.what, why.expected);
     return {};
   }
 

@@ -114,8 +114,9 @@ TEST(ProgramTexts, OfSlimAreCheckedAndAreNoNumbers) {
   const PrivateFolder folder;
   const std::string file = folder.write("a.slim", "; a remark\nMA 100\n  NONSENSE\n$A DN\n$A DN\n");
   EXPECT_EQ(with_workbench({"check", "--model", "slim", file}).errors,
-            file + ":3:3: is not a command; expected one of `understudy describe slim commands`\n" + file +
-                ":5:1: begins with a label that another line has\n");
+            file +
+                ":3:3: 'NONSENSE' is not a command; expected one of `understudy describe slim commands`\n" +
+                file + ":5:1: begins with a label that another line has\n");
   const Finished cells = with_workbench({"asm", "--model", "slim", file});
   EXPECT_EQ(cells.exit_code, 2);
   EXPECT_NE(cells.errors.find("does not become numbers"), std::string::npos) << cells.errors;
@@ -126,6 +127,41 @@ TEST(ProgramTexts, AreDescribed) {
   EXPECT_EQ(table.exit_code, 0) << table.errors;
   EXPECT_TRUE(table.output.starts_with("opcode  mnemonic  operands")) << table.output;
   EXPECT_NE(with_workbench({"models"}).output.find("workbench  a controller for tests"), std::string::npos);
+}
+
+/// However a program comes to a device: of check each file has its own, run and serve tell each once.
+TEST(ProgramTexts, WarningsOfBenchesAndScenariosAreTold) {
+  const PrivateFolder folder;
+  const std::string listing = folder.write("lab.lst", "AREA C\nLAB K1\nLAB K1\nJMP K2\nEND\n");
+  const std::string head =
+      "understudy: 1\nlines: { a: { timing: instant, stations: [ { device: m, port: RS232 } ] } }\n"
+      "devices: { m: { model: super-40nc, program: ";
+  const std::string bench = folder.write("bench.yaml", head + "lab.lst } }\n");
+  const std::string inside =
+      folder.write("inside.yaml", head + "\"AREA X\\nLAB K4\\nLAB K4\\nEND\\n\" } }\n");
+  const std::string scenario = folder.write(
+      "scenario.yaml",
+      "understudy: 1\nname: warns\nbench: bench.yaml\nsteps:\n  - for:\n      each: [ 1, 2 ]\n"
+      "      as: n\n      steps:\n        - program:\n            m: |\n              AREA X\n"
+      "              LAB K4\n              LAB K4\n              END\n  - program: { m: lab.lst }\n");
+  const std::string of_listing =
+      listing + ":3:1: warning: label K1 appears twice; expected one, as in line 2\n" + listing +
+      ":4:1: warning: JMP K2 names a label that the area does not have; expected LAB K2\n";
+  const std::string of_step =
+      scenario +
+      ":9: warning: program: line 3, column 1: label K4 appears twice; expected one, as in line 2\n";
+  const Finished checked = understudy({"check", bench});
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_EQ(checked.errors, of_listing);
+  EXPECT_EQ(understudy({"check", inside}).errors,
+            "m.program:3:1: warning: label K4 appears twice; expected one, as in line 2\n");
+  EXPECT_EQ(understudy({"check", scenario}).errors, of_listing + of_step);
+  EXPECT_EQ(understudy({"run", scenario, scenario}).errors, of_listing + of_step);
+  EXPECT_EQ(understudy({"run", "--filter", "*other*", scenario}).errors.find("warning"), std::string::npos);
+  const std::string served = understudy({"exec", bench, "--", "true"}).errors;
+  EXPECT_NE(served.find("understudy: " + of_listing.substr(0, of_listing.find('\n') + 1)), std::string::npos)
+      << served;
+  EXPECT_EQ(served.find("appears twice"), served.rfind("appears twice"));
 }
 
 }  // namespace program_text_test

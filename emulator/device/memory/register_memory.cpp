@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/state/state_error.h"
 #include "base/text/one_line.h"
 #include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
@@ -30,6 +31,17 @@ bool may_hold(const MapPolicy& policy, const RegisterRow& row, Value value) {
   const bool is_odd = row.type == Type::f32 && !std::isfinite(real_of(value));
   return is_odd || policy.out_of_range == MapPolicy::OutOfRange::stored ||
          (is_32_bit(row.type) && policy.halves != MapPolicy::Halves::come_whole) || is_in_range(row, value);
+}
+
+/// Whether it can have come there: by a write, from the factory, or from the device itself where nobody else
+/// writes it.
+bool can_hold(const MapPolicy& policy, const RegisterRow& row, std::uint32_t bits) {
+  const Value value = value_of(bits, row.type);
+  const auto whole = static_cast<std::uint32_t>(value);
+  const bool fits = bits == whole || (width_of(row.type) == 16 && bits == (whole & 0xFFFFU));
+  const bool is_written = row.access != Access::read;
+  return fits && (bits & ~row.stored_bits) == 0 &&
+         (!is_written || value == row.factory || may_hold(policy, row, value));
 }
 
 void write_kept_registers(const RegisterMap& map, const std::vector<bool>& keeps_row,
@@ -54,6 +66,28 @@ void write_kept_registers(const RegisterMap& map, const std::vector<bool>& keeps
 }
 
 }  // namespace
+
+void check_restored_registers(const RegisterBank& bank, std::span<const std::uint32_t> image,
+                              std::span<const std::uint32_t> kept) {
+  const auto slots = static_cast<std::size_t>(bank.map().slot_count());
+  demand_state(image.size() == slots && kept.size() == slots, "the image has another size");
+  // By choice a bench may be stricter with what hosts write: programs are not.
+  const MapPolicy& policy = bank.map().policy();
+  // Without power a device may have nothing in its image.
+  const bool is_blank = std::ranges::all_of(image, [](std::uint32_t bits) { return bits == 0; });
+  std::size_t slot = 0;
+  for (const RegisterRow& row : bank.map().rows()) {
+    if (row.is_view) continue;
+    const bool is_kept = bank.keeps(row);
+    for (int i = 0; i < row.count; ++i, ++slot) {
+      // What is spent may be 0, whatever can be written.
+      const bool is_spent = image[slot] == 0 && !is_kept;
+      const bool can_be = (is_blank || is_spent || can_hold(policy, row, image[slot])) &&
+                          (!is_kept || can_hold(policy, row, kept[slot]));
+      if (!can_be) throw StateError(bank.map().unique_name(row, i) + " holds what it cannot");
+    }
+  }
+}
 
 std::function<void(NvImage&)> registers_writer(const RegisterBank& bank,
                                                std::span<const std::uint32_t> kept) {

@@ -11,6 +11,11 @@
 
 namespace understudy::emulator {
 
+/// Throws StateError unless each register of a restored image, and of what is kept, holds what it may: the
+/// same that a write, or an image of a memory, may bring there.
+void check_restored_registers(const RegisterBank& bank, std::span<const std::uint32_t> image,
+                              std::span<const std::uint32_t> kept);
+
 /// What adds the registers that are kept now and differ from the factory's values. `kept` has one value for
 /// each slot; those of registers that are not kept mean nothing. Of `bank` only the map must outlive it.
 std::function<void(NvImage&)> registers_writer(const RegisterBank& bank, std::span<const std::uint32_t> kept);

@@ -128,6 +128,12 @@ Value ImportedDevice::value_of_view(std::size_t axis_number, View view, Type typ
   return 0;
 }
 
+std::optional<bool> ImportedDevice::servo_on(int axis) const {
+  const auto number = static_cast<std::size_t>(axis);
+  if (!its().axes[number].command(Command::enable)) return std::nullopt;
+  return powered() && state_.axes[number].motor.servo_on;
+}
+
 Value ImportedDevice::value_of_part(const ShownPart& part, Type type) const {
   switch (part.what) {
     case ShownPart::What::axis: return value_of_view(part.number, part.view, type);

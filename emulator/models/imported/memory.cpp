@@ -28,7 +28,6 @@ void ImportedDevice::write_own_state(StateWriter& writer) const { writer.write(s
 std::function<void()> ImportedDevice::read_own_state(StateReader& reader) {
   const auto restored = std::make_shared<State>();
   reader.read(*restored);
-  demand_state(restored->image.size() == state_.image.size(), "the image has another size");
   demand_state(restored->held.size() == state_.held.size(), "there are other commands");
   demand_state(restored->axes.size() == state_.axes.size(), "there are other axes");
   demand_state(restored->followed.size() == state_.followed.size(), "other values follow");
@@ -38,6 +37,7 @@ std::function<void()> ImportedDevice::read_own_state(StateReader& reader) {
     demand_state(axis.wanted_way >= -1 && axis.wanted_way <= 1, "a way is neither forward nor backward");
   }
   restored->eeprom.check_restored(state_.eeprom);
+  check_restored_registers(*this, restored->image, restored->eeprom.kept());
   return [this, restored] {
     state_ = *restored;
     is_restored_.assign(is_restored_.size(), 1);

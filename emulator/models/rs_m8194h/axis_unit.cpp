@@ -18,12 +18,22 @@ namespace {
 using motion::Comparator;
 using motion::Counter;
 
-/// Another range, with the count that there is.
-void set_range(Counter& counter, Counter::Range range, std::int64_t ring_top, std::int64_t travel) {
+/// Whether a count that was beyond the ring has come into it.
+void enter_ring(Counter& counter, const BasicSettings& settings, std::int64_t travel, std::int64_t came) {
+  if (!settings.ring || counter.range == Counter::Range::ring) return;
   const std::int64_t count = counter.at(travel);
-  counter.range = range;
-  counter.ring_top = ring_top;
-  counter.set(count, travel);
+  const std::int64_t before = count - came;
+  const bool has_entered = (count >= 0 && count <= settings.ring_top) ||
+                           (before < 0 && count > settings.ring_top) ||
+                           (before > settings.ring_top && count < 0);
+  if (has_entered) set_count(counter, settings, count, travel, true);
+}
+
+/// Another range, with the count that there is.
+void set_range(Counter& counter, const BasicSettings& settings, std::int64_t travel, bool ring_folds) {
+  const std::int64_t count = counter.at(travel);
+  counter.ring_top = settings.ring ? settings.ring_top : 0;
+  set_count(counter, settings, count, travel, ring_folds);
 }
 
 motion::Reaction limit_reaction(const BasicSettings& basic) {
@@ -39,6 +49,14 @@ std::int64_t divided(const BasicSettings& basic, std::int64_t edges) {
 }
 
 }  // namespace
+
+void set_count(motion::Counter& counter, const BasicSettings& settings, std::int64_t count,
+               std::int64_t travel, bool ring_folds) {
+  const bool is_within = count >= 0 && count <= settings.ring_top;
+  const bool is_ring = settings.ring && (ring_folds || is_within);
+  counter.range = is_ring ? motion::Counter::Range::ring : motion::Counter::Range::bits32;
+  counter.set(count, travel);
+}
 
 std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor) {
   return axis.has_encoder ? motor.encoder_pulses : motor.travel_pulses;
@@ -70,16 +88,27 @@ std::int32_t encoder_count(const AxisUnit& axis, const motion::Axis& motor) {
   return static_cast<std::int32_t>(axis.encoder.at(encoder_travel(axis, motor)));
 }
 
-void set_logic_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value) {
-  axis.logic.set(value, motor.travel_pulses);
+void set_logic_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds) {
+  set_count(axis.logic, axis.basic, value, motor.travel_pulses, ring_folds);
 }
 
-void set_absolute_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value) {
+void set_absolute_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool /*ring_folds*/) {
   axis.absolute.set(value, motor.travel_pulses);
 }
 
-void set_encoder_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value) {
-  axis.encoder.set(value, encoder_travel(axis, motor));
+void set_encoder_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds) {
+  set_count(axis.encoder, axis.basic, value, encoder_travel(axis, motor), ring_folds);
+}
+
+bool is_beyond_ring(const AxisUnit& axis) {
+  return axis.basic.ring &&
+         (axis.logic.range != Counter::Range::ring || axis.encoder.range != Counter::Range::ring);
+}
+
+void enter_ring(AxisUnit& axis, const motion::Axis& motor) {
+  const std::int64_t sent = axis.sent_pulses;
+  enter_ring(axis.logic, axis.basic, motor.travel_pulses, sent);
+  enter_ring(axis.encoder, axis.basic, encoder_travel(axis, motor), axis.has_encoder ? 0 : sent);
 }
 
 void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count) {
@@ -106,13 +135,13 @@ void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& setti
   changed.at_alarm = changed.at_emergency = options.at_alarm;
   changed.needs_servo = false;
   changed.waits_for_in_position = settings.in_position && options.drives_wait_for_in_position;
+  changed.waits_beside_limits = options.in_position_waits_beside_limits;
   motor.set(changed);
   if (before.ring != settings.ring || before.ring_top != settings.ring_top) {
-    const auto range = settings.ring ? Counter::Range::ring : Counter::Range::bits32;
-    set_range(axis.logic, range, settings.ring ? settings.ring_top : 0, motor.travel_pulses);
-    set_range(axis.encoder, range, settings.ring ? settings.ring_top : 0, encoder_travel(axis, motor));
+    set_range(axis.logic, settings, motor.travel_pulses, options.ring_folds);
+    set_range(axis.encoder, settings, encoder_travel(axis, motor), options.ring_folds);
     if (options.ring_takes_absolute) {
-      set_range(axis.absolute, range, settings.ring ? settings.ring_top : 0, motor.travel_pulses);
+      set_range(axis.absolute, settings, motor.travel_pulses, true);
     }
   }
   const bool counts_otherwise =

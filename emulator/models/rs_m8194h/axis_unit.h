@@ -3,6 +3,7 @@
 //   commands ──> motor ──> travel ──> LP, EP, ABS: three counters of the same pulses
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -82,6 +83,13 @@ struct OutSettings {
   bool operator==(const OutSettings&) const = default;
 };
 
+/// The time `takes_s` later.
+constexpr std::int64_t after(std::int64_t at_ns, double takes_s) {
+  constexpr double kMost_s = 1e9;
+  const double whole_ns = std::clamp(takes_s, 0.0, kMost_s) * 1e9;
+  return at_ns + static_cast<std::int64_t>(whole_ns);
+}
+
 /// A level that the input filter lets through only after a while (3.14).
 struct FilteredPins {
   std::uint16_t raw = 0;                  // as at the terminals; a bit is 1 while conducting
@@ -113,8 +121,11 @@ struct AxisUnit {
   FilteredPins pins{};
   bool emergency = false;  // the EMG input, as its filter lets it through
   motion::ExternalDrive external{};
+  std::int64_t began_pulses = 0;                 // travel where its last drive began
   std::uint32_t external_pps = 0;                // of EXD_CP
   std::array<std::uint32_t, 2> external_seen{};  // edges of EXP+ and EXP-
+  std::int64_t external_waiting = 0;             // pulses of edges that came when the last drive's were out,
+  std::int64_t external_free_ns = 0;             // which is at that time; 0: none was begun so
   std::array<Compare, 2> compare{};              // C+, C-
   std::uint8_t factors = 0;                      // INTFACTOR_ENABLE, a bit for each nINT
   std::array<std::uint8_t, kIsrFactors> isr_of{};
@@ -136,9 +147,15 @@ std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t logic_count(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t absolute_count(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t encoder_count(const AxisUnit& axis, const motion::Axis& motor);
-void set_logic_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value);
-void set_absolute_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value);
-void set_encoder_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value);
+/// Of LP or EP. A count beyond the ring comes round; or stays so, in 32 bits, until it is in the ring.
+void set_count(motion::Counter& counter, const BasicSettings& settings, std::int64_t count,
+               std::int64_t travel, bool ring_folds);
+void set_logic_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds);
+void set_absolute_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds);
+void set_encoder_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds);
+/// By choice, a count may be beyond its ring, until it comes into it.
+bool is_beyond_ring(const AxisUnit& axis);
+void enter_ring(AxisUnit& axis, const motion::Axis& motor);
 /// The bench's encoder has come to this count of edges.
 void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
 
@@ -147,6 +164,8 @@ struct AxisOptions {
   motion::Reaction at_soft_limit = motion::Reaction::slow_down;
   motion::Reaction at_alarm = motion::Reaction::stop_at_once;  // and at the EMG input
   bool drives_wait_for_in_position = true;
+  bool in_position_waits_beside_limits = false;
+  bool ring_folds = true;
   bool ring_takes_absolute = false;
   bool homing_heeds_soft_limits = true;
   bool comparisons_fire_when_armed = false;
@@ -237,8 +256,11 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
                                            field("pins", &Value::pins),
                                            field("emergency", &Value::emergency),
                                            field("external", &Value::external),
+                                           field("began_pulses", &Value::began_pulses),
                                            field("external_pps", &Value::external_pps),
                                            field("external_seen", &Value::external_seen),
+                                           field("external_waiting", &Value::external_waiting),
+                                           field("external_free_ns", &Value::external_free_ns),
                                            field("compare", &Value::compare),
                                            field("factors", &Value::factors),
                                            field("isr_of", &Value::isr_of),
@@ -249,6 +271,8 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
     demand_state(unit.speed.mode < 4, "a speed mode of an axis is not one of the manual's");
     for (const Tick since : unit.pins.since)
       demand_state(since >= -kFar && since <= kFar, "a time is too far");
+    demand_state(unit.began_pulses >= -kFar && unit.began_pulses <= kFar, "a drive began too far away");
+    demand_state(unit.external_waiting >= -kFar && unit.external_waiting <= kFar, "too many pulses wait");
     demand_state(unit.out.pulse_until >= -kFar && unit.out.pulse_until <= kFar, "a pulse is too long");
     demand_state(unit.encoder_raw >= -kFar && unit.encoder_raw <= kFar && unit.encoder_zero >= -kFar &&
                      unit.encoder_zero <= kFar,

@@ -19,6 +19,7 @@
 #include "emulator/device/device_of.h"
 #include "emulator/device/machine_edges.h"
 #include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/register_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/refusal.h"
@@ -102,7 +103,7 @@ void RsM8194h::sample_inputs(Tick tick) {
     pass_pins(tick);
     for (std::size_t a = 0; a < kAxes; ++a) {
       look_round(a);
-      watch_external(a);
+      watch_external(a, tick);
     }
   }
   if (scans_frnet_at(tick)) {
@@ -119,6 +120,7 @@ void RsM8194h::step_motion(Tick tick) {
   heed_ends();
   heed_path_end(was_full);
   act_on_events(tick);
+  start_waiting_external();
   step_scans(tick);
 }
 
@@ -273,6 +275,7 @@ std::function<void()> RsM8194h::read_own_state(StateReader& reader) {
   reader.read(*restored);
   restored->eeprom.check_restored(state_.eeprom);
   restored->blocks.check_restored(state_.blocks);
+  check_restored_registers(*this, restored->image, restored->eeprom.kept());
   return [this, restored] {
     // What was compiled stays so where the macros are the same.
     const bool is_same = compiled_revision_ == state_.blocks.revision() && state_.blocks == restored->blocks;

@@ -137,6 +137,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   AxisMask driving() const;
   /// A drive of single axes (drives.cpp).
   Took drive(AxisMask axes, const Drive& what);
+  bool takes_place_of_endless(std::size_t axis, const Drive& what);
   /// One axis begins, without asking for locks and waits: what it meets at its start becomes its error.
   void start(std::size_t axis, const Drive& what, bool without_ramps = false);
   motion::SpeedLaw law_of(std::size_t axis) const;
@@ -146,6 +147,13 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   bool joins_stream(const HeldPath& path) const;
   /// Of what is held, if anything is.
   AxisMask axes_of_held_path() const;
+  /// What is held will not run.
+  void drop_held_path();
+  /// Streams that end otherwise than by their last segment (streams.cpp).
+  void break_off_stream();
+  void refuse_segment(const HeldPath& path);
+  bool is_left_over(const HeldPath& segment);
+  void forget_break(Stream stream);
   /// Whether a stream that runs takes one more segment.
   bool has_room_for_segment() const;
   /// Whether a path may begin on these axes now, given that none is running.
@@ -163,6 +171,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void halt(AxisMask axes, const StopRow& row);
   /// The path slows down to its end.
   void slow_path(Tick tick, motion::Cause why = motion::Cause::stopped);
+  void take_off(std::size_t axis, WayOut way);
   void clear_stop(AxisMask axes);
   void clear_path_stop();
   void clear_emergency();
@@ -228,14 +237,23 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void scan_frnet();
   bool scans_frnet_at(Tick tick) const;
   Tick next_scan(Tick after) const;
-  void watch_external(std::size_t axis);
+  void watch_external(std::size_t axis, Tick tick);
+  std::uint32_t external_edges(std::size_t axis, std::size_t which);
+  bool is_free_for_external(std::size_t axis, std::int64_t at_ns) const;
+  void obey_external(std::size_t axis, const motion::DriveOrder& order, std::int64_t at_ns);
+  motion::SpeedLaw external_law(std::size_t axis) const;
+  bool start_external(std::size_t axis, const motion::DriveOrder& order);
+  void start_waiting_external();
   void step_axes(Tick tick);
   void heed_encoder(std::size_t axis, Tick tick);
   void heed_ends();
+  void heed_paused(std::size_t axis);
   void heed_home(std::size_t axis);
   void heed_path_speed(Tick tick);
   void heed_path_end(bool was_full);
   void note_end_of_path(std::size_t axis);
+  bool is_no_cause(motion::Cause cause, bool is_at_its_end) const;
+  bool is_path_complete() const;
   void act_on_events(Tick tick);
   void act_together(Tick tick);
   void heed_factors(std::size_t axis, Tick tick);
@@ -255,9 +273,10 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void start_held();
   std::array<std::uint8_t, 3> codes_of_path(const lang::Command& command) const;
   bool streams_need_initial() const;
+  void break_off(Stream stream, bool has_more);
   bool keeps_path_off(const std::array<std::uint8_t, 3>& codes, const motion::Point& way);
   /// Of a command that may begin, or joins its stream; throws BadMotion for what cannot be drawn.
-  void draw(const lang::Command& command, const std::array<std::uint8_t, 3>& codes, bool joins);
+  void draw(const HeldPath& path, bool joins);
 
   // lang::Machine
   const lang::Macro* macro(const lang::MacroName& name) const override;

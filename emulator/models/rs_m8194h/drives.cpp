@@ -47,48 +47,7 @@ motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules, c
   return program;
 }
 
-/// Of an axis on a path, whose cause is that of the one that met something; what it met earlier is noted.
-bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
-  const auto is_on = [&](motion::Signal signal) { return (motor.signals & motion::bit(signal)) != 0; };
-  switch (cause) {
-    case motion::Cause::limit_plus: return is_on(motion::Signal::limit_plus);
-    case motion::Cause::limit_minus: return is_on(motion::Signal::limit_minus);
-    case motion::Cause::alarm: return is_on(motion::Signal::alarm);
-    case motion::Cause::soft_limit_plus:
-      return motor.settings.soft_limit_plus && motor.travel_pulses > *motor.settings.soft_limit_plus;
-    case motion::Cause::soft_limit_minus:
-      return motor.settings.soft_limit_minus && motor.travel_pulses < *motor.settings.soft_limit_minus;
-    case motion::Cause::none:
-    case motion::Cause::arrived:
-    case motion::Cause::stopped:
-    case motion::Cause::comparator:
-    case motion::Cause::emergency:
-    case motion::Cause::servo_off:
-    case motion::Cause::homing_failed: break;
-  }
-  return true;
-}
-
 }  // namespace
-
-/// Bits of what a motion ends by, or is kept from beginning by.
-std::uint16_t error_of(motion::Cause cause) {
-  switch (cause) {
-    case motion::Cause::soft_limit_plus: return bit_of(ErrorBit::soft_limit_plus);
-    case motion::Cause::soft_limit_minus: return bit_of(ErrorBit::soft_limit_minus);
-    case motion::Cause::limit_plus: return bit_of(ErrorBit::limit_plus);
-    case motion::Cause::limit_minus: return bit_of(ErrorBit::limit_minus);
-    case motion::Cause::alarm: return bit_of(ErrorBit::alarm);
-    case motion::Cause::emergency: return bit_of(ErrorBit::emergency);
-    case motion::Cause::none:
-    case motion::Cause::arrived:
-    case motion::Cause::stopped:
-    case motion::Cause::comparator:
-    case motion::Cause::servo_off:
-    case motion::Cause::homing_failed: break;
-  }
-  return 0;
-}
 
 Going RsM8194h::going(std::size_t axis) const {
   const motion::Axis& motor = state_.motors[axis];
@@ -207,7 +166,33 @@ bool RsM8194h::holds_a_drive(AxisMask axes) const {
   return (axes_of_held_path() & axes) != 0;
 }
 
+/// By choice, CONTINUE_MOVE goes on at another speed, or, the other way, behind a stop. Whether it does.
+bool RsM8194h::takes_place_of_endless(std::size_t axis, const Drive& what) {
+  motion::Axis& motor = state_.motors[axis];
+  const bool is_again = what.what == Drive::What::endless && going(axis) == Going::single &&
+                        motor.task == motion::Task::endless;
+  if (!is_again || !chose(option("continue_move_again", "takes_its_place"))) return false;
+  const bool is_same_way =
+      !motor.slowing && what.value != 0 && (what.value < 0) == (motor.drive.direction < 0);
+  if (is_same_way) {
+    AxisUnit& unit = state_.units[axis];
+    const auto drive_pps = static_cast<std::uint32_t>(std::abs(std::int64_t{what.value}));
+    if (chose(option("continue_move_speed", "yes"))) unit.speed.drive_pps = drive_pps;
+    motor.change_speed(law_at(unit, drive_pps, machine_.speed), now());
+  } else {
+    motor.slow_down(now());
+    state_.units[axis].held_drive = what;
+  }
+  return true;
+}
+
 Took RsM8194h::drive(AxisMask axes, const Drive& what) {
+  AxisMask taken = 0;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    const bool may = has(axes, a) && may_start(a, Starter::command) == Start::waits;
+    if (may && takes_place_of_endless(a, what)) taken |= mask_of(a);
+  }
+  axes &= static_cast<AxisMask>(~taken);
   // Then one that moves takes it along, and starts with it when it stands.
   const bool is_each_its_own = chose(option("mask_drive", "axis_by_axis")) && (axes & (axes - 1)) != 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -234,7 +219,7 @@ Took RsM8194h::drive(AxisMask axes, const Drive& what) {
         // The later one replaces what was held of this axis, or comes too late.
         if (keeps_first_held(mask_of(a))) break;
         state_.units[a].held_drive = what;
-        if (has(axes_of_held_path(), a)) state_.held_paths.clear();
+        if (has(axes_of_held_path(), a)) drop_held_path();
         break;
       case Start::waits: state_.units[a].held_drive = what; break;  // takes it along
     }
@@ -257,7 +242,8 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   motion::Axis& motor = state_.motors[axis];
   Paths& paths = state_.paths;
   if (paths.open && !paths.together.engaged && has(paths.axes, axis)) paths.open = false;
-  unit.external.running = 0;
+  take_off(axis, WayOut::other_drive);
+  unit.began_pulses = motor.travel_pulses;
   // What a command finds at its pins is what they are now.
   motor.signals = state_.here[axis].at(motor.travel_pulses, motor.signals);
   std::int64_t distance = what.value;
@@ -328,71 +314,6 @@ void RsM8194h::start_held() {
     if (stays && !joins_stream(path)) return;
     if (begin_path(path) == Took::waits) return;
     if (!state_.held_paths.empty()) state_.held_paths.erase(state_.held_paths.begin());
-  }
-}
-
-void RsM8194h::heed_home(std::size_t axis) {
-  AxisUnit& unit = state_.units[axis];
-  note_factor(axis, Factor::homed);
-  if (chose(option("home_error_bit", "also_at_home"))) unit.error_code |= bit_of(ErrorBit::home);
-  if (chose(option("home_clears_counters", "zero"))) {
-    set_logic_position(unit, state_.motors[axis], 0);
-    set_encoder_position(unit, state_.motors[axis], 0);
-    set_absolute_position(unit, state_.motors[axis], 0);
-    look_again(axis);
-  }
-}
-
-/// Its own cause, and what it has met before, become errors.
-void RsM8194h::note_end_of_path(std::size_t axis) {
-  AxisUnit& unit = state_.units[axis];
-  motion::Axis& motor = state_.motors[axis];
-  if (is_its_own(motor, motor.cause)) unit.error_code |= error_of(motor.cause);
-  unit.error_code |= std::exchange(unit.met, std::uint16_t{0});
-  // Once: a host may have cleared it when D-END comes.
-  if (motor.cause != motion::Cause::arrived && motor.task == motion::Task::none)
-    motor.cause = motion::Cause::stopped;
-}
-
-/// What ended in this tick leaves its cause in the error code.
-void RsM8194h::heed_ends() {
-  // The partners of the axis that met something hear of it a tick later.
-  Paths& paths = state_.paths;
-  const auto of_path =
-      static_cast<AxisMask>(paths.let_go | (paths.runs != Paths::Runs::nothing ? paths.axes : 0));
-  paths.let_go = 0;
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    const motion::Axis& motor = state_.motors[a];
-    AxisUnit& unit = state_.units[a];
-    const bool homed = (motor.events & motion::bit(motion::Event::homed)) != 0;
-    if (homed) heed_home(a);
-    // Its input stops what it has begun, and nothing else.
-    if (!motor.moving()) unit.external.running = 0;
-    constexpr motion::Events kConstant =
-        motion::bit(motion::Event::constant_started) | motion::bit(motion::Event::constant_ended);
-    const bool has_ramps = motor.law.start_speed_u_s < motor.law.top_speed_u_s;
-    if (!machine_.constant_drives_have_c_sta && !has_ramps) {
-      state_.motors[a].events &= static_cast<motion::Events>(~kConstant);
-    }
-    if ((motor.events & motion::bit(motion::Event::ended)) == 0) continue;
-    if (!machine_.axis.homing_heeds_soft_limits) look_again(a);
-    if (!machine_.d_end_after_stops && motor.cause != motion::Cause::arrived && !homed) {
-      state_.motors[a].events &= static_cast<motion::Events>(~motion::bit(motion::Event::ended));
-    }
-    motion::Cause cause = motor.cause;
-    if (cause == motion::Cause::homing_failed) {
-      cause = motor.homing.ended_by;
-      constexpr std::uint8_t kIndexPhase = 20;
-      const auto row = static_cast<std::size_t>(motor.homing.ended_in);
-      const bool by_index = cause == motion::Cause::homing_failed && motor.homing.ended_in >= 0 &&
-                            motor.homing.program.phases[row].code == kIndexPhase;
-      if (by_index) unit.error_code |= bit_of(ErrorBit::home);
-    }
-    if (has(of_path, a)) {
-      note_end_of_path(a);
-    } else {
-      unit.error_code |= error_of(cause);
-    }
   }
 }
 

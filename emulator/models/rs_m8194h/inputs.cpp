@@ -1,9 +1,12 @@
 // What comes in: pins with their filters, the bench's switches, external drives, the FRnet scan.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include "base/simulated_time.h"
 #include "emulator/device/machine_edges.h"
@@ -178,49 +181,112 @@ void RsM8194h::look_again(std::size_t axis) {
   look_round(axis);
 }
 
-void RsM8194h::watch_external(std::size_t axis) {
+/// How many edges an input has had since it was looked at.
+std::uint32_t RsM8194h::external_edges(std::size_t axis, std::size_t which) {
   AxisUnit& unit = state_.units[axis];
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Pin pin = i == 0 ? Pin::external_plus : Pin::external_minus;
-    const auto count = static_cast<std::uint32_t>(input(terminal(axis, pin)));
-    std::uint32_t edges = count - unit.external_seen[i];
-    unit.external_seen[i] = count;
-    if (filter_ticks(unit, static_cast<int>(pin), machine_) > 0) {
-      // Through its filter: what is too short is lost, the rest comes late.
-      const bool was_high = i == 0 ? unit.external.plus_high : unit.external.minus_high;
-      const bool is_high = (unit.pins.passed & bit_of(pin)) == 0;
-      edges = was_high != is_high ? 1 : 0;
-      // What it holds back is an edge to come, should it be taken off.
-      if (((count & 1U) == 0) != is_high) --unit.external_seen[i];
-    }
-    // While off nothing but the level at the end matters.
-    if (unit.external.mode == motion::ExternalDrive::Mode::off && edges > 1) edges = 2 - (edges & 1U);
-    for (; edges > 0; --edges) {
-      // A line is high while it does not conduct; each edge turns it over.
-      const bool plus = i == 0 ? !unit.external.plus_high : unit.external.plus_high;
-      const bool minus = i == 1 ? !unit.external.minus_high : unit.external.minus_high;
-      const motion::DriveOrder order = motion::watch_inputs(unit.external, plus, minus, is_driving(axis));
-      using What = motion::DriveOrder::What;
-      if (order.what == What::slow_down) {
-        if (going(axis) == Going::single) state_.motors[axis].slow_down(now());
-        continue;
-      }
-      if (order.what == What::nothing) continue;
-      if (may_start(axis, Starter::external) != Start::starts) {
-        note_obstacles(mask_of(axis));
-        unit.external.running = 0;
-        continue;
-      }
-      const bool is_run = order.what == What::run;
-      const auto speed = static_cast<std::int32_t>(std::min<std::uint32_t>(unit.external_pps, INT32_MAX));
-      const std::uint32_t drive_pps = unit.speed.drive_pps;  // the input's speed does not replace V
-      start(axis,
-            {.what = is_run ? Drive::What::endless : Drive::What::fixed,
-             .value = is_run ? order.way * speed : static_cast<std::int32_t>(order.pulses)},
-            chose(option("exd_speed", "v_without_ramps")));
-      unit.speed.drive_pps = drive_pps;
-      if (is_run && going(axis) == Going::single) unit.external.running = order.way;
-    }
+  const Pin pin = which == 0 ? Pin::external_plus : Pin::external_minus;
+  const auto count = static_cast<std::uint32_t>(input(terminal(axis, pin)));
+  std::uint32_t edges = count - unit.external_seen[which];
+  unit.external_seen[which] = count;
+  if (filter_ticks(unit, static_cast<int>(pin), machine_) > 0) {
+    // Through its filter: what is too short is lost, the rest comes late.
+    const bool was_high = which == 0 ? unit.external.plus_high : unit.external.minus_high;
+    const bool is_high = (unit.pins.passed & bit_of(pin)) == 0;
+    edges = was_high != is_high ? 1 : 0;
+    // What it holds back is an edge to come, should it be taken off.
+    if (((count & 1U) == 0) != is_high) --unit.external_seen[which];
+  }
+  // While off nothing but the level at the end matters.
+  if (unit.external.mode == motion::ExternalDrive::Mode::off && edges > 1) edges = 2 - (edges & 1U);
+  return edges;
+}
+
+/// The edges of a tick lie evenly in it, those of one input between those of the other.
+void RsM8194h::watch_external(std::size_t axis, Tick tick) {
+  AxisUnit& unit = state_.units[axis];
+  const std::array<std::uint32_t, 2> edges{external_edges(axis, 0), external_edges(axis, 1)};
+  std::array<std::uint32_t, 2> done{};
+  while (done[0] < edges[0] || done[1] < edges[1]) {
+    const auto place = [&](std::size_t i) { return std::int64_t{done[i]} * 2 + 1; };  // of 2 * edges[i]
+    const bool is_plus =
+        done[1] == edges[1] || (done[0] < edges[0] && place(0) * edges[1] <= place(1) * edges[0]);
+    const std::size_t i = is_plus ? 0 : 1;
+    const std::int64_t half_ns = kTickLength.count() / (std::int64_t{edges[i]} * 2);
+    std::int64_t at_ns = time_of(tick).count() + half_ns * place(i);
+    ++done[i];
+    // Beside edges of the other input nobody knows its time so well.
+    const std::int64_t most_ns = edges[0] != 0 && edges[1] != 0 ? half_ns : 0;
+    at_ns = std::clamp(unit.external_free_ns, at_ns, at_ns + most_ns);
+    // A line is high while it does not conduct; each edge turns it over.
+    const bool plus = is_plus ? !unit.external.plus_high : unit.external.plus_high;
+    const bool minus = is_plus ? unit.external.minus_high : !unit.external.minus_high;
+    const bool is_busy = is_driving(axis) && !is_free_for_external(axis, at_ns);
+    obey_external(axis, motion::watch_inputs(unit.external, plus, minus, is_busy), at_ns);
+  }
+}
+
+/// Whether it only drives because drives end at ticks: the pulses of its last edge are out by then.
+bool RsM8194h::is_free_for_external(std::size_t axis, std::int64_t at_ns) const {
+  const AxisUnit& unit = state_.units[axis];
+  const motion::Axis& motor = state_.motors[axis];
+  const bool is_its = unit.external_free_ns != 0 && going(axis) == Going::single;
+  return is_its && !motor.slowing && !motor.settling && at_ns >= unit.external_free_ns;
+}
+
+void RsM8194h::obey_external(std::size_t axis, const motion::DriveOrder& order, std::int64_t at_ns) {
+  using What = motion::DriveOrder::What;
+  AxisUnit& unit = state_.units[axis];
+  if (order.what == What::nothing) return;
+  if (order.what == What::slow_down) {
+    if (going(axis) == Going::single) state_.motors[axis].slow_down(now());
+    return;
+  }
+  const bool waits = order.what == What::move && is_free_for_external(axis, at_ns);
+  if (waits) unit.external_waiting += order.pulses;
+  if (!waits && !start_external(axis, order)) return;
+  if (order.what == What::run) return;
+  const double pulses = std::abs(static_cast<double>(order.pulses));
+  unit.external_free_ns = after(at_ns, motion::plan(pulses, external_law(axis)).duration_s);
+}
+
+motion::SpeedLaw RsM8194h::external_law(std::size_t axis) const {
+  motion::SpeedLaw law = law_of(axis);
+  if (chose(option("exd_speed", "v_without_ramps"))) law.start_speed_u_s = law.top_speed_u_s;
+  return law;
+}
+
+/// Whether it has begun.
+bool RsM8194h::start_external(std::size_t axis, const motion::DriveOrder& order) {
+  AxisUnit& unit = state_.units[axis];
+  unit.external.running = 0;
+  if (may_start(axis, Starter::external) != Start::starts) {
+    note_obstacles(mask_of(axis));
+    return false;
+  }
+  const bool is_run = order.what == motion::DriveOrder::What::run;
+  const auto speed = static_cast<std::int32_t>(std::min<std::uint32_t>(unit.external_pps, INT32_MAX));
+  const std::uint32_t drive_pps = unit.speed.drive_pps;  // the input's speed does not replace V
+  start(axis,
+        {.what = is_run ? Drive::What::endless : Drive::What::fixed,
+         .value = is_run ? order.way * speed : static_cast<std::int32_t>(order.pulses)},
+        chose(option("exd_speed", "v_without_ramps")));
+  unit.speed.drive_pps = drive_pps;
+  const bool has_begun = going(axis) == Going::single;
+  if (is_run && has_begun) unit.external.running = order.way;
+  return has_begun;
+}
+
+/// What has waited for the tick in which the pulses before it were over. A drive that something else has
+/// ended has nothing behind it.
+void RsM8194h::start_waiting_external() {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    AxisUnit& unit = state_.units[a];
+    if (unit.external_free_ns == 0 || is_driving(a)) continue;
+    const std::int64_t free_ns = std::exchange(unit.external_free_ns, 0);
+    const std::int64_t waiting = std::exchange(unit.external_waiting, 0);
+    if (waiting == 0 || state_.motors[a].cause != motion::Cause::arrived) continue;
+    const bool begins = start_external(a, {.what = motion::DriveOrder::What::move, .pulses = waiting});
+    if (begins) unit.external_free_ns = free_ns;
   }
 }
 

@@ -96,7 +96,9 @@ constexpr CompleteTable<Verb, Reads> kReadTable(lang::kReadVerbs, kReads);
 lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
   const std::uint16_t code = decoded.command.code;
   if (state_.rsm == lang::State::ready) {
-    if (mp_runs()) return lang::Fault::macro_runs;
+    const bool is_busy =
+        mp_runs() || (isr_runs() && chose(option("download_beside_macro", "refused_beside_an_isr_too")));
+    if (is_busy && !chose(option("download_beside_macro", "taken"))) return lang::Fault::macro_runs;
     const bool is_isr = decoded.command.verb() == Verb::isr_create;
     state_.download = {.name = {is_isr, static_cast<int>(decoded.command.values[0])}};
     state_.rsm = is_isr ? lang::State::isr_download : lang::State::mp_download;
@@ -166,6 +168,7 @@ void RsM8194h::load_program(std::string_view text) {
                       SharedText(lang::text_of(each.name, each.macro)));
   }
   for (const lang::ListedTrigger& each : parsed.listing.triggers) {
+    state_.trigger_holds[static_cast<std::size_t>(each.channel)] = 0;
     state_.blocks.put(kTriggerBlocks, lang::text_of_channel(each.channel),
                       SharedText(lang::text_of(each.channel, each.trigger)));
   }

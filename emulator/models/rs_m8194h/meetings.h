@@ -141,6 +141,38 @@ constexpr const StopRow& stop_row(lang::Verb verb, std::uint32_t type = 0) {
   throw "not a stop";
 }
 
+// --- what a motion has left to be done, and what takes that away
+// ----------------------------------------------
+
+enum class Mark : std::uint8_t {
+  paused_drive,    // the rest of a drive that a trigger's pause holds
+  external_drive,  // what an EXD input has begun, and edges that wait behind it
+  trigger_hold,    // an axis that a trigger's level holds until it ends
+};
+inline constexpr std::size_t kMarks = 3;
+
+enum class WayOut : std::uint8_t {
+  stop,
+  path_stop,
+  emergency_stop,
+  cause,  // a limit, an alarm, EMG
+  other_drive,
+  release,  // DRV_START
+  triggers_off,
+};
+inline constexpr std::size_t kWaysOut = 7;
+
+/// RESET_CARD and power-off take all of them.
+inline constexpr std::array<std::array<bool, kWaysOut>, kMarks> kTakenOff{{
+    // stop, VSTOP, emergency stop, cause, another drive, DRV_START, triggers off
+    {true, false, true, true, true, false, false},
+    {true, false, true, true, true, false, false},
+    {false, false, true, false, false, true, true},
+}};
+constexpr bool takes_off(WayOut way, Mark mark) {
+  return kTakenOff[static_cast<std::size_t>(mark)][static_cast<std::size_t>(way)];
+}
+
 // --- clearing ----------------------------------------------------------------------------------------------
 
 /// What of an error code stays when CLEAR_STOP or CLEAR_VSTOP has taken its lock away (A-35, 6.2): of the

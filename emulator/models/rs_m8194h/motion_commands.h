@@ -6,14 +6,15 @@
 namespace understudy::emulator::models::rs_m8194h {
 
 /// A counter of the axes in the first parameter.
-template <void (*set)(AxisUnit& axis, motion::Axis& motor, std::int32_t value)>
+template <void (*set)(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds)>
 Took set_counter(RsM8194h& it, const Command& command) {
+  const bool ring_folds = it.machine_options().axis.ring_folds;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    set(it.state().units[a], it.state().motors[a], command.signed_value(1));
+    set(it.state().units[a], it.state().motors[a], command.signed_value(1), ring_folds);
     const bool is_of_both = command.verb() == Verb::set_lp || command.verb() == Verb::abs_set_position;
     if (is_of_both && it.chose(option("lp_and_abs", "set_both"))) {
-      set_logic_position(it.state().units[a], it.state().motors[a], command.signed_value(1));
-      set_absolute_position(it.state().units[a], it.state().motors[a], command.signed_value(1));
+      set_logic_position(it.state().units[a], it.state().motors[a], command.signed_value(1), ring_folds);
+      set_absolute_position(it.state().units[a], it.state().motors[a], command.signed_value(1), ring_folds);
     }
     it.look_again(a);
   });
@@ -120,6 +121,7 @@ inline Took set_pulse(RsM8194h& it, const Command& command) {
     if (is_against && it.chose(option("set_pulse_sign", "is_ignored"))) return;
     const bool counts = !is_against || it.chose(option("set_pulse_sign", "counts_all_the_same"));
     motor.change_distance(counts ? std::abs(given) : 0, true, it.now());
+    it.take_off(a, WayOut::other_drive);  // it is this command's now
   });
   return Took::done;
 }
@@ -146,7 +148,9 @@ Took initial(RsM8194h& it, const Command& command) {
   settings.acceleration = command.values[kFirstSpeed + 2];
   paths.streams[static_cast<std::size_t>(stream)] = settings;
   paths.open = false;
-  it.state().rint &= static_cast<std::uint8_t>(~(bit_of(Rint::stream) | bit_of(Rint::module)));
+  it.forget_break(stream);
+  it.state().rint &= static_cast<std::uint8_t>(~bit_of(Rint::module));
+  if (paths.broken == 0) it.state().rint &= static_cast<std::uint8_t>(~bit_of(Rint::stream));
   return Took::done;
 }
 

@@ -61,9 +61,18 @@ void RsM8194h::step_axes(Tick tick) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!together.takes(a)) pulses[a] = state_.motors[a].step(tick, state_.here[a]);
   }
+  const bool was_engaged = together.engaged;
   together.step(tick, state_.motors, state_.here, pulses);
+  if (was_engaged && !state_.loaded.empty()) {
+    const auto done = std::min(state_.loaded.size(), static_cast<std::size_t>(together.run.completed()));
+    state_.loaded.erase(state_.loaded.begin(), state_.loaded.begin() + static_cast<std::ptrdiff_t>(done));
+  }
   for (std::size_t a = 0; a < kAxes; ++a) {
     state_.units[a].sent_pulses = pulses[a];
+    if (!machine_.axis.ring_folds && is_beyond_ring(state_.units[a])) {
+      enter_ring(state_.units[a], state_.motors[a]);
+      if (!is_beyond_ring(state_.units[a])) look_again(a);
+    }
     // It may be back before the path stands.
     if (state_.motors[a].slowing && together.takes(a))
       state_.units[a].met |= error_of(state_.motors[a].cause);
@@ -111,7 +120,11 @@ void RsM8194h::heed_path_end(bool was_full) {
   if (paths.together.engaged || paths.runs == Paths::Runs::nothing) return;
   const bool starved =
       paths.runs == Paths::Runs::stream && paths.open && paths.together.cause == motion::Cause::arrived;
+  const bool is_broken_off = paths.runs == Paths::Runs::stream &&
+                             paths.together.cause != motion::Cause::arrived &&
+                             (paths.open || !state_.loaded.empty());
   if (starved) state_.rint |= bit_of(Rint::stream);
+  if (is_broken_off) break_off_stream();
   paths.open = starved;
   paths.let_go = paths.axes;
   // D-END comes in the next tick; who sees that it stands sees why.
@@ -207,6 +220,7 @@ void RsM8194h::act_together(Tick tick) {
   motion::SyncTable acting = state_.sync;
   std::array<bool, kAxes> slows_path{};
   std::array<bool, kAxes> stops_path{};
+  std::array<bool, kAxes> begins{};
   for (std::size_t a = 0; a < kAxes; ++a) {
     using Action = motion::SyncAction::Drive;
     motion::SyncAction& action = acting.actions[a];
@@ -221,6 +235,7 @@ void RsM8194h::act_together(Tick tick) {
     const bool is_void =
         starts_something(action.drive) && (has_no_speed || may_start(a, Starter::external) != Start::starts);
     if (is_void || on_path) action.drive = Action::none;
+    begins[a] = starts_something(action.drive);
   }
   const auto order = machine_.sync_goes_by_moment ? motion::SyncOrder::by_moment : motion::SyncOrder::by_axis;
   const motion::SyncOutcome outcome = motion::act(acting, state_.motors, tick, order);
@@ -233,6 +248,10 @@ void RsM8194h::act_together(Tick tick) {
   }
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(acted, a)) continue;
+    if (begins[a]) {
+      take_off(a, WayOut::other_drive);
+      state_.units[a].began_pulses = state_.motors[a].travel_pulses;
+    }
     AxisUnit& unit = state_.units[a];
     const motion::SyncAction& action = state_.sync.actions[a];
     const motion::SyncTable::Latch& latch = acting.latches[a];
@@ -242,8 +261,10 @@ void RsM8194h::act_together(Tick tick) {
                                                                     : unit.logic.at(latch.travel_pulses));
     }
     const auto preset = static_cast<std::int32_t>(action.preset_value);
-    if (has(outcome.presets_command, a)) unit.logic.set(preset, latch.travel_pulses);
-    if (has(outcome.presets_encoder, a)) unit.encoder.set(preset, encoder);
+    const bool ring_folds = machine_.axis.ring_folds;
+    if (has(outcome.presets_command, a))
+      set_count(unit.logic, unit.basic, preset, latch.travel_pulses, ring_folds);
+    if (has(outcome.presets_encoder, a)) set_count(unit.encoder, unit.basic, preset, encoder, ring_folds);
     // Of an endless drive it is void (7.3.1).
     if (action.preset == motion::SyncAction::Preset::speed && preset > 0 && !is_endless(action.drive)) {
       unit.speed.drive_pps = static_cast<std::uint32_t>(preset);
@@ -251,7 +272,7 @@ void RsM8194h::act_together(Tick tick) {
     }
     if (slows_path[a]) slow_path(tick);
     if (stops_path[a]) state_.paths.together.stop(state_.motors);
-    if (slows_path[a] || stops_path[a]) state_.paths.open = false;
+    if (slows_path[a] || stops_path[a]) break_off_stream();
     if (has(outcome.outputs, a)) give_pulse(a, tick);
     if (has(outcome.interrupts, a)) {
       for (std::size_t t = 0; t < kAxes; ++t) {
@@ -277,6 +298,10 @@ void RsM8194h::change_speed(std::size_t axis) {
   law.start_speed_u_s = std::min(law.start_speed_u_s, wanted);
   law.top_speed_u_s = wanted;
   motor.change_speed(law, now());
+  if (state_.units[axis].external_free_ns != 0) {
+    const double left_s = motor.drive.profile.duration_s - motor.drive.elapsed_s(now());
+    state_.units[axis].external_free_ns = after(time_of(now()).count(), left_s);
+  }
 }
 
 void RsM8194h::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
@@ -368,7 +393,8 @@ Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) 
   if (state_.unscanned || state_.sent != state_.outputs) last = std::min(last, next_scan(done) - 1);
   for (std::size_t a = 0; a < kAxes && last > done; ++a) {
     const AxisUnit& unit = state_.units[a];
-    if (heeds_encoder(unit, state_.motors[a]) || is_filtering(unit)) return done + 1;
+    const bool may_enter_ring = is_beyond_ring(unit) && state_.motors[a].moving();
+    if (heeds_encoder(unit, state_.motors[a]) || is_filtering(unit) || may_enter_ring) return done + 1;
     if (unit.out.pulse_until > done) last = std::min(last, unit.out.pulse_until - 1);
     if (unit.held_drive.what != Drive::What::none && !unit.held) return done + 1;
     const motion::Axis& motor = state_.motors[a];

@@ -102,6 +102,8 @@ MachineOptions machine_options(const DeviceSettings& settings) {
   }
   if (chose(option("alarm_stop", "slows_down"))) options.axis.at_alarm = motion::Reaction::slow_down;
   options.axis.drives_wait_for_in_position = !chose(option("inpos", "is_only_read"));
+  options.axis.in_position_waits_beside_limits = chose(option("limit_while_inpos", "lets_it_wait"));
+  options.axis.ring_folds = chose(option("ring_overflow", "comes_round"));
   options.emergency_while_off = chose(option("emg_level", "while_off"));
   options.in3_rises_when_it_closes = chose(option("in3_edges", "the_contact_closes"));
   options.filters_delay = !chose(option("filter_delay", "none"));

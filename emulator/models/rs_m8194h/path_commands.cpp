@@ -97,10 +97,12 @@ Took RsM8194h::follow_path(const lang::Command& command) {
   auto& held = state_.held_paths;
   if (held.empty() || !follows(held.front(), path)) return begin_path(path);
   // A stream is one drive: its segments are held together, and begin one after the other.
-  const bool has_last = held.back().command.values[0] == 1;
+  const auto end = std::find_if_not(held.begin(), held.end(),
+                                    [&](const HeldPath& each) { return follows(held.front(), each); });
+  const bool has_last = is_last_segment(*std::prev(end));
   if (has_last && !joins_stream(held.front())) return begin_path(path);
-  if (has_last || held.size() == static_cast<std::size_t>(kFifoBlocks)) return Took::waits;
-  held.push_back(path);
+  if (has_last || held.size() >= static_cast<std::size_t>(kFifoBlocks)) return Took::waits;
+  held.insert(end, path);
   return Took::done;
 }
 
@@ -125,6 +127,7 @@ Took RsM8194h::begin_path(const HeldPath& path) {
     module_error();
     return Took::done;
   }
+  if (is_stream && is_left_over(path)) return Took::done;
   const bool joins = joins_stream(path);
   if (joins && (paths.together.slowing_for != motion::Cause::none || !has_room_for_segment())) {
     return Took::waits;
@@ -134,6 +137,7 @@ Took RsM8194h::begin_path(const HeldPath& path) {
     const Start outcome = may_start(axes, Starter::command);
     if (outcome == Start::is_void) {
       note_obstacles(axes);
+      refuse_segment(path);
       return Took::done;
     }
     // There is one path at a time, whatever its axes.
@@ -146,12 +150,14 @@ Took RsM8194h::begin_path(const HeldPath& path) {
       for (std::size_t a = 0; a < kAxes; ++a) {
         if (has(axes, a)) state_.units[a].held_drive = {};
       }
+      drop_held_path();
+      if (is_stream) forget_break(row.stream);  // what was held of it had another INITIAL
       state_.held_paths.assign(1, path);
       return Took::done;
     }
   }
   try {
-    draw(command, codes, joins);
+    draw(path, joins);
   } catch (const motion::BadMotion& bad) {
     if (bad.refusal() == motion::Refusal::out_of_range)
       Device::mention_unmodelled(kLongHelix, kWhyNoLongHelix);

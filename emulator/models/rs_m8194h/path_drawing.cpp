@@ -45,7 +45,9 @@ struct PathDrawing {
 
 }  // namespace
 
-void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t, 3>& codes, bool joins) {
+void RsM8194h::draw(const HeldPath& path, bool joins) {
+  const lang::Command& command = path.command;
+  const std::array<std::uint8_t, 3>& codes = path.codes;
   const PathRow& row = row_of_path(command.verb());
   Paths& paths = state_.paths;
   const bool is_stream = row.runs == Paths::Runs::stream;
@@ -114,6 +116,9 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
   motion::ArcOptions arc_options = kArcOptions;
   if (chose(option("arc_end_off_circle", "ends_at_its_end")))
     arc_options.off_circle = motion::OffCircle::blend;
+  // What a stream that was broken off has left behind it stays until it is begun anew.
+  const bool goes_on = is_stream && (paths.broken & bit_of(row.stream)) != 0;
+  if (is_stream && is_last) forget_break(row.stream);
   double speed_factor = 1;
   switch (draws) {
     case Draws::line: drawing.add(motion::line(begin, point(first_value)), now_tick); break;
@@ -189,8 +194,12 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
   if (joins) {
     paths.together.run = drawing.run;
     paths.end = drawing.end;
+    state_.loaded.push_back(path);
   } else {
-    if (drawing.length == 0) return;  // no pulse, and neither beginning nor end
+    if (drawing.length == 0) {  // no pulse, and neither beginning nor end
+      if (is_stream && is_last) paths.open = false;
+      return;
+    }
     motion::SpeedLaw law = rs_m8194h::law_of(speed, speed.drive_pps, range, shape, false);
     law.top_speed_u_s *= speed_factor;
     law.start_speed_u_s *= speed_factor;
@@ -206,20 +215,24 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
       motion::Axis& motor = state_.motors[static_cast<std::size_t>(a)];
       motor.signals = state_.here[static_cast<std::size_t>(a)].at(motor.travel_pulses, motor.signals);
     }
-    if (keeps_path_off(codes, drawing.run.path().direction_at(0))) return;
-    if (made.begin(Point::Zero(), state_.motors, now_tick) != motion::Cause::none) return;
+    heed_path_end(false);  // of one that was stopped since the last tick
+    if (keeps_path_off(codes, drawing.run.path().direction_at(0)) ||
+        made.begin(Point::Zero(), state_.motors, now_tick) != motion::Cause::none) {
+      return refuse_segment(path);
+    }
+    state_.loaded.clear();
+    if (is_stream) state_.loaded.push_back(path);
     paths.together = made;
     paths.end = drawing.end;
     paths.axes = mask_of_codes(codes);
     paths.runs = row.runs;
     paths.stream = row.stream;
-    for (std::size_t a = 0; a < kAxes; ++a) {
+    for (std::size_t a = 0; a < kAxes && !goes_on; ++a) {
       if (has(paths.axes, a)) forget_errors(a);
     }
-    if (is_stream) state_.rint &= static_cast<std::uint8_t>(~bit_of(Rint::stream));
   }
   paths.open = is_stream && !is_last;
-  if (joins) state_.rint &= static_cast<std::uint8_t>(~bit_of(Rint::stream));
+  if (is_stream && !goes_on) state_.rint &= static_cast<std::uint8_t>(~bit_of(Rint::stream));
   const bool begins_to_slow_down = !machine_.last_ramp_is_in_last_segment || paths.together.run.queued() < 2;
   if (joins && is_last && begins_to_slow_down) paths.together.run.set_open(false, now_tick);
 }

@@ -49,9 +49,9 @@ void RsM8194h::blank_module() {
     set_external_levels(blank);
     blank.out.pulses = unit.out.pulses;
     blank.logic.range = blank.absolute.range = blank.encoder.range = motion::Counter::Range::bits32;
-    set_logic_position(blank, motor, 0);
-    set_absolute_position(blank, motor, 0);
-    set_encoder_position(blank, motor, 0);
+    set_logic_position(blank, motor, 0, true);
+    set_absolute_position(blank, motor, 0, true);
+    set_encoder_position(blank, motor, 0, true);
     apply_basic(blank, motor, state_.initial_table[a], machine_.axis);
     if (has_usual_speeds) blank.speed.start_pps = blank.speed.drive_pps = blank.homing.home_pps = kUsualPps;
   }
@@ -62,6 +62,7 @@ void RsM8194h::blank_module() {
   state_.scanning = 0;
   state_.fifo = {};
   state_.held_paths.clear();
+  state_.loaded.clear();
   state_.emergency_state = false;
   state_.rint = 0;
   state_.interrupts = false;
@@ -166,9 +167,9 @@ void RsM8194h::reset_card() {
     AxisUnit& unit = state_.units[a];
     motion::Axis& motor = state_.motors[a];
     if (chose(option("reset_card_counters", "kept"))) {
-      set_logic_position(unit, motor, counts[a][0]);
-      set_encoder_position(unit, motor, counts[a][1]);
-      set_absolute_position(unit, motor, counts[a][2]);
+      set_logic_position(unit, motor, counts[a][0], machine_.axis.ring_folds);
+      set_encoder_position(unit, motor, counts[a][1], machine_.axis.ring_folds);
+      set_absolute_position(unit, motor, counts[a][2], machine_.axis.ring_folds);
       unit.latched = units[a].latched;
     }
     if (chose(option("reset_card_settings", "kept"))) {

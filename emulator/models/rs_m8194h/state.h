@@ -43,6 +43,9 @@ bool is_path(const lang::Command& command);
 struct HeldPath;
 /// Whether it is a segment of the same stream.
 bool follows(const HeldPath& first, const HeldPath& other);
+/// Whether it is a segment of a stream, and its last one.
+bool is_segment(const HeldPath& path);
+bool is_last_segment(const HeldPath& path);
 
 /// An interpolation that is held, on the axes that it was sent for.
 struct HeldPath {
@@ -125,6 +128,7 @@ struct State {
   AxisMask scanning = 0;  // axes that LINE_SCAN_START has named
   Fifo fifo{};
   std::vector<HeldPath> held_paths{};  // what waits for DRV_START; behind a segment those of its stream
+  std::vector<HeldPath> loaded{};  // of the stream that runs: its segment, and those that are ready behind it
   // The RS-M8194H's own.
   lang::State rsm = lang::State::ready;
   std::uint16_t illegal_reason = 0;

@@ -82,6 +82,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("scanning", &Value::scanning),
                                            field("fifo", &Value::fifo),
                                            field("held_paths", &Value::held_paths),
+                                           field("loaded", &Value::loaded),
                                            field("rsm", &Value::rsm),
                                            field("illegal_reason", &Value::illegal_reason),
                                            field("download", &Value::download),
@@ -118,14 +119,16 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("eeprom", &Value::eeprom),
                                            field("image", &Value::image)};
   static void check(const Value& state) {
-    demand_state(
-        state.held_paths.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
-        "more is held than there is room for");
+    constexpr std::size_t kMostHeld = emulator::models::rs_m8194h::kFifoBlocks + motion::PathRun::kMaxPaths;
+    demand_state(state.held_paths.size() <= kMostHeld, "more is held than there is room for");
     for (const auto& held : state.held_paths) {
       demand_state(emulator::models::rs_m8194h::is_path(held.command), "what is held is not a path");
-      demand_state(emulator::models::rs_m8194h::follows(state.held_paths.front(), held) ||
-                       state.held_paths.size() == 1,
-                   "what is held is not one stream");
+    }
+    demand_state(state.loaded.size() <= motion::PathRun::kMaxPaths, "more is loaded than there is room for");
+    for (const auto& segment : state.loaded) {
+      demand_state(emulator::models::rs_m8194h::is_path(segment.command) &&
+                       emulator::models::rs_m8194h::is_segment(segment),
+                   "what is loaded is not a segment");
     }
     for (const std::uint8_t channel : state.queued_triggers) {
       demand_state(channel < interpreter::rs_m8194h::kTriggerCount, "a trigger has no such channel");
@@ -139,7 +142,6 @@ struct StateOf<emulator::models::rs_m8194h::State> {
       demand_state(is_new && exists, "an interrupt that is enabled has no such source");
     }
     for (const auto& scan : state.scans) demand_reach(scan.begin);
-    demand_state(state.image.size() == emulator::models::rs_m8194h::kSlotCount, "the image has another size");
     demand_reach(state.powered_at);
     demand_reach(state.finished_at);
     demand_reach(state.emergency_since);

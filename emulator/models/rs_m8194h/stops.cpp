@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "base/simulated_time.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
@@ -34,6 +35,8 @@ void RsM8194h::leave_path(std::size_t axis, Halt halt) {
     if (mine == static_cast<std::int8_t>(axis)) mine = motion::Coordinated::kNone;
   }
   state_.paths.axes &= static_cast<AxisMask>(~mask_of(axis));
+  AxisUnit& unit = state_.units[axis];
+  unit.error_code |= std::exchange(unit.met, std::uint16_t{0});
   motion::Axis& motor = state_.motors[axis];
   const auto drive_pps = static_cast<std::uint32_t>(std::ceil(std::abs(speed_pps)));
   const motion::SpeedLaw law = law_at(state_.units[axis], drive_pps, machine_.speed);
@@ -45,6 +48,18 @@ void RsM8194h::leave_path(std::size_t axis, Halt halt) {
   } else {
     motor.stop();
   }
+}
+
+/// What the axis had left to be done, as far as this takes it away (meetings.h).
+void RsM8194h::take_off(std::size_t axis, WayOut way) {
+  AxisUnit& unit = state_.units[axis];
+  if (takes_off(way, Mark::paused_drive)) unit.paused_drive = {};
+  if (takes_off(way, Mark::external_drive)) {
+    unit.external.running = 0;
+    unit.external_waiting = unit.external_free_ns = 0;
+  }
+  if (!takes_off(way, Mark::trigger_hold)) return;
+  for (AxisMask& held : state_.trigger_holds) held &= static_cast<AxisMask>(~mask_of(axis));
 }
 
 void RsM8194h::slow_path(Tick tick, motion::Cause why) {
@@ -67,8 +82,12 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
       row.locks && (paths.axes & ~axes) != 0 && chose(option("stop_one_of_path", "it_alone_stops"));
   const bool locks_whole_path = chose(option("stop_one_of_path", "all_end_and_are_locked"));
   AxisMask locked_with_it = 0;
-  const bool keeps_held =
-      row.verb == lang::Verb::emergency_stop && chose(option("emergency_drops_holds", "kept"));
+  const bool is_emergency = row.verb == lang::Verb::emergency_stop;
+  const bool keeps_held = is_emergency && chose(option("emergency_drops_holds", "kept"));
+  const auto trigger_holds = state_.trigger_holds;
+  const WayOut way = is_emergency     ? WayOut::emergency_stop
+                     : row.locks_path ? WayOut::path_stop
+                                      : WayOut::stop;
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     AxisUnit& unit = state_.units[a];
@@ -83,14 +102,14 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
       } else {
         paths.together.stop(state_.motors);
       }
-      paths.open = false;
+      break_off_stream();
     } else if (halt == Halt::slows) {
       motor.slow_down(now());
     } else if (halt == Halt::stops) {
       motor.stop();
     }
-    if (paths.open && !paths.together.engaged && has(paths.axes, a)) paths.open = false;
-    if (row.halts[static_cast<std::size_t>(Going::single)] != Halt::goes_on) unit.paused_drive = {};
+    if (paths.open && !paths.together.engaged && has(paths.axes, a)) break_off_stream();
+    take_off(a, way);
     if (row.locks && halt != Halt::goes_on && going_now == Going::path && locks_whole_path) {
       locked_with_it |= paths.axes;
     }
@@ -100,11 +119,12 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
     unit.path_locked = unit.path_locked || row.locks_path;
     if (row.drops_held_drive && !keeps_held) {
       unit.held_drive = {};
-      if (has(axes_of_held_path(), a)) state_.held_paths.clear();
+      if (has(axes_of_held_path(), a)) drop_held_path();
     }
     if (row.drops_hold && !keeps_held) unit.held = false;
     unit.error_code |= bit_of(row.error);
   }
+  if (keeps_held) state_.trigger_holds = trigger_holds;
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(locked_with_it, a)) continue;
     state_.units[a].locked = true;
@@ -159,7 +179,9 @@ void RsM8194h::hold(AxisMask axes) {
 
 void RsM8194h::release(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
-    if (has(axes, a)) state_.units[a].held = false;
+    if (!has(axes, a)) continue;
+    state_.units[a].held = false;
+    take_off(a, WayOut::release);
   }
   const AxisMask of_path = axes_of_held_path();
   if ((of_path & axes) != 0 && chose(option("hold_partial_start", "starts_at_once"))) {
@@ -168,7 +190,7 @@ void RsM8194h::release(AxisMask axes) {
     }
   }
   const bool is_partial = (of_path & axes) != 0 && (of_path & ~axes) != 0;
-  if (is_partial && chose(option("hold_partial_start", "is_void"))) state_.held_paths.clear();
+  if (is_partial && chose(option("hold_partial_start", "is_void"))) drop_held_path();
   start_held();
 }
 

@@ -51,6 +51,7 @@ void RsM8194h::enable_triggers(bool on) {
     heed_triggers(state_.inputs, true);
   } else {
     state_.queued_triggers.clear();
+    for (std::size_t a = 0; a < kAxes; ++a) take_off(a, WayOut::triggers_off);
   }
 }
 
@@ -121,7 +122,7 @@ void RsM8194h::slow_down(AxisMask axes) {
   Paths& paths = state_.paths;
   if (paths.together.engaged && (paths.axes & axes) != 0) {
     slow_path(now());
-    paths.open = false;
+    break_off_stream();
   }
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (has(axes, a) && !paths.together.takes(a)) state_.motors[a].slow_down(now());

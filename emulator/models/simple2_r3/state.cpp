@@ -9,6 +9,7 @@
 #include "base/state/difference.h"
 #include "base/state/state_bytes.h"
 #include "base/state/state_error.h"
+#include "emulator/device/memory/register_memory.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
@@ -91,13 +92,7 @@ std::function<void()> Simple2R3::read_own_state(StateReader& reader) {
   const auto restored = std::make_shared<State>();
   reader.read(*restored);
   restored->eeprom.check_restored(state_.eeprom);
-  std::size_t slot = 0;
-  for (const RegisterRow& row : map().rows()) {
-    for (int i = 0; i < row.count; ++i, ++slot) {
-      const std::uint32_t bits = restored->image[slot] | restored->eeprom.kept()[slot];
-      demand_state((bits & ~row.stored_bits) == 0, "a register holds more than it can");
-    }
-  }
+  check_restored_registers(*this, restored->image, restored->eeprom.kept());
   return [this, restored] { state_ = *restored; };
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/simulated_time.h"
@@ -33,6 +34,7 @@
 #include "interpreter/slim/flow.h"
 #include "interpreter/slim/parse.h"
 #include "interpreter/slim/program.h"
+#include "interpreter/slim/unknown_line.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -252,7 +254,7 @@ Slim::ReadProgram Slim::read_program(std::string_view text) const {
         : error == Error::range       ? "has a value out of range"
         : error == Error::not_allowed ? "may not stand in a program"
         : error == Error::address     ? "begins with a label that another line has"
-                                  : "is not a command; expected one of `understudy describe slim commands`";
+                                      : lang::why_not_command(std::string_view(line).substr(first));
     read.mistakes.push_back({number, static_cast<int>(first) + 1, what});
     if (error == Error::buffer_full) break;  // for all that follow as well
   }

@@ -10,6 +10,7 @@
 #include "base/state/difference.h"
 #include "base/state/state_bytes.h"
 #include "base/state/state_error.h"
+#include "emulator/device/memory/register_memory.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
@@ -91,6 +92,7 @@ std::function<void()> Super40nc::read_own_state(StateReader& reader) {
   reader.read(*restored);
   restored->eeprom.check_restored(state_.eeprom);
   restored->blocks.check_restored(state_.blocks);
+  check_restored_registers(*this, restored->image, restored->eeprom.kept());
   return [this, restored] {
     state_ = *restored;
     is_restored_.fill(true);

@@ -274,18 +274,6 @@ Json device_in_short(const Device& device) {
               {"axes", std::move(axes)},       {"program", device.model().language != nullptr}};
 }
 
-Json wire_of(const world::World& world, const world::WireSetup& wire) {
-  const Model& from = world.device(wire.from_device).model();
-  const Model& to = world.device(wire.to_device).model();
-  const std::string source =
-      wire.from_axis < 0 ? std::string(name_of_terminal(from, wire.from_terminal))
-                         : std::string(from.axes[static_cast<std::size_t>(wire.from_axis)].name) + "." +
-                               std::string(world::kContactNames[static_cast<std::size_t>(wire.from_contact)]);
-  return Json{{"from", world.device(wire.from_device).name() + "." + source},
-              {"to", world.device(wire.to_device).name() + "." +
-                         std::string(name_of_terminal(to, wire.to_terminal))}};
-}
-
 Telling whole_bench_message(Daemon& daemon) {
   const Pause pause(daemon);
   const world::World& world = daemon.world();
@@ -314,7 +302,8 @@ Telling whole_bench_message(Daemon& daemon) {
   text.close_list();
   text.open_list("wires");
   for (const world::WireSetup& wire : world.wires()) {
-    text.element(wire_of(world, wire));
+    const world::WireEnds ends = ends_of(wire, world.known());
+    text.element(Json{{"from", ends.from}, {"to", ends.to}});
     co_await pause;
   }
   text.close_list();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/text/parse_real.h"
@@ -27,6 +28,19 @@ KnownDevices known_devices_of(const Bench& bench) {
     for (const StationSetup& station : line.stations) known[station.device].lines[station.port] = line.name;
   }
   return known;
+}
+
+WireEnds ends_of(const WireSetup& wire, const KnownDevices& known) {
+  const auto name = [&](std::size_t device, int axis, int terminal, std::string_view word) {
+    const Model& model = *known[device].model;
+    const std::string its = known[device].name + ".";
+    if (axis < 0) return its + std::string(model.terminals[static_cast<std::size_t>(terminal)].name);
+    return its + std::string(model.axes[static_cast<std::size_t>(axis)].name) + "." + std::string(word);
+  };
+  return {.from = name(wire.from_device, wire.from_axis, wire.from_terminal,
+                       kContactNames[static_cast<std::size_t>(wire.from_contact)]),
+          .to = name(wire.to_device, wire.to_axis, wire.to_terminal,
+                     kDriveInputNames[static_cast<std::size_t>(wire.to_input)])};
 }
 
 Bench bench_of_one(const Model& model, DeviceSettings settings, const std::string& link) {

@@ -50,8 +50,8 @@ struct MachineSetup {
   PlantSetup plant;
 };
 
-/// An output of one device, or a contact of the machine on one of its axes, joined to an input of another; by
-/// numbers of terminals.
+/// An output of one device, or a contact of the machine on one of its axes, joined to an input of another, or
+/// of the drive on one of its axes; by numbers of terminals.
 struct WireSetup {
   std::size_t from_device = 0;
   int from_terminal = 0;
@@ -59,6 +59,8 @@ struct WireSetup {
   Contact from_contact = Contact::home;
   std::size_t to_device = 0;
   int to_terminal = 0;
+  int to_axis = -1;  // the drive's input instead
+  DriveInput to_input = DriveInput::servo;
 };
 
 /// What an input is given from outside when the world begins, in the terminal's unit.
@@ -78,6 +80,13 @@ struct Bench {
   std::uint64_t seed = 0;          // where randomness begins
   std::vector<FileClaim> files{};  // that it was read from, except memories
 };
+
+/// The names of what a wire joins: "feeder.DOUT_4", "feeder.A.home", "feeder.A.alarm_clear".
+struct WireEnds {
+  std::string from;
+  std::string to;
+};
+WireEnds ends_of(const WireSetup& wire, const KnownDevices& known);
 
 /// The devices by name, with the lines that they stand on.
 KnownDevices known_devices_of(const Bench& bench);

@@ -139,16 +139,8 @@ std::string to_text(const Bench& bench) {
         machine_text(machine.plant, *bench.devices[machine.device].model);
   }
   for (const WireSetup& wire : bench.wires) {
-    std::string from;
-    if (wire.from_axis < 0) {
-      from = terminal(wire.from_device, wire.from_terminal);
-    } else {
-      const auto& axes = bench.devices[wire.from_device].model->axes;
-      from = known[wire.from_device].name + "." +
-             std::string(axes[static_cast<std::size_t>(wire.from_axis)].name) + "." +
-             std::string(kContactNames[static_cast<std::size_t>(wire.from_contact)]);
-    }
-    text["wires"].push_back(from + " -> " + terminal(wire.to_device, wire.to_terminal));
+    const WireEnds ends = ends_of(wire, known);
+    text["wires"].push_back(ends.from + " -> " + ends.to);
   }
   for (const InputSetup& input : bench.inputs) {
     text["inputs"][terminal(input.device, input.terminal)] = input.level;

@@ -152,7 +152,9 @@ inline constexpr KeyRow kDevicesKey{"devices", "Devices with more to say, by nam
 inline constexpr KeyRow kPlantKey{"plant", "The machine on each axis: feeder.A and what it is like.",
                                   &kPlantForm};
 inline constexpr KeyRow kWiresKey{
-    "wires", "From an output, or a machine's switch, to an input: feeder.DOUT_4 -> turner.DIN_10.",
+    "wires",
+    "From an output, or a machine's switch, to an input, or one of a drive (servo, alarm_clear): "
+    "feeder.DOUT_4 -> turner.DIN_10.",
     &kTextList};
 inline constexpr KeyRow kInputsKey{"inputs", "What inputs are given at first.", &kTextByName};
 inline constexpr KeyRow kFaultsKey{"faults", "What is broken at first: { stall: feeder.A }.", &kFaultsForm};

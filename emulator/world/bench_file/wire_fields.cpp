@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -19,29 +20,46 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// "feeder.A.upper_limit": whether it begins with an axis, so that a contact of its machine must be meant.
-bool find_contact(const YamlFields& wire, const std::string& name, const Bench& bench,
-                  const BenchNames& names, WireSetup& made) {
+/// "feeder.A.upper_limit": of the machine on an axis.
+struct MachinePlace {
+  std::size_t device = 0;
+  int axis = 0;
+  std::string axis_name;  // "feeder.A"
+  std::string word;       // "upper_limit"
+};
+
+/// Nothing if it does not begin with an axis, so that a terminal must be meant.
+std::optional<MachinePlace> find_machine_place(const YamlFields& wire, const std::string& name,
+                                               const BenchNames& names, const char* example) {
   const std::size_t dot = name.find_last_of('.');
-  if (dot == std::string::npos || name.find('.') == dot) return false;
-  const auto [device, axis_name] = names.split(wire, name.substr(0, dot), "feeder.A.home");
+  if (dot == std::string::npos || name.find('.') == dot) return std::nullopt;
+  const auto [device, axis_name] = names.split(wire, name.substr(0, dot), example);
   const int axis = find_axis(names.model_of(device), axis_name);
-  if (axis < 0) return false;
-  const std::string word = name.substr(dot + 1);
-  const auto* const found = std::find(kContactNames.begin(), kContactNames.end(), word);
-  if (found == kContactNames.end()) {
-    const std::vector<std::string> contacts(kContactNames.begin(), kContactNames.end());
-    wire.fail(quoted(word) + " is not a switch of a machine" + suggestion(word, contacts));
+  if (axis < 0) return std::nullopt;
+  return MachinePlace{device, axis, name.substr(0, dot), name.substr(dot + 1)};
+}
+
+/// Which of some names its word is. `what` they are, for the message.
+template <class Names>
+std::size_t find_word(const YamlFields& wire, const MachinePlace& place, const Names& words,
+                      const char* what) {
+  const auto* const found = std::find(words.begin(), words.end(), place.word);
+  if (found == words.end()) {
+    wire.fail(quoted(place.word) + " is not " + what +
+              suggestion(place.word, std::vector<std::string>(words.begin(), words.end())));
   }
-  made.from_device = device;
-  made.from_axis = axis;
-  made.from_contact = static_cast<Contact>(found - kContactNames.begin());
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+/// Complains unless the bench has a machine there that `has` what is named.
+template <class Has>
+void demand_machine(const YamlFields& wire, const MachinePlace& place, const Bench& bench,
+                    const BenchNames& names, const std::string& what, Has has) {
   for (const MachineSetup& machine : bench.machines) {
-    if (machine.device != device || machine.axis != axis) continue;
-    if (PlantAxis(machine.plant).has_contact(made.from_contact)) return true;
+    if (machine.device == place.device && machine.axis == place.axis && has(PlantAxis(machine.plant))) return;
   }
-  if (names.is_lost_part(name.substr(0, dot))) throw Untold();
-  wire.fail("the machine on " + name.substr(0, dot) + " has no " + word + "; expected it in `plant`");
+  if (names.is_lost_part(place.axis_name)) throw Untold();
+  wire.fail("the machine on " + place.axis_name + " has no " + what + "; expected it in `plant`");
 }
 
 }  // namespace
@@ -50,19 +68,36 @@ WireSetup read_wire(const YamlFields& wire, const Bench& bench, const BenchNames
   const std::string text = wire.text();
   const std::size_t arrow = text.find("->");
   if (arrow == std::string::npos)
-    wire.fail("expected `DEVICE.OUTPUT -> DEVICE.INPUT`, or `DEVICE.AXIS.SWITCH -> DEVICE.INPUT`");
+    wire.fail(
+        "expected `DEVICE.OUTPUT -> DEVICE.INPUT`, or `DEVICE.AXIS.SWITCH -> DEVICE.INPUT`, or "
+        "`DEVICE.OUTPUT -> DEVICE.AXIS.alarm_clear`");
   const auto trimmed = [](std::string part) {
     part.erase(0, part.find_first_not_of(' '));
     return part.substr(0, part.find_last_not_of(' ') + 1);
   };
   WireSetup made;
   const std::string from = trimmed(text.substr(0, arrow));
-  if (!find_contact(wire, from, bench, names, made)) {
+  if (const auto place = find_machine_place(wire, from, names, "feeder.A.home")) {
+    made.from_device = place->device;
+    made.from_axis = place->axis;
+    made.from_contact = static_cast<Contact>(find_word(wire, *place, kContactNames, "a switch of a machine"));
+    demand_machine(wire, *place, bench, names, place->word,
+                   [&](const PlantAxis& machine) { return machine.has_contact(made.from_contact); });
+  } else {
     std::tie(made.from_device, made.from_terminal) =
         names.demand_terminal(wire, from, TerminalRow::Kind::digital_out, "feeder.DOUT_4");
   }
-  std::tie(made.to_device, made.to_terminal) = names.demand_terminal(
-      wire, trimmed(text.substr(arrow + 2)), TerminalRow::Kind::digital_in, "turner.DIN_10");
+  const std::string to = trimmed(text.substr(arrow + 2));
+  if (const auto place = find_machine_place(wire, to, names, "feeder.A.alarm_clear")) {
+    made.to_device = place->device;
+    made.to_axis = place->axis;
+    made.to_input = static_cast<DriveInput>(find_word(wire, *place, kDriveInputNames, "an input of a drive"));
+    demand_machine(wire, *place, bench, names, "drive",
+                   [](const PlantAxis& machine) { return machine.has_drive(); });
+  } else {
+    std::tie(made.to_device, made.to_terminal) =
+        names.demand_terminal(wire, to, TerminalRow::Kind::digital_in, "turner.DIN_10");
+  }
   return made;
 }
 

@@ -114,14 +114,24 @@ std::int64_t PlantAxis::pulses_that_step(std::int64_t pulses) {
 
 void PlantAxis::step_drive(Tick tick, DriveInputs inputs) {
   if (!setup_.drive) return;
-  state_.alarm_latched = state_.faults.alarm || (state_.alarm_latched && !inputs.alarm_clear);
-  const bool enabled = inputs.servo == setup_.drive->enabled_by && !in_alarm();
+  state_.seen = inputs;
+  const bool is_disabled = (inputs.servo || state_.wired.servo) != setup_.drive->enabled_by;
+  const bool clears = inputs.alarm_clear || state_.wired.alarm_clear || (clears_by_disabling_ && is_disabled);
+  state_.alarm_latched = state_.faults.alarm || (state_.alarm_latched && !clears);
+  const bool enabled = !is_disabled && !in_alarm();
   if (!enabled) {
     state_.enabled_at = kNever;
   } else if (state_.enabled_at == kNever) {
     state_.enabled_at = tick;
   }
   state_.ready = enabled && tick - state_.enabled_at >= setup_.drive->ready_after;
+}
+
+bool PlantAxis::set_wired(DriveInput which, bool is_on) {
+  if (state_.wired[which] == is_on) return false;
+  disturb();
+  state_.wired[which] = is_on;
+  return true;
 }
 
 Tick PlantAxis::next_active_tick(Tick done) const {

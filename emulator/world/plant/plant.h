@@ -99,10 +99,17 @@ struct MachineFaults {
   bool operator==(const MachineFaults&) const = default;
 };
 
-/// What the controller drives.
+/// The inputs of a drive, by the names that a bench calls them.
+enum class DriveInput : std::uint8_t { servo, alarm_clear };
+inline constexpr std::array<std::string_view, 2> kDriveInputNames{"servo", "alarm_clear"};
+
+/// What they are given by the controller, or by wires.
 struct DriveInputs {
   bool servo = false;
   bool alarm_clear = false;
+
+  bool& operator[](DriveInput which) { return which == DriveInput::servo ? servo : alarm_clear; }
+  bool operator==(const DriveInputs&) const = default;
 };
 
 class alignas(64) PlantAxis {
@@ -119,7 +126,8 @@ class alignas(64) PlantAxis {
 
   /// Moves this many steps, as far as the stops let it; the rest is lost.
   void move(std::int64_t steps);
-  /// One tick: the pulses of the controller, and its outputs at its end, which only a drive heeds.
+  /// One tick: the pulses of the controller, and its outputs at its end, which only a drive heeds. Wires lead
+  /// to a drive as well.
   void step(Tick tick, std::int64_t pulses, DriveInputs inputs);
   /// Does a tick in which nothing changes but the place, and the encoder with it, as in almost every tick: it
   /// costs one cache line. Returns false for any other tick, and does nothing.
@@ -137,6 +145,12 @@ class alignas(64) PlantAxis {
   /// From now on a switch that it has passed within a tick has been on. (Else only the places at the ends of
   /// ticks count, as for a controller that looks at levels.)
   void look_between_ticks() { looks_between_ = true; }
+  /// From now on its drive's alarm is cleared by disabling it: nothing leads to its alarm-clear input.
+  void clear_alarm_by_disabling() { clears_by_disabling_ = true; }
+  /// What wires give an input of its drive. Returns whether that is another level.
+  bool set_wired(DriveInput which, bool is_on);
+  /// What its controller had given its drive in the last tick that it looked.
+  DriveInputs seen_inputs() const { return state_.seen; }
   /// Whether each pulse is a step.
   bool steps_all() const {
     return !state_.faults.stalled && state_.faults.loses_one_in == 0 && !in_alarm() &&
@@ -201,6 +215,8 @@ class alignas(64) PlantAxis {
     bool at_mark = false;
     bool alarm_latched = false;
     bool ready = false;
+    DriveInputs wired;
+    DriveInputs seen;  // of its controller
     Tick enabled_at = kNever;
     MachineFaults faults;
     std::int64_t wheel_counts = 0;
@@ -263,7 +279,9 @@ class alignas(64) PlantAxis {
   Encoder encoder_;
   State state_;
   PlantSetup setup_;
-  bool looks_between_ = false;  // of its controller
+  // Of its controller, and of the bench's wires.
+  bool looks_between_ = false;
+  bool clears_by_disabling_ = false;
 };
 
 }  // namespace understudy::emulator::world

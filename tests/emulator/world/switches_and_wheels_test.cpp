@@ -105,7 +105,7 @@ TEST(Switches, ThatCannotBeWiredSoAreRefused) {
   EXPECT_EQ(complaint_of("travel: [ -5, 5 ]", "x.A.hom -> y.DIN_1"),
             "bench.wires[0]: 'hom' is not a switch of a machine; the nearest is 'home'");
   EXPECT_EQ(complaint_of("travel: [ -5, 5 ]", "x.DOUT_4 -> y.A.home"),
-            "bench.wires[0]: 'A.home' is not an input of simple2-r3; expected one such as 'DIN_0'");
+            "bench.wires[0]: 'home' is not an input of a drive; expected one of servo, alarm_clear");
 }
 
 TEST(Switches, NearHomeMarkAndIndexAreLevelsToSuchAController) {

@@ -172,5 +172,17 @@ TEST(RsM8194hText, WhatAChoiceRefusesIsToldAsThat) {
   }
 }
 
+TEST(RsM8194hText, TheNearestNameIsOfTheSameThing) {
+  for (const auto& [word, says] : std::vector<std::pair<std::string, std::string>>{
+           {"RSM_MACRO_WAIT 10", "expected one such as RSM_MACRO_FRNET_WAIT, RSM_MACRO_STOP_WAIT"},
+           {"RSM_MACRO_CALL 3", "expected one such as RSM_MACRO_MP_CALL"},
+           {"RSM_MACRO_ENDIF", "the nearest is 'RSM_MACRO_END_IF'"},
+           {"MACRO_TIMER 3", "the nearest is 'RSM_MACRO_TIMER'"},
+           {"TIMER 3", "the nearest is 'RSM_MACRO_TIMER'"}}) {
+    const std::string error = error_of(word);
+    EXPECT_NE(error.find(says), std::string::npos) << error;
+  }
+}
+
 }  // namespace text_test
 }  // namespace understudy::interpreter::rs_m8194h

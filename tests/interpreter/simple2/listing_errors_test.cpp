@@ -41,6 +41,16 @@ TEST(Simple2ListingError, NamesTheNearestInstruction) {
       {"MOVE_INC_C MEM0",
        "1:1: mnemonic: no instruction is called 'MOVE_INC_C'; expected an instruction (nearest: "
        "'Move_INC_A')"},
+      {"Delay 5",
+       "1:1: mnemonic: no instruction is called 'Delay'; expected an instruction (nearest: 'Delay_mSec')"},
+      {"STOP", "1:1: mnemonic: no instruction is called 'STOP'; expected an instruction (nearest: 'STOP_A')"},
+      {"goto 5", "1:1: mnemonic: no instruction is called 'goto'; expected Jump"},
+      {"Mov 5",
+       "1:1: mnemonic: no instruction is called 'Mov'; expected VAR_Copy, or VAR_Direct for a number"},
+      {"Home_A", "1:1: mnemonic: no instruction is called 'Home_A'; expected Move_Home_A"},
+      {"Xyzzy 5",
+       "1:1: mnemonic: no instruction is called 'Xyzzy'; expected an instruction, such as Delay_mSec"},
+      {"Out DOUT0 ON", "1:5: operand 1: 'DOUT0' is not one; expected DOUT_0 to DOUT_6"},
       {".org 5", "1:1: mnemonic: no instruction is called '.org'; expected .at or .line"},
   });
 }
@@ -52,7 +62,7 @@ TEST(Simple2ListingError, TellsWhatAnOperandMayBe) {
       {"Wait_IO DIN_1 maybe", "1:15: operand 2: 'maybe' is not a level; expected ON or OFF"},
       {"Wait_IO DIN_1 2", "1:15: operand 2: '2' is not a level; expected ON or OFF"},
       {"Out DOUT_7 ON", "1:5: operand 1: 'DOUT_7' does not exist; expected DOUT_0 to DOUT_6"},
-      {"Out DIN_1 ON", "1:5: operand 1: 'DIN_1' is not a number; expected DOUT_0 to DOUT_6"},
+      {"Out DIN_1 ON", "1:5: operand 1: 'DIN_1' is not one; expected DOUT_0 to DOUT_6"},
       {"Out_Array 128", "1:11: operand 1: 128 is out of range; expected 0 to 127"},
       {"Delay_mSec 65536", "1:12: operand 1: 65536 is out of range; expected 0 to 65535"},
       {"Delay_mSec -1", "1:12: operand 1: -1 is out of range; expected 0 to 65535"},
@@ -152,7 +162,7 @@ TEST(Simple2ListingError, ReportsAllOfThemInTheOrderOfTheText) {
                       "a: END 5\n"
                       "Jump a\n"),
             (std::vector<std::string>{
-                "1:6: operand 1: no line is labelled 'nowhere'; expected a label (nearest: 'a')",
+                std::string("1:6: operand 1: no line is labelled 'nowhere'; expected ") + kFlag,
                 "2:1: mnemonic: no instruction is called 'Ot'; expected an instruction (nearest: 'Out')",
                 "3:5: operand 1: 'DOUT_9' does not exist; expected DOUT_0 to DOUT_6",
                 "3:12: operand 2: 'maybe' is not a level; expected ON or OFF",

@@ -5,6 +5,7 @@
 
 #include "interpreter/slim/availability.h"
 #include "interpreter/slim/text_of.h"
+#include "interpreter/slim/unknown_line.h"
 
 namespace understudy::interpreter::slim {
 namespace parse_test {
@@ -234,6 +235,21 @@ TEST(SlimAvailability, ByPlace) {
   const Columns typed{.variable_forms = Columns::VariableForms::typed_too};
   EXPECT_TRUE(is_allowed(command_of("2MR R1,R2"), Place::immediate, typed));
   EXPECT_FALSE(is_allowed(command_of("XDN"), Place::immediate, typed));
+}
+
+TEST(SlimParse, SaysWhatALineThatIsNoneOughtToBe) {
+  for (const auto& [line, says] : std::vector<std::pair<std::string, std::string>>{
+           {"MA 100,200", "'MA 100,200' is not a form of MA; expected MA x, or MA Rn"},
+           {"$A JI 1", "'$A JI 1' is not a form of JI; expected JI i,addr"},
+           {"wt 1.5", "'wt 1.5' is not a form of WT; expected WT tm"},
+           {"T1MA", "'T1MA' is not a form of TpMA; expected TpMA x"},
+           {"GOTO $A", "'GOTO $A' is not a command; expected JP addr"},
+           {"WAIT 100", "'WAIT 100' is not a command; expected WT tm, WI i or DN"},
+           {"CAL 3", "'CAL 3' is not a command; the nearest is 'CALL'"},
+           {"NONSENSE",
+            "'NONSENSE' is not a command; expected one of `understudy describe slim commands`"}}) {
+    EXPECT_EQ(why_not_command(line), says);
+  }
 }
 
 }  // namespace parse_test

@@ -257,5 +257,45 @@ TEST(Super40ncListing, OtherReadingsRefuseOtherThings) {
   EXPECT_EQ(check("AREA X\nFOO\n", options).errors.at(0).step, 500);
 }
 
+/// People come from an FX: what they write is answered with the box's word, not with one that is spelt alike.
+TEST(Super40ncListing, AnswersWordsOfOtherPlcsWithItsOwn) {
+  struct Case {
+    std::string line;
+    std::string says;
+  };
+  const std::string any = "; expected X, Y, M, T, C, D or K and a number, or *";
+  for (const Case& each : std::vector<Case>{
+           {"AND= D0 K5", "'AND=' is not an instruction; expected AD="},
+           {"and>= D0 K5", "'and>=' is not an instruction; expected AD>="},
+           {"LDD= D0 K5", "'LDD=' is not an instruction; expected LD=, as every register has 32 bits"},
+           {"ANDD<> D0 K5", "'ANDD<>' is not an instruction; expected AD<>, as every register has 32 bits"},
+           {"ORD> D0 K5", "'ORD>' is not an instruction; expected OR>, as every register has 32 bits"},
+           {"DMOV K1 D0", "'DMOV' is not an instruction; expected MOV, as every register has 32 bits"},
+           {"MOVP K1 D0",
+            "'MOVP' is not an instruction; expected MOV, behind an LDP where it is to act once"},
+           {"ANDI X0", "'ANDI' is not an instruction; expected ANI"},
+           {"CALL K1", "'CALL' is not an instruction; expected CAL"},
+           {"NOT", "'NOT' is not an instruction; expected INV"},
+           {"MVO K1 D0", "'MVO' is not an instruction; the nearest is 'MOV'"},
+           {"MOV H10 D0", "'H10' is not an operand: constants are decimal; expected K16"},
+           {"MOV hff D0", "'hff' is not an operand: constants are decimal; expected K255"},
+           {"MOV 10 D0", "'10' is not an operand; expected K10 for a constant"},
+           {"MOV K1.5 D0", "'K1.5' is not an operand; expected K and a whole decimal number"},
+           {"MOV E1.5 D0",
+            "'E1.5' is not an operand: constants are whole numbers; expected K and a decimal number"},
+           {"MOV K4M0 D0", "'K4M0' is not an operand: contacts do not stand together as a number" + any},
+           {"MOV D0Z1 D1", "'D0Z1' is not an operand: there are no index registers" + any},
+           {"MOV Z1 D1", "'Z1' is not an operand: there are no index registers" + any},
+           {"MOV R0 D0", "'R0' is not an operand" + any},
+           {"LD S0", "step relay S0 cannot stand in a program" + any},
+           {"CAL P1", "'P1' is not an operand: a label is a constant; expected K and its number"},
+           {"LD SM400", "'SM400' is not an operand" + any}}) {
+    const Checked checked = check("AREA C\n" + each.line + "\nEND\n");
+    ASSERT_FALSE(checked.errors.empty()) << each.line;
+    EXPECT_EQ(checked.errors[0].message(), each.says);
+    EXPECT_EQ(checked.errors[0].line, 2);
+  }
+}
+
 }  // namespace listing_test
 }  // namespace understudy::interpreter::super_40nc

@@ -125,7 +125,7 @@ bench.yaml:14:49: lines.a.stations[0].choices.servo_at_power_up: choice 'servo_a
 bench.yaml:15:22: lines.a.stations[0].dip.DIP9: 'DIP9' is not a switch of simple2-r3; the nearest is 'DIP1'
 bench.yaml:15:32: lines.a.stations[0].dip.DIP1: 'perhaps' is neither; expected on or off
 bench.yaml:15:47: lines.a.stations[0].dip.DIP8: 'DIP8' is not a switch of simple2-r3; the nearest is 'DIP1'
-x.program:2:1: mnemonic: no instruction is called 'NONSENSE'; expected an instruction (nearest: 'NOP'))");
+x.program:2:1: mnemonic: no instruction is called 'NONSENSE'; expected an instruction, such as Delay_mSec)");
 }
 
 TEST(AllComplaints, OfAChainWhateverItsLengthIs) {

@@ -284,7 +284,8 @@ TEST(BenchErrors, Wires) {
   const auto wires = [](const std::string& text) { return and_then("wires: " + text + "\n"); };
   expect_complaints({
       {wires("[ x.DOUT_4 ]"),
-       "6: wires[0]: expected `DEVICE.OUTPUT -> DEVICE.INPUT`, or `DEVICE.AXIS.SWITCH -> DEVICE.INPUT`"},
+       "6: wires[0]: expected `DEVICE.OUTPUT -> DEVICE.INPUT`, or `DEVICE.AXIS.SWITCH -> DEVICE.INPUT`, or "
+       "`DEVICE.OUTPUT -> DEVICE.AXIS.alarm_clear`"},
       {wires("[ y.DOUT_4 -> x.DIN_1 ]"), "6: wires[0]: no device is called 'y'; expected 'x'"},
       {wires("[ x.DIN_4 -> x.DIN_1 ]"),
        "6: wires[0]: 'DIN_4' is not an output of simple2-r3; expected one of DOUT_0, DOUT_1, DOUT_2, DOUT_3, "

@@ -1,0 +1,174 @@
+// How motions end: what that leaves in the error code (4.9.2).
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
+#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/paths.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
+#include "motion/homing.h"
+#include "motion/surroundings.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+/// Of an axis on a path, whose cause is that of the one that met something; what it met earlier is noted.
+bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
+  const auto is_on = [&](motion::Signal signal) { return (motor.signals & motion::bit(signal)) != 0; };
+  switch (cause) {
+    case motion::Cause::limit_plus: return is_on(motion::Signal::limit_plus);
+    case motion::Cause::limit_minus: return is_on(motion::Signal::limit_minus);
+    case motion::Cause::alarm: return is_on(motion::Signal::alarm);
+    case motion::Cause::soft_limit_plus:
+      return motor.settings.soft_limit_plus && motor.travel_pulses > *motor.settings.soft_limit_plus;
+    case motion::Cause::soft_limit_minus:
+      return motor.settings.soft_limit_minus && motor.travel_pulses < *motor.settings.soft_limit_minus;
+    case motion::Cause::none:
+    case motion::Cause::arrived:
+    case motion::Cause::stopped:
+    case motion::Cause::comparator:
+    case motion::Cause::emergency:
+    case motion::Cause::servo_off:
+    case motion::Cause::homing_failed: break;
+  }
+  return true;
+}
+
+/// Whether a move has sent its very last pulse; it may have met a limit there.
+bool is_complete(const AxisUnit& unit, const motion::Axis& motor) {
+  const std::int64_t gone = std::abs(motor.travel_pulses - unit.began_pulses);
+  return motor.target_pulses > 0 && gone == motor.target_pulses;
+}
+
+}  // namespace
+
+/// Bits of what a motion ends by, or is kept from beginning by.
+std::uint16_t error_of(motion::Cause cause) {
+  switch (cause) {
+    case motion::Cause::soft_limit_plus: return bit_of(ErrorBit::soft_limit_plus);
+    case motion::Cause::soft_limit_minus: return bit_of(ErrorBit::soft_limit_minus);
+    case motion::Cause::limit_plus: return bit_of(ErrorBit::limit_plus);
+    case motion::Cause::limit_minus: return bit_of(ErrorBit::limit_minus);
+    case motion::Cause::alarm: return bit_of(ErrorBit::alarm);
+    case motion::Cause::emergency: return bit_of(ErrorBit::emergency);
+    case motion::Cause::none:
+    case motion::Cause::arrived:
+    case motion::Cause::stopped:
+    case motion::Cause::comparator:
+    case motion::Cause::servo_off:
+    case motion::Cause::homing_failed: break;
+  }
+  return 0;
+}
+
+void RsM8194h::heed_home(std::size_t axis) {
+  AxisUnit& unit = state_.units[axis];
+  note_factor(axis, Factor::homed);
+  if (chose(option("home_error_bit", "also_at_home"))) unit.error_code |= bit_of(ErrorBit::home);
+  if (chose(option("home_clears_counters", "zero"))) {
+    set_logic_position(unit, state_.motors[axis], 0, true);
+    set_encoder_position(unit, state_.motors[axis], 0, true);
+    set_absolute_position(unit, state_.motors[axis], 0, true);
+    look_again(axis);
+  }
+}
+
+/// By choice, a limit is no cause of an end that was there anyhow.
+bool RsM8194h::is_no_cause(motion::Cause cause, bool is_at_its_end) const {
+  const bool is_limit = cause == motion::Cause::limit_plus || cause == motion::Cause::limit_minus;
+  return is_limit && is_at_its_end && chose(option("limit_at_the_end", "is_complete"));
+}
+
+/// Whether all axes of a path are where it ends.
+bool RsM8194h::is_path_complete() const {
+  const motion::Coordinated& together = state_.paths.together;
+  for (std::size_t i = 0; i < together.axis_of.size(); ++i) {
+    const std::int8_t a = together.axis_of[i];
+    if (a < 0) continue;
+    const std::int64_t travel = state_.motors[static_cast<std::size_t>(a)].travel_pulses;
+    if (together.travel_at(i, state_.paths.end[i]) != travel) return false;
+  }
+  return true;
+}
+
+/// Its own cause, and what it has met before, become errors.
+void RsM8194h::note_end_of_path(std::size_t axis) {
+  AxisUnit& unit = state_.units[axis];
+  motion::Axis& motor = state_.motors[axis];
+  const std::uint16_t met = std::exchange(unit.met, std::uint16_t{0});
+  if (!is_no_cause(motor.cause, is_path_complete())) {
+    if (is_its_own(motor, motor.cause)) unit.error_code |= error_of(motor.cause);
+    unit.error_code |= met;
+  }
+  // Once: a host may have cleared it when D-END comes.
+  if (motor.cause != motion::Cause::arrived && motor.task == motion::Task::none)
+    motor.cause = motion::Cause::stopped;
+}
+
+/// The rest of a drive that is held by a pause: what would have ended it ends it.
+void RsM8194h::heed_paused(std::size_t axis) {
+  AxisUnit& unit = state_.units[axis];
+  const motion::Axis& motor = state_.motors[axis];
+  const bool is_endless = unit.paused_drive.what == Drive::What::endless;
+  const std::int64_t rest =
+      is_endless ? unit.paused_drive.value : unit.paused_to_pulses - motor.travel_pulses;
+  const motion::Cause why = rest == 0 ? motor.forbidden_anywhere() : motor.forbidden(rest < 0 ? -1 : +1);
+  if (why == motion::Cause::none) return;
+  unit.error_code |= error_of(why);
+  take_off(axis, WayOut::cause);
+}
+
+/// What ended in this tick leaves its cause in the error code.
+void RsM8194h::heed_ends() {
+  // The partners of the axis that met something hear of it a tick later.
+  Paths& paths = state_.paths;
+  const auto of_path =
+      static_cast<AxisMask>(paths.let_go | (paths.runs != Paths::Runs::nothing ? paths.axes : 0));
+  paths.let_go = 0;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    const motion::Axis& motor = state_.motors[a];
+    AxisUnit& unit = state_.units[a];
+    const bool homed = (motor.events & motion::bit(motion::Event::homed)) != 0;
+    if (homed) heed_home(a);
+    // Its input stops what it has begun, and nothing else.
+    if (!motor.moving()) unit.external.running = 0;
+    if (unit.paused_drive.what != Drive::What::none) heed_paused(a);
+    constexpr motion::Events kConstant =
+        motion::bit(motion::Event::constant_started) | motion::bit(motion::Event::constant_ended);
+    const bool has_ramps = motor.law.start_speed_u_s < motor.law.top_speed_u_s;
+    if (!machine_.constant_drives_have_c_sta && !has_ramps) {
+      state_.motors[a].events &= static_cast<motion::Events>(~kConstant);
+    }
+    if ((motor.events & motion::bit(motion::Event::ended)) == 0) continue;
+    if (motor.cause != motion::Cause::arrived && motor.cause != motion::Cause::stopped) {
+      take_off(a, WayOut::cause);
+    }
+    if (!machine_.axis.homing_heeds_soft_limits) look_again(a);
+    if (!machine_.d_end_after_stops && motor.cause != motion::Cause::arrived && !homed) {
+      state_.motors[a].events &= static_cast<motion::Events>(~motion::bit(motion::Event::ended));
+    }
+    motion::Cause cause = motor.cause;
+    if (cause == motion::Cause::homing_failed) {
+      cause = motor.homing.ended_by;
+      constexpr std::uint8_t kIndexPhase = 20;
+      const auto row = static_cast<std::size_t>(motor.homing.ended_in);
+      const bool by_index = cause == motion::Cause::homing_failed && motor.homing.ended_in >= 0 &&
+                            motor.homing.program.phases[row].code == kIndexPhase;
+      if (by_index) unit.error_code |= bit_of(ErrorBit::home);
+    }
+    if (has(of_path, a)) {
+      note_end_of_path(a);
+    } else if (!is_no_cause(cause, is_complete(unit, motor))) {
+      unit.error_code |= error_of(cause);
+    }
+  }
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h
