@@ -87,6 +87,7 @@ void Line::receive_departed(std::span<const std::uint8_t> bytes, SimTime now) { 
 
 void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_departed) {
   due_changed();
+  if (is_unplugged()) return;
   bytes = bytes.first(std::min(bytes.size(), room()));
   state_.edge.counters.bytes_in += bytes.size();
   for (LineObserver* observer : observers_) observer->on_receive(bytes, is_departed);
@@ -103,6 +104,10 @@ void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_depart
 void Line::host_purged() {
   due_changed();
   for (LineObserver* observer : observers_) observer->on_host_purged();
+  take_back_unsent();
+}
+
+void Line::take_back_unsent() {
   if (state_.input.empty()) return;
   // The first one is on the wire; those of a host before are not this one's.
   const std::uint64_t first = std::max(state_.input.front().number, state_.last_departed);
@@ -140,6 +145,8 @@ void Line::host_closed() {
   state_.departed_settings = state_.host_settings;
   state_.last_departed = state_.last_received;
   state_.leaving.clear();
+  state_.lump.clear();
+  state_.lump_at.reset();
   state_.edge.output.clear();
 }
 
@@ -173,6 +180,7 @@ Line::Event Line::find_next_event() const {
     if (const auto at = stations_[i]->due()) offer(What::station, *at, i);
   }
   if (!state_.leaving.empty()) offer(What::character_out, state_.leaving.front().end, 0);
+  if (state_.lump_at) offer(What::lump_out, *state_.lump_at, 0);
   if (notices_ > 0) {
     for (std::size_t i = 0; i < state_.members.size(); ++i) {
       if (const auto at = state_.members[i].noticed_at) offer(What::notice, *at, i);
@@ -214,6 +222,7 @@ void Line::handle(const Event& event) {
       leave_wire(std::span(&value, 1));
       break;
     }
+    case What::lump_out: give_lump(); break;
     case What::notice: notify_others(event.member); break;
   }
 }
@@ -303,6 +312,9 @@ void Line::tell_character() {
     if (!state_.members[i].is_deaf) stations_[i]->hear(byte);
   }
   for (LineObserver* observer : observers_) observer->on_character(byte, state_.is_heard);
+  const bool echoes = options_.echoes || state_.adapter.echoes;
+  if (echoes && state_.is_host_open && byte.number > state_.last_departed)
+    leave_wire(std::span(&byte.value, 1));
 }
 
 // --- from the stations -------------------------------------------------------------------------
@@ -388,18 +400,6 @@ void Line::notify_others(std::size_t speaker) {
     const bool is_talking = !is_instant() && state_.members[i].speech.end > state_.edge.clock;
     if (i != speaker && !is_talking) stations_[i]->hear_other_station();
   }
-}
-
-void Line::leave_wire(std::span<const std::uint8_t> bytes) {
-  auto& [output, counters, clock] = state_.edge;
-  if (bytes.size() > kOutputCapacity - output.size()) {
-    for (LineObserver* observer : observers_) observer->on_output_full();
-  }
-  const std::size_t lost = bytes.size() - std::min(bytes.size(), kOutputCapacity - output.size());
-  counters.bytes_discarded += lost;
-  bytes = bytes.first(bytes.size() - lost);
-  output.append(bytes);
-  counters.bytes_out += bytes.size();
 }
 
 // --- warnings ----------------------------------------------------------------------------------

@@ -33,8 +33,18 @@ enum class Timing : std::uint8_t {
 struct LineOptions {
   LineSettings settings;
   Timing timing = Timing::wire;
+  bool echoes = false;           // the host hears its own bytes
   bool enforce_settings = true;  // a station is deaf to a host with another baud or stop bits
   std::int64_t baud_tolerance_ppm = kUsualBaudTolerancePpm;  // this much faster or slower is the same baud
+};
+
+/// What stands between the wire and the host, where it is not just a plug.
+struct Adapter {
+  bool echoes = false;        // the host hears its own bytes, also where the line's options do not say so
+  SimTime latency{0};         // what comes is handed over at multiples of it, or where it is full; 0: at once
+  bool is_unplugged = false;  // nothing gets through
+
+  bool operator==(const Adapter&) const = default;
 };
 
 struct LineCounters {
@@ -49,6 +59,7 @@ class Line {
  public:
   static constexpr std::size_t kInputCapacity = 1024;   // bytes the host is ahead of the wire
   static constexpr std::size_t kOutputCapacity = 4096;  // bytes that wait for the host
+  static constexpr std::size_t kLump = 62;  // bytes that an adapter holds back, as those with USB do
 
   /// `warn` gets one clear sentence for what the user should know (a deaf station, a host that set no
   /// speed, a collision), once for each opening of the line by a host.
@@ -59,6 +70,9 @@ class Line {
   void attach(Station& station);
   /// A station has lost its power: what it has not begun to send, character by character, is never sent.
   void hush(const Station& station, SimTime now);
+  /// How the host is joined to the wire from now on.
+  void set_adapter(const Adapter& adapter);
+  bool is_unplugged() const { return state_.adapter.is_unplugged; }
   /// The wire's speed from now on; characters on their way keep theirs.
   void set_settings(const LineSettings& settings);
   /// Tells `observer` what goes over the wire, until it is removed. Several are told in the order in which
@@ -155,6 +169,9 @@ class Line {
     Burst arriving;
     bool is_heard = true;      // the character that arrives, by a station at least
     Queue<TimedByte> leaving;  // to the host, on the wire, in the order of time; numbered by their speakers
+    Adapter adapter;
+    Queue<std::uint8_t> lump;          // held back by the adapter,
+    std::optional<SimTime> lump_at{};  // until then
     Edge edge;
   };
   const State& save() const { return state_; }
@@ -165,7 +182,15 @@ class Line {
 
  private:
   class Voice;
-  enum class What : std::uint8_t { nothing, character_in, observer, station, character_out, notice };
+  enum class What : std::uint8_t {
+    nothing,
+    character_in,
+    observer,
+    station,
+    character_out,
+    lump_out,
+    notice
+  };
   struct Event {
     What what = What::nothing;
     SimTime at{0};
@@ -188,6 +213,9 @@ class Line {
   void put_on_wire(const TimedByte& character, bool& has_collided);
   void notify_others(std::size_t speaker);
   void leave_wire(std::span<const std::uint8_t> bytes);
+  void give_lump();
+  void give_host(std::span<const std::uint8_t> bytes);
+  void take_back_unsent();
   void warn_once(bool& has_warned, std::string_view what);
   void warn_deaf(std::size_t index, const HostSettings& settings, const LineSettings& expected);
 

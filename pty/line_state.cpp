@@ -40,6 +40,10 @@ void Line::check(const State& state) const {
   };
   demand_characters(state.input);
   demand_characters(state.leaving);
+  demand(state.lump.size() < kLump && state.lump.empty() != state.lump_at.has_value() &&
+             state.adapter.latency >= SimTime{0} && is_within_reach(state.adapter.latency) &&
+             is_within_reach(state.lump_at.value_or(SimTime{0})),
+         "its adapter cannot hold back that");
   demand(is_within_reach(state.edge.clock), "its clock is beyond the end of time");
 }
 

@@ -103,22 +103,30 @@ std::optional<std::size_t> rtu_request_size(std::span<const std::uint8_t> bytes)
 
 RtuFramer::RtuFramer(RtuFraming framing) : framing_(framing) {}
 
-SimTime RtuFramer::patience() const {
+SimTime RtuFramer::usual_patience() const {
   return framing_.strict ? framing_.silence : std::max(framing_.patience, framing_.silence);
 }
 
-/// Whether the line has been quiet for long enough at `at` to end what is undecided.
+SimTime RtuFramer::patience() const {
+  return state_.is_paused ? std::max(framing_.rest_patience, usual_patience()) : usual_patience();
+}
+
+/// Whether the line has been quiet for long enough at `at` to end what is undecided, or to be a pause in it.
 bool RtuFramer::is_silent(SimTime at) const {
   return state_.undecided < used() && at >= state_.last_end + patience();
 }
 
+void RtuFramer::be_silent_until(SimTime at) {
+  while (is_silent(at)) end_of_silence();
+}
+
 void RtuFramer::start_bit(SimTime at) {
-  if (is_silent(at)) end_of_silence();
+  be_silent_until(at);
   state_.character_under_way = true;
 }
 
 void RtuFramer::push(const TimedByte& byte) {
-  if (is_silent(byte.start)) end_of_silence();
+  be_silent_until(byte.start);
   const bool is_lump_over =
       state_.oversize != 0 && state_.undecided == used() && byte.start >= state_.last_end + patience();
   if (is_lump_over) state_.oversize = 0;
@@ -129,14 +137,18 @@ void RtuFramer::push(const TimedByte& byte) {
     return;
   }
   if (used() == kCapacity) drop_oldest();
+  if (std::exchange(state_.is_paused, false)) state_.resumed = used();
   state_.characters.push_back({byte.value, byte.end, byte.number});
   if (!framing_.strict && used() - state_.candidate >= state_.look_again_at) search();
+  if (state_.resumed != 0) look_behind_pause();
 }
 
 void RtuFramer::reset() {
   state_.characters.clear();
   state_.ready.clear();
   state_.undecided = state_.candidate = state_.look_again_at = 0;
+  state_.is_paused = false;
+  state_.resumed = 0;
   state_.oversize = 0;
   state_.character_under_way = false;
 }
@@ -180,23 +192,62 @@ void RtuFramer::give_up_as_overlong(Index index) {
   forget_served();
 }
 
-/// Nothing follows what is undecided: take the good frames out of it and drop the rest.
+/// What has come since the last pause may be a frame: its host has given up the one before.
+void RtuFramer::look_behind_pause() {
+  if (state_.resumed <= state_.undecided) return;  // decided meanwhile
+  const Verdict verdict = judge(bytes(state_.resumed, used()), true);
+  if (verdict.fit != Fit::good) return;
+  const auto end = static_cast<Index>(state_.resumed + verdict.size);
+  add_ready(state_.resumed, verdict.size);
+  decide_up_to(end);
+}
+
+/// The line was quiet for as long as patience lasts: takes the good frames out of what is undecided, and
+/// drops the rest, but for the beginning of a frame, which may wait longer.
 void RtuFramer::end_of_silence() {
-  const auto whole = bytes(state_.undecided, used());
-  const bool may_be_whole = (state_.oversize == 0 || !framing_.strict) && whole.size() <= kRtuMaxFrame;
+  const bool is_pause = !framing_.strict && !state_.is_paused && framing_.rest_patience > usual_patience();
   // The whole comes first: a shorter frame inside a good one of unknown length is its data.
-  if (may_be_whole && rtu_crc_ok(whole)) {
-    add_ready(state_.undecided, static_cast<std::uint16_t>(whole.size()));
-  } else if (!framing_.strict) {
-    for (Index at = state_.candidate; at < used();) {
-      const Verdict verdict = judge(bytes(at, used()), true);
-      if (verdict.fit == Fit::good) add_ready(at, verdict.size);
-      at += verdict.fit == Fit::good ? verdict.size : std::uint16_t{1};
-    }
-  }
+  const bool is_whole =
+      take_whole(state_.undecided) || (state_.resumed > state_.undecided && take_whole(state_.resumed));
+  const bool has_good_ones = !is_whole && !framing_.strict && take_good_ones();
   if (framing_.strict) state_.dropped += state_.oversize;
-  decide_up_to(used());
+  const bool is_clean = has_good_ones || state_.candidate == state_.undecided;
+  decide_up_to(is_pause ? beginning(is_clean) : used());
   state_.oversize = 0;
+  if (state_.undecided == used()) return;
+  state_.is_paused = true;
+  state_.look_again_at = judge(bytes(state_.undecided, used()), false).size;
+}
+
+/// Where a frame begins that may wait for its rest: right behind a silence, a good frame or a pause; used()
+/// if there is none. `is_clean`: so does what is undecided.
+RtuFramer::Index RtuFramer::beginning(bool is_clean) const {
+  const auto may_wait = [this](Index first) {
+    return first < used() && judge(bytes(first, used()), true).fit == Fit::waiting;
+  };
+  if (is_clean && may_wait(state_.undecided)) return state_.undecided;
+  return state_.resumed > state_.undecided && may_wait(state_.resumed) ? state_.resumed : used();
+}
+
+/// All from there on, if its checksum is right.
+bool RtuFramer::take_whole(Index first) {
+  const auto whole = bytes(first, used());
+  const bool may_be = (state_.oversize == 0 || !framing_.strict) && whole.size() <= kRtuMaxFrame;
+  if (!may_be || !rtu_crc_ok(whole)) return false;
+  add_ready(first, static_cast<std::uint16_t>(whole.size()));
+  return true;
+}
+
+/// Returns whether there were some.
+bool RtuFramer::take_good_ones() {
+  bool has_some = false;
+  for (Index at = state_.candidate; at < used();) {
+    const Verdict verdict = judge(bytes(at, used()), true);
+    if (verdict.fit == Fit::good) add_ready(at, verdict.size);
+    has_some = has_some || verdict.fit == Fit::good;
+    at += verdict.fit == Fit::good ? verdict.size : std::uint16_t{1};
+  }
+  return has_some;
 }
 
 /// Queues a frame of the undecided part, and counts as dropped what lies before it.
@@ -211,6 +262,8 @@ void RtuFramer::decide_up_to(Index index) {
   drop_up_to(index);
   state_.candidate = index;
   state_.look_again_at = 0;
+  state_.is_paused = false;
+  if (state_.resumed <= index) state_.resumed = 0;
   forget_served();
 }
 
@@ -247,6 +300,7 @@ void RtuFramer::forget_served() {
   for (Frame& frame : state_.ready) frame.first = static_cast<Index>(frame.first - served);
   state_.undecided = static_cast<Index>(state_.undecided - served);
   state_.candidate = static_cast<Index>(state_.candidate - served);
+  state_.resumed = state_.resumed > served ? static_cast<Index>(state_.resumed - served) : Index{0};
 }
 
 /// No more fits: gives up the oldest ready frame, of a station that does not take its frames. (There is one:
@@ -271,7 +325,8 @@ std::optional<SimTime> RtuFramer::due() const {
 }
 
 std::size_t RtuFramer::quiet_characters() const {
-  const bool may_be_due = framing_.strict || patience() == SimTime{0} || !state_.ready.empty();
+  const bool may_be_due =
+      framing_.strict || patience() == SimTime{0} || !state_.ready.empty() || state_.resumed != 0;
   if (may_be_due || used() == kCapacity) return 0;
   // Only what search() finds is due at once.
   const auto heard = static_cast<std::size_t>(used() - state_.candidate);
@@ -285,7 +340,7 @@ std::optional<std::uint64_t> RtuFramer::first_open_character() const {
 }
 
 std::optional<RtuFrame> RtuFramer::take(SimTime now) {
-  if (!state_.character_under_way && is_silent(now)) end_of_silence();
+  if (!state_.character_under_way) be_silent_until(now);
   if (state_.ready.empty() || now < *due()) return std::nullopt;
   return take_ready();
 }

@@ -4,10 +4,12 @@
 //  * strict: only silence ends a frame. A gap of `silence` or more between two characters (idle time,
 //    from the stop bit's end to the next start bit) ends it; two frames without a gap are one.
 //  * tolerant (default): a frame ends when its length is complete and its checksum right. What does
-//    not complete that way (unknown function, wrong checksum, cut frame) ends after `patience` of
-//    silence; a good frame that follows noise, even without a gap, is found. A frame that lies inside
-//    another good one is data, never a request: a candidate that may still become complete covers what
-//    is in it.
+//    not complete that way (unknown function, wrong checksum) ends after `patience` of silence; a good
+//    frame that follows noise, even without a gap, is found. A frame that lies inside another good one is
+//    data, never a request: a candidate that may still become complete covers what is in it.
+//    After that silence, a pause, a frame that has begun and whose length follows from what it begins with
+//    waits for its rest for `rest_patience` in all; until then a good frame that begins behind a pause takes
+//    its place.
 #pragma once
 
 #include <array>
@@ -26,8 +28,11 @@ inline constexpr std::size_t kRtuMaxFrame = 256;  // address, 253 bytes of PDU, 
 
 struct RtuFraming {
   bool strict = false;
-  SimTime silence{0};   // the device's end-of-frame silence; also earliest reply after the last byte
-  SimTime patience{0};  // tolerant only: how long an incomplete frame waits (10 ms, scaled by the pacer)
+  SimTime silence{0};  // the device's end-of-frame silence; also earliest reply after the last byte
+  // Tolerant only, scaled by the pacer: how long what is incomplete waits (10 ms), and how long a frame of
+  // known length does.
+  SimTime patience{0};
+  SimTime rest_patience{0};
 };
 
 /// A frame with a right checksum. `bytes` includes address and CRC.
@@ -53,7 +58,8 @@ class RtuFramer {
   void push(const TimedByte& byte);
   /// Forget what is buffered (another station used the line).
   void reset();
-  /// Nothing more will come of what is incomplete: judge it now, without waiting for patience.
+  /// Judges what is incomplete now, without waiting for patience: the first time as after a pause, the second
+  /// time as if nothing more would come.
   void give_up_waiting();
 
   /// When take() is worth calling: end of a complete frame plus the silence rule, or the patience of
@@ -138,6 +144,8 @@ class RtuFramer {
     Index undecided = 0;
     Index candidate = 0;
     std::uint16_t look_again_at = 0;
+    bool is_paused = false;  // after the last character there was a pause, and its frame waits for the rest
+    Index resumed = 0;       // the first character behind the last pause; 0: there was none
     // Bytes of this lump that are too many: strict those beyond the longest frame, which are not stored,
     // tolerant those that were given up before its end.
     std::uint64_t oversize = 0;
@@ -159,9 +167,15 @@ class RtuFramer {
   RtuFrame frame_at(const Frame& place) const;
   RtuFrame take_ready();
   SimTime patience() const;  // of the undecided part, under the rule in force
+  SimTime usual_patience() const;
   bool is_silent(SimTime at) const;
+  void be_silent_until(SimTime at);
   void search();
+  void look_behind_pause();
   void end_of_silence();
+  bool take_whole(Index first);
+  bool take_good_ones();
+  Index beginning(bool is_clean) const;
   void add_ready(Index first, std::uint16_t size);
   void decide_up_to(Index index);
   void drop_up_to(Index index);

@@ -18,6 +18,7 @@ void RtuFramer::check(const State& state) const {
   demand(used <= kCapacity && state.characters.marks.size() == used);
   demand(state.undecided <= state.candidate && state.candidate <= used);
   demand(used - state.undecided <= longest && state.look_again_at <= kRtuMaxFrame + 1);
+  demand(state.resumed <= used && (!state.is_paused || state.undecided < used));
   std::size_t free_from = 0;
   for (const Frame& frame : state.ready) {
     demand(frame.first >= free_from && frame.size >= kShortest && frame.size <= kRtuMaxFrame);

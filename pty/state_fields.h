@@ -67,6 +67,13 @@ struct StateOf<pty::Line::Warned> {
 };
 
 template <>
+struct StateOf<pty::Adapter> {
+  using Value = pty::Adapter;
+  static constexpr auto fields = FieldList{field("echoes", &Value::echoes), field("latency", &Value::latency),
+                                           field("is_unplugged", &Value::is_unplugged)};
+};
+
+template <>
 struct StateOf<pty::Line::State> {
   using Value = pty::Line::State;
   static constexpr auto fields = FieldList{field("settings", &Value::settings),
@@ -80,7 +87,10 @@ struct StateOf<pty::Line::State> {
                                            field("input", &Value::input),
                                            field("arriving", &Value::arriving),
                                            field("is_heard", &Value::is_heard),
-                                           field("leaving", &Value::leaving)};
+                                           field("leaving", &Value::leaving),
+                                           field("adapter", &Value::adapter),
+                                           field("lump", &Value::lump),
+                                           field("lump_at", &Value::lump_at)};
   static constexpr std::size_t apart = 1;  // what the stations never notice: Line::Edge
 };
 
@@ -140,6 +150,8 @@ struct StateOf<pty::RtuFramer::State> {
                                            field("undecided", &Value::undecided),
                                            field("candidate", &Value::candidate),
                                            field("look_again_at", &Value::look_again_at),
+                                           field("is_paused", &Value::is_paused),
+                                           field("resumed", &Value::resumed),
                                            field("oversize", &Value::oversize),
                                            field("last_end", &Value::last_end),
                                            field("character_under_way", &Value::character_under_way),

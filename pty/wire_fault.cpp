@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pty/line_settings.h"
@@ -29,6 +30,17 @@ void double_all(std::vector<WirePiece>& pieces, SimTime late) {
   for (std::size_t i = 0; i < count; ++i) pieces.push_back({pieces[i].late + late, pieces[i].bytes});
 }
 
+void split_all(std::vector<WirePiece>& pieces, std::size_t size, SimTime late) {
+  const std::size_t count = std::min(pieces.size(), kMostWirePieces - pieces.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (pieces[i].bytes.size() <= size) continue;
+    const auto cut = pieces[i].bytes.begin() + static_cast<std::ptrdiff_t>(size);
+    WirePiece rest{pieces[i].late + late, Bytes(cut, pieces[i].bytes.end())};
+    pieces[i].bytes.erase(cut, pieces[i].bytes.end());
+    pieces.push_back(std::move(rest));
+  }
+}
+
 }  // namespace
 
 std::vector<WirePiece> through_faults(std::span<const std::uint8_t> message,
@@ -37,10 +49,12 @@ std::vector<WirePiece> through_faults(std::span<const std::uint8_t> message,
   for (const WireFault& stage : stages) {
     if (stage.kind == WireFault::Kind::drop) return {};
     if (stage.kind == WireFault::Kind::duplicate) double_all(pieces, stage.time);
+    if (stage.kind == WireFault::Kind::split) split_all(pieces, stage.size, stage.time);
     for (auto& [late, bytes] : pieces) {
       switch (stage.kind) {
         case WireFault::Kind::drop:
-        case WireFault::Kind::duplicate: break;
+        case WireFault::Kind::duplicate:
+        case WireFault::Kind::split: break;
         case WireFault::Kind::delay: late += stage.time; break;
         case WireFault::Kind::corrupt_checksum:
           if (!bytes.empty()) bytes.back() ^= 0xFF;

@@ -20,6 +20,7 @@ struct WireFault {
     truncate,          // its first `size` bytes are left
     duplicate,         // it comes twice, the second time late by `time`
     noise,             // it comes between `before` and `after`
+    split,             // its first `size` bytes come, and the rest late by `time`
     collision,         // somebody says `before` (empty: 0x55 throughout) at the same time; 0 wins
   } kind = Kind::drop;
   SimTime time{0};

@@ -49,6 +49,7 @@ struct ServeArguments {
   bool strict_framing = false;
   bool ignore_baud = false;
   std::string baud_tolerance;
+  std::string byte_timeout;
   std::string speed = "real";
   std::string control;
   std::string nv;  // the folder for memories of devices that have no file of their own

@@ -3,10 +3,13 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -88,14 +91,25 @@ world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
   return bench;
 }
 
+/// What follows [LINE=].
+world::TcpAddress address_wished(const std::string& wish, std::size_t begin) {
+  try {
+    return world::parse_tcp_address(std::string_view(wish).substr(begin));
+  } catch (const world::ListeningError& error) {
+    throw UsageError("--listen: " + understudy::quoted(wish) + " " + error.what());
+  }
+}
+
 /// [LINE=]rtu://[HOST]:PORT: the line that it names, or the only one, listens there as well.
 void listen_as_wished(world::Bench& bench, const std::string& wish) {
   const std::size_t equals = wish.substr(0, wish.find("://")).rfind('=');
   const bool names_line = equals != std::string::npos;
-  const auto address = world::parse_tcp_address(wish.substr(names_line ? equals + 1 : 0));
-  if (equals == 0 || !address) {
-    throw UsageError("--listen: " + understudy::quoted(wish) + " is not a place to listen; " +
-                     std::string(world::kListeningExpected) + ", after LINE= where there are several lines");
+  const world::TcpAddress address = address_wished(wish, names_line ? equals + 1 : 0);
+  for (const world::LineSetup& line : bench.lines) {
+    const auto is_there = [&](const world::TcpAddress& other) { return is_same_place(address, other); };
+    if (std::ranges::any_of(line.tcp, is_there))
+      throw UsageError("--listen: " + understudy::quoted(wish) + ": line " + line.name +
+                       " listens there already; expected another port");
   }
   const std::string name = names_line ? wish.substr(0, equals) : "";
   std::string lines;
@@ -103,12 +117,12 @@ void listen_as_wished(world::Bench& bench, const std::string& wish) {
     lines += (lines.empty() ? "" : ", ") + line.name;
     if (names_line ? line.name != name : bench.lines.size() > 1) continue;
     const Model& model = *bench.devices[line.stations.front().device].model;
-    if (address->protocol == world::TcpProtocol::modbus_tcp && world::speech_of(model).carries_text()) {
+    if (address.protocol == world::TcpProtocol::modbus_tcp && world::speech_of(model).carries_text()) {
       throw UsageError("--listen: " + understudy::quoted(wish) + ": the line " + line.name +
                        " speaks lines of text, not Modbus; expected rtu:// or rfc2217://, which carry any "
                        "bytes");
     }
-    line.tcp.push_back(*address);
+    line.tcp.push_back(address);
     return;
   }
   throw UsageError("--listen: " +
@@ -156,6 +170,14 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
                        " is not a share of the speed; " + std::string(world::kBaudToleranceExpected));
     }
     for (world::LineSetup& line : bench.lines) line.baud_tolerance_ppm = *ppm;
+  }
+  if (!arguments.byte_timeout.empty()) {
+    const auto time = world::parse_byte_timeout(arguments.byte_timeout);
+    if (!time) {
+      throw UsageError("--byte-timeout: " + understudy::quoted(arguments.byte_timeout) +
+                       " is not possible; " + std::string(world::kByteTimeoutExpected));
+    }
+    for (world::LineSetup& line : bench.lines) line.byte_timeout = *time;
   }
   for (const std::string& wish : arguments.listen) listen_as_wished(bench, wish);
   if (arguments.no_pty) demand_no_pty(bench, arguments);

@@ -38,9 +38,9 @@ inline void add_serving_flags(CLI::App& command, ServeArguments& serving) {
       ->check(kNotEmpty);
   command
       .add_option("--listen", serving.listen,
-                  "Let one TCP client at a time use a line: rtu://[HOST]:PORT (its raw bytes), "
-                  "rfc2217://[HOST]:PORT (its settings as well) or modbus-tcp://[HOST]:PORT, after LINE= "
-                  "where there are several lines; without HOST on this machine only")
+                  "Let TCP clients use a line: rtu://[HOST]:PORT (its raw bytes), rfc2217://[HOST]:PORT (its "
+                  "settings as well) or modbus-tcp://[HOST]:PORT (as behind a gateway), after LINE= where "
+                  "there are several lines; without HOST on this machine only")
       ->check(kNotEmpty);
   command.add_flag("--no-pty", serving.no_pty, "Lines that listen on TCP have no pseudo-terminal");
   command.add_option("--group", serving.group, "Group that may open the ports, such as dialout [none]")
@@ -56,6 +56,10 @@ inline void add_serving_flags(CLI::App& command, ServeArguments& serving) {
   command
       .add_option("--baud-tolerance", serving.baud_tolerance,
                   "How much faster or slower a host may be and still be heard [2%, or the bench's]")
+      ->check(kNotEmpty);
+  command
+      .add_option("--byte-timeout", serving.byte_timeout,
+                  "How long the rest of a frame is waited for [200ms, or the bench's]")
       ->check(kNotEmpty);
   command.add_option("--speed", serving.speed, "real, free, manual, or a factor such as 10x")
       ->capture_default_str();

@@ -39,13 +39,15 @@ pty::WireFault stage_of(const Fault& fault) {
     case Kind::duplicate: stage.kind = Stage::duplicate; break;
     case Kind::noise: stage.kind = Stage::noise; break;
     case Kind::collision: stage.kind = Stage::collision; break;
+    case Kind::split: stage.kind = Stage::split; break;
     default: stage.kind = Stage::drop; break;
   }
-  if (stage.kind == Stage::truncate) {
+  if (stage.kind == Stage::truncate || stage.kind == Stage::split) {
     stage.size = static_cast<std::size_t>(fault.amount);
   } else {
     stage.time = SimTime{fault.amount};
   }
+  if (stage.kind == Stage::split) stage.time = time_of(fault.over_ticks);
   return stage;
 }
 
@@ -59,11 +61,12 @@ pty::Strike strike_of(std::size_t number, const Fault& fault, bool is_request) {
 bool is_said_at_once(const pty::WireFault& stage) {
   using Stage = pty::WireFault::Kind;
   return stage.kind != Stage::drop && stage.kind != Stage::delay &&
-         (stage.kind != Stage::truncate || stage.size > 0);
+         ((stage.kind != Stage::truncate && stage.kind != Stage::split) || stage.size > 0);
 }
 
 bool is_of_requests(const Fault& fault) {
-  return is_of_wire(fault.kind) && (fault.kind == Kind::slow || fault.side != Fault::Side::reply);
+  return is_of_wire(fault.kind) && !is_of_gateway(fault.kind) &&
+         (fault.kind == Kind::slow || fault.side != Fault::Side::reply);
 }
 
 bool is_of_replies(const Fault& fault) {
@@ -247,6 +250,7 @@ std::vector<pty::WireFault> FaultWatch::on_reply(const HeardFrame& frame) {
     if (!is_of_replies(armed.fault) || !is_at(armed.fault, frame)) continue;
     if (!is_hit(number, armed, frame)) continue;
     strikes.push_back(strike_of(number, armed.fault, false));
+    if (is_of_gateway(armed.fault.kind)) continue;
     stages.push_back(stage_of(armed.fault));
     if (stages.back().kind == pty::WireFault::Kind::drop) break;
   }

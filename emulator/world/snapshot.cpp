@@ -112,6 +112,7 @@ std::size_t places_of(const Model& model, const Fault& fault) {
     case FaultKindRow::Place::axis: return model.axes.size();
     case FaultKindRow::Place::wheel: return fault.of_input ? model.terminals.size() : model.axes.size();
     case FaultKindRow::Place::input: return model.terminals.size();
+    case FaultKindRow::Place::line: return model.line.ports.size();
     case FaultKindRow::Place::device_or_line: return fault.on_line ? model.line.ports.size() : 1;
     case FaultKindRow::Place::device: break;
   }

@@ -10,7 +10,7 @@ namespace understudy {
 
 template <>
 struct StateOf<emulator::world::Fault::Kind> {
-  static constexpr auto last = emulator::world::Fault::Kind::collision;
+  static constexpr auto last = emulator::world::Fault::Kind::hang_up;
 };
 
 template <>

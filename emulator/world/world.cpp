@@ -47,6 +47,14 @@ void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
     ask_for_large_pages(first, last);
 }
 
+/// A time of the host's clock in simulated time, which may go faster: as `patience` says.
+SimTime as_long_as(SimTime time, SimTime patience) {
+  const double factor = static_cast<double>(patience.count()) / static_cast<double>(kFramePatience.count());
+  const double scaled = static_cast<double>(time.count()) * factor;
+  constexpr double kMost = static_cast<double>(kHorizon.count());
+  return scaled >= kMost ? kHorizon : SimTime{static_cast<std::int64_t>(scaled)};
+}
+
 }  // namespace
 
 World::World(const Bench& bench, const WorldOptions& options,
@@ -76,11 +84,13 @@ World::World(const Bench& bench, const WorldOptions& options,
     const StationSetup& first = setup.stations.front();
     pty::LineOptions line_options{.settings = devices_[first.device]->line_settings(first.port),
                                   .timing = setup.timing,
+                                  .echoes = setup.echoes,
                                   .enforce_settings = options.enforce_settings,
                                   .baud_tolerance_ppm = setup.baud_tolerance_ppm};
     const StationConditions conditions{.is_instant = setup.timing == pty::Timing::instant,
                                        .strict_framing = options.strict_framing,
-                                       .patience = options.patience};
+                                       .patience = options.patience,
+                                       .rest_patience = as_long_as(setup.byte_timeout, options.patience)};
     const LineSpeech& speech = speech_of(devices_[first.device]->model());
     lines_.push_back(
         std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), speech, {}, {}}));

@@ -248,6 +248,7 @@ class World final : public WorldView {
   void move_by_hand(const Fault& fault);
   void apply_input(std::size_t device, int terminal);
   void apply_faults(std::size_t device);
+  void apply_adapters();
   void remove_fault(std::map<std::size_t, ArmedFault>::iterator fault);
   void settle_power(std::size_t device);
   void look_for_speech(SimTime now);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <string>
 
 #include "base/simulated_time.h"
 #include "emulator/device/axes.h"
@@ -12,6 +13,7 @@
 #include "emulator/world/outside.h"
 #include "emulator/world/plant/plant.h"
 #include "emulator/world/world.h"
+#include "pty/line.h"
 
 namespace understudy::emulator::world {
 
@@ -66,6 +68,7 @@ void World::remove_fault(std::map<std::size_t, ArmedFault>::iterator fault) {
   faults_.erase(fault);
   disturbed_ = true;
   apply_faults(device);
+  apply_adapters();
   settle_power(device);
 }
 
@@ -118,8 +121,28 @@ void World::settle_faults() {
       case Fault::Kind::slip:
       case Fault::Kind::turn: move_by_hand(fault); break;
       case Fault::Kind::power_cut: settle_power(fault.device); break;
+      case Fault::Kind::echo:
+      case Fault::Kind::lumps:
+      case Fault::Kind::unplug: apply_adapters(); break;
       default: apply_faults(fault.device); break;
     }
+  }
+}
+
+/// Of several of one kind on a line the last one counts.
+void World::apply_adapters() {
+  for (const auto& line : lines_) {
+    pty::Adapter adapter;
+    for (const auto& [number, armed] : faults_) {
+      const Fault& fault = armed.fault;
+      if (!is_of_adapter(fault.kind) || !armed.course.in_force) continue;
+      const std::string& name = known_[fault.device].lines[static_cast<std::size_t>(fault.place)];
+      if (name != line->line.name()) continue;
+      if (fault.kind == Fault::Kind::echo) adapter.echoes = true;
+      if (fault.kind == Fault::Kind::lumps) adapter.latency = SimTime{fault.amount};
+      if (fault.kind == Fault::Kind::unplug) adapter.is_unplugged = true;
+    }
+    line->line.set_adapter(adapter);
   }
 }
 

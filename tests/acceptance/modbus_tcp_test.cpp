@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 #include <regex>
+#include <vector>
 
 #include "tests/acceptance/running_understudy.h"
 #include "tests/acceptance/tcp_client.h"
@@ -162,6 +163,40 @@ TEST(ModbusTcpLine, IsReadByPymodbus) {
                              "c.read_holding_registers(0x1002, 1, slave=1).registers)";
   const Finished host = run({"/usr/bin/python3", "-c", script});
   EXPECT_EQ(host.output, "False [77]\n") << host.errors;
+}
+
+// libmodbus asks for unit 255 where nobody has told it another.
+TEST(ModbusTcpLine, IsReadByLibmodbusWithoutAUnit) {
+  const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
+  const Libmodbus host = connected(listened_port(served), MODBUS_TCP_SLAVE);
+  std::uint16_t value = 0;
+  EXPECT_EQ(modbus_read_registers(host.get(), 1, 1, &value), 1) << modbus_strerror(errno);
+  EXPECT_EQ(value, 0xC001);
+}
+
+TEST(ModbusTcpLine, ServesSeveralMastersAtOnce) {
+  const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
+  std::vector<Libmodbus> masters;
+  for (int i = 0; i < 4; ++i) masters.push_back(connected(listened_port(served)));
+  for (int round = 0; round < 5; ++round) {
+    for (const Libmodbus& master : masters) {
+      std::uint16_t value = 0;
+      EXPECT_EQ(modbus_read_registers(master.get(), 1, 1, &value), 1) << modbus_strerror(errno);
+    }
+  }
+}
+
+// A master that waits for half a second is told in time, and its next request gets its own reply.
+TEST(ModbusTcpLine, TellsOfAnAbsentStationAsSoonAsItIsToldTo) {
+  const RunningUnderstudy served({"--listen", "modbus-tcp://:0?timeout=50ms", "--timing", "instant"});
+  const Libmodbus host = connected(listened_port(served), 9);
+  std::uint16_t value = 0;
+  EXPECT_EQ(modbus_read_registers(host.get(), 1, 1, &value), -1);
+  EXPECT_EQ(errno, EMBXGTAR);
+  EXPECT_TRUE(eventually([&] {
+    return served.errors().find("asks for unit 9, which is not on the line; there is 1 (device)") !=
+           std::string::npos;
+  })) << served.errors();
 }
 
 TEST(ModbusTcpLine, IsRefusedWhereLinesOfTextAreSpoken) {

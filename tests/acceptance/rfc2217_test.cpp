@@ -205,7 +205,7 @@ TEST(Rfc2217Line, SaysWhatFitsNoLine) {
   for (const Case& c :
        {Case{{"--no-pty"}, "no line listens on TCP"},
         Case{{"--listen", "rtu://:0", "--no-pty", "--link", "p"}, "--link is of a pseudo-terminal"},
-        Case{{"--listen", "rfc2217://"}, "is not a place to listen"}}) {
+        Case{{"--listen", "rfc2217://"}, "is not an address"}}) {
     Words words{"serve", "--model", "simple2-r3"};
     words.insert(words.end(), c.flags.begin(), c.flags.end());
     const Finished refused = understudy(words);

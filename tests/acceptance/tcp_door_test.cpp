@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "tests/acceptance/raw_host.h"
 #include "tests/acceptance/running_understudy.h"
@@ -92,12 +94,94 @@ TEST(TcpDoor, SaysWhyItCannotListen) {
   };
   for (const Case& c :
        {Case{taken.c_str(), 3, "Address already in use"}, Case{"tcp://:1", 2, "expected rtu://"},
-        Case{"modbus-tcp://1", 2, "expected rtu://"}, Case{"rtu://:70000", 2, "expected rtu://"},
-        Case{"rtu://here:1", 3, "not an address"}, Case{"other=rtu://:0", 2, "is not a line"}}) {
+        Case{"modbus-tcp://1", 2, "expected rtu://"},
+        Case{"rtu://:70000", 2, "has port 70000; expected 0 to 65535"},
+        Case{"rtu://here..there:1", 3, "expected an address of this machine, or a name for one"},
+        Case{"rtu://192.0.2.1:0", 3, "Cannot assign requested address; expected an address of this machine"},
+        Case{"rtu://::1:5020", 2, "expected it as in rtu://[::1]:5020"},
+        Case{"rtu://[here]:5020", 2, "expected rtu://"},
+        Case{"rtu://:0?timeout=1s", 2, "expected them behind modbus-tcp:// only"},
+        Case{"modbus-tcp://:0?timeout=2h", 2, "expected a duration of 1ms to 1h such as 200ms, or 0"},
+        Case{"modbus-tcp://:0?unit=300", 2, "expected the number of a station, 1 to 247, or any"},
+        Case{"modbus-tcp://:0?exception=no", 2, "has exception 'no'; expected on or off"},
+        Case{"modbus-tcp://:0?time=1s", 2, "which is not a setting; the nearest is 'timeout'"},
+        Case{"other=rtu://:0", 2, "is not a line"}}) {
     const Finished refused = understudy({"serve", "--model", "simple2-r3", "--listen", c.wish});
     EXPECT_EQ(refused.exit_code, c.exit_code) << c.wish;
     EXPECT_EQ(lines_of(refused.errors).size(), 1U) << refused.errors;
     EXPECT_NE(refused.errors.find(c.said), std::string::npos) << refused.errors;
+  }
+}
+
+TEST(TcpDoor, ListensWhereItIsToldByNameAndByIpv6) {
+  for (const char* host : {"localhost", "[::1]"}) {
+    const std::string port = std::to_string(free_port());
+    const RunningUnderstudy served({"--listen", "rtu://" + std::string(host) + ":" + port});
+    if (served.errors().find("listens at") == std::string::npos) continue;
+    const std::string script = "import socket; s = socket.create_connection(('" +
+                               std::string(host[0] == '[' ? "::1" : host) + "', " + port +
+                               ")); s.sendall(bytes.fromhex('010300010001D5CA')); "
+                               "print(s.recv(7, socket.MSG_WAITALL).hex())";
+    const Finished asked = run({"/usr/bin/python3", "-c", script});
+    EXPECT_EQ(asked.output, "010302c0012984\n") << asked.errors;
+  }
+}
+
+TEST(TcpDoor, IsNotToListenAtOnePlaceTwice) {
+  const std::string place = "rtu://127.0.0.1:" + std::to_string(free_port());
+  const Finished refused =
+      understudy({"serve", "--model", "simple2-r3", "--listen", place, "--listen", place});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.errors, "understudy: --listen: '" + place +
+                                "': line line listens there already; expected another port\n");
+}
+
+// With Nagle's algorithm the second piece is not sent before the first is acknowledged.
+TEST(TcpDoor, UnderstandsFramesThatAreWrittenInPieces) {
+  const RunningUnderstudy served({"--listen", "rtu://:0"});
+  const TcpClient client(listened_port(served));
+  const auto piece = [&](std::size_t from, std::size_t to) {
+    client.write(
+        {kReadHardwareCode.begin() + std::ptrdiff_t(from), kReadHardwareCode.begin() + std::ptrdiff_t(to)});
+  };
+  for (int i = 0; i < 12; ++i) {
+    if (i % 3 == 0) {
+      piece(0, 1);
+      piece(1, 6);
+      piece(6, 8);
+    } else if (i % 3 == 1) {
+      piece(0, 6);
+      piece(6, 8);
+    } else {
+      for (std::size_t at = 0; at < 8; ++at) piece(at, at + 1);
+    }
+    EXPECT_EQ(client.read(kHardwareCodeReply.size()), kHardwareCodeReply) << i;
+  }
+}
+
+TEST(TcpDoor, UnderstandsFramesWithAPauseInside) {
+  const RunningUnderstudy served({"--listen", "rtu://:0"});
+  const TcpClient client(listened_port(served));
+  for (std::size_t cut = 1; cut < kReadHardwareCode.size(); ++cut) {
+    client.write({kReadHardwareCode.begin(), kReadHardwareCode.begin() + std::ptrdiff_t(cut)});
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    client.write({kReadHardwareCode.begin() + std::ptrdiff_t(cut), kReadHardwareCode.end()});
+    EXPECT_EQ(client.read(kHardwareCodeReply.size()), kHardwareCodeReply) << cut;
+  }
+}
+
+// As people try a port from a shell: `printf ... | socat -t 1 - TCP:...`.
+TEST(TcpDoor, AnswersOneShotClientsOfTextAsWell) {
+  const auto served = RunningUnderstudy::of_model("slim", {"--listen", "rtu://:0"});
+  const std::string script = "import socket; s = socket.create_connection(('127.0.0.1', " +
+                             std::to_string(listened_port(*served)) +
+                             ")); s.sendall(b'?PE\\r'); s.shutdown(socket.SHUT_WR)\n"
+                             "heard = b''\n"
+                             "while (got := s.recv(64)): heard += got\n"
+                             "print(heard)";
+  for (int i = 0; i < 3; ++i) {
+    const Finished asked = run({"/usr/bin/python3", "-c", script});
+    EXPECT_NE(asked.output.find("0"), std::string::npos) << asked.output << asked.errors;
   }
 }
 

@@ -30,9 +30,14 @@ Bytes operator+(Bytes left, const Bytes& right) {
 
 Bytes bytes_of(const RtuFrame& frame) { return {frame.bytes.begin(), frame.bytes.begin() + frame.size}; }
 
+constexpr SimTime kRestPatience = 200ms;
+constexpr RtuFraming kPatient{
+    .strict = false, .silence = kSilence, .patience = kPatience, .rest_patience = kRestPatience};
+
 /// A wire with a framer at its end: sends characters back to back, and collects frames when they are due.
 struct Wire {
-  RtuFramer framer{kTolerant};
+  explicit Wire(const RtuFraming& framing = kTolerant) : framer(framing) {}
+  RtuFramer framer;
   SimTime now{0};
   Frames frames;
   std::vector<SimTime> served_at;
@@ -178,6 +183,81 @@ TEST(RtuFramer, DropsACutFrameAfterPatience) {
   wire.wait(kSilence + 1ns);
   EXPECT_EQ(wire.frames, Frames{frame});
   EXPECT_EQ(wire.framer.dropped_bytes(), 5u);
+}
+
+// Wherever it is stopped, however often, for as long as it may be.
+TEST(RtuFramer, AwaitsTheRestOfAFrameWhoseLengthIsKnown) {
+  for (const std::string_view text : kRequestExamples) {
+    const Bytes frame = hex(text);
+    for (const SimTime pause : {SimTime{10ms}, SimTime{16ms}, SimTime{150ms}, kRestPatience - 1ns}) {
+      for (std::size_t cut = 1; cut < frame.size(); ++cut) {
+        Wire wire(kPatient);
+        wire.send({frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(cut)});
+        wire.wait(pause);
+        wire.send({frame.begin() + static_cast<std::ptrdiff_t>(cut), frame.end()});
+        wire.wait(kSilence + 1ns);
+        EXPECT_EQ(wire.frames, Frames{frame}) << text << " cut at " << cut;
+        EXPECT_EQ(wire.framer.dropped_bytes(), 0u) << text << " cut at " << cut;
+      }
+      Wire wire(kPatient);
+      for (const std::uint8_t byte : frame) {
+        wire.wait(pause);
+        wire.send({byte});
+      }
+      wire.wait(kSilence + 1ns);
+      EXPECT_EQ(wire.frames, Frames{frame}) << text << " byte by byte";
+    }
+  }
+}
+
+// Cut anywhere, after a pause of any length: the next one is served at its end, whole or in two pieces.
+TEST(RtuFramer, PrefersAGoodFrameBehindAPauseToTheRestOfACutOne) {
+  for (const std::string_view first : kRequestExamples) {
+    const Bytes cut_one = hex(first);
+    for (const std::string_view second : kRequestExamples) {
+      const Bytes frame = hex(second);
+      for (std::size_t cut = 1; cut < cut_one.size(); ++cut) {
+        for (const SimTime pause : {SimTime{10ms}, SimTime{50ms}, kRestPatience, SimTime{1s}}) {
+          for (std::size_t piece : {std::size_t{1}, frame.size() / 2, frame.size()}) {
+            Wire wire(kPatient);
+            wire.send({cut_one.begin(), cut_one.begin() + static_cast<std::ptrdiff_t>(cut)});
+            wire.wait(pause);
+            wire.send({frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(piece)});
+            if (piece < frame.size()) wire.wait(12ms);
+            wire.send({frame.begin() + static_cast<std::ptrdiff_t>(piece), frame.end()});
+            wire.wait(piece < frame.size() ? SimTime{kPatience + 1ns} : SimTime{kSilence + 1ns});
+            ASSERT_EQ(wire.frames, Frames{frame}) << first << " cut at " << cut << ", " << second;
+            EXPECT_EQ(wire.framer.dropped_bytes(), cut);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(RtuFramer, DropsACutFrameAfterItsPatience) {
+  const Bytes frame = hex(kRequestExamples[0]);
+  Wire wire(kPatient);
+  wire.send({frame.begin(), frame.begin() + 5});
+  EXPECT_EQ(wire.framer.due(), wire.now + kPatience);
+  wire.wait(kPatience + 1ns);
+  EXPECT_EQ(wire.framer.due(), wire.now - kPatience - 1ns + kRestPatience);
+  EXPECT_EQ(wire.framer.dropped_bytes(), 0u);
+  wire.wait(kRestPatience);
+  EXPECT_EQ(wire.framer.dropped_bytes(), 5u);
+  EXPECT_EQ(wire.framer.due(), std::nullopt);
+}
+
+// What begins a lump and is no beginning of a frame of known length has the usual patience.
+TEST(RtuFramer, GivesUpAllElseAfterTheUsualPatience) {
+  for (const auto* text :
+       {"01 41 07", "01 03 00 01 00 01 D5 CB", "01 83 02", "FF FF FF 01 03 00", "00 00 00 01"}) {
+    Wire wire(kPatient);
+    wire.send(hex(text));
+    wire.wait(kPatience + 1ns);
+    EXPECT_EQ(wire.framer.due(), std::nullopt) << text;
+    EXPECT_EQ(wire.framer.dropped_bytes(), hex(text).size()) << text;
+  }
 }
 
 TEST(RtuFramer, ServesPipelinedFramesEachAtItsOwnEnd) {

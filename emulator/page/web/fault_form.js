@@ -15,9 +15,10 @@ function placesFor(place) {
           .concat(device.terminals.filter((it) => it.kind === 'counted_in').map((it) => `${device.name}.${it.name}`));
       case 'input':
         return device.terminals.filter((it) => it.kind === 'digital_in').map((it) => `${device.name}.${it.name}`);
+      case 'line': return [];
       default: return [device.name];
     }
-  }).concat(place === 'device_or_line' ? lines : []);
+  }).concat(place === 'device_or_line' || place === 'line' ? lines : []);
 }
 
 function Line({ field, values, setValues }) {

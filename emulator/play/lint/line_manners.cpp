@@ -70,7 +70,10 @@ LineManners::LineManners(world::World& world, std::size_t line)
       number_(line),
       options_(world.line(line).line.options()),
       // Whatever the devices make of it: it must hear frames that a strict one would not, to say why.
-      framer_({.strict = false, .silence = SimTime{0}, .patience = world.line(line).framing.patience}) {
+      framer_({.strict = false,
+               .silence = SimTime{0},
+               .patience = world.line(line).framing.patience,
+               .rest_patience = world.line(line).framing.rest_patience}) {
   const world::WorldLine& watched = world_.line(line);
   const auto is_modbus = [](const auto& station) { return station->device().modbus() != nullptr; };
   if (std::none_of(watched.stations.begin(), watched.stations.end(), is_modbus)) return;

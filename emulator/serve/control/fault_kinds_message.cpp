@@ -24,6 +24,7 @@ std::string_view place_word(world::FaultKindRow::Place place) {
     case world::FaultKindRow::Place::input: return "input";
     case world::FaultKindRow::Place::device: return "device";
     case world::FaultKindRow::Place::device_or_line: return "device_or_line";
+    case world::FaultKindRow::Place::line: return "line";
   }
   return {};
 }

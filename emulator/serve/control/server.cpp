@@ -18,8 +18,10 @@
 #include <string>
 #include <utility>
 
+#include "base/files/descriptor.h"
 #include "base/text/one_line.h"
 #include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/listener.h"
 
 namespace understudy::emulator::serve {
 
@@ -29,7 +31,6 @@ namespace {
 constexpr std::size_t kLongestMessage = 4 * 1024 * 1024;
 constexpr std::size_t kMostUnread = 8 * 1024 * 1024;
 constexpr std::size_t kMostClients = 256;
-constexpr WallTime kRest = std::chrono::milliseconds(250);
 
 sockaddr_un address_of(const std::string& path) {
   sockaddr_un address{};
@@ -71,7 +72,7 @@ void remove_dead_socket(const std::string& path) {
 }  // namespace
 
 struct ControlServer::Client {
-  int descriptor = -1;
+  Descriptor socket;
   bool is_awaiting = false;   // a reply is still to come: nothing is read meanwhile
   bool has_said_all = false;  // it has closed its side
   std::string input;          // the beginning of a message
@@ -82,69 +83,41 @@ ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
     : loop_(loop), path_(std::move(path)), handler_(std::move(handler)) {
   const sockaddr_un address = address_of(path_);
   remove_dead_socket(path_);
-  listener_ = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (listener_ < 0) throw ControlError(path_ + ": " + std::strerror(errno));
+  Descriptor listener(socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!listener) throw ControlError(path_ + ": " + std::strerror(errno));
   // Only its owner may open it, from the first moment on.
   const mode_t before = umask(0177);
-  const bool bound = bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  const bool bound = bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
   const int error = errno;
   umask(before);
-  if (!bound || listen(listener_, 64) < 0) {
-    close(listener_);
+  if (!bound || listen(listener.get(), 64) < 0) {
     throw ControlError(path_ + ": cannot be made: " + std::strerror(bound ? errno : error) +
                        "; expected a free path in a folder that can be written");
   }
   struct stat status {};
   if (lstat(path_.c_str(), &status) == 0) inode_ = status.st_ino;
-  loop_.watch(
-      listener_, EventLoop::readable, [this](std::uint32_t) { accept_clients(); }, EventLoop::Rank::later);
+  listener_ = std::make_unique<Listener>(
+      loop_, std::move(listener), [this](Descriptor client) { admit(std::move(client)); },
+      EventLoop::Rank::later);
 }
 
 ControlServer::~ControlServer() {
   while (!clients_.empty()) drop(clients_.begin()->first);
-  loop_.unwatch(listener_);
-  close(listener_);
+  listener_.reset();
   // Another's socket may stand there by now.
   struct stat status {};
   if (lstat(path_.c_str(), &status) == 0 && status.st_ino == inode_) unlink(path_.c_str());
 }
 
-void ControlServer::accept_clients() {
-  while (true) {
-    const int descriptor = accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (descriptor < 0) {
-      const bool is_none_there = errno == EAGAIN || errno == EINTR || errno == ECONNABORTED;
-      if (!is_none_there) rest();
-      return;
-    }
-    if (clients_.size() >= kMostClients) {
-      close(descriptor);
-      continue;
-    }
-    auto client = std::make_shared<Client>();
-    client->descriptor = descriptor;
-    clients_[descriptor] = client;
-    loop_.watch(
-        descriptor, EventLoop::readable,
-        [this, descriptor](std::uint32_t ready) { on_client(descriptor, ready); }, EventLoop::Rank::later);
-  }
-}
-
-/// There are no descriptors left: waiting clients would be reported again and again. They wait until a client
-/// has gone, or for a moment, as others may give descriptors back.
-void ControlServer::rest() {
-  loop_.change_interest(listener_, 0);
-  rests_until_ = wall_now() + kRest;
-}
-
-void ControlServer::rest_no_more() {
-  if (!rests_until_) return;
-  rests_until_.reset();
-  loop_.change_interest(listener_, EventLoop::readable);
-}
-
-void ControlServer::look(WallTime now) {
-  if (rests_until_ && now >= *rests_until_) rest_no_more();
+void ControlServer::admit(Descriptor socket) {
+  if (clients_.size() >= kMostClients) return;
+  auto client = std::make_shared<Client>();
+  client->socket = std::move(socket);
+  const int descriptor = client->socket.get();
+  clients_[descriptor] = client;
+  loop_.watch(
+      descriptor, EventLoop::readable,
+      [this, descriptor](std::uint32_t ready) { on_client(descriptor, ready); }, EventLoop::Rank::later);
 }
 
 /// One message a call, however many are there: the rest stays in the socket, and others have their turn.
@@ -188,23 +161,23 @@ void ControlServer::serve(const std::shared_ptr<Client>& client) {
     alive->is_awaiting = false;
     send(alive, reply);
   });
-  if (client->descriptor >= 0 && client->is_awaiting)
-    write_out(*client);  // nothing is read from it meanwhile
+  if (client->socket && client->is_awaiting) write_out(*client);  // nothing is read from it meanwhile
 }
 
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
-  if (client->descriptor < 0) return;
+  if (!client->socket) return;
   // A device may hold more than anybody could be given at once.
   const bool is_too_long = line.size() >= kMostUnread;
   client->output += is_too_long ? R"({"ok":false,"error":"the answer is longer than 8388608 bytes"})" : line;
   client->output += "\n";
-  if (!write_out(*client) || client->output.size() > kMostUnread) drop(client->descriptor);
+  if (!write_out(*client) || client->output.size() > kMostUnread) drop(client->socket.get());
 }
 
 /// False if there is nothing more to do for the client.
 bool ControlServer::write_out(Client& client) {
   while (!client.output.empty()) {
-    const ssize_t count = ::send(client.descriptor, client.output.data(), client.output.size(), MSG_NOSIGNAL);
+    const ssize_t count =
+        ::send(client.socket.get(), client.output.data(), client.output.size(), MSG_NOSIGNAL);
     if (count < 0) {
       if (errno == EINTR) continue;
       if (errno != EAGAIN) return false;
@@ -216,7 +189,7 @@ bool ControlServer::write_out(Client& client) {
   // What waits behind a message whose reply is to come stays in the socket.
   const std::uint32_t read = client.has_said_all || client.is_awaiting ? 0U : EventLoop::readable;
   const std::uint32_t write = client.output.empty() ? 0U : EventLoop::writable;
-  loop_.change_interest(client.descriptor, read | write);
+  loop_.change_interest(client.socket.get(), read | write);
   return true;
 }
 
@@ -224,10 +197,9 @@ void ControlServer::drop(int descriptor) {
   const auto it = clients_.find(descriptor);
   if (it == clients_.end()) return;
   loop_.unwatch(descriptor);
-  close(descriptor);
-  it->second->descriptor = -1;  // for whoever still holds it
+  it->second->socket.close();  // also for whoever still holds it
   clients_.erase(it);
-  rest_no_more();
+  listener_->try_again();
 }
 
 bool is_answered(const std::string& path) {

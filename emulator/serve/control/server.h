@@ -2,6 +2,8 @@
 // its reply; messages.h knows what they say.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -9,8 +11,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/files/descriptor.h"
 #include "emulator/serve/daemon/door.h"
 #include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/listener.h"
 
 namespace understudy::emulator::serve {
 
@@ -31,16 +35,11 @@ class ControlServer final : public Door {
   ControlServer& operator=(const ControlServer&) = delete;
 
   const std::string& path() const override { return path_; }
-  /// New clients wait here for descriptors.
-  std::optional<WallTime> next_look() const override { return rests_until_; }
-  void look(WallTime now) override;
 
  private:
   struct Client;
-  void accept_clients();
+  void admit(Descriptor socket);
   void on_client(int descriptor, std::uint32_t ready);
-  void rest();
-  void rest_no_more();
   void serve(const std::shared_ptr<Client>& client);
   void send(const std::shared_ptr<Client>& client, const std::string& line);
   bool write_out(Client& client);
@@ -49,10 +48,9 @@ class ControlServer final : public Door {
   EventLoop& loop_;
   std::string path_;
   Handler handler_;
-  int listener_ = -1;
+  std::unique_ptr<Listener> listener_;
   std::uint64_t inode_ = 0;  // of our socket
   std::map<int, std::shared_ptr<Client>> clients_;
-  std::optional<WallTime> rests_until_;  // nobody is let in until then
 };
 
 /// Whether anybody listens at that path.

@@ -192,12 +192,16 @@ void Daemon::make_ports(const world::Bench& bench) {
   }
 }
 
+/// What one cannot listen at is told before anybody is told where to come.
 void Daemon::make_doors(const world::Bench& bench) {
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
     for (const world::TcpAddress& address : bench.lines[i].tcp) {
       doors_.push_back(std::make_unique<TcpDoor>(loop_, *ports_[i], address, log_));
-      log_("line " + bench.lines[i].name + " listens at " + ports_[i]->tcp_places().back());
     }
+  }
+  for (const auto& port : ports_) {
+    for (const std::string& place : port->tcp_places())
+      log_("line " + port->line().name() + " listens at " + place);
   }
 }
 
@@ -406,9 +410,6 @@ void Daemon::wait() {
     if (look && (!wake || *look < *wake)) wake = look;
   }
   if (const auto look = memories_->next_look(); look && (!wake || *look < *wake)) wake = look;
-  if (door_) {
-    if (const auto look = door_->next_look(); look && (!wake || *look < *wake)) wake = look;
-  }
   const bool can_be_late = !makes_time_go() && !behind_since_;
   loop_.wait(wake, can_be_late ? EventLoop::kLaterSlice : EventLoop::kLongSlice);
 }
@@ -433,7 +434,6 @@ void Daemon::run() {
       port->flush();
     }
     memories_->look(now);
-    if (door_) door_->look(now);
     if (recording_) recording_->look();
   }
   // A recording or a trace of a bench on which nothing happens ends now as well, and not when last something

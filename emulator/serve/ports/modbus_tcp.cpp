@@ -1,6 +1,7 @@
 #include "emulator/serve/ports/modbus_tcp.h"
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,9 +21,8 @@ constexpr std::size_t kMostLength = 254;
 
 constexpr std::size_t kLongestFrame = kMostLength + 2;  // with its checksum
 
-// So long a station may take to answer, and a broadcast to be obeyed.
-constexpr int kReplyPatience_ms = 1000;
-constexpr int kAfterBroadcast_ms = 100;
+// So long a broadcast may take to be obeyed.
+constexpr std::chrono::milliseconds kAfterBroadcast{100};
 
 constexpr std::uint8_t kException = 0x80;
 constexpr std::uint8_t kTargetDoesNotRespond = 0x0B;
@@ -68,9 +68,9 @@ bool ModbusTcp::hear_client(std::span<const std::uint8_t> bytes) {
   return false;
 }
 
-std::optional<int> ModbusTcp::patience_ms() const {
+std::optional<std::chrono::milliseconds> ModbusTcp::patience() const {
   if (!on_line_) return std::nullopt;
-  return is_broadcast() ? kAfterBroadcast_ms : kReplyPatience_ms;
+  return is_broadcast() ? kAfterBroadcast : rules_.timeout;
 }
 
 ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
@@ -80,10 +80,12 @@ ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
     const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(*size);
     const bool is_modbus = word_at(heard_, 2) == 0;
     Bytes frame(heard_.begin() + kHeader, end);
-    if (is_modbus)
-      on_line_ = Request{.transaction = word_at(heard_, 0), .unit = frame[0], .function = frame[1]};
+    const std::uint16_t transaction = word_at(heard_, 0);
     heard_.erase(heard_.begin(), end);
     if (!is_modbus) continue;  // of another protocol: passed over, as the standard has it
+    const std::uint8_t unit = frame[0];
+    if (rules_.station_of) frame[0] = rules_.station_of(unit, frame[1]);
+    on_line_ = Request{.transaction = transaction, .unit = unit, .station = frame[0], .function = frame[1]};
     reply_.clear();
     pty::append_rtu_crc(frame);
     return frame;
@@ -102,7 +104,7 @@ void ModbusTcp::hear_line(std::span<const std::uint8_t> bytes) {
     const std::span<const std::uint8_t> frame = std::span<const std::uint8_t>(reply_).first(size);
     const bool is_good = pty::rtu_crc_ok(frame);
     if (!is_good && !size_of_reply(reply_)) return;  // not all of it yet
-    if (is_good && frame[0] == on_line_->unit && (frame[1] & ~kException) == on_line_->function) {
+    if (is_good && frame[0] == on_line_->station && (frame[1] & ~kException) == on_line_->function) {
       answer(frame.subspan(1, size - 3));
       reply_.clear();
       return;
@@ -113,11 +115,19 @@ void ModbusTcp::hear_line(std::span<const std::uint8_t> bytes) {
 
 void ModbusTcp::give_up() {
   if (!on_line_) return;
-  if (is_broadcast()) {
+  if (is_broadcast() || !rules_.tells) {
     on_line_.reset();
     return;
   }
   answer(std::array{static_cast<std::uint8_t>(on_line_->function | kException), kTargetDoesNotRespond});
+}
+
+bool ModbusTcp::is_idle() const { return !on_line_ && to_client_.empty() && !size_of_message(heard_); }
+
+void ModbusTcp::client_gone() {
+  to_client_.clear();
+  const auto next = on_line_ ? std::optional<std::size_t>(0) : size_of_message(heard_);
+  heard_.resize(next.value_or(0));
 }
 
 void ModbusTcp::answer(std::span<const std::uint8_t> pdu) {

@@ -3,25 +3,40 @@
 // TCP/IP 1.0b, 3.1.3 and 4.4.2.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "emulator/serve/ports/tcp_speech.h"
 
 namespace understudy::emulator::serve {
 
+/// How it behaves, and who stands on its line.
+struct GatewayRules {
+  std::chrono::milliseconds timeout{1000};  // for a station to answer
+  bool tells = true;                        // by exception 11 that it has not
+  /// The station that a request for a unit is for; null: the one of that number.
+  std::function<std::uint8_t(std::uint8_t unit, std::uint8_t function)> station_of{};
+};
+
 class ModbusTcp final : public TcpSpeech {
  public:
+  explicit ModbusTcp(GatewayRules rules = {}) : rules_(std::move(rules)) {}
+
   /// False: they tell of a length that no request has, so where the next begins is not known. What came
   /// before that is still served; that message, and whatever follows it, never is.
   [[nodiscard]] bool hear_client(std::span<const std::uint8_t> bytes) override;
   void hear_line(std::span<const std::uint8_t> bytes) override;
-  std::optional<int> patience_ms() const override;
+  std::optional<std::chrono::milliseconds> patience() const override;
   /// The time for the reply is over: the client is told that the station does not answer, but for a
-  /// broadcast.
+  /// broadcast, and where it is to be told nothing.
   void give_up() override;
+  bool is_idle() const override;
+  void client_gone() override;
 
   /// The next request as an RTU frame, with its checksum. Empty if there is none, while another is on the
   /// line, and until the last answer is taken: a client that takes none gets no further requests through.
@@ -30,7 +45,7 @@ class ModbusTcp final : public TcpSpeech {
 
   /// Whether a request is on the line; `is_broadcast`: nobody answers it, but for a station with number 0.
   bool waits() const { return on_line_.has_value(); }
-  bool is_broadcast() const { return on_line_ && on_line_->unit == 0; }
+  bool is_broadcast() const { return on_line_ && on_line_->station == 0; }
   bool has_room() const override { return heard_.size() < kMostHeard; }
 
  private:
@@ -38,11 +53,13 @@ class ModbusTcp final : public TcpSpeech {
 
   struct Request {
     std::uint16_t transaction = 0;
-    std::uint8_t unit = 0;
+    std::uint8_t unit = 0;     // as the client calls the station
+    std::uint8_t station = 0;  // its number on the line
     std::uint8_t function = 0;
   };
   void answer(std::span<const std::uint8_t> pdu);
 
+  GatewayRules rules_;
   Bytes heard_;              // of the client: whole requests, and the beginning of one
   bool is_refused_ = false;  // it has sent what is not Modbus TCP
   Bytes reply_;              // of the line, as far as it has come

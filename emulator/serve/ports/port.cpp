@@ -1,5 +1,9 @@
 #include "emulator/serve/ports/port.h"
 
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -20,6 +24,7 @@
 #include "pty/line.h"
 #include "pty/line_observer.h"
 #include "pty/line_settings.h"
+#include "pty/port_link.h"
 #include "pty/station.h"
 
 namespace understudy::emulator::serve {
@@ -41,7 +46,7 @@ constexpr std::size_t kLeftBehindCapacity = 20'480 + pty::Line::kInputCapacity;
 
 }  // namespace
 
-/// A world that runs fast says more in one go than its line keeps.
+/// A world that runs fast says more in one go than its line keeps. And guests have faults of their own.
 class Port::Overflow final : public pty::LineObserver {
  public:
   explicit Overflow(Port& port) : port_(port) { port_.world_.add_observer(port_.line_number_, *this); }
@@ -50,6 +55,13 @@ class Port::Overflow final : public pty::LineObserver {
   Overflow& operator=(const Overflow&) = delete;
 
   void on_output_full() override { port_.hand_over(); }
+  void on_strike(const pty::StruckMessage& message) override {
+    if (port_.guest_ == nullptr || !message.is_reply) return;
+    for (const pty::Strike& strike : message.strikes) {
+      const auto found = port_.world_.faults().find(strike.fault);
+      if (found != port_.world_.faults().end()) port_.guest_->spoil(found->second.fault);
+    }
+  }
   void on_start_bit(SimTime) override {}
   void on_character(const pty::TimedByte&, bool) override {}
   void on_nothing_more() override {}
@@ -69,9 +81,10 @@ Port::Port(EventLoop& loop, world::World& world, std::size_t line_number, const 
       line_number_(line_number),
       catch_up_(std::move(catch_up)),
       log_(std::move(log)),
+      link_(link),
       overflow_(std::make_unique<Overflow>(*this)) {
-  if (!link) return;
-  terminal_.emplace(*link);
+  if (!link_) return;
+  terminal_.emplace(*link_);
   watch();
 }
 
@@ -89,6 +102,7 @@ void Port::watch() {
 
 /// A lost terminal would tell of its hang-up without end.
 void Port::keep_watch() {
+  if (!terminal_) return;  // pulled out just now
   if (!terminal_->is_lost()) {
     if (!is_watching_) watch();
     return;
@@ -209,6 +223,15 @@ void Port::take_in(std::span<const std::uint8_t> bytes, const std::optional<pty:
   world_.receive(line_number_, bytes);
   world_.advance_to(world_.now());
   last_bytes_ = wall_now();
+  has_paused_ = false;
+}
+
+/// For the rest of a frame, by the host's clock.
+WallTime Port::patience() const {
+  const pty::RtuFraming& framing = world_line().framing;
+  const bool waits_longer = has_paused_ && framing.patience > SimTime{0};
+  if (!waits_longer) return world::kFramePatience;
+  return world::kFramePatience * std::max<std::int64_t>(framing.rest_patience / framing.patience, 1);
 }
 
 std::optional<WallTime> Port::next_look(bool clock_stands) {
@@ -220,19 +243,20 @@ std::optional<WallTime> Port::next_look(bool clock_stands) {
     return second_look_;
   }
   // Where the clock stands, patience with an incomplete frame would never end.
-  if (clock_stands && last_bytes_ > WallTime{0} && line().due()) return last_bytes_ + world::kFramePatience;
+  if (clock_stands && last_bytes_ > WallTime{0} && line().due()) return last_bytes_ + patience();
   return std::nullopt;
 }
 
 void Port::look(WallTime now, bool clock_stands) {
-  if (next_recovery_ > WallTime{0} && now >= next_recovery_) keep_watch();
+  if (next_recovery_ > WallTime{0} && now >= next_recovery_) terminal_ ? keep_watch() : follow_plug();
   if (second_look_ > WallTime{0} && now >= second_look_) {
     second_look_ = WallTime{0};
     on_presence({});
     keep_watch();
   }
-  if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + world::kFramePatience) {
-    last_bytes_ = WallTime{0};
+  // Twice: after a pause a frame that has begun waits longer.
+  if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + patience()) {
+    if (std::exchange(has_paused_, true)) last_bytes_ = WallTime{0};
     world_.nothing_more(line_number_);
   }
 }
@@ -247,6 +271,7 @@ void Port::world_restored() {
   }
   world_.host_settings(line_number_, host_settings());
   last_bytes_ = wall_now();  // of a frame that is half heard
+  has_paused_ = false;
   flush();
 }
 
@@ -277,6 +302,7 @@ std::optional<SimTime> Port::time_until_full() const {
 }
 
 void Port::flush() {
+  follow_plug();
   if (!left_behind_.empty()) pass_on_what_was_left_behind();
   hand_over();
   is_listening_ = room() > 0;
@@ -287,9 +313,59 @@ void Port::flush() {
   loop_.change_interest(terminal_->data_descriptor(), interest);
 }
 
+// --- a fault that pulls it out -------------------------------------------------------------------
+
+void Port::follow_plug() {
+  if (is_unplugged() && !is_pulled_out_) {
+    pull_out();
+  } else if (!is_unplugged() && is_pulled_out_) {
+    plug_in();
+  }
+}
+
+/// As of an adapter that is pulled out: its link is gone, and who has it open is hung up.
+void Port::pull_out() {
+  is_pulled_out_ = true;
+  next_recovery_ = second_look_ = WallTime{0};
+  left_behind_.clear();
+  if (guest_ != nullptr) guest_->hang_up();
+  if (!terminal_) return;
+  if (stat(terminal_->path().c_str(), &access_) != 0) access_ = {};
+  if (is_watching_) {
+    loop_.unwatch(terminal_->data_descriptor());
+    loop_.unwatch(terminal_->presence_descriptor());
+    is_watching_ = false;
+  }
+  if (terminal_->host_present()) world_.host_closed(line_number_);
+  terminal_.reset();
+}
+
+/// It is another pseudo-terminal behind the same link, which whoever could open the one before may open.
+void Port::plug_in() {
+  is_pulled_out_ = false;
+  next_recovery_ = WallTime{0};
+  if (!link_) return;
+  try {
+    terminal_.emplace(*link_);
+  } catch (const pty::PortError& error) {
+    if (!std::exchange(has_told_, true)) log_("line " + line().name() + ": " + error.what());
+    is_pulled_out_ = true;
+    next_recovery_ = wall_now() + kRecovery;
+    return;
+  }
+  has_told_ = false;
+  const char* const path = terminal_->path().c_str();
+  // The group first: until then the old one must not gain anything.
+  if (access_.st_mode != 0 && chown(path, static_cast<uid_t>(-1), access_.st_gid) == 0)
+    chmod(path, access_.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
+  watch();
+  log_("line " + line().name() + " is plugged in again; the port is " + terminal_->path() + " now");
+}
+
 // --- guests --------------------------------------------------------------------------------------
 
 bool Port::admit(Guest& guest) {
+  if (is_unplugged()) return false;
   if (terminal_ && is_watching_) on_presence({});  // it may have been opened just now
   if (host_present()) return false;
   catch_up_();
@@ -331,8 +407,6 @@ std::optional<pty::HostSettings> Port::host_settings() const {
   return guest_ != nullptr ? guest_settings_ : terminal_ ? terminal_->poll_host_settings() : std::nullopt;
 }
 
-std::string Port::place() const {
-  return terminal_ ? terminal_->link_path() : tcp_places_.empty() ? "" : tcp_places_.front();
-}
+std::string Port::place() const { return link_ ? *link_ : tcp_places_.empty() ? "" : tcp_places_.front(); }
 
 }  // namespace understudy::emulator::serve

@@ -3,6 +3,8 @@
 // the model.
 #pragma once
 
+#include <sys/stat.h>
+
 #include <functional>
 #include <memory>
 #include <optional>
@@ -37,7 +39,7 @@ class Port {
   /// How long the line can talk to its host until it has said more than it keeps; nothing: it will not talk.
   std::optional<SimTime> time_until_full() const;
   /// When look() should be called even if nothing is readable: a host may have gone, a frame is incomplete
-  /// while the clock stands, or the pseudo-terminal was lost and could not be opened again yet.
+  /// while the clock stands, or the pseudo-terminal was lost or pulled out and could not be opened again yet.
   std::optional<WallTime> next_look(bool clock_stands);
   void look(WallTime now, bool clock_stands);
   /// The world has another state: its line gets the host that is there now, and what the old line was saying
@@ -52,6 +54,10 @@ class Port {
     virtual std::size_t take(std::span<const std::uint8_t> bytes) = 0;
     /// The line may have room again.
     virtual void follow() = 0;
+    /// What a fault does to the reply that the line says next.
+    virtual void spoil(const world::Fault& fault) = 0;
+    /// The port is pulled out: the guest leaves.
+    virtual void hang_up() = 0;
   };
   /// False: the line has a host. Who opens the pseudo-terminal later is not heard until the guest leaves.
   bool admit(Guest& guest);
@@ -64,9 +70,13 @@ class Port {
   /// It does not want what it has not taken yet.
   void throw_away();
   std::size_t room() const { return left_behind_.empty() ? line().room() : 0; }
-  const pty::Line& line() const { return world_.line(line_number_).line; }
+  bool is_unplugged() const { return line().is_unplugged(); }
+  /// Nothing is on its way, and nobody has anything to say.
+  bool is_quiet() const { return left_behind_.empty() && !line().due() && line().output().empty(); }
+  const pty::Line& line() const { return world_line().line; }
+  const world::WorldLine& world_line() const { return world_.line(line_number_); }
 
-  /// Null: it has none.
+  /// Null: it has none, or it is pulled out.
   const pty::PseudoTerminal* terminal() const { return terminal_ ? &*terminal_ : nullptr; }
   /// What a host opens: the link's path, or where it is reached by TCP if there is no pseudo-terminal.
   std::string place() const;
@@ -88,26 +98,35 @@ class Port {
   void leave_behind(std::span<const std::uint8_t> bytes);
   void pass_on_what_was_left_behind();
   void receive(std::span<const std::uint8_t> bytes);
+  WallTime patience() const;
   void take_in(std::span<const std::uint8_t> bytes, const std::optional<pty::HostSettings>& settings);
   void ignore_terminal();
+  void follow_plug();
+  void pull_out();
+  void plug_in();
 
   EventLoop& loop_;
   world::World& world_;
   std::size_t line_number_;
   std::function<void()> catch_up_;
   std::function<void(const std::string&)> log_;
-  std::optional<pty::PseudoTerminal> terminal_;
-  Guest* guest_ = nullptr;  // has the line instead
+  Link link_;
+  std::optional<pty::PseudoTerminal> terminal_;  // none as well while it is pulled out
+  Guest* guest_ = nullptr;                       // has the line instead
   std::optional<pty::HostSettings> guest_settings_;
   std::vector<std::string> tcp_places_;
   std::vector<std::uint8_t> left_behind_;  // by hosts that have closed; at most kLeftBehindCapacity
   WallTime second_look_{0};                // when to check again whether the host has gone; 0: no need
   bool is_watching_ = false;               // the terminal's descriptors
+  bool is_pulled_out_ = false;             // by a fault
+  bool has_told_ = false;                  // why it cannot be plugged in again
+  struct stat access_ {};                  // of the terminal that was
   WallTime next_recovery_{0};              // when to try to open a lost terminal again; 0: it is not lost
   bool is_listening_ = true;               // the line had room when last something was handed over
   WallTime last_taken_{0};                 // when the host's side took something last
   std::unique_ptr<Overflow> overflow_;
-  WallTime last_bytes_{0};  // when the host's last bytes came; 0: nothing is waited for
+  WallTime last_bytes_{0};   // when the host's last bytes came; 0: nothing is waited for
+  bool has_paused_ = false;  // where the clock stands: since then a frame's usual patience is over
 };
 
 }  // namespace understudy::emulator::serve

@@ -1,14 +1,9 @@
 #include "emulator/serve/ports/tcp_door.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <sys/socket.h>
 #include <sys/timerfd.h>
-#include <sys/types.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstddef>
@@ -17,14 +12,24 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "base/files/descriptor.h"
+#include "base/simulated_time.h"
 #include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/listener.h"
+#include "emulator/serve/ports/gateway_units.h"
+#include "emulator/serve/ports/modbus_tcp.h"
 #include "emulator/serve/ports/port.h"
+#include "emulator/serve/ports/raw_bytes.h"
+#include "emulator/serve/ports/rfc2217.h"
+#include "emulator/serve/ports/tcp_client.h"
+#include "emulator/serve/ports/tcp_places.h"
 #include "emulator/serve/ports/tcp_speech.h"
 #include "emulator/world/bench/listening.h"
+#include "emulator/world/faults/fault.h"
 #include "pty/line_settings.h"
 #include "pty/port_link.h"
 
@@ -32,40 +37,14 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kOneReading = 4096;
+constexpr std::size_t kOneTaking = 4096;
 constexpr std::size_t kMostLeft = 16'384;  // of what a client that has gone has sent
 
-// A client whose machine has gone without a word is noticed after about half a minute.
-constexpr int kIdleSeconds = 15;
-constexpr int kProbeSeconds = 5;
-constexpr int kProbes = 3;
+// So long one that has said all may wait for its replies while another wants the line.
+constexpr std::chrono::nanoseconds kLongestGoodbye = std::chrono::seconds(1);
 
 // The longest request and reply.
 constexpr int kLongestExchange_bits = 2 * 256 * 11;
-
-sockaddr_in socket_address(const world::TcpAddress& address) {
-  sockaddr_in result{};
-  result.sin_family = AF_INET;
-  result.sin_port = htons(static_cast<std::uint16_t>(address.port));
-  if (inet_pton(AF_INET, address.host.c_str(), &result.sin_addr) != 1)
-    throw pty::PortError("--listen: " + address.host +
-                         " is not an address; expected a numeric one such as 127.0.0.1");
-  return result;
-}
-
-void notice_dead_peers(int client) {
-  const auto set = [client](int level, int name, int value) {
-    setsockopt(client, level, name, &value, sizeof value);
-  };
-  set(SOL_SOCKET, SO_KEEPALIVE, 1);
-  set(IPPROTO_TCP, TCP_KEEPIDLE, kIdleSeconds);
-  set(IPPROTO_TCP, TCP_KEEPINTVL, kProbeSeconds);
-  set(IPPROTO_TCP, TCP_KEEPCNT, kProbes);
-  set(IPPROTO_TCP, TCP_USER_TIMEOUT, 1000 * (kIdleSeconds + kProbes * kProbeSeconds));
-  set(IPPROTO_TCP, TCP_NODELAY, 1);
-}
-
-bool is_for_later() { return errno == EAGAIN || errno == EINTR; }
 
 }  // namespace
 
@@ -75,154 +54,268 @@ TcpDoor::TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
       port_(port),
       address_(address),
       log_(std::move(log)),
-      listener_(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
-  sockaddr_in where = socket_address(address_);
-  const int yes = 1;
-  setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  socklen_t size = sizeof where;
-  auto* const raw = reinterpret_cast<sockaddr*>(&where);
-  if (bind(listener_.get(), raw, size) != 0 || listen(listener_.get(), 4) != 0 ||
-      getsockname(listener_.get(), raw, &size) != 0)
-    throw pty::PortError("--listen: cannot listen at " + world::to_string(address_) + ": " +
-                         std::strerror(errno) + "; expected a free port");
-  address_.port = ntohs(where.sin_port);
+      timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
+  if (!timer_)
+    throw pty::PortError("--listen: no timer for " + world::to_string(address_) + ": " +
+                         std::strerror(errno));
+  for (Descriptor& socket : listen_at(address_)) {
+    listeners_.push_back(std::make_unique<Listener>(loop_, std::move(socket),
+                                                    [this](Descriptor client) { admit(std::move(client)); }));
+  }
+  loop_.watch(timer_.get(), EventLoop::readable, [this](std::uint32_t) { on_timer(); });
   port_.add_tcp_place(world::to_string(address_));
-  loop_.watch(listener_.get(), EventLoop::readable, [this](std::uint32_t) { admit(); });
 }
 
 TcpDoor::~TcpDoor() {
-  forget_client();
-  loop_.unwatch(listener_.get());
+  listeners_.clear();
+  loop_.unwatch(timer_.get());
+  for (const auto& client : clients_) loop_.unwatch(client->socket());
 }
 
-/// A line has one owner: whoever comes second is let go at once.
-void TcpDoor::admit() {
-  Descriptor client(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-  if (!client) return;
-  Descriptor timer(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC));
-  if (!timer) return log_("no timer for " + world::to_string(address_) + ": " + std::strerror(errno));
-  if (!port_.admit(*this))
-    return log_("a second host wants to connect at " + world::to_string(address_) +
-                "; the line has one, so it is refused");
-  notice_dead_peers(client.get());
-  client_ = std::move(client);
-  timer_ = std::move(timer);
-  speech_ = make_tcp_speech(address_.protocol, port_.line().options().settings);
-  loop_.watch(client_.get(), EventLoop::readable | EventLoop::departed,
-              [this](std::uint32_t ready) { on_client(ready); });
-  loop_.watch(timer_.get(), EventLoop::readable, [this](std::uint32_t) {
-    std::uint64_t times = 0;
-    if (read(timer_.get(), &times, sizeof times) < 0) return;  // it was set anew meanwhile
-    speech_->give_up();
+std::unique_ptr<TcpSpeech> TcpDoor::make_speech() {
+  switch (address_.protocol) {
+    case world::TcpProtocol::rtu: return std::make_unique<RawBytes>();
+    case world::TcpProtocol::rfc2217: return std::make_unique<Rfc2217>(port_.line().options().settings);
+    case world::TcpProtocol::modbus_tcp: break;
+  }
+  const auto station_of = [this, has_told = false](std::uint8_t unit, std::uint8_t function) mutable {
+    const std::uint8_t station = station_of_unit(unit, address_.gateway, port_.world_line());
+    const std::string why = has_told ? "" : why_unanswered(station, function, port_.world_line());
+    if (!why.empty()) {
+      has_told = true;
+      log_("a host at " + world::to_string(address_) + " asks for unit " + std::to_string(unit) + ", " + why);
+    }
+    return station;
+  };
+  return std::make_unique<ModbusTcp>(GatewayRules{
+      .timeout = address_.gateway.timeout, .tells = address_.gateway.tells, .station_of = station_of});
+}
+
+// --- who comes -----------------------------------------------------------------------------------
+
+/// A line has one owner: whoever comes second is let go at once, or waits until one has its last replies.
+void TcpDoor::admit(Descriptor socket) {
+  if (is_gateway() && clients_.size() >= kMostMasters) return refuse();
+  if (!is_gateway()) {
+    // It may have said all, or gone, just now.
+    while (!clients_.empty() && clients_.front()->is_read() && hear(*clients_.front())) serve_line();
     serve_line();
-  });
+    if (!clients_.empty()) {
+      if (next_ || !clients_.front()->has_said_all()) return refuse();
+      next_ = std::move(socket);
+      return set_timer(kLongestGoodbye);
+    }
+  }
+  if (clients_.empty() && !port_.admit(*this)) return refuse();
+  let_in(std::move(socket));
+}
+
+void TcpDoor::refuse() {
+  if (port_.is_unplugged())
+    return log_("a host wants to connect at " + world::to_string(address_) +
+                ", which a fault has pulled out; it is refused");
+  log_(is_gateway() && !clients_.empty()
+           ? "the gateway at " + world::to_string(address_) + " has " + std::to_string(kMostMasters) +
+                 " masters, and another wants to connect; it is refused"
+           : "a second host wants to connect at " + world::to_string(address_) +
+                 "; the line has one, so it is refused");
+}
+
+void TcpDoor::let_in(Descriptor socket) {
+  TcpClient& client =
+      *clients_.emplace_back(std::make_unique<TcpClient>(std::move(socket), make_speech(), is_gateway()));
+  loop_.watch(client.socket(), EventLoop::readable,
+              [this, &client](std::uint32_t ready) { on_client(client, ready); });
   serve_line();
 }
 
-void TcpDoor::on_client(std::uint32_t ready) {
-  if ((ready & EventLoop::departed) != 0) return end();
-  if ((ready & EventLoop::readable) != 0 && speech_->has_room() && !read_client()) return end();
+// --- what they say -------------------------------------------------------------------------------
+
+/// The end of its sending half is not asked for, so one that has departed can hear nothing any more.
+void TcpDoor::on_client(TcpClient& client, std::uint32_t ready) {
+  if ((ready & EventLoop::departed) != 0) {
+    let_go(client);
+  } else if ((ready & EventLoop::readable) != 0 && client.is_read()) {
+    hear(client);
+  }
   serve_line();
 }
 
-/// False: the client has gone, or is let go.
-bool TcpDoor::read_client() {
-  std::array<std::uint8_t, kOneReading> bytes;
-  const ssize_t count = recv(client_.get(), bytes.data(), bytes.size(), 0);
-  if (count <= 0) return count < 0 && is_for_later();
-  if (speech_->hear_client(std::span(bytes).first(static_cast<std::size_t>(count)))) return true;
-  log_("what a client sends at " + world::to_string(address_) + " is not Modbus TCP; it is let go");
+/// Whether it has said something.
+bool TcpDoor::hear(TcpClient& client) {
+  const TcpClient::Heard heard = client.read();
+  if (heard == TcpClient::Heard::nothing) return false;
+  if (heard == TcpClient::Heard::what_it_speaks) return true;
+  if (heard == TcpClient::Heard::something_else)
+    log_("what a client sends at " + world::to_string(address_) + " is not Modbus TCP; it is let go");
+  let_go(client);
   return false;
 }
 
-/// What the client has sent, as far as the line has room, and what there is for the client.
-void TcpDoor::serve_line() {
-  if (is_serving_) return;
-  is_serving_ = true;
-  for (bool goes_on = true; goes_on;) {
-    const TcpSpeech::Bytes bytes = speech_->take_for_line(port_.room());
-    const bool takes_back = speech_->takes_back();
-    const bool throws_away = speech_->throws_away();
+/// What it has sent is served still; of Modbus TCP that is one request, as each waits for the one before.
+void TcpDoor::let_go(TcpClient& client) {
+  loop_.unwatch(client.socket());
+  if (!is_gateway()) return leave(take_rest(client));
+  client.forget_socket();
+  for (const auto& listener : listeners_) listener->try_again();
+}
+
+TcpSpeech::Bytes TcpDoor::take_rest(TcpClient& client) {
+  TcpSpeech::Bytes rest;
+  for (bool goes_on = true; goes_on && rest.size() < kMostLeft;) {
+    const TcpSpeech::Bytes some = client.speech().take_for_line(kOneTaking);
+    rest.insert(rest.end(), some.begin(), some.end());
+    client.speech().take_for_client();
+    goes_on = !some.empty() || client.read() == TcpClient::Heard::what_it_speaks;
+  }
+  return rest;
+}
+
+// --- the line ------------------------------------------------------------------------------------
+
+bool TcpDoor::waits_for_reply() const {
+  return std::ranges::any_of(clients_, [](const auto& client) {
+    return client->speech().patience().has_value() || client->has_rest();
+  });
+}
+
+/// Gives the line what one of the clients has for it: their requests take turns. False: there is nothing, or
+/// it has to wait.
+bool TcpDoor::serve_next() {
+  if (waits_for_reply()) return false;
+  for (std::size_t i = 0; i < clients_.size(); ++i) {
+    const std::size_t which = (turn_ + i) % clients_.size();
+    TcpSpeech& speech = clients_[which]->speech();
+    const TcpSpeech::Bytes bytes = speech.take_for_line(port_.room());
+    const bool takes_back = speech.takes_back();
+    const bool throws_away = speech.throws_away();
     if (takes_back) port_.take_back();
     if (throws_away) port_.throw_away();
     if (!bytes.empty()) {
+      turn_ = which + 1;
+      if (is_gateway()) clients_[which]->spoil({});
       const pty::LineSettings line = port_.line().options().settings;
-      await_reply();
-      port_.hear(bytes, speech_->settings().value_or(
+      await_reply(speech);
+      port_.hear(bytes, speech.settings().value_or(
                             pty::HostSettings{.baud = line.baud, .stop_bits = line.stop_bits}));
     }
-    goes_on = !bytes.empty() || takes_back || throws_away;
+    if (!bytes.empty() || takes_back || throws_away) return true;
   }
-  send_out();
+  return false;
+}
+
+/// What the clients have sent, as far as the line has room, and what there is for them.
+void TcpDoor::serve_line() {
+  if (is_serving_) return;
+  is_serving_ = true;
+  do {
+    for (const auto& client : clients_) send_out(*client);
+  } while (serve_next());
   is_serving_ = false;
-  loop_.change_interest(client_.get(), EventLoop::departed |
-                                           (speech_->has_room() ? EventLoop::readable : 0U) |
-                                           (unsent_.empty() ? 0U : EventLoop::writable));
+  see_off();
+  for (const auto& client : clients_) {
+    if (client->is_gone()) continue;
+    loop_.change_interest(client->socket(), (client->is_read() ? EventLoop::readable : 0U) |
+                                                (client->has_unsent() ? EventLoop::writable : 0U));
+  }
 }
 
-void TcpDoor::await_reply() {
-  const auto patience_ms = speech_->patience_ms();
-  if (!patience_ms) return;
-  const WallTime on_wire = std::chrono::seconds(kLongestExchange_bits) / port_.line().options().settings.baud;
-  const WallTime patience = on_wire + std::chrono::milliseconds(*patience_ms);
-  itimerspec when{};
-  when.it_value.tv_sec = std::chrono::duration_cast<std::chrono::seconds>(patience).count();
-  when.it_value.tv_nsec = (patience % std::chrono::seconds(1)).count();
-  timerfd_settime(timer_.get(), 0, &when, nullptr);
-}
-
-/// A client that reads more slowly than the line speaks leaves the rest to the line, which keeps some.
-std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
-  if (!unsent_.empty() || !speech_->listens()) return 0;
-  speech_->hear_line(bytes);
-  send_out();
-  return bytes.size();
+void TcpDoor::send_out(TcpClient& client) {
+  client.send_out();
+  if (const auto pause = client.take_pause()) set_timer(std::max(*pause, std::chrono::nanoseconds(1)));
 }
 
 void TcpDoor::follow() { serve_line(); }
 
-/// That the client has gone is learnt by reading.
-void TcpDoor::send_out() {
-  while (true) {
-    if (unsent_.empty()) unsent_ = speech_->take_for_client();
-    if (unsent_.empty()) return;
-    const ssize_t count = send(client_.get(), unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
-    if (count < 0 && is_for_later()) return;
-    unsent_.erase(unsent_.begin(), count < 0 ? unsent_.end() : unsent_.begin() + count);
+void TcpDoor::await_reply(const TcpSpeech& speech) {
+  const auto patience = speech.patience();
+  if (!patience) return;
+  set_timer(*patience + std::chrono::nanoseconds(std::chrono::seconds(kLongestExchange_bits)) /
+                            port_.line().options().settings.baud);
+}
+
+void TcpDoor::set_timer(std::chrono::nanoseconds time) {
+  itimerspec when{};
+  when.it_value.tv_sec = std::chrono::duration_cast<std::chrono::seconds>(time).count();
+  when.it_value.tv_nsec = (time % std::chrono::seconds(1)).count();
+  timerfd_settime(timer_.get(), 0, &when, nullptr);
+}
+
+void TcpDoor::on_timer() {
+  std::uint64_t times = 0;
+  if (read(timer_.get(), &times, sizeof times) < 0) return;  // it was set anew meanwhile
+  if (next_ && !clients_.empty()) let_go(*clients_.front());
+  for (const auto& client : clients_) client->has_rest() ? client->send_rest() : client->speech().give_up();
+  serve_line();
+}
+
+/// A client that reads more slowly than the line speaks leaves the rest to the line, which keeps some. A
+/// gateway takes all, and asks nothing more for one that has not taken its answer.
+std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
+  if (clients_.empty()) return bytes.size();
+  if (!is_gateway() && (clients_.front()->has_unsent() || !clients_.front()->speech().listens())) return 0;
+  for (const auto& client : clients_) {
+    client->speech().hear_line(bytes);
+    send_out(*client);
+  }
+  return bytes.size();
+}
+
+// --- who goes ------------------------------------------------------------------------------------
+
+/// One that says nothing more has got all that it has asked for.
+bool TcpDoor::has_all(const TcpClient& client) const {
+  if (client.has_unsent() || client.has_rest()) return false;
+  if (is_gateway()) return client.speech().is_idle();
+  return port_.room() > 0 && (port_.is_quiet() || !client.speech().listens());  // it never will listen again
+}
+
+void TcpDoor::see_off() {
+  const auto is_done = [this](const auto& client) {
+    const bool has_gone = client->hangs_up() && !client->has_unsent();
+    return has_gone || ((client->is_gone() || client->has_said_all()) && has_all(*client));
+  };
+  if (std::ranges::none_of(clients_, is_done)) return;
+  for (const auto& client : clients_) {
+    if (is_done(client) && !client->is_gone()) loop_.unwatch(client->socket());
+  }
+  std::erase_if(clients_, is_done);
+  if (clients_.empty()) return leave({});
+  for (const auto& listener : listeners_) listener->try_again();
+}
+
+// --- faults --------------------------------------------------------------------------------------
+
+/// Of a gateway, the answer to the request on the line is meant; else what the line says next.
+void TcpDoor::spoil(const world::Fault& fault) {
+  using Kind = world::Fault::Kind;
+  for (const auto& client : clients_) {
+    if (is_gateway() && !client->speech().patience()) continue;
+    Spoiling spoiling = client->spoiling();
+    const auto size = static_cast<std::size_t>(fault.amount);
+    if (fault.kind == Kind::hang_up) spoiling.hangs_up_after = size;
+    if (is_gateway() && fault.kind == Kind::wrong_transaction) spoiling.has_wrong_transaction = true;
+    if (is_gateway() && fault.kind == Kind::wrong_unit) spoiling.has_wrong_unit = true;
+    if (is_gateway() && fault.kind == Kind::split) {
+      spoiling.split_at = size;
+      spoiling.split_for = time_of(fault.over_ticks);
+    }
+    client->spoil(spoiling);
   }
 }
 
-/// Reads some of what a client that has gone has sent; false: there is no more.
-bool TcpDoor::read_rest() {
-  std::array<std::uint8_t, kOneReading> bytes;
-  const ssize_t count = recv(client_.get(), bytes.data(), bytes.size(), 0);
-  return count > 0 && speech_->hear_client(std::span(bytes).first(static_cast<std::size_t>(count)));
+void TcpDoor::hang_up() {
+  for (const auto& client : clients_) loop_.unwatch(client->socket());
+  next_.close();
+  leave({});
 }
 
-/// What it has sent is served still; of Modbus TCP that is one request, as each waits for the one before.
-void TcpDoor::end() {
-  TcpSpeech::Bytes last;
-  const bool is_gateway = address_.protocol == world::TcpProtocol::modbus_tcp;
-  bool goes_on = true;
-  if (is_gateway) read_rest();
-  while (goes_on && last.size() < kMostLeft) {
-    const TcpSpeech::Bytes some = speech_->take_for_line(kOneReading);
-    last.insert(last.end(), some.begin(), some.end());
-    speech_->take_for_client();
-    goes_on = !is_gateway && (!some.empty() || read_rest());
-  }
-  forget_client();
+/// The last one has gone.
+void TcpDoor::leave(const TcpSpeech::Bytes& last) {
+  clients_.clear();
   port_.leave(last);
-}
-
-void TcpDoor::forget_client() {
-  if (!client_) return;
-  loop_.unwatch(client_.get());
-  loop_.unwatch(timer_.get());
-  client_.close();
-  timer_.close();
-  speech_.reset();
-  unsent_.clear();
+  for (const auto& listener : listeners_) listener->try_again();
+  if (next_) admit(std::exchange(next_, {}));
 }
 
 }  // namespace understudy::emulator::serve

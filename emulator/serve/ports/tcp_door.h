@@ -1,17 +1,22 @@
-// A port's second way in: one TCP client at a time, who is the line's host as if it had opened a
-// pseudo-terminal. So recordings, captures and wire time are the same for both.
+// A port's second way in: TCP clients, who are the line's host as if they had opened a pseudo-terminal. So
+// recordings, captures and wire time are the same for both. A line has one host: one client, or a gateway,
+// whose clients take turns.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/files/descriptor.h"
 #include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/listener.h"
 #include "emulator/serve/ports/port.h"
+#include "emulator/serve/ports/tcp_client.h"
 #include "emulator/serve/ports/tcp_speech.h"
 #include "emulator/world/bench/listening.h"
 
@@ -19,6 +24,8 @@ namespace understudy::emulator::serve {
 
 class TcpDoor final : private Port::Guest {
  public:
+  static constexpr std::size_t kMostMasters = 32;
+
   /// The port must outlive it; it is told where the door listens. Throws pty::PortError.
   TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
           std::function<void(const std::string&)> log);
@@ -27,30 +34,44 @@ class TcpDoor final : private Port::Guest {
   TcpDoor(const TcpDoor&) = delete;
   TcpDoor& operator=(const TcpDoor&) = delete;
 
+  /// A socket that has connected.
+  void admit(Descriptor socket);
+
  private:
   std::size_t take(std::span<const std::uint8_t> bytes) override;
   void follow() override;
+  void spoil(const world::Fault& fault) override;
+  void hang_up() override;
 
-  void admit();
-  void on_client(std::uint32_t ready);
-  bool read_client();
-  bool read_rest();
-  void send_out();
+  bool is_gateway() const { return address_.protocol == world::TcpProtocol::modbus_tcp; }
+  std::unique_ptr<TcpSpeech> make_speech();
+  void let_in(Descriptor socket);
+  void refuse();
+  void on_client(TcpClient& client, std::uint32_t ready);
+  bool hear(TcpClient& client);
+  void let_go(TcpClient& client);
+  void on_timer();
+  void set_timer(std::chrono::nanoseconds time);
+  bool waits_for_reply() const;
+  bool serve_next();
   void serve_line();
-  void await_reply();
-  void end();
-  void forget_client();
+  void send_out(TcpClient& client);
+  void await_reply(const TcpSpeech& speech);
+  bool has_all(const TcpClient& client) const;
+  void see_off();
+  void leave(const TcpSpeech::Bytes& last);
+  TcpSpeech::Bytes take_rest(TcpClient& client);
 
   EventLoop& loop_;
   Port& port_;
   world::TcpAddress address_;
   std::function<void(const std::string&)> log_;
-  Descriptor listener_;
-  Descriptor client_;                  // none: nobody is connected
-  std::unique_ptr<TcpSpeech> speech_;  // while somebody is
-  TcpSpeech::Bytes unsent_;            // what the client has not taken yet: as much as came at once
-  bool is_serving_ = false;            // the line speaks while it is spoken to
-  Descriptor timer_;                   // ends the time for a reply
+  Descriptor timer_;  // ends the time for a reply, or for one that has said all
+  std::vector<std::unique_ptr<TcpClient>> clients_;
+  std::size_t turn_ = 0;     // whose request is next
+  Descriptor next_;          // waits until one that has said all has its replies
+  bool is_serving_ = false;  // the line speaks while it is spoken to
+  std::vector<std::unique_ptr<Listener>> listeners_;
 };
 
 }  // namespace understudy::emulator::serve

@@ -2,14 +2,13 @@
 // waits, and how long, is the caller's.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "emulator/world/bench/listening.h"
 #include "pty/line_settings.h"
 
 namespace understudy::emulator::serve {
@@ -37,13 +36,14 @@ class TcpSpeech {
   virtual void hear_line(std::span<const std::uint8_t> bytes) = 0;
   virtual Bytes take_for_client() = 0;
 
-  /// For how many milliseconds, besides the time of an exchange on the wire, the request that was taken last
-  /// waits for its answer; nothing: none waits.
-  virtual std::optional<int> patience_ms() const { return std::nullopt; }
+  /// How long, besides the time of an exchange on the wire, the request that was taken last waits for its
+  /// answer; nothing: none waits.
+  virtual std::optional<std::chrono::milliseconds> patience() const { return std::nullopt; }
   virtual void give_up() {}
+  /// Of one that puts its requests on the line one after the other: nothing waits.
+  virtual bool is_idle() const { return true; }
+  /// Nobody hears the client's answers any more. Of requests that wait for one another the next is served.
+  virtual void client_gone() {}
 };
-
-/// `line`: what the line is set to, which a client's settings begin with.
-std::unique_ptr<TcpSpeech> make_tcp_speech(world::TcpProtocol protocol, const pty::LineSettings& line);
 
 }  // namespace understudy::emulator::serve

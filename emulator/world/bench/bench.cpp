@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "base/text/parse_real.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/row.h"
@@ -55,6 +56,11 @@ Bench bench_of_one(const Model& model, DeviceSettings settings, const std::strin
   }
   bench.devices.push_back({.model = &model, .settings = std::move(settings)});
   return bench;
+}
+
+std::optional<SimTime> parse_byte_timeout(std::string_view text) {
+  const auto time = parse_duration(text);
+  return time && *time >= kShortestByteTimeout && *time <= kLongestByteTimeout ? time : std::nullopt;
 }
 
 std::optional<std::int64_t> parse_baud_tolerance(std::string_view text) {

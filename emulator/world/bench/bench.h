@@ -2,6 +2,7 @@
 // is built from it can rely on every name.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "base/files/file_claims.h"
+#include "base/simulated_time.h"
 #include "emulator/device/model.h"
 #include "emulator/world/bench/listening.h"
 #include "emulator/world/faults/fault.h"
@@ -27,6 +29,12 @@ struct StationSetup {
   bool operator==(const StationSetup&) const = default;
 };
 
+/// How long the rest of a frame is waited for: no longer than hosts wait for a reply.
+inline constexpr SimTime kUsualByteTimeout = std::chrono::milliseconds(200);
+inline constexpr SimTime kShortestByteTimeout = std::chrono::milliseconds(10);
+inline constexpr SimTime kLongestByteTimeout = std::chrono::minutes(1);
+inline constexpr std::string_view kByteTimeoutExpected = "expected 10ms to 60s, as in 200ms";
+
 struct LineSetup {
   std::string name;
   std::string link;               // path of the link to its pty; empty: none
@@ -34,8 +42,10 @@ struct LineSetup {
   std::vector<TcpAddress> tcp{};  // where it listens as well
   int baud = 0;                   // 0: the first station's factory speed
   pty::Timing timing = pty::Timing::wire;
+  bool echoes = false;                                            // hosts hear their own bytes
   std::int64_t baud_tolerance_ppm = pty::kUsualBaudTolerancePpm;  // of a host's speed
-  std::vector<StationSetup> stations;                             // in the order written
+  SimTime byte_timeout = kUsualByteTimeout;  // for the rest of a frame, by the host's clock
+  std::vector<StationSetup> stations;        // in the order written
 };
 
 struct DeviceSetup {
@@ -95,6 +105,9 @@ KnownDevices known_devices_of(const Bench& bench);
 /// the port's name behind it. A device of one port is on the line "line", those of several are on lines named
 /// after the ports.
 Bench bench_of_one(const Model& model, DeviceSettings settings, const std::string& link);
+
+/// "200ms"; nothing if it is not such a time.
+std::optional<SimTime> parse_byte_timeout(std::string_view text);
 
 /// "2%", "0.5%", 0% to 10% in millionths; nothing if it is not such a share.
 std::optional<std::int64_t> parse_baud_tolerance(std::string_view text);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/world/bench/bench.h"
@@ -59,6 +60,8 @@ Json line_text(const Bench& bench, const LineSetup& line) {
     const std::string part = std::to_string(10'000 + line.baud_tolerance_ppm % 10'000).substr(1);
     text["baud_tolerance"] = std::to_string(line.baud_tolerance_ppm / 10'000) + "." + part + "%";
   }
+  if (line.echoes) text["echo"] = "on";
+  if (line.byte_timeout != kUsualByteTimeout) text["byte_timeout"] = format_duration(line.byte_timeout);
   for (const auto& [device, port] : line.stations) {
     const DeviceSettings& settings = bench.devices[device].settings;
     const LineRules& rules = bench.devices[device].model->line;

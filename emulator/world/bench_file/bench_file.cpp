@@ -129,6 +129,8 @@ class BenchReader {
       if (const auto baud = fields.find("baud")) line.baud = static_cast<int>(baud->integer(kBaudForm));
     });
     all_.attempt([&] {
+      if (const auto echo = fields.find("echo")) line.echoes = read_echo(*echo);
+      if (const auto timeout = fields.find("byte_timeout")) line.byte_timeout = read_byte_timeout(*timeout);
       if (const auto tolerance = fields.find("baud_tolerance")) {
         line.baud_tolerance_ppm = read_baud_tolerance(*tolerance);
       }

@@ -68,6 +68,8 @@ inline constexpr std::array<const Form*, 2> kListenWays{&kText, &kListenListForm
 inline constexpr Form kListenForm = either_form(kListenWays);
 inline constexpr std::array<std::string_view, 2> kTrueOrFalse{"true", "false"};
 inline constexpr Form kTrueOrFalseForm = words_form(kTrueOrFalse);
+inline constexpr std::array<std::string_view, 2> kOnOrOff{"on", "off"};
+inline constexpr Form kOnOrOffForm = words_form(kOnOrOff);
 inline constexpr std::array kLineKeys{
     KeyRow{"link", "Where hosts open it; relative to this file.", &kText},
     KeyRow{"listen", "Where it is reached by TCP, such as rfc2217://127.0.0.1:5020.", &kListenForm},
@@ -75,7 +77,9 @@ inline constexpr std::array kLineKeys{
     KeyRow{"baud", "The speed that the devices are set to; by default the factory's.", &kBaudForm},
     KeyRow{"baud_tolerance", "How much faster or slower a host may be and still be heard (default: 2%).",
            &kText},
+    KeyRow{"byte_timeout", "How long the rest of a frame is waited for (default: 200ms).", &kText},
     KeyRow{"timing", "Whether bytes take their time.", &kTimingForm},
+    KeyRow{"echo", "Whether hosts hear their own bytes (off), as behind some RS485 adapters.", &kOnOrOffForm},
     KeyRow{"stations", "The devices on the line.", &kStationsForm, true}};
 
 // --- the machine ---------------------------------------------------------------------------------
@@ -116,8 +120,6 @@ inline constexpr std::array kEncoderKeys{
     KeyRow{"reversed", "Whether it counts the other way.", &kTrueOrFalseForm},
     KeyRow{"on", "What turns it: the machine (default), or a hand wheel.", &kEncoderPlaceForm},
     KeyRow{"index", "Its index pulse, once a revolution.", &kIndexForm}};
-inline constexpr std::array<std::string_view, 2> kOnOrOff{"on", "off"};
-inline constexpr Form kOnOrOffForm = words_form(kOnOrOff);
 inline constexpr std::array kDriveKeys{
     KeyRow{"ready_after", "The time from being enabled to `ready`.", &kDuration},
     KeyRow{"enabled_by", "The servo output's level that enables it.", &kOnOrOffForm},

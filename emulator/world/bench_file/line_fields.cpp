@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench/listening.h"
@@ -38,21 +39,33 @@ std::int64_t read_baud_tolerance(const YamlFields& tolerance) {
                  std::string(kBaudToleranceExpected));
 }
 
+bool read_echo(const YamlFields& echo) {
+  if (echo.text() != "on" && echo.text() != "off")
+    echo.fail(understudy::quoted(echo.text()) + " is not possible; expected on or off");
+  return echo.text() == "on";
+}
+
+SimTime read_byte_timeout(const YamlFields& timeout) {
+  if (const auto time = parse_byte_timeout(timeout.text())) return *time;
+  timeout.fail(understudy::quoted(timeout.text()) + " is not possible; " + std::string(kByteTimeoutExpected));
+}
+
 std::vector<TcpAddress> read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines) {
   std::vector<TcpAddress> all;
   for (const YamlFields& place : listen.is_list() ? listen.elements() : std::vector{listen}) {
-    const auto address = parse_tcp_address(place.text());
-    if (!address || !is_numeric(address->host))
-      place.fail(understudy::quoted(place.text()) + " is not an address; " + std::string(kListeningExpected));
-    const auto is_there = [&](const TcpAddress& other) {
-      return address->port != 0 && other.port == address->port && other.host == address->host;
-    };
+    TcpAddress address;
+    try {
+      address = parse_tcp_address(place.text());
+    } catch (const ListeningError& error) {
+      place.fail(understudy::quoted(place.text()) + " " + error.what());
+    }
+    const auto is_there = [&](const TcpAddress& other) { return is_same_place(address, other); };
     for (const LineSetup& other : lines) {
       if (std::ranges::any_of(other.tcp, is_there))
         place.fail("line " + understudy::quoted(other.name) + " listens there; expected another port");
     }
     if (std::ranges::any_of(all, is_there)) place.fail("appears twice; expected it once");
-    all.push_back(*address);
+    all.push_back(address);
   }
   if (all.empty()) listen.fail("is empty; " + std::string(kListeningExpected));
   return all;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
@@ -15,6 +16,10 @@ pty::Timing read_timing(const YamlFields& timing);
 
 /// In millionths.
 std::int64_t read_baud_tolerance(const YamlFields& tolerance);
+
+bool read_echo(const YamlFields& echo);
+
+SimTime read_byte_timeout(const YamlFields& timeout);
 
 /// One address or several, at which none of the other lines listens.
 std::vector<TcpAddress> read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines);

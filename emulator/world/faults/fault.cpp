@@ -60,6 +60,23 @@ void set_device_or_line(const KnownDevices& devices, const std::string& place, F
   fault.device = find_device(devices, place);
 }
 
+void set_line(const KnownDevices& devices, const std::string& place, Fault& fault) {
+  const auto line = find_line(devices, place);
+  if (!line) {
+    std::vector<std::string> names;
+    for (const KnownDevice& device : devices) {
+      for (const std::string& name : device.lines) {
+        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+          names.push_back(name);
+      }
+    }
+    throw NameError("no line is called " + quoted(place) + suggestion(place, names));
+  }
+  fault.device = line->first;
+  fault.place = static_cast<int>(line->second);
+  fault.on_line = true;
+}
+
 /// Nothing where no counted input has that name.
 std::optional<InputName> find_counted(const KnownDevices& devices, const std::string& name) {
   try {
@@ -74,6 +91,7 @@ void set_place(const KnownDevices& devices, const FaultKindRow& row, const std::
   switch (row.place) {
     case At::device: fault.device = find_device(devices, place); return;
     case At::device_or_line: set_device_or_line(devices, place, fault); return;
+    case At::line: set_line(devices, place, fault); return;
     case At::wheel:
       if (const auto input = find_counted(devices, place)) {
         fault.device = input->device;
@@ -104,7 +122,9 @@ void set_field(const FaultFieldRow& row, const std::string& text, Fault& fault) 
   switch (row.form) {
     case Form::number: fault.*row.number = field_number(row.name, text, row.lowest, row.highest); break;
     case Form::level: fault.*row.number = field_level(row.name, text); break;
-    case Form::duration: fault.*row.number = field_duration(row.name, text, SimTime{0}).count(); break;
+    case Form::duration:
+      fault.*row.number = field_duration(row.name, text, SimTime{row.lowest}).count();
+      break;
     case Form::ticks:
     case Form::even_ticks: {
       const SimTime time = field_duration(row.name, text, row.lowest * kTickLength);

@@ -26,7 +26,11 @@ struct Fault {
     turn,           // a hand wheel, or what else is counted, is turned by `amount`, over `over_ticks`
     // of a device
     power_cut,  // it has no power
-    slow,       // it carries out each request `amount` ns late
+    // of the adapter by which hosts are joined to a line
+    echo,    // a host hears its own bytes
+    lumps,   // what comes is handed over at multiples of `amount` ns
+    unplug,  // the port is gone
+    slow,    // it carries out each request `amount` ns late
     // of what a device, or all on a line, make of requests
     busy,         // they are refused as a busy device would
     exception,    // they are refused with exception `amount`
@@ -39,6 +43,11 @@ struct Fault {
     duplicate,         // the second `amount` ns after the first
     noise,             // `before` and `after`
     collision,         // with `before`
+    split,             // its first `amount` bytes come, and the rest `over_ticks` later
+    // of a reply on its way from a gateway to a master
+    wrong_transaction,  //
+    wrong_unit,         //
+    hang_up,            // the connection ends behind its first `amount` bytes
   } kind = Kind::stall;
   std::size_t device = 0;  // of a line: the first of the bench's that stands there
   // An axis, a terminal for `stuck` and a `turn` that is of_input, of a line the port by which that device is
@@ -61,6 +70,11 @@ struct Fault {
 constexpr bool is_of_wire(Fault::Kind kind) { return kind >= Fault::Kind::drop || kind == Fault::Kind::slow; }
 /// What is done to a request or its reply: it needs frames, whatever its trigger says.
 constexpr bool is_of_frames(Fault::Kind kind) { return kind >= Fault::Kind::slow; }
+/// What happens to replies where a host is connected by TCP: on the wire nothing does.
+constexpr bool is_of_gateway(Fault::Kind kind) { return kind >= Fault::Kind::wrong_transaction; }
+constexpr bool is_of_adapter(Fault::Kind kind) {
+  return kind == Fault::Kind::echo || kind == Fault::Kind::lumps || kind == Fault::Kind::unplug;
+}
 /// A single act on the machine, not something wrong with it: it cannot be cleared.
 constexpr bool is_done_at_once(Fault::Kind kind) {
   return kind == Fault::Kind::slip || kind == Fault::Kind::turn;

@@ -43,6 +43,10 @@ constexpr std::array kEncoderNoise{
                   .required = false,
                   .lowest = 2,
                   .number = &Fault::period_ticks}};
+constexpr std::array kLumps{FaultFieldRow{.name = "by", .form = Form::duration, .lowest = 1}};
+constexpr std::array kSplit{FaultFieldRow{.name = "keep", .highest = kLongestMessage},
+                            FaultFieldRow{.name = "by", .form = Form::ticks, .number = &Fault::over_ticks}};
+constexpr std::array kHangUp{FaultFieldRow{.name = "keep", .highest = kLongestMessage}};
 constexpr std::array kSlow{kBy};
 constexpr std::array kException{FaultFieldRow{.name = "code", .lowest = 1, .highest = 255}};
 constexpr std::array kSided{kOf};
@@ -53,7 +57,7 @@ constexpr std::array kDuplicate{FaultFieldRow{.name = "after", .form = Form::dur
 constexpr std::array kNoise{bytes_row("before", &Fault::before), bytes_row("after", &Fault::after), kOf};
 constexpr std::array kCollision{bytes_row("with", &Fault::before), kOf};
 
-constexpr std::array<FaultKindRow, 19> kKinds{{
+constexpr std::array<FaultKindRow, 26> kKinds{{
     {"stall", Kind::stall, Where::axis, {}, "begins"},
     {"lost_steps", Kind::lost_steps, Where::axis, kLostSteps, "begins"},
     {"slip", Kind::slip, Where::axis, kSlip, "pushed"},
@@ -62,6 +66,9 @@ constexpr std::array<FaultKindRow, 19> kKinds{{
     {"encoder_noise", Kind::encoder_noise, Where::axis, kEncoderNoise, "begins"},
     {"turn", Kind::turn, Where::wheel, kTurn, "turned"},
     {"power_cut", Kind::power_cut, Where::device, {}, "begins"},
+    {"echo", Kind::echo, Where::line, {}, "begins"},
+    {"lumps", Kind::lumps, Where::line, kLumps, "begins"},
+    {"unplug", Kind::unplug, Where::line, {}, "begins"},
     {"slow", Kind::slow, Where::device, kSlow, "carried out later"},
     {"busy", Kind::busy, Where::device_or_line, {}, "refused"},
     {"exception", Kind::exception, Where::device_or_line, kException, "refused"},
@@ -73,6 +80,10 @@ constexpr std::array<FaultKindRow, 19> kKinds{{
     {"duplicate", Kind::duplicate, Where::device_or_line, kDuplicate, "said twice", "heard twice"},
     {"noise", Kind::noise, Where::device_or_line, kNoise, "noise around it"},
     {"collision", Kind::collision, Where::device_or_line, kCollision, "somebody else talked"},
+    {"split", Kind::split, Where::device_or_line, kSplit, "said in two pieces"},
+    {"wrong_transaction", Kind::wrong_transaction, Where::device_or_line, {}, "wrong transaction by TCP"},
+    {"wrong_unit", Kind::wrong_unit, Where::device_or_line, {}, "wrong unit by TCP"},
+    {"hang_up", Kind::hang_up, Where::device_or_line, kHangUp, "the connection ends"},
 }};
 
 static_assert(

@@ -30,6 +30,7 @@ struct FaultKindRow {
     input,
     device,
     device_or_line,
+    line,
   };
   std::string_view name;
   Fault::Kind kind;

@@ -23,6 +23,7 @@ struct StationConditions {
   bool is_instant = false;      // characters take no time
   bool strict_framing = false;  // silence alone ends a frame
   SimTime patience{0};          // as of WorldOptions
+  SimTime rest_patience{0};     // as long as LineSetup::byte_timeout, in simulated time
 };
 
 class LineSpeech {

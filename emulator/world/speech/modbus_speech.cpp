@@ -44,7 +44,8 @@ class ModbusSpeech final : public LineSpeech {
     const bool no_silence = conditions.is_instant && !conditions.strict_framing;
     return {.strict = conditions.strict_framing,
             .silence = no_silence ? SimTime{0} : model.rtu->end_silence,
-            .patience = conditions.patience};
+            .patience = conditions.patience,
+            .rest_patience = conditions.rest_patience};
   }
 
   bool is_framed_by_silence() const override { return true; }

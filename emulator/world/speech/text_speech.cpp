@@ -69,6 +69,8 @@ class TextSpeech final : public LineSpeech {
       case Fault::Kind::exception:
       case Fault::Kind::early_reply:
       case Fault::Kind::corrupt_checksum:
+      case Fault::Kind::wrong_transaction:
+      case Fault::Kind::wrong_unit:
         throw NameError(kind + ": is a fault of Modbus frames, and " + device +
                         " speaks text; expected another one");
       default: break;

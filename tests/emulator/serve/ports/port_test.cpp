@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/emulator/serve/control/daemon_rig.h"
@@ -93,6 +94,38 @@ TEST_F(LostPort, IsTriedAgainEveryTenthOfASecond) {
   EXPECT_TRUE(eventually([&] { return port.host_present(); }));
   close(another);
   EXPECT_TRUE(eventually([&] { return !port.host_present(); }));
+}
+
+// The link goes, a host is hung up, and both come back with another pseudo-terminal.
+TEST_F(LostPort, IsPulledOutAndPluggedInAgainByAFault) {
+  const auto eventually_flushed = [&](const std::function<bool()>& holds) {
+    return eventually([&] {
+      world.advance_to(world.now() + 1ms);
+      port.flush();
+      return holds();
+    });
+  };
+  const int host = open_host();
+  ASSERT_GE(host, 0);
+  ASSERT_TRUE(eventually([&] { return port.host_present(); }));
+  ASSERT_EQ(chmod(port.terminal()->path().c_str(), 0660), 0);
+  const std::size_t fault = world.inject({.kind = world::Fault::Kind::unplug, .on_line = true});
+  EXPECT_TRUE(
+      eventually_flushed([&] { return !std::filesystem::exists(std::filesystem::symlink_status(link)); }));
+  char byte = 0;
+  EXPECT_TRUE(eventually_flushed([&] { return read(host, &byte, 1) <= 0 && errno != EAGAIN; }));
+  EXPECT_FALSE(port.host_present());
+  EXPECT_FALSE(world.line(0).line.is_host_open());
+  close(host);
+  world.clear_fault(fault);
+  EXPECT_TRUE(eventually_flushed([&] { return std::filesystem::exists(link); }));
+  struct stat access {};
+  EXPECT_EQ(stat(link.c_str(), &access), 0);
+  EXPECT_EQ(access.st_mode & 0777U, 0660U);
+  const int another = open_host();
+  ASSERT_GE(another, 0);
+  EXPECT_TRUE(eventually_flushed([&] { return port.host_present() && world.line(0).line.is_host_open(); }));
+  close(another);
 }
 
 TEST(PortOfADaemon, InAFolderThatCannotBeWrittenTellsOfLinks) {

@@ -16,6 +16,8 @@ lines:
   rs485:
     baud: 115200
     baud_tolerance: 0.0305%
+    byte_timeout: 1250ms
+    echo: on
     timing: instant
     stations:
       - name: feeder
@@ -119,6 +121,10 @@ TEST(BenchText, ReadAgainIsTheSameBench) {
   EXPECT_EQ(again.seed, 77u);
   EXPECT_EQ(again.lines[0].baud_tolerance_ppm, 305);
   EXPECT_EQ(again.lines[1].baud_tolerance_ppm, 20'000);
+  EXPECT_EQ(again.lines[0].byte_timeout, std::chrono::milliseconds(1250));
+  EXPECT_EQ(again.lines[1].byte_timeout, std::chrono::milliseconds(200));
+  EXPECT_TRUE(again.lines[0].echoes);
+  EXPECT_FALSE(again.lines[1].echoes);
 }
 
 TEST(BenchText, OfAFactoryBenchIsShort) {

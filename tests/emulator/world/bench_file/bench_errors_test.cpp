@@ -86,7 +86,7 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
       {"understudy: 1\nunderstudy: 1\n" + kLines, "2: understudy: is given twice; expected it once"},
       {with_line("speed: 1, " + kStation),
        "3: lines.a.speed: is not a key here; expected one of link, listen, pty, baud, baud_tolerance, "
-       "timing, stations"},
+       "byte_timeout, timing, echo, stations"},
       {with("adress: 2"),
        "5: lines.a.stations[0].adress: is not a key here; expected one of name, model, address, port, "
        "firmware, "
@@ -141,10 +141,17 @@ TEST(BenchErrors, Lines) {
        "3: lines.a.listen: 'tcp://:1'"
        " is not an address; expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as "
        "rtu://127.0.0.1:5020"},
-      {with_line("listen: [ 'rtu://:1', 'rtu://here:2' ], " + kStation),
-       "3: lines.a.listen[1]: 'rtu://here:2'"
+      {with_line("byte_timeout: 9ms, " + kStation),
+       "3: lines.a.byte_timeout: '9ms' is not possible; expected 10ms to 60s, as in 200ms"},
+      {with_line("byte_timeout: 61s, " + kStation),
+       "3: lines.a.byte_timeout: '61s' is not possible; expected 10ms to 60s, as in 200ms"},
+      {with_line("echo: true, " + kStation), "3: lines.a.echo: 'true' is not possible; expected on or off"},
+      {with_line("listen: [ 'rtu://:1', 'rtu://here' ], " + kStation),
+       "3: lines.a.listen[1]: 'rtu://here'"
        " is not an address; expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as "
        "rtu://127.0.0.1:5020"},
+      {with_line("listen: 'rtu://:99999', " + kStation),
+       "3: lines.a.listen: 'rtu://:99999' has port 99999; expected 0 to 65535"},
       {with_line("listen: [ 'rtu://:1', 'rfc2217://127.0.0.1:1' ], " + kStation),
        "3: lines.a.listen[1]: appears twice; expected it once"},
       {with_line("listen: 'modbus-tcp://:1', stations: [ { name: x, model: slim } ]"),

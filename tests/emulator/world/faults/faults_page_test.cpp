@@ -52,7 +52,7 @@ TEST(FaultsPage, ExamplesAreRead) {
                    example + " ]\n"))
         << example;
   }
-  EXPECT_EQ(examples, 9);
+  EXPECT_EQ(examples, 11);
 }
 
 }  // namespace faults_page_test

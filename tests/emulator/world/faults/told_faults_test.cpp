@@ -60,6 +60,19 @@ const std::vector<Told>& cells() {
       {"collision feeder with=00",
        {kAsked, "out L 00 03 02 C0 01 29 84  # fault 1 collision: somebody else talked"}},
       {"drop rs485", {kAsked, "out L  # fault 1 drop: not said"}},
+      {"split feeder keep=3 by=20ms",
+       {kAsked, "out L 01 03 02  # fault 1 split: said in two pieces", "out L C0 01 29 84"}},
+      {"split feeder keep=0 by=20ms", {kAsked, "out L  # fault 1 split: said in two pieces", kSaid}},
+      {"split feeder keep=7 by=20ms", {kAsked, kSaid + "  # fault 1 split: said in two pieces"}},
+      // On its way from a gateway; on the wire it stays what it is.
+      {"wrong_transaction feeder",
+       {kAsked, kSaid + "  # fault 1 wrong_transaction: wrong transaction by TCP"}},
+      {"wrong_unit rs485", {kAsked, kSaid + "  # fault 1 wrong_unit: wrong unit by TCP"}},
+      {"hang_up feeder keep=3", {kAsked, kSaid + "  # fault 1 hang_up: the connection ends"}},
+      // On the adapter, struck by a request.
+      {"echo rs485 nth=1", {kAsked, "in  L  # fault 1 echo: begins", kSaid}},
+      {"lumps rs485 by=16ms nth=1", {kAsked, "in  L  # fault 1 lumps: begins", kSaid}},
+      {"unplug rs485 nth=1", {kAsked, "in  L  # fault 1 unplug: begins", kSaid}},
       // On the request. The host's own bytes stay what they were.
       {"drop feeder of=request", {kAsked, "in  L  # fault 1 drop: not heard"}},
       {"drop rs485 of=request", {kAsked, "in  L  # fault 1 drop: not heard"}},

@@ -1,23 +1,16 @@
-#include "emulator/serve/ports/tcp_speech.h"
+// A serial line's own bytes over TCP, as they come, both ways.
+#pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
-#include "emulator/serve/ports/modbus_tcp.h"
-#include "emulator/serve/ports/rfc2217.h"
-#include "emulator/world/bench/listening.h"
-#include "pty/line_settings.h"
+#include "emulator/serve/ports/tcp_speech.h"
 
 namespace understudy::emulator::serve {
 
-namespace {
-
-/// As they come, both ways.
 class RawBytes final : public TcpSpeech {
  public:
   bool has_room() const override { return to_line_.size() < kMostHeard; }
@@ -41,16 +34,5 @@ class RawBytes final : public TcpSpeech {
   Bytes to_line_;
   Bytes to_client_;
 };
-
-}  // namespace
-
-std::unique_ptr<TcpSpeech> make_tcp_speech(world::TcpProtocol protocol, const pty::LineSettings& line) {
-  switch (protocol) {
-    case world::TcpProtocol::rtu: return std::make_unique<RawBytes>();
-    case world::TcpProtocol::rfc2217: return std::make_unique<Rfc2217>(line);
-    case world::TcpProtocol::modbus_tcp: return std::make_unique<ModbusTcp>();
-  }
-  throw std::logic_error("an unknown protocol of TCP");
-}
 
 }  // namespace understudy::emulator::serve

@@ -1,0 +1,36 @@
+// A socket at which clients arrive. Where no descriptors are left for them they wait, and nobody spins: it is
+// not looked at again before a client has gone, or a moment is over, as others may give descriptors back.
+#pragma once
+
+#include <functional>
+
+#include "base/files/descriptor.h"
+#include "emulator/serve/loop/event_loop.h"
+
+namespace understudy::emulator::serve {
+
+class Listener {
+ public:
+  /// `socket` listens and does not block. Each client is given to `admit`. Throws std::system_error if there
+  /// is no descriptor left for it.
+  Listener(EventLoop& loop, Descriptor socket, std::function<void(Descriptor)> admit,
+           EventLoop::Rank rank = EventLoop::Rank::first);
+  ~Listener();
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  /// A descriptor was given back.
+  void try_again();
+
+ private:
+  void accept_all();
+  void rest();
+
+  EventLoop& loop_;
+  Descriptor socket_;
+  Descriptor timer_;  // ends a rest
+  std::function<void(Descriptor)> admit_;
+  bool is_resting_ = false;
+};
+
+}  // namespace understudy::emulator::serve

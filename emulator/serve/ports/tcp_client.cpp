@@ -1,0 +1,122 @@
+#include "emulator/serve/ports/tcp_client.h"
+
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <sys/types.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "base/files/descriptor.h"
+#include "emulator/serve/ports/tcp_speech.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+constexpr std::size_t kOneReading = 4096;
+
+// A client whose machine has gone without a word is noticed after about half a minute.
+constexpr int kIdleSeconds = 15;
+constexpr int kProbeSeconds = 5;
+constexpr int kProbes = 3;
+
+void set_option(int socket, int level, int name, int value) {
+  setsockopt(socket, level, name, &value, sizeof value);
+}
+
+void notice_dead_peers(int socket) {
+  set_option(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
+  set_option(socket, IPPROTO_TCP, TCP_KEEPIDLE, kIdleSeconds);
+  set_option(socket, IPPROTO_TCP, TCP_KEEPINTVL, kProbeSeconds);
+  set_option(socket, IPPROTO_TCP, TCP_KEEPCNT, kProbes);
+  set_option(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, 1000 * (kIdleSeconds + kProbes * kProbeSeconds));
+}
+
+/// A host that writes a frame in pieces, with Nagle's algorithm, sends the second when the first is
+/// acknowledged, and the kernel takes 40 ms for that unless it is told anew after each reading.
+void acknowledge_at_once(int socket) { set_option(socket, IPPROTO_TCP, TCP_QUICKACK, 1); }
+
+bool is_for_later() { return errno == EAGAIN || errno == EINTR; }
+
+}  // namespace
+
+TcpClient::TcpClient(Descriptor socket, std::unique_ptr<TcpSpeech> speech, bool has_messages)
+    : socket_(std::move(socket)), speech_(std::move(speech)), has_messages_(has_messages) {
+  notice_dead_peers(socket_.get());
+  set_option(socket_.get(), IPPROTO_TCP, TCP_NODELAY, 1);
+  acknowledge_at_once(socket_.get());
+}
+
+TcpClient::Heard TcpClient::read() {
+  std::array<std::uint8_t, kOneReading> bytes;
+  const ssize_t count = recv(socket_.get(), bytes.data(), bytes.size(), 0);
+  if (count < 0) return is_for_later() ? Heard::nothing : Heard::that_it_is_gone;
+  if (count == 0) {
+    has_said_all_ = true;
+    return Heard::nothing;
+  }
+  acknowledge_at_once(socket_.get());
+  const bool is_known = speech_->hear_client(std::span(bytes).first(static_cast<std::size_t>(count)));
+  return is_known ? Heard::what_it_speaks : Heard::something_else;
+}
+
+void TcpClient::send_out() {
+  while (true) {
+    if (unsent_.empty()) {
+      unsent_ = speech_->take_for_client();
+      spoil_unsent();
+    }
+    if (unsent_.empty()) return;
+    if (is_gone()) {
+      unsent_.clear();
+      continue;
+    }
+    const ssize_t count = send(socket_.get(), unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
+    if (count < 0 && is_for_later()) return;
+    unsent_.erase(unsent_.begin(), count < 0 ? unsent_.end() : unsent_.begin() + count);
+  }
+}
+
+/// An answer has its transaction in front, and its unit behind the length (modbus_tcp.cpp).
+void TcpClient::spoil_unsent() {
+  constexpr std::size_t kTransaction = 1;
+  constexpr std::size_t kUnit = 6;
+  if (hangs_up_) unsent_.clear();
+  if (unsent_.empty()) return;
+  if (spoiling_.has_wrong_transaction) ++unsent_.at(kTransaction);
+  if (spoiling_.has_wrong_unit) ++unsent_.at(kUnit);
+  if (spoiling_.hangs_up_after) {
+    hangs_up_ = has_messages_ || unsent_.size() >= *spoiling_.hangs_up_after;
+    unsent_.resize(std::min(unsent_.size(), *spoiling_.hangs_up_after));
+    *spoiling_.hangs_up_after -= unsent_.size();
+  }
+  if (spoiling_.split_at && *spoiling_.split_at < unsent_.size()) {
+    rest_.assign(unsent_.begin() + static_cast<std::ptrdiff_t>(*spoiling_.split_at), unsent_.end());
+    unsent_.resize(*spoiling_.split_at);
+    pause_ = spoiling_.split_for;
+  }
+  if (has_messages_) spoiling_ = {};
+}
+
+void TcpClient::send_rest() {
+  unsent_.insert(unsent_.end(), rest_.begin(), rest_.end());
+  rest_.clear();
+  send_out();
+}
+
+void TcpClient::forget_socket() {
+  socket_.close();
+  unsent_.clear();
+  rest_.clear();
+  speech_->client_gone();
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,78 @@
+// One client of a TCP door: its socket, and what it speaks.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "base/files/descriptor.h"
+#include "emulator/serve/ports/tcp_speech.h"
+
+namespace understudy::emulator::serve {
+
+/// What faults do to the next answer.
+struct Spoiling {
+  bool has_wrong_transaction = false;
+  bool has_wrong_unit = false;
+  std::optional<std::size_t> split_at{};  // the rest comes late
+  std::chrono::nanoseconds split_for{0};
+  std::optional<std::size_t> hangs_up_after{};  // so many bytes
+};
+
+class TcpClient {
+ public:
+  TcpClient(Descriptor socket, std::unique_ptr<TcpSpeech> speech, bool has_messages);
+
+  TcpSpeech& speech() { return *speech_; }
+  const TcpSpeech& speech() const { return *speech_; }
+  int socket() const { return socket_.get(); }
+
+  enum class Heard : std::uint8_t {
+    nothing,          // for now, or because it has said all
+    what_it_speaks,   //
+    something_else,   // it is to be let go
+    that_it_is_gone,  // nothing can be sent any more
+  };
+  /// Reads some of what it has sent.
+  Heard read();
+  /// Nothing more is read of one that has closed its sending half, or that is ahead of the line.
+  bool is_read() const { return !has_said_all_ && speech_->has_room(); }
+  /// It has closed its sending half: it still gets what it has asked for.
+  bool has_said_all() const { return has_said_all_; }
+
+  /// As much as the network takes. That it has gone is learnt by reading.
+  void send_out();
+  bool has_unsent() const { return !unsent_.empty(); }
+
+  // Faults. What its speech says at once is an answer where it `has_messages`, else a part of one.
+  void spoil(const Spoiling& spoiling) { spoiling_ = spoiling; }
+  const Spoiling& spoiling() const { return spoiling_; }
+  /// The rest of an answer is to come so much later: told once.
+  std::optional<std::chrono::nanoseconds> take_pause() { return std::exchange(pause_, {}); }
+  bool has_rest() const { return !rest_.empty(); }
+  void send_rest();
+  /// Its connection ends as soon as it has what is unsent.
+  bool hangs_up() const { return hangs_up_; }
+
+  /// Closes the socket. What it has asked for is still carried out.
+  void forget_socket();
+  bool is_gone() const { return !socket_; }
+
+ private:
+  Descriptor socket_;
+  std::unique_ptr<TcpSpeech> speech_;
+  TcpSpeech::Bytes unsent_;  // what it has not taken yet: as much as came at once
+  bool has_said_all_ = false;
+  void spoil_unsent();
+
+  bool has_messages_;
+  Spoiling spoiling_;
+  TcpSpeech::Bytes rest_;
+  std::optional<std::chrono::nanoseconds> pause_;
+  bool hangs_up_ = false;
+};
+
+}  // namespace understudy::emulator::serve

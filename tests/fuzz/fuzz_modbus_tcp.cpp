@@ -1,0 +1,106 @@
+// What masters send to a gateway, and what comes back over the line: whole or not. However it is cut into
+// pieces, the line gets the frames of the messages that the standard knows, one after the other, up to the
+// first whose length none has; the masters get answers that are whole; nothing grows without bound.
+//
+// The first byte says how it is cut and what the line says; the rest is what is sent.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "emulator/serve/ports/modbus_tcp.h"
+#include "pty/rtu_crc.h"
+#include "tests/fuzz/fuzzing.h"
+
+namespace {
+
+using namespace understudy;
+using emulator::serve::GatewayRules;
+using emulator::serve::ModbusTcp;
+using fuzzing::demand;
+using Bytes = ModbusTcp::Bytes;
+using Frames = std::vector<Bytes>;
+
+constexpr std::size_t kLongest = 4000;
+constexpr std::size_t kRoom = 256;
+constexpr std::size_t kHeader = 6;
+
+/// By the standard alone: what the line should get.
+struct Expected {
+  Frames frames;
+  bool is_refused = false;
+};
+
+Expected expected_of(std::span<const std::uint8_t> said) {
+  Expected expected;
+  while (said.size() >= kHeader) {
+    const std::size_t length = std::size_t{said[4]} << 8 | said[5];
+    if (length < 2 || length > 254) {
+      expected.is_refused = true;
+      break;
+    }
+    if (said.size() < kHeader + length) break;
+    Bytes frame(said.begin() + kHeader, said.begin() + static_cast<std::ptrdiff_t>(kHeader + length));
+    if (said[2] == 0 && said[3] == 0) {
+      pty::append_rtu_crc(frame);
+      expected.frames.push_back(frame);
+    }
+    said = said.subspan(kHeader + length);
+  }
+  return expected;
+}
+
+/// What the line says to a frame: by turns what it should, half of it, something else, nothing.
+void answer(ModbusTcp& gateway, const Bytes& frame, unsigned how) {
+  Bytes reply{frame[0], static_cast<std::uint8_t>(frame[1] | 0x80), 2};
+  pty::append_rtu_crc(reply);
+  switch (how % 4) {
+    case 0: gateway.hear_line(reply); break;
+    case 1: gateway.hear_line(std::span(reply).first(3)); break;
+    case 2: gateway.hear_line(frame); break;
+    default: break;
+  }
+  gateway.give_up();
+}
+
+void serve(ModbusTcp& gateway, Frames& frames, unsigned how) {
+  for (Bytes frame = gateway.take_for_line(kRoom); !frame.empty(); frame = gateway.take_for_line(kRoom)) {
+    demand(pty::rtu_crc_ok(frame) && frame.size() >= 4 && frame.size() <= kRoom, "it is a frame");
+    demand(gateway.waits() && gateway.patience(), "its answer is waited for");
+    demand(gateway.take_for_line(kRoom).empty(), "one at a time");
+    frames.push_back(frame);
+    answer(gateway, frame, how + static_cast<unsigned>(frames.size()));
+    demand(!gateway.waits(), "and for no more");
+    const Bytes said = gateway.take_for_client();
+    demand(said.size() <= 260, "answers are bounded");
+    if (!said.empty()) demand(said.size() >= 8 && said.size() == kHeader + said[5], "and whole");
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 1 || size > kLongest) return 0;
+  const std::span<const std::uint8_t> said(data + 1, size - 1);
+  const Expected expected = expected_of(said);
+  const std::size_t pieces[] = {said.size() + 1, std::size_t{1} + data[0] % 16, 1};
+  for (const std::size_t piece : pieces) {
+    ModbusTcp gateway;
+    Frames frames;
+    bool is_refused = false;
+    for (std::size_t at = 0; at < said.size() && !is_refused; at += piece) {
+      demand(gateway.has_room(), "what is served makes room");
+      is_refused = !gateway.hear_client(said.subspan(at, std::min(piece, said.size() - at)));
+      serve(gateway, frames, data[0] >> 4);
+    }
+    if (is_refused) demand(!gateway.hear_client(said), "what was refused stays so");
+    demand(is_refused == expected.is_refused, "a length is refused that no message has");
+    gateway.client_gone();
+    serve(gateway, frames, data[0] >> 4);
+    demand(frames == expected.frames, "the line gets what the standard says");
+    demand(gateway.is_idle() || !is_refused, "nothing is left");
+  }
+  return 0;
+}
