@@ -66,8 +66,8 @@ TEST(Documentation, TheSuper40ncPageHasTheAddressesOfTheMap) {
     return found ? std::to_string(found->place.address()) : "";
   };
   const std::string claims[] = {
-      "-r " + address("D8117") + " -c 1 -1 ./nc.port      # D8117",
-      "-r " + address("M8000") + " -c 10 -1 ./nc.port         # M8000 to M8009",
+      "-r " + address("D8117") + " -c 1 -1 ./nc.port      # -> [" + address("D8117") + "]: 0; D8117",
+      "-r " + address("M8000") + " -c 10 -1 ./nc.port         # -> [" + address("M8000") + "]: 0",
       "| `D8117`, `D8217`, `D8317`, `D8417` | positions of X, Y, Z, U in 0.001 mm | registers " +
           address("D8117") + ", " + address("D8217") + ", " + address("D8317") + ", " + address("D8417") +
           " |",

@@ -73,16 +73,13 @@ void check_restored_registers(const RegisterBank& bank, std::span<const std::uin
   demand_state(image.size() == slots && kept.size() == slots, "the image has another size");
   // By choice a bench may be stricter with what hosts write: programs are not.
   const MapPolicy& policy = bank.map().policy();
-  // Without power a device may have nothing in its image.
-  const bool is_blank = std::ranges::all_of(image, [](std::uint32_t bits) { return bits == 0; });
   std::size_t slot = 0;
   for (const RegisterRow& row : bank.map().rows()) {
     if (row.is_view) continue;
     const bool is_kept = bank.keeps(row);
     for (int i = 0; i < row.count; ++i, ++slot) {
-      // What is spent may be 0, whatever can be written.
-      const bool is_spent = image[slot] == 0 && !is_kept;
-      const bool can_be = (is_blank || is_spent || can_hold(policy, row, image[slot])) &&
+      // Without power the image is blank but for what is written meanwhile, and what is spent may be 0.
+      const bool can_be = (image[slot] == 0 || can_hold(policy, row, image[slot])) &&
                           (!is_kept || can_hold(policy, row, kept[slot]));
       if (!can_be) throw StateError(bank.map().unique_name(row, i) + " holds what it cannot");
     }

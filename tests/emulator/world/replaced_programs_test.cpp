@@ -303,8 +303,8 @@ TEST_P(ReplacedPrograms, AreTheSameWhateverFreedMemoryHolds) {
   EXPECT_GT(loaded, static_cast<int>(courses) * 9) << "hardly a program is taken";
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, ReplacedPrograms, testing::Range(0, 4), [](const auto& info) {
-  std::string name = kLanguages[info.param].model;
+INSTANTIATE_TEST_SUITE_P(Of, ReplacedPrograms, testing::Range(0, 4), [](const auto& test) {
+  std::string name = kLanguages[test.param].model;
   std::erase(name, '-');
   return name;
 });

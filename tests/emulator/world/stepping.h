@@ -36,8 +36,8 @@ inline Stepping by_odd_steps(std::uint64_t seed) {
   return [random = std::mt19937_64(seed)](World& world, SimTime to) mutable {
     using namespace std::chrono_literals;
     while (world.now() < to) {
-      constexpr SimTime kSteps[] = {1ns, 333'333ns, 1ms, 7ms - 1ns, 17'001'003ns, 500ms};
-      world.advance_to(std::min(to, world.now() + kSteps[random() % std::size(kSteps)]));
+      constexpr SimTime kLengths[] = {1ns, 333'333ns, 1ms, 7ms - 1ns, 17'001'003ns, 500ms};
+      world.advance_to(std::min(to, world.now() + kLengths[random() % std::size(kLengths)]));
     }
     world.advance_to(to);
   };
