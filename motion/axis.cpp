@@ -80,13 +80,13 @@ Cause Axis::forbidden(int way, Signals ignored) const {
   if (way > 0) {
     if (blocks(Signal::limit_plus, settings.at_limit_plus)) return Cause::limit_plus;
     if (settings.at_soft_limit != Reaction::ignore && settings.soft_limit_plus &&
-        travel_pulses >= *settings.soft_limit_plus) {
+        soft_limit_place() >= *settings.soft_limit_plus) {
       return Cause::soft_limit_plus;
     }
   } else {
     if (blocks(Signal::limit_minus, settings.at_limit_minus)) return Cause::limit_minus;
     if (settings.at_soft_limit_of_minus() != Reaction::ignore && settings.soft_limit_minus &&
-        travel_pulses <= *settings.soft_limit_minus) {
+        soft_limit_place() <= *settings.soft_limit_minus) {
       return Cause::soft_limit_minus;
     }
   }
@@ -231,13 +231,13 @@ Cause Axis::take_part() {
   return Cause::none;
 }
 
-void Axis::arrive() {
+void Axis::arrive(Instant at) {
   if (task != Task::coordinated || settling) return;
   if (settings.waits_for_in_position && (signals & bit(Signal::in_position)) == 0) {
     settling = attentive = true;
     return;
   }
-  end(Cause::arrived, {.tick = 0});
+  end(Cause::arrived, at);
 }
 
 Cause Axis::follow(const Follower& by) {
@@ -264,10 +264,12 @@ void Axis::feed(std::int64_t counts) {
 
 // ---- Changing what runs
 
-void Axis::change_speed(const SpeedLaw& speed, Tick now) {
+void Axis::change_speed(const SpeedLaw& speed, Tick now) { change_speed(speed, Instant{.tick = now}); }
+
+void Axis::change_speed(const SpeedLaw& speed, Instant at) {
   check(speed);
   if ((task != Task::move && task != Task::endless) || slowing || settling || homing.active()) return;
-  go_on_by(speed, {.tick = now});
+  go_on_by(speed, at);
 }
 
 void Axis::go_on_by(const SpeedLaw& speed, Instant at) {
@@ -389,7 +391,7 @@ void Axis::end(Cause why, Instant at) {
   if (homing.active()) {
     homing_stands(why, at);
   } else {
-    events_between |= bit(Event::ended);
+    raise(Event::ended, at);
   }
 }
 

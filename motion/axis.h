@@ -8,7 +8,8 @@
 // numbers says how far the axis may go before anything can happen: the tick in between is a cubic and two
 // comparisons.
 //
-// Edges are met at their pulse, within the tick, as a chip meets them.
+// Edges are met at their pulse, within the tick, as a chip meets them: motion/axis_tick.h. Where axes act on
+// each other, motion/shared_tick.h brings them there together.
 #pragma once
 
 #include <array>
@@ -63,9 +64,30 @@ enum class Event : std::uint8_t {
 inline constexpr std::size_t kEvents = 12;
 using Events = std::uint16_t;
 constexpr Events bit(Event event) { return static_cast<Events>(1U << static_cast<unsigned>(event)); }
-/// Whether the event is of one pulse, whose moment is known; others are of the tick.
-constexpr bool is_to_the_pulse(Event event) {
-  return event != Event::started && event != Event::ended && event != Event::homed && event != Event::pulse;
+
+/// When in its tick an event is. What has come about between two ticks is at the beginning of the next one.
+enum class Moment : std::uint8_t {
+  its_own,  // of the pulse, the end or the signal that it is raised by: Axis::event_at
+  end,      // a motion that begins between two ticks is at its beginning at the end of the next; PULSE, too
+};
+/// The order of edges in a tick: by their moments; those of one moment by axis, and of one axis together.
+inline constexpr std::array<Moment, kEvents> kMoments{
+    Moment::its_own,  // comparators
+    Moment::its_own, Moment::its_own, Moment::its_own,
+    Moment::end,                       // started
+    Moment::its_own,                   // ended
+    Moment::its_own, Moment::its_own,  // marks
+    Moment::its_own,                   // homed
+    Moment::end,                       // pulse
+    Moment::its_own, Moment::its_own,  // constant speed
+};
+/// Those of a moment, as a mask.
+constexpr Events events_of(Moment moment) {
+  Events mask = 0;
+  for (std::size_t i = 0; i < kEvents; ++i) {
+    if (kMoments[i] == moment) mask = static_cast<Events>(mask | 1U << i);
+  }
+  return mask;
 }
 
 enum class Count : std::uint8_t { command, encoder };
@@ -108,9 +130,11 @@ struct AxisSettings {
   bool needs_servo = true;             // commands are refused and motion ends while the servo is off
   bool waits_for_in_position = false;  // a motion lasts until the in-position signal is on
   bool waits_beside_limits = false;    // a limit does not end it while that is all that it waits for
-  // The last travel allowed; the pulse beyond it triggers. Nothing: no soft limit.
+  // The last place allowed, of the travel or as the encoder counts; the pulse beyond it triggers. Nothing: no
+  // soft limit.
   std::optional<std::int64_t> soft_limit_plus = std::nullopt;
   std::optional<std::int64_t> soft_limit_minus = std::nullopt;
+  Count soft_limits_of = Count::command;
   Events raises = 0;  // of pulse, constant_started and constant_ended; while asked for they cost time
   // Extra pulses at the beginning of each reversal; they are output, but are not travel.
   std::int64_t backlash_pulses = 0;
@@ -157,21 +181,20 @@ struct alignas(64) Axis {
 
   AxisSettings settings;
   std::array<Comparator, 4> comparators{};
-  std::int64_t encoder_pulses = 0;  // as told by set_encoder()
+  std::int64_t encoder_pulses = 0;  // as told by set_encoder(), or known within the tick (EncoderLine)
   std::int64_t encoder_seen = 0;    // up to where comparators have looked
   std::int64_t backlash_sent = 0;   // all extra pulses so far, signed by direction
   std::int64_t play_pulses = 0;     // 0 .. backlash_pulses: how much of the backlash is taken up towards plus
-  // Of each event that has a pulse (is_to_the_pulse()) the last one.
-  std::array<Instant, kEvents> event_at{};
-  double constant_pps = 0;  // the constant speed of the last pulse; 0: it was not at one
+  std::array<Instant, kEvents> event_at{};  // of those with a moment of their own, the last one
+  double constant_pps = 0;                  // the constant speed of the last pulse; 0: it was not at one
 
   // Of the motion that was asked for.
   bool in_backlash = false;
-  bool slowing = false;             // to a stop, for `cause`
-  bool comes_back = false;          // and then back to the target, which was passed
-  bool settling = false;            // all pulses sent, waiting for in-position
-  std::int64_t target_pulses = 0;   // of a move: its whole distance, in the drive's coordinate
-  std::int64_t carried_pulses = 0;  // of a coordinated motion, in the coming tick
+  bool slowing = false;            // to a stop, for `cause`
+  bool comes_back = false;         // and then back to the target, which was passed
+  bool settling = false;           // all pulses sent, waiting for in-position
+  bool encoder_is_known = false;   // the surroundings say what the encoder counts on the way
+  std::int64_t target_pulses = 0;  // of a move: its whole distance, in the drive's coordinate
   SpeedLaw law;
   Follower follower;
   Homing homing;
@@ -198,7 +221,7 @@ struct alignas(64) Axis {
   void feed(std::int64_t counts);
   /// Takes part in a coordinated motion: carry() moves it, until arrive(), stop() or a reaction ends it.
   Cause take_part();
-  void arrive();
+  void arrive(Instant at);
 
   /// Another law of speed from now on, for a move or an endless run; nothing when none runs or it is
   /// stopping.
@@ -210,6 +233,12 @@ struct alignas(64) Axis {
   /// An axis that follows or is carried stops at once, since its speed is not its own (motion/coordinated.h
   /// slows a path down).
   void slow_down(Tick now, Cause why = Cause::stopped);
+  /// These three within a tick, at the moment to which it has been brought (motion/shared_tick.h).
+  void slow_down(Instant at, Cause why = Cause::stopped) { slow(at, why); }
+  void stop(Cause why, Instant at) {
+    if (task != Task::none) end(why, at);
+  }
+  void change_speed(const SpeedLaw& speed, Instant at);
   /// Cancels a commanded slow_down() while the axis still moves: on to the target or the top speed of
   /// `speed`. Returns false if there is none to cancel; homing ends when it is slowed down.
   bool resume(const SpeedLaw& speed, Tick now);
@@ -232,13 +261,12 @@ struct alignas(64) Axis {
   Cause forbidden(int way) const { return forbidden(way, 0); }
   /// Likewise, for what forbids both ways (servo, emergency, alarm).
   Cause forbidden_anywhere() const;
+  /// Of the count that the soft limits are meant in.
+  std::int64_t soft_limit_place() const {
+    return settings.soft_limits_of == Count::command ? travel_pulses : encoder_pulses;
+  }
   /// Position in the drive's coordinate, speed and acceleration along the motion, after tick `now`.
   Sample sample(Tick now) const { return drive.sample({.tick = now}); }
-  /// Travel at a moment of the tick just stepped: to the pulse while the drive that ran then still runs.
-  std::int64_t travel_at(Instant at) const {
-    return drive.moving() && !in_backlash ? base_pulses + drive.direction * drive.pulses_at_moment(at)
-                                          : travel_pulses;
-  }
   /// Pulses of the running move that are still to come.
   std::int64_t remaining_pulses() const {
     if (task != Task::move || settling) return 0;
@@ -254,6 +282,22 @@ struct alignas(64) Axis {
 
   /// One tick, the next after the last one. Returns the pulses that come out, signed as they come out.
   std::int64_t step(Tick tick, const Surroundings& here) {
+    QuietTick quiet;
+    return step_quietly(tick, here, quiet) ? quiet.pulses : step_with_care(tick, here, quiet.followed);
+  }
+
+  /// What a tick in which nothing can happen has done, and from where: it can be taken back, to be stepped
+  /// with care.
+  struct QuietTick {
+    std::int64_t pulses = 0;  // signed as they come out
+    std::int64_t travel = 0;  // before it
+    std::int64_t sent = 0;
+    std::optional<std::int64_t> followed{};  // what a follower asked for, also of a tick that is not quiet
+  };
+  /// Does such a tick, or returns false.
+  bool step_quietly(Tick tick, const Surroundings& here, QuietTick& quiet) {
+    quiet.travel = travel_pulses;
+    quiet.sent = drive.sent_pulses;
     if (tick < drive.next_look && here.version == seen_version && !attentive) [[likely]] {
       const std::int64_t sent = drive.pulses_of_segment(tick);
       const std::int64_t travel = base_pulses + drive.direction * sent;
@@ -262,21 +306,26 @@ struct alignas(64) Axis {
         travel_pulses = travel;
         drive.sent_pulses = sent;
         events = 0;
-        return inverted ? -pulses : pulses;
+        quiet.pulses = inverted ? -pulses : pulses;
+        return true;
       }
     }
-    return step_with_care(tick, here);
+    return task == Task::following && follow_quietly(here, quiet);
+  }
+  void take_back(const QuietTick& quiet) {
+    travel_pulses = quiet.travel;
+    drive.sent_pulses = quiet.sent;
+    if (quiet.followed) base_pulses = travel_pulses;
   }
 
-  /// One tick of an axis that takes part: instead of step(), goes by `pulses`. Edges are met at their pulse,
-  /// but at the tick's end in time. Pulses left over after a reaction are not sent.
+  /// One tick of an axis that takes part: instead of step(), goes by `pulses`, evenly over the tick. Pulses
+  /// left over after a reaction are not sent.
   std::int64_t carry(std::int64_t pulses, Tick tick, const Surroundings& here) {
     const std::int64_t travel = travel_pulses + pulses;
     if (carries_quietly(here) && travel >= watch_low && travel <= watch_high) [[likely]] {
       return carry_across(pulses);
     }
-    carried_pulses = pulses;
-    return step_with_care(tick, here);
+    return step_with_care(tick, here, pulses);
   }
 
   // ---- Many ticks in one step: motion/axis_crossing.cpp
@@ -310,8 +359,11 @@ struct alignas(64) Axis {
   }
 
  private:
+  friend class AxisTick;
+
   Cause forbidden(int way, Signals ignored) const;
-  std::int64_t step_with_care(Tick tick, const Surroundings& here);
+  std::int64_t step_with_care(Tick tick, const Surroundings& here, std::optional<std::int64_t> pulses = {});
+  bool follow_quietly(const Surroundings& here, QuietTick& quiet);
   /// Nothing has changed since the last tick but what it is carried by, and all that it sends is travel.
   bool is_undisturbed(const Surroundings& here) const {
     return here.version == seen_version && !attentive && settings.backlash_pulses <= 0 && play_pulses == 0;
@@ -322,7 +374,9 @@ struct alignas(64) Axis {
               bool for_homing = false);
   void go_on_by(const SpeedLaw& speed, Instant at);
   std::int64_t play_before(int way) const;
+  void know_encoder(const Surroundings& here);
   void follow_encoder_count(Instant at);
+  bool counts_by_encoder() const;
   Profile planned(const SpeedLaw& speed) const;  // of the task from its beginning
   void drop(Instant at = {});
   void slow(Instant at, Cause why);
@@ -330,9 +384,6 @@ struct alignas(64) Axis {
   void end(Cause why, Instant at);
 
   // Inside a tick.
-  Instant take_up_backlash(Tick tick);
-  void run_until(Tick tick, Instant at, const Surroundings& here);
-  void go_by(std::int64_t wanted, Instant at, const Surroundings& here);
   void meet(const Surroundings& here, Instant at, int way);  // by which it has come; 0: it has not moved
   void see(Signals now_on, Instant at);
   void compare(Count count, std::int64_t value, Instant at, int way);
@@ -353,7 +404,7 @@ struct alignas(64) Axis {
   std::optional<std::int64_t> homing_place() const;
   void go_to_phase(std::int8_t number, Instant at, bool running);
   void mark_reference();
-  void end_homing(Cause why);
+  void end_homing(Cause why, Instant at);
 };
 
 }  // namespace understudy::motion

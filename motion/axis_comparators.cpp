@@ -70,21 +70,32 @@ void Axis::set_comparator(std::size_t number, const Comparator& comparator) {
   attentive = true;
 }
 
+bool Axis::counts_by_encoder() const {
+  const bool has_limit = settings.soft_limit_plus || settings.soft_limit_minus;
+  if (settings.soft_limits_of == Count::encoder && has_limit) return true;
+  return std::any_of(comparators.begin(), comparators.end(),
+                     [](const Comparator& mine) { return mine.count == Count::encoder; });
+}
+
 void Axis::set_encoder(std::int64_t pulses) {
   if (pulses == encoder_pulses) return;
   encoder_pulses = pulses;
-  const bool is_compared = std::any_of(comparators.begin(), comparators.end(),
-                                       [](const Comparator& mine) { return mine.count == Count::encoder; });
-  if (is_compared) {
+  if (encoder_is_known) return;  // it has been met on the way
+  if (counts_by_encoder()) {
     attentive = true;
   } else {
     encoder_seen = pulses;  // nobody meets what lies between
   }
 }
 
+/// Where its machine goes along with it: what the encoder counts at this very pulse.
+void Axis::know_encoder(const Surroundings& here) {
+  if (encoder_is_known) encoder_pulses = here.encoder.at(travel_pulses);
+}
+
 /// The encoder's count goes from where it was to where it is: comparators meet all that lies between.
 void Axis::follow_encoder_count(Instant at) {
-  const int way = encoder_pulses < encoder_seen ? -1 : +1;
+  const int way = encoder_pulses == encoder_seen ? 0 : encoder_pulses < encoder_seen ? -1 : +1;
   // A jump that far is not a motion: only its end counts.
   constexpr std::int64_t kFarthestWalk = 100'000;
   while (encoder_seen != encoder_pulses && encoder_pulses - kFarthestWalk <= encoder_seen &&

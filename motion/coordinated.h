@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "motion/axis.h"
@@ -39,9 +38,9 @@ struct Coordinated {
 
   /// One tick of the axes that take part before it, instead of their own step(); `here` and `pulses` (added
   /// to, signed as they come out) go with `axes`. When one is stopped, for whatever reason, all stop where
-  /// they are, and the rest is abandoned; when the queue has run empty at rest, they are let go (unless the
-  /// owner keeps them with `stays_engaged`). One that is stopped by what it meets within the tick stops the
-  /// others at that place of the path; one that is to slow down slows all of them from there on.
+  /// they are then, and the rest is abandoned; when the queue has run empty at rest, they are let go (unless
+  /// the owner keeps them with `stays_engaged`). One that is to slow down slows all of them from there on.
+  /// Where others act on them in mid tick: motion/shared_tick.h.
   void step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
             std::span<std::int64_t> pulses, bool stays_engaged = false);
 
@@ -49,7 +48,26 @@ struct Coordinated {
   /// reaction is to slow down (to a limit, say) does the same to all.
   void slow_down(Tick now, Cause why = Cause::stopped);
   /// No pulse after this, for all of them.
-  void stop(std::span<Axis> axes, Cause why = Cause::stopped);
+  void stop(std::span<Axis> axes, Cause why = Cause::stopped, Instant at = {});
+
+  using Targets = std::array<std::int64_t, kPathAxes>;  // the travel of each coordinate's axis
+  /// The tick of the run alone, and whether all axes come to its end without anything in between.
+  struct Ahead {
+    PathRun::Stretch gone;
+    Targets target{};
+    bool is_quiet = false;
+  };
+  Ahead look_ahead(Tick tick, std::span<const Axis> axes, std::span<const Surroundings> here,
+                   bool stays_engaged);
+  /// Where that is so, takes them there.
+  void cross(const Ahead& ahead, std::span<Axis> axes, std::span<std::int64_t> pulses);
+  /// At the tick's end: one that has slowed down stands.
+  void settle(Tick tick, std::span<Axis> axes);
+  /// The queue has run empty: lets them go, as soon as all of them are in position.
+  void let_go(std::span<Axis> axes, Instant at);
+  bool is_over(bool stays_engaged) const {
+    return slowing_for == Cause::none && run.queued() == 0 && !run.paused() && !stays_engaged;
+  }
 
   bool takes(std::size_t axis) const;
   /// The signed speed of that axis after tick `now`; 0 if it takes no part.
@@ -59,28 +77,6 @@ struct Coordinated {
   std::int64_t pulses_to_come(std::size_t axis, std::span<const Axis> axes) const;
   /// The travel of the axis of coordinate `i` at a place, rounded half away from zero.
   std::int64_t travel_at(std::size_t i, double place_u) const;
-
- private:
-  struct Stopped;
-  using Targets = std::array<std::int64_t, kPathAxes>;  // the travel of each coordinate's axis
-  /// Where an axis has turned round within the tick, beyond where it began and where it ends.
-  struct Excursion {
-    std::int64_t travel = 0;
-    double along_u = 0;
-  };
-  using Excursions = std::array<std::optional<Excursion>, kPathAxes>;
-  Excursions excursions(const Targets& target, const PathRun::Stretch& gone, Tick tick,
-                        std::span<const Axis> axes) const;
-  bool comes_back(const Targets& target, const PathRun::Stretch& gone, Tick tick,
-                  std::span<const Axis> axes) const;
-  Stopped first_stopped(const Targets& target, const Excursions& beyond, const PathRun::Stretch& gone,
-                        Tick tick, std::span<const Axis> axes, std::span<const Surroundings> here) const;
-  Cause carry(Targets target, const PathRun::Stretch& gone, Tick tick, std::span<Axis> axes,
-              std::span<const Surroundings> here, std::span<std::int64_t> pulses);
-  void slow_within(Targets& target, PathRun::Stretch& gone, Tick tick, std::span<const Axis> axes,
-                   std::span<const Surroundings> here);
-  double along_where(std::size_t i, std::int64_t travel, std::int64_t from_travel,
-                     const PathRun::Stretch& gone, double from_u, double to_u) const;
 };
 
 }  // namespace understudy::motion

@@ -177,9 +177,9 @@ void Axis::homing_stands(Cause why, Instant at) {
   const HomingPhase& row = homing.row();
   const bool limit_is_harmless = is_limit(homing.program, why) && row.if_limit != HomingPhase::kFail;
   if (homing.ended_by != Cause::none) {
-    end_homing(homing.ended_by);
+    end_homing(homing.ended_by, at);
   } else if (why != Cause::arrived && !limit_is_harmless) {
-    end_homing(why);
+    end_homing(why, at);
   } else if (limit_is_harmless && !homing.met) {
     go_to_phase(row_number(homing, row.if_limit), at, false);
   } else if (row.does == HomingPhase::Does::go && (signals & row.again_while) != 0) {
@@ -198,7 +198,7 @@ void Axis::go_to_phase(std::int8_t number, Instant at, bool running) {
   } catch (const BadMotion&) {
     // A way back that the speed law cannot plan: known only here, and a tick does not throw.
   }
-  if (failed != Cause::none) end_homing(failed);
+  if (failed != Cause::none) end_homing(failed, at);
 }
 
 /// Begins phase `number`, or the first one after it that has anything to do; none when that runs or home is
@@ -208,7 +208,7 @@ Cause Axis::enter_phase(std::int8_t number, Instant at, bool running) {
   for (std::size_t entered = 0; entered <= HomingProgram::kMaxPhases; ++entered) {
     if (number < 0) return Cause::homing_failed;  // kFail
     if (number >= homing.program.phase_count) {
-      end_homing(Cause::arrived);
+      end_homing(Cause::arrived, at);
       return Cause::none;
     }
     homing.phase = number;
@@ -267,15 +267,15 @@ Cause Axis::begin_phase(Instant at) {
   return Cause::none;
 }
 
-void Axis::end_homing(Cause why) {
+void Axis::end_homing(Cause why, Instant at) {
   drop();
   homing.ended_in = homing.phase;
   homing.ended_by = why;
   homing.phase = -1;
   homing.met = false;
-  events_between |= bit(Event::ended);
+  raise(Event::ended, at);
   if (why == Cause::arrived) {
-    events_between |= bit(Event::homed);
+    raise(Event::homed, at);
     if (!homing.reference_known) homing.reference_pulses = travel_pulses;
   }
   cause = why == Cause::arrived || why == Cause::stopped ? why : Cause::homing_failed;

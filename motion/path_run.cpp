@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "motion/bad_motion.h"
 #include "motion/bisection.h"
+#include "motion/elementary.h"
 #include "motion/move.h"
 #include "motion/path.h"
 #include "motion/profile.h"
@@ -277,24 +279,24 @@ void PathRun::replan(Tick now) {
   begin_after_s_ = 0;
 }
 
-bool PathRun::pause_within(Tick tick, double along_u, Stretch& gone) {
-  if (paused_ || gone.chain_is_over || chain_count_ == 0 || along_u < piece(0).begin_u) return false;
-  const double before_s = elapsed_s(tick - 1);
-  const double from_u = sample(tick - 1).position_u;
-  const auto is_there = [&](double after_s) {
-    return profile_.sample(before_s + after_s).position_u >= along_u;
-  };
-  double after_s = 0;
-  if (before_s < 0) return false;
-  if (!is_there(0)) after_s = is_there(kTick_s) ? turnover(0, kTick_s, is_there).after : kTick_s;
-  Sample here = profile_.sample(before_s + after_s);
+bool PathRun::pause_within(Tick tick, double along_u, const SpeedLaw& by, Stretch& gone) {
+  if (paused_ || gone.course || chain_count_ == 0 || elapsed_s(tick - 1) < 0) return false;
+  const Instant at = moment_at(gone, tick, along_u);
+  Sample here = profile_.sample(elapsed_s(tick - 1) + at.after_s + (at.tick == tick ? kTick_s : 0));
   here.speed_u_s = std::max(0.0, here.speed_u_s);
+  // It may have come into other paths since: those are before it again.
+  while (along_u < piece(0).begin_u && completed_ > 0) {
+    head_ = (head_ + kMaxPaths - 1) % kMaxPaths;
+    ++count_;
+    ++chain_count_;
+    --completed_;
+  }
   paused_ = true;
-  profile_ = slow_to_stop(here, law_);
+  profile_ = slow_to_stop(here, by);
   profile_.cut_at(chain_end_u_);
-  begin_tick_ = tick - 1;
-  begin_after_s_ = after_s;
-  gone = {.to_u = sample(tick).position_u, .began_is_told = true, .from_u = from_u};
+  begin_tick_ = at.tick;
+  begin_after_s_ = at.after_s;
+  gone = {.to_u = sample(tick).position_u};
   go_to(gone.to_u);
   gone.last_piece = head_;
   return true;
@@ -336,17 +338,54 @@ void PathRun::check_queue() const {
   if (running_) demand_plans(law_, override_);
 }
 
-double PathRun::began_at(const Stretch& gone, Tick tick) const {
-  return gone.began_is_told ? gone.from_u : sample(tick - 1).position_u;
+double PathRun::along_at(const Stretch& gone, Instant at) const {
+  const Profile& profile = gone.course ? gone.course->profile : profile_;
+  const Tick begin = gone.course ? gone.course->begin_tick : begin_tick_;
+  const double after_s = gone.course ? gone.course->begin_after_s : begin_after_s_;
+  return profile.sample(seconds(at.tick - begin) + (at.after_s - after_s)).position_u;
 }
 
-Point PathRun::place_on(const Stretch& gone, double along_u) const {
+Instant PathRun::moment_at(const Stretch& gone, Tick tick, double along_u) const {
+  const auto is_there = [&](double after_s) {
+    return along_at(gone, {.tick = tick - 1, .after_s = after_s}) >= along_u;
+  };
+  if (is_there(0)) return {.tick = tick - 1};
+  if (!is_there(kTick_s)) return {.tick = tick};
+  const double after_s = turnover(0, kTick_s, is_there).after;
+  if (after_s >= kTick_s) return {.tick = tick};
+  return {.tick = tick - 1, .after_s = after_s};
+}
+
+const PathRun::Piece& PathRun::piece_on(const Stretch& gone, double along_u) const {
   // Paths that are done stay in the ring until others are appended.
   std::size_t number = gone.last_piece;
   for (std::size_t i = 0; i < kMaxPaths && pieces_[number].begin_u > along_u; ++i) {
     number = (number + kMaxPaths - 1) % kMaxPaths;
   }
-  return pieces_[number].path.at(along_u - pieces_[number].begin_u);
+  return pieces_[number];
+}
+
+Point PathRun::place_on(const Stretch& gone, double along_u) const {
+  const Piece& on = piece_on(gone, along_u);
+  return on.path.at(along_u - on.begin_u);
+}
+
+double PathRun::way_on(const Stretch& gone, double along_u, Eigen::Index i) const {
+  const Piece& on = piece_on(gone, along_u);
+  return on.path.direction_at(along_u - on.begin_u)[i];
+}
+
+double PathRun::end_of_span(const Stretch& gone, double along_u) const {
+  const Piece& on = piece_on(gone, along_u);
+  double end_u = on.begin_u + on.path.length_u;
+  constexpr double kEighth_rad = kPi / 4;
+  const double eighths = std::abs(on.path.sweep_rad) / kEighth_rad;
+  if (on.path.kind == Path::Kind::arc && eighths > 1) {
+    const double each_u = on.path.length_u / eighths;
+    end_u = std::min(end_u, on.begin_u + (std::floor((along_u - on.begin_u) / each_u) + 1) * each_u);
+  }
+  const double beyond_u = std::nextafter(along_u, std::numeric_limits<double>::infinity());
+  return std::min(std::max(end_u, beyond_u), std::max(gone.to_u, along_u));
 }
 
 const Point& PathRun::step(Tick tick, Stretch* gone) {
@@ -366,9 +405,7 @@ const Point& PathRun::step(Tick tick, Stretch* gone) {
   if (gone != nullptr) {
     *gone = {.to_u = chain_end_u_,
              .last_piece = (head_ + chain_count_ - 1) % kMaxPaths,
-             .began_is_told = true,
-             .from_u = sample(tick - 1).position_u,
-             .chain_is_over = true};
+             .course = Course{profile_, begin_tick_, begin_after_s_}};
   }
   ran_dry_ = keeps_speed_at_end();
   while (chain_count_ > 0) drop_front();

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "base/state/fields.h"
 #include "motion/move.h"
@@ -99,27 +100,39 @@ class PathRun {
   Point velocity(Tick now) const;
   double chain_length_u() const { return chain_end_u_; }
 
+  /// How the chain's place goes by in time.
+  struct Course {
+    Profile profile;
+    Tick begin_tick = 0;
+    double begin_after_s = 0;
+  };
   /// What a tick has gone along: of a chain, from its place before the tick to its place after it.
   struct Stretch {
     double to_u = 0;
     std::size_t last_piece = 0;  // where in the ring the path is on which it ends
-    // Where the chain ended in the tick, or slowed down from within it; else the profile still knows.
-    bool began_is_told = false;
-    double from_u = 0;
-    bool chain_is_over = false;
+    // Of a chain that is over in it: how it went. Else the run still knows.
+    std::optional<Course> course{};
   };
   /// One tick, in order. The place after it, until the next one; where nothing runs, where the last path
   /// ended.
   const Point& step(Tick tick, Stretch* gone = nullptr);
-  /// Of the tick just stepped, until something else is asked of the run: where it began, and the place at
-  /// a length along the chain between there and `to_u`.
-  double began_at(const Stretch& gone, Tick tick) const;
+  // Of the tick just stepped, until something else is asked of the run:
+  /// Where it began, and its place along the chain at a moment.
+  double began_at(const Stretch& gone, Tick tick) const { return along_at(gone, {.tick = tick - 1}); }
+  double along_at(const Stretch& gone, Instant at) const;
+  /// The moment at which it comes to a length along the chain between there and `to_u`.
+  Instant moment_at(const Stretch& gone, Tick tick, double along_u) const;
+  /// The place there.
   Point place_on(const Stretch& gone, double along_u) const;
   /// Whether it may have turned round in a coordinate: on an arc.
   bool bends(const Stretch& gone) const { return pieces_[gone.last_piece].path.kind != Path::Kind::line; }
-  /// Pauses from a length along the chain on that lies within the tick just stepped, which ends accordingly.
-  /// False, and nothing has changed, where that is paused already, or has come into another path since.
-  bool pause_within(Tick tick, double along_u, Stretch& gone);
+  /// How far behind that each coordinate keeps its way, but for one turn; at most `to_u`.
+  double end_of_span(const Stretch& gone, double along_u) const;
+  /// Which way coordinate `i` goes there; on a corner, of the path behind it.
+  double way_on(const Stretch& gone, double along_u, Eigen::Index i) const;
+  /// Slows down, by the ramps of `by`, from that length on, which the tick has passed: it ends accordingly.
+  /// False, and nothing has changed, where it is paused already or the chain is over.
+  bool pause_within(Tick tick, double along_u, const SpeedLaw& by, Stretch& gone);
   /// Paths that were completed in the last tick.
   int completed() const { return completed_; }
   /// The path being run; of the queue's front.
@@ -139,6 +152,7 @@ class PathRun {
   };
   friend struct StateOf<Piece>;
 
+  const Piece& piece_on(const Stretch& gone, double along_u) const;
   Piece& piece(std::size_t number) { return pieces_[(head_ + number) % kMaxPaths]; }
   const Path& path_before(std::size_t number);
   SpeedLaw effective() const;

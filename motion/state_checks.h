@@ -74,6 +74,16 @@ inline void check_restored(const Comparator& comparator) {
 
 inline void check_restored(const Surroundings::Zone& zone) { demand_within(zone.slack, 0, INT64_MAX / 2); }
 
+inline void check_restored(const EncoderLine& line) {
+  for (const std::int64_t value : {line.counts, line.factor, line.pulses, line.divider}) {
+    demand_within(value, 0, INT32_MAX);
+  }
+  demand_state(line.pulses > 0 && line.factor > 0 && line.divider > 0, "an encoder must have a scale");
+  for (const std::int64_t value : {line.origin, line.surplus, line.zero})
+    demand_within(value, INT64_MIN / 2, INT64_MAX / 2);
+  demand_within(line.first, INT64_MIN, line.last);
+}
+
 inline void check_restored(const Surroundings& here) {
   demand_within(here.zone_count, 0, static_cast<std::int64_t>(Surroundings::kMaxZones));
   demand_within(here.index_period, INT64_MIN, INT64_MAX / 2);
@@ -111,7 +121,7 @@ inline void check_restored(const AxisSettings& settings) {
 
 inline void check_restored(const Axis& axis) {
   for (const std::int64_t pulses :
-       {axis.travel_pulses, axis.base_pulses, axis.backlash_sent, axis.target_pulses, axis.carried_pulses}) {
+       {axis.travel_pulses, axis.base_pulses, axis.backlash_sent, axis.target_pulses}) {
     demand_reach(pulses);
   }
   // What a tick will plan by its law is what a command would not have been refused.

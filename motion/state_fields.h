@@ -135,6 +135,18 @@ struct StateOf<motion::Surroundings::Zone> {
 };
 
 template <>
+struct StateOf<motion::EncoderLine> {
+  static constexpr auto fields = FieldList{
+      field("counts", &motion::EncoderLine::counts),     field("pulses", &motion::EncoderLine::pulses),
+      field("origin", &motion::EncoderLine::origin),     field("first", &motion::EncoderLine::first),
+      field("last", &motion::EncoderLine::last),         field("mirrored", &motion::EncoderLine::mirrored),
+      field("reversed", &motion::EncoderLine::reversed), field("surplus", &motion::EncoderLine::surplus),
+      field("factor", &motion::EncoderLine::factor),     field("zero", &motion::EncoderLine::zero),
+      field("divider", &motion::EncoderLine::divider),   field("turned", &motion::EncoderLine::turned)};
+  static void check(const motion::EncoderLine& value) { motion::check_restored(value); }
+};
+
+template <>
 struct StateOf<motion::Surroundings> {
   static constexpr auto fields = FieldList{field("version", &motion::Surroundings::version),
                                            field("steady", &motion::Surroundings::steady),
@@ -144,7 +156,8 @@ struct StateOf<motion::Surroundings> {
                                            field("index_at", &motion::Surroundings::index_at),
                                            field("index_width", &motion::Surroundings::index_width),
                                            field("index_from", &motion::Surroundings::index_from),
-                                           field("index_to", &motion::Surroundings::index_to)};
+                                           field("index_to", &motion::Surroundings::index_to),
+                                           field("encoder", &motion::Surroundings::encoder)};
   static void check(const motion::Surroundings& value) { motion::check_restored(value); }
 };
 
@@ -239,6 +252,7 @@ struct StateOf<motion::AxisSettings> {
                 field("raises", &motion::AxisSettings::raises),
                 field("soft_limit_plus", &motion::AxisSettings::soft_limit_plus),
                 field("soft_limit_minus", &motion::AxisSettings::soft_limit_minus),
+                field("soft_limits_of", &motion::AxisSettings::soft_limits_of),
                 field("backlash_pulses", &motion::AxisSettings::backlash_pulses),
                 field("backlash_speed_pps", &motion::AxisSettings::backlash_speed_pps),
                 field("slips", &motion::AxisSettings::slips)};
@@ -275,8 +289,8 @@ struct StateOf<motion::Axis> {
                                            field("slowing", &motion::Axis::slowing),
                                            field("comes_back", &motion::Axis::comes_back),
                                            field("settling", &motion::Axis::settling),
+                                           field("encoder_is_known", &motion::Axis::encoder_is_known),
                                            field("target_pulses", &motion::Axis::target_pulses),
-                                           field("carried_pulses", &motion::Axis::carried_pulses),
                                            field("law", &motion::Axis::law),
                                            field("follower", &motion::Axis::follower),
                                            field("homing", &motion::Axis::homing)};

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "motion/encoder_line.h"
+
 namespace understudy::motion {
 
 /// One axis's inputs; on means active, whatever the wiring's polarity.
@@ -52,6 +54,7 @@ struct Surroundings {
   // Beyond these two it stays as it is at them: the machine goes no farther, however many pulses are made.
   std::int64_t index_from = INT64_MIN;
   std::int64_t index_to = INT64_MAX;
+  EncoderLine encoder{};  // what the axis's encoder counts on the way
 
   bool operator==(const Surroundings&) const = default;
 

@@ -6,10 +6,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "motion/axis.h"
+#include "motion/shared_tick.h"
 
 namespace understudy::motion {
 
@@ -64,23 +65,19 @@ struct SyncTable {
 
 /// What the owner has to do itself.
 struct SyncOutcome {
-  std::array<Events, SyncTable::kAxes> fired{};  // the factors of each axis that fired
-  std::uint8_t outputs = 0;                      // axes whose action has an output
-  std::uint8_t interrupts = 0;                   // axes whose action calls an interrupt
-  std::uint8_t presets_command = 0;              // axes whose command count is to be preset_value
+  Events fired = 0;                  // factors of the trigger
+  std::uint8_t outputs = 0;          // axes whose action has an output
+  std::uint8_t interrupts = 0;       // axes whose action calls an interrupt
+  std::uint8_t presets_command = 0;  // axes whose command count is to be preset_value
   std::uint8_t presets_encoder = 0;
 
   bool operator==(const SyncOutcome&) const = default;
 };
 
-/// Which of several triggers acts first, in latches that follow each other: the later one's stays.
-enum class SyncOrder : std::uint8_t { by_axis, by_moment };
-
-/// Acts on the events of tick `now`, after all the axes have stepped it; triggers in the order that is given,
-/// at equal moments in order of axes, and for each trigger the activated axes in order. Latches are of the
-/// moment of the event, to the pulse; drives act from the end of the tick, and throw for speeds and distances
-/// that Axis::move() does not take. Axes beyond `axes` are left out. Counters are the owner's: latches give
-/// travel.
-SyncOutcome act(SyncTable& table, std::span<Axis> axes, Tick now, SyncOrder order = SyncOrder::by_axis);
+/// Acts on what has happened to the axis `trigger` at this moment: the activated axes are brought here, in
+/// order. Latches, stops and speeds are of this moment; a drive is at its beginning in the next tick, as one
+/// that is commanded between ticks, and throws for speeds and distances that Axis::move() does not take. Axes
+/// that do not exist are left out. Counters are the owner's: latches give travel.
+SyncOutcome act(SyncTable& table, std::size_t trigger, Events events, SharedTick& tick);
 
 }  // namespace understudy::motion

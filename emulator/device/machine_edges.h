@@ -32,11 +32,39 @@ struct MachineEdges {
     std::int64_t last = INT64_MAX;
     bool operator==(const Index&) const = default;
   };
+  /// What its encoder counts: floor((place - origin) * counts / pulses), between the machine's stops.
+  struct Encoder {
+    std::int64_t counts = 0;  // 0: it has none, or nobody knows before a tick is over what it will count
+    std::int64_t pulses = 1;
+    std::int64_t origin = 0;
+    std::int64_t first = INT64_MIN;
+    std::int64_t last = INT64_MAX;
+    bool mirrored = false;     // of a device whose count runs against the motor's sense
+    bool reversed = false;     // its counts fall where the motor's pulses rise
+    std::int64_t surplus = 0;  // counts too many
+    bool operator==(const Encoder&) const = default;
+
+    /// As a line of another name, which has all of these.
+    template <class Line>
+    Line as() const {
+      Line line;
+      line.counts = counts;
+      line.pulses = pulses;
+      line.origin = origin;
+      line.first = first;
+      line.last = last;
+      line.mirrored = mirrored;
+      line.reversed = reversed;
+      line.surplus = surplus;
+      return line;
+    }
+  };
   static constexpr std::size_t kMostSpans = 5;
 
   std::array<Span, kMostSpans> spans{};
   std::size_t span_count = 0;
   Index index{};
+  Encoder encoder{};
 
   bool operator==(const MachineEdges&) const = default;
 
@@ -55,9 +83,18 @@ struct MachineEdges {
       made.spans[i].last = -spans[i].first;
     }
     made.index.at = -index.at - (index.width - 1);
-    made.index.first = index.last == INT64_MAX ? INT64_MIN : -index.last;
-    made.index.last = index.first == INT64_MIN ? INT64_MAX : -index.first;
+    turn_round(made.index.first, made.index.last);
+    made.encoder.origin = -encoder.origin;
+    made.encoder.mirrored = !encoder.mirrored;
+    turn_round(made.encoder.first, made.encoder.last);
     return made;
+  }
+
+ private:
+  static void turn_round(std::int64_t& first, std::int64_t& last) {
+    const std::int64_t before = first;
+    first = last == INT64_MAX ? INT64_MIN : -last;
+    last = before == INT64_MIN ? INT64_MAX : -before;
   }
 };
 

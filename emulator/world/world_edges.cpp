@@ -17,8 +17,20 @@ namespace understudy::emulator::world {
 MachineEdges World::edges_of(std::size_t device, std::size_t axis) const {
   MachineEdges edges;
   const PlantAxis& plant = plants_[device][axis];
-  if (!plant.steps_all()) return edges;  // levels count: nobody knows how far it will come
+  if (!plant.steps_all()) return edges;  // nobody knows how far it will come: what a tick's end shows counts
   const std::int64_t origin = plant.position_pulses() - axes_[device]->place_pulses(static_cast<int>(axis));
+  if (plant.has_encoder() && !plant.setup().has_wheel) {
+    const PlantSetup& setup = plant.setup();
+    edges.encoder = {.counts = setup.encoder_counts_per_revolution,
+                     .pulses = setup.pulses_per_revolution,
+                     .origin = setup.position_pulses - origin,
+                     .reversed = setup.encoder_reversed,
+                     .surplus = plant.faults().encoder_noise_counts};
+    if (setup.travel) {
+      edges.encoder.first = setup.travel->first - origin;
+      edges.encoder.last = setup.travel->last - origin;
+    }
+  }
   for (const ContactWire& wire : contacts_[device]) {
     const Input& input = inputs_[device][static_cast<std::size_t>(wire.input)];
     if (wire.axis != axis || input.stuck || input.external != 0 || input.wired) continue;

@@ -165,7 +165,7 @@ TEST(AxisCarried, GoesByThePulsesItIsGiven) {
     EXPECT_EQ(course.travel(), travel += pulses);
   }
   EXPECT_TRUE(course.axis.moving());
-  course.axis.arrive();
+  course.axis.arrive({});
   EXPECT_FALSE(course.axis.moving());
   EXPECT_EQ(course.axis.cause, Cause::arrived);
   course.step();

@@ -78,15 +78,30 @@ inline Output go_on(Surroundings& here, Tick tick) {
   return {static_cast<double>(here.at(tick * 7 - 1000)), static_cast<double>(next.value_or(-1))};
 }
 
+/// Adds up what the actions of a tick leave to their owner.
+struct ActingOwner final : EdgeOwner {
+  explicit ActingOwner(SyncTable& acting) : table(acting) {}
+  void at_edge(SharedTick& now, std::size_t axis, Events events) override {
+    const SyncOutcome outcome = act(table, axis, events, now);
+    outputs |= outcome.outputs;
+    interrupts |= outcome.interrupts;
+  }
+  SyncTable& table;
+  std::uint8_t outputs = 0;
+  std::uint8_t interrupts = 0;
+};
+
 inline Output go_on(SyncTable& table, Tick tick) {
   std::array<Axis, 4> axes;
+  std::array<Surroundings, 4> here;
+  std::array<std::int64_t, 4> pulses{};
   for (std::size_t i = 0; i < axes.size(); ++i) {
     axes[i].switch_servo(true);
     axes[i].run(i % 2 == 0 ? 1 : -1, by_slope(1000, 1e6), tick - 1);
-    axes[i].step(tick, {});
   }
-  const SyncOutcome outcome = act(table, axes, tick);
-  Output all{static_cast<double>(outcome.outputs), static_cast<double>(outcome.interrupts)};
+  ActingOwner owner(table);
+  step_together({tick, axes, here, pulses}, 0b1111, nullptr, &owner);
+  Output all{static_cast<double>(owner.outputs), static_cast<double>(owner.interrupts)};
   for (const Axis& axis : axes) all.push_back(axis.moving() ? axis.sample(tick + 1).speed_u_s : -1);
   return all;
 }
@@ -122,6 +137,18 @@ inline Surroundings sample_of<Surroundings>() {
   here.index_period = 4000;
   here.index_at = 17;
   here.index_width = 3;
+  here.encoder = {.counts = 10'000,
+                  .pulses = 3600,
+                  .origin = -17,
+                  .first = -90'000,
+                  .last = 90'000,
+                  .mirrored = true,
+                  .reversed = true,
+                  .surplus = 5,
+                  .factor = 4,
+                  .zero = 33,
+                  .divider = 2,
+                  .turned = true};
   return here;
 }
 

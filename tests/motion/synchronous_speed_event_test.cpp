@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "motion/synchronous.h"
+#include "motion/axis.h"
 #include "tests/motion/axis_scenario.h"
 
 namespace understudy::motion {
@@ -12,11 +12,10 @@ namespace synchronous_speed_event_test {
 
 constexpr Events kConstant = bit(Event::constant_started) | bit(Event::constant_ended);
 
-/// An axis whose own events latch its place.
+/// An axis, and where it was at its events.
 struct EventBench {
   std::array<Axis, 1> axes{};
   Surroundings here;
-  SyncTable table;
   Tick now = 0;
   struct Seen {
     Event event;
@@ -29,8 +28,6 @@ struct EventBench {
   explicit EventBench(Events raises = kConstant) {
     axes[0].switch_servo(true);
     axes[0].settings.raises = raises;
-    table.triggers[0].activates = 1;
-    table.actions[0].latch_command = true;
   }
   Axis& axis() { return axes[0]; }
 
@@ -40,13 +37,12 @@ struct EventBench {
     if (with_care) axis().attentive = true;
     axis().step(now, here);
     for (const Event event : {Event::constant_ended, Event::constant_started}) {
-      // The moment of the event, as an action would latch it.
       if ((axis().events & bit(event)) == 0) continue;
-      table.triggers[0].factors = bit(event);
-      ASSERT_EQ(act(table, axes, now).fired[0], bit(event));
       const bool runs = axis().drive.moving();
       last_seen_at_end = !runs;
-      seen.push_back({event, runs ? table.latches[0].travel_pulses - base : axis().travel_pulses - base});
+      const Instant at = axis().event_at[static_cast<std::size_t>(event)];
+      seen.push_back({event, runs ? axis().drive.direction * axis().drive.pulses_at_moment(at)
+                                  : axis().travel_pulses - base});
     }
   }
   void run(Tick most, bool with_care = false) {

@@ -1,6 +1,5 @@
 #include "emulator/models/rs_m8194h/axis_unit.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -41,11 +40,16 @@ motion::Reaction limit_reaction(const BasicSettings& basic) {
 }
 
 /// 3.10: edges of both lines, of one, or its rising edges. Up and down pulses are not divided.
-std::int64_t divided(const BasicSettings& basic, std::int64_t edges) {
+std::int64_t divider_of(const BasicSettings& basic) {
   const bool is_quadrature = basic.encoder_mode == 0 || basic.encoder_mode == 2;
-  const std::int64_t by = is_quadrature ? std::int64_t{1} << basic.encoder_division : 1;
+  return is_quadrature ? std::int64_t{1} << basic.encoder_division : 1;
+}
+bool counts_down(const BasicSettings& basic) { return basic.encoder_mode >= 2; }
+
+std::int64_t divided(const BasicSettings& basic, std::int64_t edges) {
+  const std::int64_t by = divider_of(basic);
   const std::int64_t counts = edges >= 0 ? edges / by : -((-edges + by - 1) / by);
-  return basic.encoder_mode >= 2 ? -counts : counts;
+  return counts_down(basic) ? -counts : counts;
 }
 
 }  // namespace
@@ -156,7 +160,7 @@ void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& setti
   }
 }
 
-void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const AxisOptions& options) {
+void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const AxisOptions& options) {
   struct Comparison {
     motion::Event event;
     std::size_t which;  // C+, C-
@@ -171,8 +175,7 @@ void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const Ax
   for (const Comparison& each : kComparisons) {
     const Compare& mine = axis.compare[each.which];
     Comparator wanted;
-    if ((asked.events & motion::bit(each.event)) != 0) {
-      if ((asked.stopping & motion::bit(each.event)) != 0) wanted.reaction = asked.stop;
+    if ((asked & motion::bit(each.event)) != 0) {
       wanted.relation = each.relation;
       wanted.value = mine.value;
       wanted.counter = mine.source == 0 ? axis.logic : axis.encoder;
@@ -190,40 +193,29 @@ void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const Ax
   constexpr motion::Events kCostly = motion::bit(motion::Event::pulse) |
                                      motion::bit(motion::Event::constant_started) |
                                      motion::bit(motion::Event::constant_ended);
-  changed.raises = asked.events & kCostly;
-  const auto stops_by = [&](motion::Event edge) {
-    return (asked.stopping & motion::bit(edge)) != 0 ? asked.stop : motion::Reaction::ignore;
-  };
-  changed.at_mark_on = stops_by(motion::Event::mark_on);
-  changed.at_mark_off = stops_by(motion::Event::mark_off);
+  changed.raises = asked & kCostly;
   changed.soft_limit_plus.reset();
   changed.soft_limit_minus.reset();
-  const bool by_pulses = axis.basic.soft_limit_source == 0 || !axis.has_encoder;
+  const bool by_encoder = axis.basic.soft_limit_source == 1 && axis.has_encoder;
   const bool is_heeded = options.homing_heeds_soft_limits || !motor.homing.active();
-  if (axis.basic.soft_limits && by_pulses && is_heeded) {
+  if (axis.basic.soft_limits && is_heeded) {
     const Counter& counter = axis.basic.soft_limit_source == 0 ? axis.logic : axis.encoder;
-    // What is between count and travel now: the offset itself is right up to whole rounds of the counter.
-    const std::int64_t ahead = motor.travel_pulses - counter.at(motor.travel_pulses);
+    // What is between count and place now: the offset itself is right up to whole rounds of the counter.
+    const std::int64_t place = by_encoder ? motor.encoder_pulses : motor.travel_pulses;
+    const std::int64_t ahead = place - counter.at(place);
+    changed.soft_limits_of = by_encoder ? motion::Count::encoder : motion::Count::command;
     changed.soft_limit_plus = axis.basic.forward_soft_limit + ahead;
     changed.soft_limit_minus = axis.basic.reverse_soft_limit + ahead;
   }
   if (changed != motor.settings) motor.set(changed);
 }
 
-motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way, int beyond) {
-  const bool by_encoder = axis.basic.soft_limits && axis.basic.soft_limit_source == 1 && axis.has_encoder;
-  if (!by_encoder) return motion::Cause::none;
-  const std::int64_t count = encoder_count(axis, motor);
-  if (way > 0 && count >= axis.basic.forward_soft_limit + beyond) return motion::Cause::soft_limit_plus;
-  if (way < 0 && count <= axis.basic.reverse_soft_limit - beyond) return motion::Cause::soft_limit_minus;
-  return motion::Cause::none;
-}
-
-bool heeds_encoder(const AxisUnit& axis, const motion::Axis& motor) {
-  if (!axis.has_encoder) return false;
-  return (axis.basic.soft_limits && axis.basic.soft_limit_source == 1) ||
-         std::any_of(motor.comparators.begin(), motor.comparators.end(),
-                     [](const motion::Comparator& its) { return its.count == motion::Count::encoder; });
+motion::EncoderLine encoder_line(const AxisUnit& axis, motion::EncoderLine machine) {
+  if (!axis.has_encoder) return {};
+  machine.zero = axis.encoder_zero;
+  machine.divider = divider_of(axis.basic);
+  machine.turned = counts_down(axis.basic);
+  return machine;
 }
 
 std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving, UpperBits upper) {

@@ -14,6 +14,7 @@
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "motion/axis.h"
 #include "motion/counter.h"
+#include "motion/encoder_line.h"
 #include "motion/external_drive.h"
 #include "motion/state_fields.h"
 #include "motion/surroundings.h"
@@ -174,19 +175,11 @@ struct AxisOptions {
 /// Puts the basic settings in force, beside what runs.
 void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings,
                  const AxisOptions& options);
-/// What of an axis's events somebody waits for.
-struct Asked {
-  motion::Events events = 0;
-  motion::Events stopping = 0;  // comparisons that stop the axis itself, at their pulse
-  motion::Reaction stop = motion::Reaction::ignore;
-};
-/// Limits and comparators as the motor watches them: again whenever a counter or one of them is set.
-void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const AxisOptions& options);
-/// Of a soft limit on a bench's encoder, which the motor does not watch: the cause of a motion in `way` that
-/// may not begin there, or, with one count `beyond` it, not go on.
-motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way, int beyond = 0);
-/// Whether something may happen because of what a bench's encoder tells, from tick to tick.
-bool heeds_encoder(const AxisUnit& axis, const motion::Axis& motor);
+/// Limits and comparators as the motor watches them: again whenever a counter or one of them is set. `asked`:
+/// the events that somebody waits for.
+void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const AxisOptions& options);
+/// What EP counts on the way, as its settings have it; of a machine whose line is that.
+motion::EncoderLine encoder_line(const AxisUnit& axis, motion::EncoderLine machine);
 
 /// Bits 5 to 9 of DI_ALL: the levels of the lines, or whether they are active by their settings.
 enum class UpperBits : std::uint8_t { line_levels, active };

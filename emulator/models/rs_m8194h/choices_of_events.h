@@ -18,8 +18,6 @@ inline constexpr ChoiceRow kEventChoices[] = {
     {"preset_values", "7.3.8", "values of SET_PRESET for axes that are set one after the other",
      "one_an_axis|one_for_all", kLikely,
      "it names axes; that these cannot be set independently is then said of those of one command"},
-    {"sync_order", "7.3.1", "several synchronous actions of one tick", "by_axis|by_moment", kProposal,
-     "all act within the tick; stops of the own axis at their pulse"},
     {"clear_sync_scope", "7.3.2", "what CLEAR_SYNC_ACTION clears of its trigger axis",
      "factors_axes_and_their_actions|factors_and_axes|factors", kProposal,
      "all its synchronous settings; actions belong to the axes that act"},

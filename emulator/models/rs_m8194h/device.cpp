@@ -117,9 +117,12 @@ void RsM8194h::step_motion(Tick tick) {
   const bool was_full = state_.paths.together.engaged && state_.paths.together.run.queued() > 1;
   step_axes(tick);
   heed_path_speed(tick);
-  heed_ends();
   heed_path_end(was_full);
-  act_on_events(tick);
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    // Its input stops what it has begun, and nothing else.
+    if (!state_.motors[a].moving()) state_.units[a].external.running = 0;
+    if (state_.units[a].paused_drive.what != Drive::What::none) heed_paused(a);
+  }
   start_waiting_external();
   step_scans(tick);
 }
@@ -156,8 +159,7 @@ bool RsM8194h::rests() const {
     if (unit.held_drive.what != Drive::What::none && !unit.held) return false;
     if (state_.scans[a].running) return false;
   }
-  return state_.scanning == 0 && !state_.paths.together.engaged && state_.paths.let_go == 0 &&
-         state_.held_paths.empty();
+  return state_.scanning == 0 && !state_.paths.together.engaged && state_.held_paths.empty();
 }
 
 Tick RsM8194h::next_active_tick(Tick done) const {

@@ -2,7 +2,7 @@
 // checks; the i-8094H beside it has the FIFO, the chip and the macros.
 //
 //   a request ──> window.cpp ──> the FIFO, or at once ──> commands.h: what each command does
-//   a tick: inputs.cpp ──> motion and its events (motion_step.cpp) ──> the FIFO (pace.cpp)
+//   a tick: inputs.cpp ──> motion (motion_step.cpp) and its edges (edges.cpp) ──> the FIFO (pace.cpp)
 #pragma once
 
 #include <array>
@@ -25,6 +25,10 @@
 #include "interpreter/rs_m8194h/machine.h"
 #include "interpreter/rs_m8194h/macro.h"
 #include "interpreter/rs_m8194h/macro_store.h"
+#include "motion/axis.h"
+#include "motion/pulse_drive.h"
+#include "motion/shared_tick.h"
+#include "motion/synchronous.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -37,7 +41,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
                        public UserProgram,
                        public Terminals,
                        public Axes,
-                       private lang::Machine {
+                       private lang::Machine,
+                       private motion::EdgeOwner {
  public:
   explicit RsM8194h(const DeviceSettings& given);
 
@@ -170,7 +175,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
 
   void halt(AxisMask axes, const StopRow& row);
   /// The path slows down to its end.
-  void slow_path(Tick tick, motion::Cause why = motion::Cause::stopped);
+  void slow_path(Tick tick);
   void take_off(std::size_t axis, WayOut way);
   void clear_stop(AxisMask axes);
   void clear_path_stop();
@@ -194,7 +199,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   /// Of what calls ISRs: which came last.
   void note_enabled(std::size_t axis, std::uint8_t source, bool is_on);
   void give_pulse(std::size_t axis, Tick tick, std::int64_t pulses = 1);
-  void change_speed(std::size_t axis);
+  void change_speed(std::size_t axis, motion::Instant at);
   /// EXD_MP, EXD_FP, EXD_CP with their data, or off.
   void set_external(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data);
 
@@ -245,18 +250,20 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   bool start_external(std::size_t axis, const motion::DriveOrder& order);
   void start_waiting_external();
   void step_axes(Tick tick);
-  void heed_encoder(std::size_t axis, Tick tick);
-  void heed_ends();
   void heed_paused(std::size_t axis);
+  // edges.cpp
+  void at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) override;
+  void heed_factors(std::size_t axis, motion::Events events, Tick tick, std::int64_t pulses = 0);
+  void act_together(motion::SharedTick& tick, std::size_t trigger, motion::Events events);
+  void act_on_path(motion::SharedTick& tick, motion::SyncAction::Drive drive);
+  motion::Events heed_end(std::size_t axis, motion::Events events);
+  motion::SpeedLaw law_to_slow_path() const;
   void heed_home(std::size_t axis);
   void heed_path_speed(Tick tick);
   void heed_path_end(bool was_full);
   void note_end_of_path(std::size_t axis);
   bool is_no_cause(motion::Cause cause, bool is_at_its_end) const;
   bool is_path_complete() const;
-  void act_on_events(Tick tick);
-  void act_together(Tick tick);
-  void heed_factors(std::size_t axis, Tick tick);
   void step_scans(Tick tick);
   std::int64_t scan_spacing(const LineScan& scan) const;
   void end_scan(std::size_t axis);

@@ -269,8 +269,6 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
                                 .limit_is_near_home = chose(option("home_limit", "home_and_near_home")),
                                 .turns_at_soft_limits = chose(option("home_soft_limit", "turns_round"))};
     refused = motor.home(homing_of(unit, machine_.speed, options), now());
-  } else if (const auto beyond = soft_limit_by_encoder(unit, motor, way); beyond != motion::Cause::none) {
-    refused = beyond;
   } else if (what.what == Drive::What::endless) {
     refused = motor.run(way, law, now());
   } else {

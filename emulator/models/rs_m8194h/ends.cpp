@@ -27,9 +27,9 @@ bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
     case motion::Cause::limit_minus: return is_on(motion::Signal::limit_minus);
     case motion::Cause::alarm: return is_on(motion::Signal::alarm);
     case motion::Cause::soft_limit_plus:
-      return motor.settings.soft_limit_plus && motor.travel_pulses > *motor.settings.soft_limit_plus;
+      return motor.settings.soft_limit_plus && motor.soft_limit_place() > *motor.settings.soft_limit_plus;
     case motion::Cause::soft_limit_minus:
-      return motor.settings.soft_limit_minus && motor.travel_pulses < *motor.settings.soft_limit_minus;
+      return motor.settings.soft_limit_minus && motor.soft_limit_place() < *motor.settings.soft_limit_minus;
     case motion::Cause::none:
     case motion::Cause::arrived:
     case motion::Cause::stopped:
@@ -125,50 +125,39 @@ void RsM8194h::heed_paused(std::size_t axis) {
   take_off(axis, WayOut::cause);
 }
 
-/// What ended in this tick leaves its cause in the error code.
-void RsM8194h::heed_ends() {
-  // The partners of the axis that met something hear of it a tick later.
-  Paths& paths = state_.paths;
-  const auto of_path =
-      static_cast<AxisMask>(paths.let_go | (paths.runs != Paths::Runs::nothing ? paths.axes : 0));
-  paths.let_go = 0;
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    const motion::Axis& motor = state_.motors[a];
-    AxisUnit& unit = state_.units[a];
-    const bool homed = (motor.events & motion::bit(motion::Event::homed)) != 0;
-    if (homed) heed_home(a);
-    // Its input stops what it has begun, and nothing else.
-    if (!motor.moving()) unit.external.running = 0;
-    if (unit.paused_drive.what != Drive::What::none) heed_paused(a);
-    constexpr motion::Events kConstant =
-        motion::bit(motion::Event::constant_started) | motion::bit(motion::Event::constant_ended);
-    const bool has_ramps = motor.law.start_speed_u_s < motor.law.top_speed_u_s;
-    if (!machine_.constant_drives_have_c_sta && !has_ramps) {
-      state_.motors[a].events &= static_cast<motion::Events>(~kConstant);
-    }
-    if ((motor.events & motion::bit(motion::Event::ended)) == 0) continue;
-    if (motor.cause != motion::Cause::arrived && motor.cause != motion::Cause::stopped) {
-      take_off(a, WayOut::cause);
-    }
-    if (!machine_.axis.homing_heeds_soft_limits) look_again(a);
-    if (!machine_.d_end_after_stops && motor.cause != motion::Cause::arrived && !homed) {
-      state_.motors[a].events &= static_cast<motion::Events>(~motion::bit(motion::Event::ended));
-    }
-    motion::Cause cause = motor.cause;
-    if (cause == motion::Cause::homing_failed) {
-      cause = motor.homing.ended_by;
-      constexpr std::uint8_t kIndexPhase = 20;
-      const auto row = static_cast<std::size_t>(motor.homing.ended_in);
-      const bool by_index = cause == motion::Cause::homing_failed && motor.homing.ended_in >= 0 &&
-                            motor.homing.program.phases[row].code == kIndexPhase;
-      if (by_index) unit.error_code |= bit_of(ErrorBit::home);
-    }
-    if (has(of_path, a)) {
-      note_end_of_path(a);
-    } else if (!is_no_cause(cause, is_complete(unit, motor))) {
-      unit.error_code |= error_of(cause);
-    }
+/// What ends leaves its cause in the error code. Gives the events that count as such.
+motion::Events RsM8194h::heed_end(std::size_t axis, motion::Events events) {
+  const motion::Axis& motor = state_.motors[axis];
+  AxisUnit& unit = state_.units[axis];
+  const bool homed = (events & motion::bit(motion::Event::homed)) != 0;
+  if (homed) heed_home(axis);
+  constexpr motion::Events kConstant =
+      motion::bit(motion::Event::constant_started) | motion::bit(motion::Event::constant_ended);
+  const bool has_ramps = motor.law.start_speed_u_s < motor.law.top_speed_u_s;
+  if (!machine_.constant_drives_have_c_sta && !has_ramps) {
+    events &= static_cast<motion::Events>(~kConstant);
   }
+  if ((events & motion::bit(motion::Event::ended)) == 0) return events;
+  motion::Cause cause = motor.cause;
+  if (cause != motion::Cause::arrived && cause != motion::Cause::stopped) take_off(axis, WayOut::cause);
+  if (!machine_.axis.homing_heeds_soft_limits) look_again(axis);
+  if (!machine_.d_end_after_stops && cause != motion::Cause::arrived && !homed) {
+    events &= static_cast<motion::Events>(~motion::bit(motion::Event::ended));
+  }
+  if (cause == motion::Cause::homing_failed) {
+    cause = motor.homing.ended_by;
+    constexpr std::uint8_t kIndexPhase = 20;
+    const auto row = static_cast<std::size_t>(motor.homing.ended_in);
+    const bool by_index = cause == motion::Cause::homing_failed && motor.homing.ended_in >= 0 &&
+                          motor.homing.program.phases[row].code == kIndexPhase;
+    if (by_index) unit.error_code |= bit_of(ErrorBit::home);
+  }
+  if (state_.paths.runs != Paths::Runs::nothing && has(state_.paths.axes, axis)) {
+    note_end_of_path(axis);
+  } else if (!is_no_cause(cause, is_complete(unit, motor))) {
+    unit.error_code |= error_of(cause);
+  }
+  return events;
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -18,10 +18,10 @@
 #include "emulator/models/rs_m8194h/state.h"
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "motion/axis.h"
+#include "motion/encoder_line.h"
 #include "motion/external_drive.h"
 #include "motion/move.h"
 #include "motion/surroundings.h"
-#include "motion/synchronous.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -141,6 +141,9 @@ void RsM8194h::look_round(std::size_t axis) {
     }
   }
   found.set_steady(motion::Signal::emergency, unit.emergency);
+  auto machine = edges.encoder.as<motion::EncoderLine>();
+  machine.factor = machine_.edges_per_encoder_count;
+  if (machine.is_known()) found.encoder = encoder_line(unit, machine);
   motion::Surroundings& here = state_.here[axis];
   found.version = here.version;
   if (found == here) return;
@@ -150,8 +153,7 @@ void RsM8194h::look_round(std::size_t axis) {
 
 void RsM8194h::look_again(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
-  Asked asked;
-  asked.events = state_.sync.triggers[axis].factors;
+  motion::Events asked = state_.sync.triggers[axis].factors;
   constexpr motion::Event kEvents[kIsrFactors] = {motion::Event::pulse,
                                                   motion::Event::comparator_3,
                                                   motion::Event::comparator_2,
@@ -162,21 +164,13 @@ void RsM8194h::look_again(std::size_t axis) {
                                                   motion::Event::ended};
   for (std::size_t i = 0; i < kIsrFactors; ++i) {
     const bool is_asked = machine_.all_factors_are_noted || (unit.factors >> i & 1) != 0;
-    if (is_asked) asked.events |= motion::bit(kEvents[i]);
-  }
-  // Its own stop is met at the pulse of the comparison.
-  if (has(state_.sync.triggers[axis].activates, axis)) {
-    using Action = motion::SyncAction::Drive;
-    const Action action = state_.sync.actions[axis].drive;
-    asked.stopping = state_.sync.triggers[axis].factors;
-    if (action == Action::stop_at_once) asked.stop = motion::Reaction::stop_at_once;
-    if (action == Action::slow_down) asked.stop = motion::Reaction::slow_down;
+    if (is_asked) asked |= motion::bit(kEvents[i]);
   }
   // A scan has C+ for itself (7.4.12).
   const LineScan& scan = state_.scans[axis];
   constexpr motion::Events kOfPlus =
       motion::bit(motion::Event::comparator_0) | motion::bit(motion::Event::comparator_1);
-  if (scan.set) asked.events &= static_cast<motion::Events>(~kOfPlus);
+  if (scan.set) asked &= static_cast<motion::Events>(~kOfPlus);
   arm(unit, state_.motors[axis], asked, machine_.axis);
   look_round(axis);
 }

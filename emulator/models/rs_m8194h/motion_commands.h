@@ -67,7 +67,7 @@ inline Took set_drive_speed(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.state().units[a];
     unit.speed.drive_pps = within_range<Speed::speed>(it, command.values[1], unit.basic.max_v);
-    it.change_speed(a);
+    it.change_speed(a, {.tick = it.now()});
     tell_homing(it, a);
   });
   return Took::done;

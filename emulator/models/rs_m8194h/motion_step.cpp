@@ -19,50 +19,31 @@
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
+#include "motion/encoder_line.h"
 #include "motion/move.h"
 #include "motion/profile.h"
-#include "motion/synchronous.h"
+#include "motion/pulse_drive.h"
+#include "motion/shared_tick.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// The events that are factors of interrupts, in the order of nINT (7.3.12).
-constexpr std::array<motion::Event, kIsrFactors> kFactorEvents{motion::Event::pulse,
-                                                               motion::Event::comparator_3,
-                                                               motion::Event::comparator_2,
-                                                               motion::Event::comparator_1,
-                                                               motion::Event::comparator_0,
-                                                               motion::Event::constant_ended,
-                                                               motion::Event::constant_started,
-                                                               motion::Event::ended};
-
 /// Triggers nearer than 10 us to the last one are left out: 100 of them fit into a tick (7.4.12).
 constexpr std::int64_t kMostTriggersOfATick = 100;
-
-bool is_endless(motion::SyncAction::Drive drive) {
-  using Action = motion::SyncAction::Drive;
-  return drive == Action::endless_plus || drive == Action::endless_minus;
-}
-
-bool starts_something(motion::SyncAction::Drive drive) {
-  using Action = motion::SyncAction::Drive;
-  return drive == Action::fixed_plus || drive == Action::fixed_minus || is_endless(drive);
-}
 
 }  // namespace
 
 void RsM8194h::step_axes(Tick tick) {
   std::array<std::int64_t, kAxes> pulses{};
   motion::Coordinated& together = state_.paths.together;
+  std::uint32_t singles = 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
-    if (state_.units[a].has_encoder) heed_encoder(a, tick);
-  }
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    if (!together.takes(a)) pulses[a] = state_.motors[a].step(tick, state_.here[a]);
+    if (!together.takes(a)) singles |= mask_of(a);
   }
   const bool was_engaged = together.engaged;
-  together.step(tick, state_.motors, state_.here, pulses);
+  motion::step_together({.tick = tick, .axes = state_.motors, .here = state_.here, .pulses = pulses}, singles,
+                        &together, this);
   if (was_engaged && !state_.loaded.empty()) {
     const auto done = std::min(state_.loaded.size(), static_cast<std::size_t>(together.run.completed()));
     state_.loaded.erase(state_.loaded.begin(), state_.loaded.begin() + static_cast<std::ptrdiff_t>(done));
@@ -76,34 +57,6 @@ void RsM8194h::step_axes(Tick tick) {
     // It may be back before the path stands.
     if (state_.motors[a].slowing && together.takes(a))
       state_.units[a].met |= error_of(state_.motors[a].cause);
-  }
-}
-
-/// A soft limit on a bench's encoder, which is told of a pulse in the tick behind it: an axis may have turned
-/// round since.
-void RsM8194h::heed_encoder(std::size_t axis, Tick tick) {
-  motion::Axis& motor = state_.motors[axis];
-  AxisUnit& unit = state_.units[axis];
-  const bool is_watched =
-      motor.moving() && !motor.slowing && (!motor.homing.active() || machine_.axis.homing_heeds_soft_limits);
-  if (!is_watched) return;
-  constexpr int kBeyond = 1;
-  motion::Cause why = soft_limit_by_encoder(unit, motor, static_cast<int>(motor.drive.direction), kBeyond);
-  if (why == motion::Cause::none) {
-    const int came = unit.sent_pulses < 0 ? -1 : unit.sent_pulses > 0 ? +1 : 0;
-    why = soft_limit_by_encoder(unit, motor, came, kBeyond);
-  }
-  if (why == motion::Cause::none) return;
-  const bool slows = machine_.axis.at_soft_limit == motion::Reaction::slow_down;
-  motion::Coordinated& together = state_.paths.together;
-  if (together.takes(axis)) {
-    unit.met |= error_of(why);
-    if (slows) slow_path(tick - 1, why);
-    if (!slows) together.stop(state_.motors, why);
-  } else if (slows) {
-    motor.slow_down(tick - 1, why);
-  } else {
-    motor.stop(why);
   }
 }
 
@@ -126,11 +79,6 @@ void RsM8194h::heed_path_end(bool was_full) {
   if (starved) state_.rint |= bit_of(Rint::stream);
   if (is_broken_off) break_off_stream();
   paths.open = starved;
-  paths.let_go = paths.axes;
-  // D-END comes in the next tick; who sees that it stands sees why.
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    if (has(paths.axes, a)) note_end_of_path(a);
-  }
   paths.runs = Paths::Runs::nothing;
 }
 
@@ -143,7 +91,7 @@ void RsM8194h::heed_path_speed(Tick tick) {
   const std::int8_t first = paths.together.axis_of[0];
   if (is_constant == (paths.constant_axis >= 0) || (is_constant && first < 0)) return;
   const auto tell = [&](motion::Event event) {
-    state_.motors[static_cast<std::size_t>(paths.constant_axis)].events |= motion::bit(event);
+    heed_factors(static_cast<std::size_t>(paths.constant_axis), motion::bit(event), tick);
   };
   if (is_constant) {
     paths.constant_axis = first;
@@ -189,104 +137,8 @@ void RsM8194h::note_enabled(std::size_t axis, std::uint8_t source, bool is_on) {
   if (is_on) state_.enabled.push_back(name_of_source(axis, source));
 }
 
-void RsM8194h::heed_factors(std::size_t axis, Tick tick) {
-  const AxisUnit& unit = state_.units[axis];
-  const bool is_noted_always = chose(option("factors_noted", "enabled_ones"));
-  for (std::size_t i = 0; i < kIsrFactors; ++i) {
-    const bool is_asked = (unit.factors >> i & 1) != 0;
-    if ((state_.motors[axis].events & motion::bit(kFactorEvents[i])) == 0) continue;
-    if (is_asked && (is_noted_always || state_.interrupts)) note_factor(axis, static_cast<Factor>(i));
-    if (machine_.all_factors_are_noted) note_factor(axis, static_cast<Factor>(i));
-    if (!is_asked || !state_.interrupts) continue;
-    constexpr std::int64_t kMost = kMostMarks;
-    const bool is_counted = machine_.each_pulse_is_an_event && kFactorEvents[i] == motion::Event::pulse;
-    const std::int64_t times = is_counted ? std::min(std::abs(unit.sent_pulses), kMost) : 1;
-    for (std::int64_t k = 0; k < times; ++k) mark_isr(axis, static_cast<std::uint8_t>(i), tick);
-  }
-}
-
-void RsM8194h::act_on_events(Tick tick) {
-  bool any_fires = false;
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    if (state_.motors[a].events == 0) continue;
-    heed_factors(a, tick);
-    any_fires = any_fires || (state_.motors[a].events & state_.sync.triggers[a].factors) != 0;
-  }
-  if (any_fires) act_together(tick);
-}
-
-/// Synchronous actions (7.3): the kernel latches, presets and drives; what is the firmware's is done here.
-void RsM8194h::act_together(Tick tick) {
-  motion::SyncTable acting = state_.sync;
-  std::array<bool, kAxes> slows_path{};
-  std::array<bool, kAxes> stops_path{};
-  std::array<bool, kAxes> begins{};
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    using Action = motion::SyncAction::Drive;
-    motion::SyncAction& action = acting.actions[a];
-    acting.speeds[a] = law_of(a);
-    // Latches and presets are of the moment of the event; EP counts the pulses where there is no encoder.
-    action.latch_command = action.latch_encoder = true;
-    const bool on_path = state_.paths.together.takes(a);
-    slows_path[a] = on_path && action.drive == Action::slow_down;
-    stops_path[a] = on_path && action.drive == Action::stop_at_once;
-    const bool sets_speed = action.preset == motion::SyncAction::Preset::speed && action.preset_value > 0;
-    const bool has_no_speed = !sets_speed && lacks_speed(a, Drive::What::fixed);
-    const bool is_void =
-        starts_something(action.drive) && (has_no_speed || may_start(a, Starter::external) != Start::starts);
-    if (is_void || on_path) action.drive = Action::none;
-    begins[a] = starts_something(action.drive);
-  }
-  const auto order = machine_.sync_goes_by_moment ? motion::SyncOrder::by_moment : motion::SyncOrder::by_axis;
-  const motion::SyncOutcome outcome = motion::act(acting, state_.motors, tick, order);
-  state_.sync.distance_pulses = acting.distance_pulses;
-
-  const bool shows_trigger = chose(option("sync_mask", "the_trigger_axis"));
-  AxisMask acted = 0;
-  for (std::size_t t = 0; t < kAxes; ++t) {
-    if (outcome.fired[t] != 0) acted |= state_.sync.triggers[t].activates;
-  }
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    if (!has(acted, a)) continue;
-    if (begins[a]) {
-      take_off(a, WayOut::other_drive);
-      state_.units[a].began_pulses = state_.motors[a].travel_pulses;
-    }
-    AxisUnit& unit = state_.units[a];
-    const motion::SyncAction& action = state_.sync.actions[a];
-    const motion::SyncTable::Latch& latch = acting.latches[a];
-    const std::int64_t encoder = unit.has_encoder ? latch.encoder_pulses : latch.travel_pulses;
-    if (action.latch_command || action.latch_encoder) {
-      unit.latched = static_cast<std::int32_t>(action.latch_encoder ? unit.encoder.at(encoder)
-                                                                    : unit.logic.at(latch.travel_pulses));
-    }
-    const auto preset = static_cast<std::int32_t>(action.preset_value);
-    const bool ring_folds = machine_.axis.ring_folds;
-    if (has(outcome.presets_command, a))
-      set_count(unit.logic, unit.basic, preset, latch.travel_pulses, ring_folds);
-    if (has(outcome.presets_encoder, a)) set_count(unit.encoder, unit.basic, preset, encoder, ring_folds);
-    // Of an endless drive it is void (7.3.1).
-    if (action.preset == motion::SyncAction::Preset::speed && preset > 0 && !is_endless(action.drive)) {
-      unit.speed.drive_pps = static_cast<std::uint32_t>(preset);
-      if (!starts_something(action.drive)) change_speed(a);
-    }
-    if (slows_path[a]) slow_path(tick);
-    if (stops_path[a]) state_.paths.together.stop(state_.motors);
-    if (slows_path[a] || stops_path[a]) break_off_stream();
-    if (has(outcome.outputs, a)) give_pulse(a, tick);
-    if (has(outcome.interrupts, a)) {
-      for (std::size_t t = 0; t < kAxes; ++t) {
-        const bool fired = outcome.fired[t] != 0 && has(state_.sync.triggers[t].activates, a);
-        if (fired) note_factor(shows_trigger ? t : a, Factor::synchronous);
-      }
-      if (state_.interrupts) mark_isr(a, IsrMark::kSynchronous, tick);
-    }
-    look_again(a);
-  }
-}
-
 /// V has changed: a T-shaped drive goes on at the new one, an S-shaped one keeps its own (7.1).
-void RsM8194h::change_speed(std::size_t axis) {
+void RsM8194h::change_speed(std::size_t axis, motion::Instant at) {
   const AxisUnit& unit = state_.units[axis];
   const bool keeps_its_own =
       kNormalShapes[unit.speed.mode].s_curve && chose(option("speed_change_in_s", "the_next_drive"));
@@ -297,10 +149,11 @@ void RsM8194h::change_speed(std::size_t axis) {
   const double wanted = law_of(axis).top_speed_u_s;
   law.start_speed_u_s = std::min(law.start_speed_u_s, wanted);
   law.top_speed_u_s = wanted;
-  motor.change_speed(law, now());
+  motor.change_speed(law, at);
   if (state_.units[axis].external_free_ns != 0) {
-    const double left_s = motor.drive.profile.duration_s - motor.drive.elapsed_s(now());
-    state_.units[axis].external_free_ns = after(time_of(now()).count(), left_s);
+    const double left_s = motor.drive.profile.duration_s - motor.drive.elapsed_s(at);
+    const auto at_ns = time_of(at.tick).count() + static_cast<std::int64_t>(at.after_s * 1e9);
+    state_.units[axis].external_free_ns = after(at_ns, left_s);
   }
 }
 
@@ -317,7 +170,9 @@ void RsM8194h::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
 /// What the counter that LINE_SCAN's Type names has counted: a ring comes round in it, and it may be set.
 std::int64_t RsM8194h::scan_travel(std::size_t axis) const {
   const motion::Axis& motor = state_.motors[axis];
-  return state_.scans[axis].type >= 2 ? encoder_travel(state_.units[axis], motor) : motor.travel_pulses;
+  if (state_.scans[axis].type < 2) return motor.travel_pulses;
+  const motion::EncoderLine& encoder = state_.here[axis].encoder;
+  return encoder.is_known() ? encoder.at(motor.travel_pulses) : encoder_travel(state_.units[axis], motor);
 }
 
 std::int64_t RsM8194h::scan_spacing(const LineScan& scan) const {
@@ -369,9 +224,10 @@ void RsM8194h::step_scans(Tick tick) {
       give_pulse(a, tick, given);
       scan.triggered = passed;
     }
-    // An encoder tells of the last pulses a tick later.
+    // An encoder that does not go along tells of the last pulses a tick later.
     const AxisUnit& unit = state_.units[a];
-    const bool lags = scan.type >= 2 && unit.has_encoder && unit.sent_pulses != 0;
+    const bool lags =
+        scan.type >= 2 && unit.has_encoder && !state_.here[a].encoder.is_known() && unit.sent_pulses != 0;
     if (!is_driving(a) && !lags) end_scan(a);
     runs = runs || scan.running;
   }
@@ -385,7 +241,7 @@ void RsM8194h::step_scans(Tick tick) {
 
 Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
   const bool is_simple = !inputs_changed() && !state_.touched && state_.marks.empty() &&
-                         state_.scanning == 0 && !state_.paths.together.engaged && state_.paths.let_go == 0 &&
+                         state_.scanning == 0 && !state_.paths.together.engaged &&
                          state_.steps_left == options_.steps_a_tick;
   if (!is_simple || is_resetting() || state_.execution.is_alive() || !state_.queued_triggers.empty())
     return done + 1;
@@ -394,7 +250,7 @@ Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) 
   for (std::size_t a = 0; a < kAxes && last > done; ++a) {
     const AxisUnit& unit = state_.units[a];
     const bool may_enter_ring = is_beyond_ring(unit) && state_.motors[a].moving();
-    if (heeds_encoder(unit, state_.motors[a]) || is_filtering(unit) || may_enter_ring) return done + 1;
+    if (is_filtering(unit) || may_enter_ring) return done + 1;
     if (unit.out.pulse_until > done) last = std::min(last, unit.out.pulse_until - 1);
     if (unit.held_drive.what != Drive::What::none && !unit.held) return done + 1;
     const motion::Axis& motor = state_.motors[a];

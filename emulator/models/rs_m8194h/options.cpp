@@ -140,7 +140,6 @@ MachineOptions machine_options(const DeviceSettings& settings) {
   options.short_filters_take_a_tick = chose(option("filter_delay", "a_tick_at_least"));
   options.table_writes_become_lines = chose(option("table_writes", "become_lines"));
   options.constant_paths_slow_down = chose(option("slow_stop_without_ramps", "slows_down_by_va"));
-  options.sync_goes_by_moment = chose(option("sync_order", "by_moment"));
   options.pause_holds_axes = chose(option("trigger_pause", "and_holds_all_axes"));
   options.factors_clear_by_reading = chose(option("factors_clear", "by_reading_too"));
   options.rint_clears_by_reading = chose(option("rint_clears", "by_reading_too"));

@@ -68,7 +68,6 @@ struct MachineOptions {
   bool short_filters_take_a_tick = false;
   bool table_writes_become_lines = false;
   bool constant_paths_slow_down = false;
-  bool sync_goes_by_moment = false;
   bool pause_holds_axes = false;
   bool factors_clear_by_reading = false;
   bool rint_clears_by_reading = false;

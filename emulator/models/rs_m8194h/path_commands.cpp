@@ -70,10 +70,7 @@ bool RsM8194h::keeps_path_off(const std::array<std::uint8_t, 3>& codes, const mo
     if (a < 0 || std::abs(along) < kRounding) continue;
     const auto axis = static_cast<std::size_t>(a);
     const int sense = along < 0 ? -1 : +1;
-    motion::Cause why = state_.motors[axis].forbidden(sense);
-    if (why == motion::Cause::none) {
-      why = soft_limit_by_encoder(state_.units[axis], state_.motors[axis], sense);
-    }
+    const motion::Cause why = state_.motors[axis].forbidden(sense);
     if (why == motion::Cause::none) continue;
     state_.units[axis].error_code |= error_of(why);
     is_kept = true;

@@ -38,7 +38,6 @@ struct Paths {
   bool open = false;                // a stream whose last segment has not come; it may have starved
   std::uint8_t broken = 0;          // streams that were broken off: bits by Stream, until they are begun anew
   AxisMask axes = 0;                // of what runs
-  AxisMask let_go = 0;              // of what has ended in the last tick
   std::array<std::uint8_t, 3> assigned{};  // AXIS_ASSIGN
   SpeedSettings vector{};                  // of VECTOR_SPEED and VSV to VAO
   std::array<StreamSettings, kStreams> streams{};
@@ -90,13 +89,17 @@ struct StateOf<emulator::models::rs_m8194h::StreamSettings> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::Paths> {
   using Value = emulator::models::rs_m8194h::Paths;
-  static constexpr auto fields =
-      FieldList{field("together", &Value::together), field("runs", &Value::runs),
-                field("stream", &Value::stream),     field("open", &Value::open),
-                field("broken", &Value::broken),     field("axes", &Value::axes),
-                field("let_go", &Value::let_go),     field("assigned", &Value::assigned),
-                field("vector", &Value::vector),     field("streams", &Value::streams),
-                field("end", &Value::end),           field("constant_axis", &Value::constant_axis)};
+  static constexpr auto fields = FieldList{field("together", &Value::together),
+                                           field("runs", &Value::runs),
+                                           field("stream", &Value::stream),
+                                           field("open", &Value::open),
+                                           field("broken", &Value::broken),
+                                           field("axes", &Value::axes),
+                                           field("assigned", &Value::assigned),
+                                           field("vector", &Value::vector),
+                                           field("streams", &Value::streams),
+                                           field("end", &Value::end),
+                                           field("constant_axis", &Value::constant_axis)};
   static void check(const Value& paths) {
     demand_state(paths.constant_axis >= -1 && paths.constant_axis < 4, "a path has no such axis");
     demand_state(paths.broken >> emulator::models::rs_m8194h::kStreams == 0, "there is no such stream");

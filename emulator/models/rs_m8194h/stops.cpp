@@ -62,8 +62,9 @@ void RsM8194h::take_off(std::size_t axis, WayOut way) {
   for (AxisMask& held : state_.trigger_holds) held &= static_cast<AxisMask>(~mask_of(axis));
 }
 
-void RsM8194h::slow_path(Tick tick, motion::Cause why) {
-  Paths& paths = state_.paths;
+/// One without ramps has those that its start speed gives it.
+motion::SpeedLaw RsM8194h::law_to_slow_path() const {
+  const Paths& paths = state_.paths;
   motion::SpeedLaw law = paths.together.run.speed();
   const bool has_no_ramps = law.start_speed_u_s >= law.top_speed_u_s;
   if (paths.together.engaged && has_no_ramps && machine_.constant_paths_slow_down) {
@@ -71,9 +72,14 @@ void RsM8194h::slow_path(Tick tick, motion::Cause why) {
     const std::uint32_t start_pps =
         is_stream ? paths.streams[static_cast<std::size_t>(paths.stream)].start_pps : paths.vector.start_pps;
     law.start_speed_u_s = std::min(std::max(1.0, static_cast<double>(start_pps)), law.top_speed_u_s);
-    paths.together.run.set_speed(law, tick);
   }
-  paths.together.slow_down(tick, why);
+  return law;
+}
+
+void RsM8194h::slow_path(Tick tick) {
+  motion::Coordinated& together = state_.paths.together;
+  if (together.engaged) together.run.set_speed(law_to_slow_path(), tick);
+  together.slow_down(tick);
 }
 
 void RsM8194h::halt(AxisMask axes, const StopRow& row) {

@@ -302,13 +302,14 @@ class Chain {
   void refresh_speed(int module);
 
   // The tick: chain_step.cpp.
-  void step_groups(Tick tick);
+  void step_groups();
   bool undisturbed(int module) const;
   bool waits(int module) const;
   bool stands(const Group& group, Tick done) const;
   void step_axes(Tick tick);
   void after_motion(int module, Tick begin_at);
-  void meet_triggers(int module);
+  void meet_triggers(int module, motion::Events events);
+  void step_motion(std::uint32_t singles, motion::Coordinated* path, std::span<std::int64_t> pulses);
 
   ChainOptions options_;
   std::array<Module, kModules> modules_{};

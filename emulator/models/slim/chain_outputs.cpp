@@ -121,12 +121,12 @@ void Chain::place_triggers(int module) {
   }
 }
 
-void Chain::meet_triggers(int module) {
+void Chain::meet_triggers(int module, motion::Events events) {
   Module& mine = modules_[at(module)];
   for (std::size_t i = 0; i < mine.triggers.size(); ++i) {
     const auto event = static_cast<motion::Event>(static_cast<unsigned>(motion::Event::comparator_0) + i);
     PositionTrigger& trigger = mine.triggers[i];
-    if (!trigger.armed || (axes_[at(module)].events & motion::bit(event)) == 0) continue;
+    if (!trigger.armed || (events & motion::bit(event)) == 0) continue;
     mine.outputs[trigger.output] = {.on = trigger.sets};
     if (triggers_stay()) continue;
     trigger = {};

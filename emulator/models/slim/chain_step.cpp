@@ -13,12 +13,13 @@
 #include "emulator/models/slim/outputs.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
+#include "motion/shared_tick.h"
 
 namespace understudy::emulator::models::slim {
 
 void Chain::step(Tick tick) {
   now_ = tick;
-  step_groups(tick);
+  step_groups();
   step_axes(tick);
   // What follows begins at the end of what was: no tick is lost between two commands.
   for (int module = 0; module < kModules; ++module) after_motion(module, tick);
@@ -29,12 +30,29 @@ void Chain::step(Tick tick) {
   }
 }
 
-void Chain::step_groups(Tick tick) {
+/// Places that switch outputs do so in the order in which they are passed.
+void Chain::step_motion(std::uint32_t singles, motion::Coordinated* path, std::span<std::int64_t> pulses) {
+  class Owner final : public motion::EdgeOwner {
+   public:
+    explicit Owner(Chain& chain) : chain_(chain) {}
+    void at_edge(motion::SharedTick&, std::size_t axis, motion::Events events) override {
+      chain_.meet_triggers(static_cast<int>(axis), events);
+    }
+
+   private:
+    Chain& chain_;
+  };
+  Owner owner(*this);
+  motion::step_together({.tick = now_, .axes = axes_, .here = surroundings_, .pulses = pulses}, singles, path,
+                        &owner);
+}
+
+void Chain::step_groups() {
   std::array<std::int64_t, kModules> pulses{};
   for (Group& group : groups_) {
     motion::Coordinated& motion = group.motion;
     if (!motion.engaged) continue;
-    motion.step(tick, axes_, surroundings_, pulses);
+    step_motion(0, &motion, pulses);
     const int done = std::min<int>(motion.run.completed(), group.paths);
     for (std::size_t i = 0; i < motion.axis_of.size(); ++i) {
       if (motion.axis_of[i] < 0) continue;
@@ -44,7 +62,6 @@ void Chain::step_groups(Tick tick) {
         mine.place_units = mine.fifo[0].ends[i];
         mine.fifo.pop();
       }
-      meet_triggers(motion.axis_of[i]);
     }
     group.paths = static_cast<std::uint8_t>(group.paths - done);
   }
@@ -62,8 +79,11 @@ void Chain::step_axes(Tick tick) {
     if (mine.activity == Activity::group) continue;
     motion::Axis& axis = axes_[at(module)];
     const bool idle = !axis.moving() && undisturbed(module);
-    mine.sent_pulses = idle ? 0 : axis.step(tick, surroundings_[at(module)]);
-    if (!idle) meet_triggers(module);
+    mine.sent_pulses = 0;
+    if (idle) continue;
+    std::array<std::int64_t, kModules> pulses{};
+    step_motion(1U << module, nullptr, pulses);
+    mine.sent_pulses = pulses[at(module)];
   }
   for (Group& group : groups_) {
     // Only now, so that its modules had one tick each.

@@ -85,7 +85,7 @@ void Super40nc::set_counter(int axis_number, int number, std::int32_t pulses) {
   AxisState& its = axis(axis_number);
   if (number > 0) {
     its.counts[static_cast<std::size_t>(number - 1)] = pulses;
-    see_counters(axis_number);
+    set_comparators(axis_number);
     return;
   }
   its.command.set(pulses, chip(axis_number).travel_pulses);

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "emulator/models/super_40nc/ownership.h"
+#include "motion/axis.h"
 #include "motion/counter.h"
 #include "motion/unit_scale.h"
 
@@ -46,6 +47,7 @@ struct AxisState {
   bool latch_was_on = false;
   std::uint8_t clears = 0;                            // COUNTER2 to 4, when the tick's counts are in
   std::uint8_t compares_by_tick = 0;                  // comparators that the chip's do not do
+  motion::Events latching = 0;                        // of the chip's comparators, whose event latches
   std::array<std::int64_t, kComparators> compared{};  // what those have seen last
   std::int64_t offset_lu = 0;                         // of the work coordinate against the machine's
   motion::UnitScale scale_seen{};                     // CMX and CDV as they were taken last

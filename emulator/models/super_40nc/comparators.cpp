@@ -1,9 +1,11 @@
-// The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48). By COUNTER1 the chip's stop it to the
-// pulse: as soft limits (6), = (1), on the way up (2) or down (3), set > count (4) and set < count (5). By
-// other numbers they do so when a tick is over.
+// The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48): = (1), on the way up (2) or down (3), set
+// > count (4), set < count (5), and soft limits (6). Of COUNTER1, and of COUNTER2 and COUNTER4 where they
+// count pulses or an encoder, the chip's stop and latch to the pulse; by other numbers, and as soft limits by
+// others than COUNTER1, they do so when a tick is over.
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
@@ -90,29 +92,62 @@ bool Super40nc::comparator_holds(int axis, int number) const {
   }
 }
 
+/// As the chip compares it on the way; nothing where it looks when a tick is over.
+std::optional<motion::Comparator> Super40nc::comparator_of(int axis_number, std::size_t which) const {
+  const Settings its = registers();
+  const ComparatorRow& row = kComparatorRows[which];
+  const Value method = its.of(row.method, axis_number);
+  motion::Comparator made{.relation = relation_of(method),
+                          .value = its.raw(row.value, axis_number) + (method == kSetBelow ? 1 : 0)};
+  if (made.relation == motion::Comparator::Relation::off) return std::nullopt;
+  const Value source = its.of(row.source, axis_number);
+  const AxisState& state = axis(axis_number);
+  if (source == 0) {
+    made.counter = state.command;
+    return made;
+  }
+  constexpr Value kCounter2 = 1;
+  constexpr Value kCounter4 = 3;
+  const bool is_stopped = (its.raw(kept_x(30), axis_number) >> source & 1) != 0;
+  if (is_stopped || (source != kCounter2 && source != kCounter4)) return std::nullopt;
+  // COUNTER2 by D9x23, COUNTER4 by D9x25: the pulses, the encoder, or something else.
+  const Value from = its.of(source == kCounter2 ? kept_x(23) : kept_x(25), axis_number);
+  const bool by_pulses = from == (source == kCounter2 ? 1 : 0);
+  const bool by_encoder = from == (source == kCounter2 ? 0 : 1) && !its.is_on(kept_x(19), axis_number);
+  if (!by_pulses && !by_encoder) return std::nullopt;
+  const motion::Axis& motor = chip(axis_number);
+  made.count = by_encoder ? motion::Count::encoder : motion::Count::command;
+  made.counter.range = motion::Counter::Range::bits32;
+  made.counter.set(counter(axis_number, static_cast<int>(source)),
+                   by_encoder ? motor.encoder_pulses : motor.travel_pulses);
+  return made;
+}
+
 void Super40nc::set_comparators(int axis_number) {
   const Settings its = registers();
   motion::Axis& motor = chip(axis_number);
   AxisState& state = axis(axis_number);
   std::size_t next = 0;
   state.compares_by_tick = 0;
+  state.latching = 0;
   for (std::size_t which = 0; which < kComparators; ++which) {
     const ComparatorRow& row = kComparatorRows[which];
     const Value method = its.of(row.method, axis_number);
     const Value action = its.of(row.action, axis_number);
-    if (!stops(action) || method == 0) continue;
-    const bool is_by_pulses = its.of(row.source, axis_number) == 0;
-    if (is_by_pulses && method == kSoftLimit) continue;  // the axis' own
-    const motion::Comparator::Relation relation = relation_of(method);
-    if (!is_by_pulses || relation == motion::Comparator::Relation::off || next == motor.comparators.size()) {
-      state.compares_by_tick = static_cast<std::uint8_t>(state.compares_by_tick | 1U << which);
+    // D9x50: 2 and 3 are the comparators 4 and 5.
+    const bool latches = which >= 3 && its.of(kept_x(50), axis_number) == static_cast<Value>(which) - 1;
+    if ((!stops(action) && !latches) || method == 0) continue;
+    if (its.of(row.source, axis_number) == 0 && method == kSoftLimit) continue;  // the axis' own
+    std::optional<motion::Comparator> made = comparator_of(axis_number, which);
+    if (!made || next == motor.comparators.size()) {
+      if (stops(action))
+        state.compares_by_tick = static_cast<std::uint8_t>(state.compares_by_tick | 1U << which);
       continue;
     }
-    set_comparator(axis_number, next++,
-                   {.relation = relation,
-                    .reaction = action == 1 ? motion::Reaction::stop_at_once : motion::Reaction::slow_down,
-                    .counter = state.command,
-                    .value = its.raw(row.value, axis_number) + (method == kSetBelow ? 1 : 0)});
+    if (latches) state.latching = static_cast<motion::Events>(1U << next);
+    if (stops(action))
+      made->reaction = action == 1 ? motion::Reaction::stop_at_once : motion::Reaction::slow_down;
+    set_comparator(axis_number, next++, *made);
   }
   while (next < motor.comparators.size()) set_comparator(axis_number, next++, {});
   see_counters(axis_number);

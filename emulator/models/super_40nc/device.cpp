@@ -216,24 +216,24 @@ void Super40nc::step_motion(Tick tick) {
     if (!is_on(8004)) feed_wheel(turned);
   }
   std::array<std::int64_t, kAxisCount> travel_before{};
-  std::array<std::int64_t, kAxisCount> sent_on_path{};
+  std::array<std::int64_t, kAxisCount> sent{};
+  std::array<std::int8_t, kAxisCount> phases_before{};
   std::array<bool, kAxisCount> was_on_path{};
   for (int number = 0; number < kAxisCount; ++number) {
     travel_before[static_cast<std::size_t>(number)] = chip(number).travel_pulses;
     was_on_path[static_cast<std::size_t>(number)] = is_on_path(number);
+    phases_before[static_cast<std::size_t>(number)] = chip(number).homing.phase;
   }
-  if (state_.path.engaged) step_path(tick, sent_on_path);
+  step_axes(tick, turned, sent);
   for (int number = 0; number < kAxisCount; ++number) {
     const auto n = static_cast<std::size_t>(number);
     AxisState& state = axis(number);
     motion::Axis& motor = chip(number);
-    const std::int8_t phase_before = motor.homing.phase;
-    const std::int64_t sent = was_on_path[n] ? sent_on_path[n] : motor.step(tick, here(number));
-    state.sent_pulses = state.masked ? 0 : sent;
+    state.sent_pulses = state.masked ? 0 : sent[n];
     state.followed_pulses = motor.travel_pulses - travel_before[n];
-    count_index(number, phase_before);
-    count(number, travel_before[n], turned);
-    latch(number);
+    count_index(number, phases_before[n]);
+    count(number, counted_[n].travel, turned - counted_[n].wheel);
+    latch_by_comparator(number);
     if (was_on_path[n] || (motor.events & motion::bit(motion::Event::ended)) == 0) continue;
     ended(number);
     state_.touched = true;

@@ -37,6 +37,7 @@
 #include "interpreter/super_40nc/step_programs.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
+#include "motion/shared_tick.h"
 #include "motion/surroundings.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -50,7 +51,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
                         public KeptMemory,
                         public UserProgram,
                         public Terminals,
-                        public Axes {
+                        public Axes,
+                        private motion::EdgeOwner {
  public:
   explicit Super40nc(const DeviceSettings& given);
 
@@ -327,7 +329,9 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void feed_wheel(std::int32_t edges);
   std::int64_t wheel_lu_per_count(int axis_number) const;
   void follow_ratio(int axis);
-  void count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts);
+  void count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts, Tick clock_ticks = 1);
+  void count_encoder(int axis_number, std::int64_t counts);
+  void count_until(const motion::SharedTick& tick, int axis_number);
   void add_to_counter(int axis_number, int which, std::int64_t counts);
   bool counts_now(int axis_number) const;
   /// COUNTER4, by a clock (D9x25 = 3).
@@ -338,7 +342,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   motion::Cause blocked_both_ways(int axis) const;
   motion::Cause blocked_on_path(int axis_number, const motion::Path& path) const;
   void count_index(int axis_number, std::int8_t phase_before);
-  void latch(int axis_number);
+  void latch_by_comparator(int axis_number);
   motion::AxisSettings motor_settings(int axis, bool homes) const;
   motion::AxisSettings motor_settings(int axis) const {
     return motor_settings(axis, chip(axis).homing.active());
@@ -349,7 +353,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// What has ended between ticks has been dealt with.
   void forget_end(int axis);
   void path_ended();
-  void step_path(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
+  void step_axes(Tick tick, std::int32_t wheel_counts, std::array<std::int64_t, kAxisCount>& sent);
+  void at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) override;
   bool awaits_path() const;
   void begin_path_backlash(const motion::Path& path);
   void end_path_backlash();
@@ -387,6 +392,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
 
   // --- comparators.cpp
   std::int64_t compared_number(int axis, std::size_t which) const;
+  std::optional<motion::Comparator> comparator_of(int axis, std::size_t which) const;
   void set_comparators(int axis_number);
   void set_comparator(int axis, std::size_t place, motion::Comparator wanted);
   void see_counters(int axis_number);
@@ -432,6 +438,12 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool parameters_wait_ = false;                  // likewise: those written act later, all at once
   int plc_step_ = 0;                              // not state: 0 outside of a line
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: they are told again
+  /// Of the tick that is stepped, not state: what has been counted of it so far.
+  struct CountedSoFar {
+    std::int64_t travel = 0, wheel = 0;  // up to there, and so many
+  };
+  std::array<CountedSoFar, kAxisCount> counted_{};
+  std::int32_t wheel_of_tick_ = 0;
 };
 
 }  // namespace understudy::emulator::models::super_40nc

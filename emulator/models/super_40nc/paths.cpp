@@ -23,6 +23,7 @@
 #include "motion/path.h"
 #include "motion/path_limits.h"
 #include "motion/path_run.h"
+#include "motion/shared_tick.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -243,11 +244,21 @@ void Super40nc::stop_path() {
   }
 }
 
-void Super40nc::step_path(Tick tick, std::array<std::int64_t, kAxisCount>& sent) {
-  step_path_backlash(tick, sent);
+void Super40nc::step_axes(Tick tick, std::int32_t wheel_counts, std::array<std::int64_t, kAxisCount>& sent) {
+  const bool has_path = state_.path.engaged;
+  if (has_path) step_path_backlash(tick, sent);
   std::array<std::int8_t, kAxisCount> ways{};
-  for (std::size_t n = 0; n < kAxisCount; ++n) ways[n] = state_.chips[n].last_direction;
-  state_.path.step(tick, state_.chips, state_.here, sent);
+  std::uint32_t singles = 0;
+  wheel_of_tick_ = wheel_counts;
+  for (int number = 0; number < kAxisCount; ++number) {
+    const auto n = static_cast<std::size_t>(number);
+    ways[n] = state_.chips[n].last_direction;
+    counted_[n] = {.travel = state_.chips[n].travel_pulses};
+    if (!is_on_path(number)) singles |= 1U << n;
+  }
+  motion::step_together({.tick = tick, .axes = state_.chips, .here = state_.here, .pulses = sent}, singles,
+                        &state_.path, this);
+  if (!has_path) return;
   if (chose(option("backlash_scope", "also_where_an_arc_turns_round"))) step_arc_backlash(ways, sent);
   if (!state_.path.engaged || !state_.path_is_held || !state_.path.run.at_rest(tick)) return;
   for (int number = 0; number < kAxisCount; ++number) {

@@ -14,6 +14,7 @@
 #include "emulator/models/super_40nc/settings.h"
 #include "emulator/models/super_40nc/terminals.h"
 #include "motion/axis.h"
+#include "motion/encoder_line.h"
 #include "motion/surroundings.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -76,6 +77,8 @@ void Super40nc::look_round(int axis_number) {
       seen.set_steady(function.signal, (input(function.input) != 0) == *function.active_level);
     }
   }
+  seen.encoder = edges.encoder.as<motion::EncoderLine>();
+  seen.encoder.turned = its.is_on(kept_x(13), axis_number);
   seen.version = here(axis_number).version;
   if (seen == here(axis_number)) return;
   ++seen.version;
@@ -110,6 +113,13 @@ void Super40nc::heed_axis(int axis_number, int number) {
     return static_cast<std::int32_t>(wrapped);
   };
   switch (number) {
+    case 13: {
+      // It counts the other way from here on, and has met nothing.
+      motion::Axis& motor = chip(axis_number);
+      const std::int64_t counts = axis(axis_number).encoder_counts;
+      motor.encoder_pulses = motor.encoder_seen = its.is_on(kept_x(13), axis_number) ? -counts : counts;
+      break;
+    }
     case 63:
       if (has_limit_copies()) put(kept_d(8118), its.raw(kept_x(63), axis_number), axis_number);
       break;

@@ -91,6 +91,7 @@ struct StateOf<emulator::models::super_40nc::AxisState> {
                                            field("latch_was_on", &Value::latch_was_on),
                                            field("clears", &Value::clears),
                                            field("compares_by_tick", &Value::compares_by_tick),
+                                           field("latching", &Value::latching),
                                            field("compared", &Value::compared),
                                            field("offset_lu", &Value::offset_lu),
                                            field("scale_seen", &Value::scale_seen),

@@ -16,8 +16,11 @@
 #include "emulator/models/super_40nc/settings.h"
 #include "emulator/models/super_40nc/terminals.h"
 #include "motion/axis.h"
+#include "motion/encoder_line.h"
 #include "motion/profile.h"
+#include "motion/shared_tick.h"
 #include "motion/surroundings.h"
+#include "motion/tick.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -154,6 +157,11 @@ bool Super40nc::counts_a_clock(int axis) const {
 
 /// The machine's encoder, which has moved by what came out in this tick.
 void Super40nc::set_encoder(int axis_number, std::int64_t counts) {
+  count_encoder(axis_number, counts);
+  chip(axis_number).set_encoder(registers().is_on(kept_x(13), axis_number) ? -counts : counts);
+}
+
+void Super40nc::count_encoder(int axis_number, std::int64_t counts) {
   AxisState& state = axis(axis_number);
   const Settings its = registers();
   const std::int64_t turned = counts - state.encoder_counts;
@@ -177,7 +185,8 @@ void Super40nc::clear_counters(int axis_number) {
 }
 
 /// What a tick, or many of them, have sent out, and the wheel's; the encoder's come by set_encoder().
-void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts) {
+void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts,
+                      Tick clock_ticks) {
   AxisState& state = axis(axis_number);
   const Settings its = registers();
   const std::int64_t extra = chip(axis_number).backlash_sent - state.backlash_seen;
@@ -189,6 +198,7 @@ void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t 
     state.command.set(machine_pulses(axis_number) + extra, chip(axis_number).travel_pulses);
     heed_axis(axis_number, 0);
   }
+  const bool is_beside_travel = extra != 0;
   const auto pulses_for = [&](int counter) {
     return now_counted.pulses + (is_bit(with_backlash, counter) ? now_counted.backlash : 0);
   };
@@ -203,13 +213,17 @@ void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t 
     case 1: add(2, pulses_for(2) - now_counted.wheel); break;
     default: add(2, -now_counted.wheel); break;
   }
-  if (!counts_now(axis_number)) return;
-  switch (its.of(kept_x(25), axis_number)) {
-    case 0: add(3, pulses_for(3)); break;
-    case 2: add(3, now_counted.wheel); break;
-    case 3: add(3, counts_a_clock(axis_number) ? clock_counts(now()) - clock_counts(now() - 1) : 0); break;
-    default: break;  // the encoder's
+  if (counts_now(axis_number)) {
+    switch (its.of(kept_x(25), axis_number)) {
+      case 0: add(3, pulses_for(3)); break;
+      case 2: add(3, now_counted.wheel); break;
+      case 3:
+        add(3, counts_a_clock(axis_number) ? clock_counts(now()) - clock_counts(now() - clock_ticks) : 0);
+        break;
+      default: break;  // the encoder's
+    }
   }
+  if (is_beside_travel) set_comparators(axis_number);  // by the travel they would not know of it
 }
 
 /// D8x71: edges of C in the row of the search that counts them.
@@ -223,19 +237,40 @@ void Super40nc::count_index(int axis_number, std::int8_t phase_before) {
   if (has_met) axis(axis_number).index_count = is_over ? row.count : homing.counted;
 }
 
-/// D9x50: at the DOG's edge, to the pulse, or when a comparator becomes true, at the end of the tick.
-void Super40nc::latch(int axis_number) {
+/// All counters up to this moment of a tick, of which the rest is counted behind it.
+void Super40nc::count_until(const motion::SharedTick& tick, int axis_number) {
+  CountedSoFar& so_far = counted_[static_cast<std::size_t>(axis_number)];
+  const motion::Axis& motor = chip(axis_number);
+  const double part = tick.now().tick == tick.tick() ? 1 : tick.now().after_s * motion::kTicksPerSecond;
+  const auto wheel = static_cast<std::int64_t>(part * static_cast<double>(wheel_of_tick_));
+  count(axis_number, so_far.travel, wheel - so_far.wheel, 0);
+  so_far = {.travel = motor.travel_pulses, .wheel = wheel};
+  const motion::EncoderLine& encoder = here(axis_number).encoder;
+  if (!encoder.is_known()) return;
+  const std::int64_t counts = encoder.at(motor.travel_pulses);
+  count_encoder(axis_number, encoder.turned ? -counts : counts);
+}
+
+/// D9x50: the DOG's edge, and the comparators 4 and 5, where the chip compares.
+void Super40nc::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) {
+  const int axis_number = static_cast<int>(axis);
+  const Value by = registers().of(kept_x(50), axis_number);
+  constexpr Value kDog = 1;
+  const motion::Events latches =
+      by == kDog ? motion::bit(motion::Event::mark_on) : this->axis(axis_number).latching;
+  if ((events & latches) == 0) return;
+  count_until(tick, axis_number);
+  take_latch(axis_number, chip(axis_number).travel_pulses);
+}
+
+/// By one of what the chip does not compare within the tick: when it has become true at its end.
+void Super40nc::latch_by_comparator(int axis_number) {
   AxisState& state = axis(axis_number);
-  const Settings its = registers();
-  const Value by = its.of(kept_x(50), axis_number);
+  const Value by = registers().of(kept_x(50), axis_number);
   const bool is_on = by == 2 ? comparator_holds(axis_number, 3) : by == 3 && comparator_holds(axis_number, 4);
-  const bool has_dog = (chip(axis_number).events & motion::bit(motion::Event::mark_on)) != 0;
-  const bool comes = by == 1 ? has_dog : is_on && !state.latch_was_on;
+  const bool comes = is_on && !state.latch_was_on && state.latching == 0;
   state.latch_was_on = is_on;
-  if (!comes) return;
-  const auto edge = static_cast<std::size_t>(motion::Event::mark_on);
-  take_latch(axis_number, by == 1 ? chip(axis_number).travel_at(chip(axis_number).event_at[edge])
-                                  : chip(axis_number).travel_pulses);
+  if (comes) take_latch(axis_number, chip(axis_number).travel_pulses);
 }
 
 void Super40nc::take_latch(int axis_number, std::int64_t travel) {

@@ -188,5 +188,27 @@ TEST(SlimTriggers, FollowTheCoordinateAndWorkInCoordinatedMotion) {
   EXPECT_EQ(bench.chain.arm(1, 3, 1, true, 1), Error::range);
 }
 
+/// Both triggers of one output in the same millisecond: the one that is passed last stays, either way.
+TEST(SlimTriggers, OfOneMillisecondActInTheirOrder) {
+  for (const bool forwards : {true, false}) {
+    for (const bool first_sets : {true, false}) {
+      OneChain bench;
+      bench.speeds(0, 1'000'000, 1e9);
+      bench.chain.arm(0, 1, 1, first_sets, forwards ? 5010 : -5010);
+      bench.chain.arm(0, 2, 1, !first_sets, forwards ? 5020 : -5020);
+      bench.chain.set_output(0, 1, false);
+      bench.chain.move(0, false, forwards ? 20'000 : -20'000);
+      bench.finish();
+      EXPECT_EQ(bench.chain.output(0, 1), !first_sets) << forwards;
+      // Back again they are passed in the other order.
+      bench.chain.arm(0, 1, 1, first_sets, forwards ? 5010 : -5010);
+      bench.chain.arm(0, 2, 1, !first_sets, forwards ? 5020 : -5020);
+      bench.chain.move(0, false, forwards ? -20'000 : 20'000);
+      bench.finish();
+      EXPECT_EQ(bench.chain.output(0, 1), first_sets) << forwards;
+    }
+  }
+}
+
 }  // namespace outputs_test
 }  // namespace understudy::emulator::models::slim

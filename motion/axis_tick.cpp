@@ -1,0 +1,336 @@
+#include "motion/axis_tick.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+
+#include "motion/axis.h"
+#include "motion/pulse_drive.h"
+#include "motion/surroundings.h"
+#include "motion/tick.h"
+
+namespace understudy::motion {
+
+namespace {
+
+constexpr double kTick_s = 1 / kTicksPerSecond;
+
+/// No drive is that fast; a state from outside may say so, and must not keep its tick for ever.
+constexpr std::int64_t kMostInATick = 1'000'000;
+
+Instant later(const Instant& one, const Instant& other) { return is_before(one, other) ? other : one; }
+
+}  // namespace
+
+AxisTick::AxisTick(Axis& axis, const Surroundings& here, Tick tick, std::optional<std::int64_t> carried)
+    : axis_(axis),
+      here_(here),
+      tick_(tick),
+      at_{.tick = tick - 1},
+      until_{.tick = tick},
+      travel_before_(axis.travel_pulses),
+      backlash_before_(axis.backlash_sent) {
+  at_end_ = axis_.events_between & events_of(Moment::end);
+  axis_.events_between = static_cast<Events>(axis_.events_between & ~at_end_);
+  for (std::size_t i = 0; i < kEvents; ++i) {
+    const bool was_between = (axis_.events_between >> i & 1U) != 0;
+    if (was_between && axis_.event_at[i].tick < tick - 1) axis_.event_at[i] = at_;
+  }
+  axis_.encoder_is_known = here.encoder.is_known();
+  if (axis_.encoder_is_known) {
+    // Since the last look it has met nothing, unless the machine has been moved, or does not follow any more.
+    if (axis_.seen_version == here.version) axis_.encoder_seen = here.encoder.at(axis_.travel_pulses);
+  }
+  axis_.seen_version = here.version;
+  axis_.attentive = false;
+  axis_.meet(here, at_, 0);
+  const bool is_carried = axis_.task == Task::following || (carried && axis_.task == Task::coordinated);
+  if (!is_carried) return;
+  carried_by_ = axis_.task;
+  carried_ = carried ? *carried : axis_.follower.step();
+  if (carried_ != 0 && !sets_out(carried_ < 0 ? -1 : +1, at_)) carried_ = 0;
+}
+
+/// A profile that sends pulses of its own in this tick.
+bool AxisTick::drives() const {
+  return axis_.drive.drive == Drive::running && !axis_.in_backlash && axis_.drive.elapsed_s(until_) >= 0;
+}
+
+Instant AxisTick::end_of_drive() const {
+  const double over_s = axis_.drive.elapsed_s(until_) - axis_.drive.profile.duration_s;
+  if (!(over_s > 0)) return until_;
+  return later(at_, {.tick = tick_ - 1, .after_s = std::max(0.0, kTick_s - over_s)});
+}
+
+/// Evenly over the tick, the last one at its end.
+Instant AxisTick::moment_of_carried(std::int64_t pulse) const {
+  if (pulse >= std::abs(carried_)) return until_;
+  const double part = static_cast<double>(pulse) / static_cast<double>(std::abs(carried_));
+  return later(at_, {.tick = tick_ - 1, .after_s = part * kTick_s});
+}
+
+const Instant& AxisTick::next() {
+  if (next_ == What::unknown) find_next();
+  if (next_ == What::again) moment_ = at_;
+  return moment_;
+}
+
+void AxisTick::find_next() {
+  next_ = What::nothing;
+  moment_ = until_;
+  PulseDrive& drive = axis_.drive;
+  if (drives()) {
+    axis_.watch(here_);
+    const std::int64_t travel = axis_.base_pulses + drive.direction * drive.pulses_at(tick_);
+    if (travel < axis_.watch_low || travel > axis_.watch_high) {
+      const bool too_fast = std::abs(travel - axis_.travel_pulses) > kMostInATick;
+      const std::int64_t edge = too_fast                    ? travel
+                                : travel > axis_.watch_high ? axis_.watch_high + 1
+                                                            : axis_.watch_low - 1;
+      next_ = What::edge;
+      moment_ = drive.time_of_pulse((edge - axis_.base_pulses) * drive.direction, at_, until_);
+    } else if (drive.over_at(tick_)) {
+      next_ = What::drive_ends;
+      moment_ = end_of_drive();
+    }
+  } else if (axis_.in_backlash) {
+    if (drive.over_at(tick_)) {
+      next_ = What::backlash_ends;
+      moment_ = end_of_drive();
+    }
+  } else if (come_ != std::abs(carried_) && axis_.task == carried_by_) {
+    axis_.watch(here_);
+    const std::int64_t left = std::abs(carried_) - come_;
+    const std::int64_t room =
+        carried_ > 0 ? axis_.watch_high - axis_.travel_pulses : axis_.travel_pulses - axis_.watch_low;
+    if (left > room) {
+      next_ = What::carried_edge;
+      moment_ = moment_of_carried(come_ + (left > kMostInATick ? left : room + 1));
+    }
+  }
+}
+
+void AxisTick::go_to(Instant at) {
+  PulseDrive& drive = axis_.drive;
+  const bool is_all = !is_before(at, until_);
+  const auto due = [&] {
+    const std::int64_t most = drive.pulses_at(tick_);
+    return is_all
+               ? most
+               : std::clamp(drive.pulses_at_moment(at), drive.sent_pulses, std::max(most, drive.sent_pulses));
+  };
+  if (drives()) {
+    axis_.watch(here_);
+    const std::int64_t sent_before = drive.sent_pulses;
+    const std::int64_t travel = axis_.base_pulses + drive.direction * due();
+    axis_.travel_pulses = std::clamp(travel, axis_.watch_low, axis_.watch_high);
+    drive.sent_pulses = (axis_.travel_pulses - axis_.base_pulses) * drive.direction;
+    axis_.look_at_speed(sent_before, at_, at);
+  } else if (axis_.in_backlash && drive.elapsed_s(until_) >= 0) {
+    const std::int64_t come = (due() - drive.sent_pulses) * drive.direction;
+    drive.sent_pulses += come * drive.direction;
+    axis_.backlash_sent += come;
+    axis_.play_pulses += come;
+  } else if (come_ != std::abs(carried_) && axis_.task == carried_by_) {
+    axis_.watch(here_);
+    const std::int64_t room =
+        carried_ > 0 ? axis_.watch_high - axis_.travel_pulses : axis_.travel_pulses - axis_.watch_low;
+    const double part = is_all ? 1 : at.tick < tick_ ? at.after_s * kTicksPerSecond : 1;
+    const auto come = static_cast<std::int64_t>(part * static_cast<double>(std::abs(carried_)) + 1e-9);
+    const std::int64_t pulses = std::clamp<std::int64_t>(come - come_, 0, room);
+    come_ += pulses;
+    axis_.travel_pulses += carried_ < 0 ? -pulses : pulses;
+    axis_.base_pulses = axis_.travel_pulses;
+  }
+  at_ = at;
+  axis_.know_encoder(here_);
+  forget_next();
+}
+
+void AxisTick::look() {
+  next();
+  const What what = next_;
+  next_ = What::unknown;
+  switch (what) {
+    case What::unknown: break;
+    case What::again: axis_.meet(here_, at_, 0); break;
+    case What::edge: go_to_edge(); break;
+    case What::backlash_ends: end_backlash(); break;
+    case What::drive_ends: end_drive(); break;
+    case What::carried_edge: {
+      const std::int64_t left = std::abs(carried_) - come_;
+      const std::int64_t room =
+          carried_ > 0 ? axis_.watch_high - axis_.travel_pulses : axis_.travel_pulses - axis_.watch_low;
+      const std::int64_t pulses = left > kMostInATick ? left : room + 1;
+      come_ += pulses;
+      at_ = moment_;
+      const int way = carried_ < 0 ? -1 : +1;
+      go_on_carried(pulses * way, at_);
+      if (axis_.task == carried_by_ && against(way) == Cause::none) break;
+      const bool is_ended = come_ != std::abs(carried_) && axis_.task == Task::coordinated;
+      come_ = std::abs(carried_);
+      if (is_ended) axis_.end(against(way), at_);
+      break;
+    }
+    case What::nothing:
+      go_to(until_);
+      next_ = What::nothing;
+      is_over_ = true;
+      break;
+  }
+}
+
+/// On to the first pulse beyond what was watched, at the moment it is sent.
+void AxisTick::go_to_edge() {
+  PulseDrive& drive = axis_.drive;
+  const std::int64_t travel = axis_.base_pulses + drive.direction * drive.pulses_at(tick_);
+  const bool too_fast = std::abs(travel - axis_.travel_pulses) > kMostInATick;
+  const std::int64_t edge = too_fast                    ? travel
+                            : travel > axis_.watch_high ? axis_.watch_high + 1
+                                                        : axis_.watch_low - 1;
+  const std::int64_t sent_before = drive.sent_pulses;
+  drive.sent_pulses = (edge - axis_.base_pulses) * drive.direction;
+  axis_.travel_pulses = edge;
+  axis_.look_at_speed(sent_before, at_, moment_);
+  at_ = moment_;
+  axis_.meet(here_, at_, static_cast<int>(drive.direction));
+}
+
+/// Sends the last of the backlash, and begins the motion itself, at that very moment.
+void AxisTick::end_backlash() {
+  PulseDrive& drive = axis_.drive;
+  const std::int64_t come = (drive.pulses_at(tick_) - drive.sent_pulses) * drive.direction;
+  axis_.backlash_sent += come;
+  axis_.play_pulses += come;
+  const Profile rest = axis_.planned(axis_.law);
+  const int way = static_cast<int>(drive.direction);
+  axis_.in_backlash = false;
+  at_ = moment_;
+  drive.start(rest, way, at_);
+}
+
+/// Sends the last of a drive. What follows by itself begins at the tick's end.
+void AxisTick::end_drive() {
+  PulseDrive& drive = axis_.drive;
+  const std::int64_t sent_before = drive.sent_pulses;
+  drive.sent_pulses = drive.pulses_at(tick_);
+  axis_.travel_pulses = axis_.base_pulses + drive.direction * drive.sent_pulses;
+  axis_.look_at_speed(sent_before, at_, until_);
+  at_ = moment_;
+  axis_.know_encoder(here_);
+  if (axis_.comes_back) {
+    const std::int64_t back = axis_.base_pulses + drive.direction * axis_.target_pulses - axis_.travel_pulses;
+    axis_.drop();
+    if (back == 0) {
+      axis_.end(Cause::arrived, until_);
+    } else if (const Cause why = axis_.begin(Task::move, back < 0 ? -1 : +1, back, axis_.law, until_);
+               why != Cause::none) {
+      axis_.end(why, until_);
+    }
+  } else if (!axis_.slowing && axis_.settings.waits_for_in_position &&
+             (axis_.signals & bit(Signal::in_position)) == 0) {
+    drive.stop();
+    axis_.base_pulses = axis_.travel_pulses;
+    axis_.settling = true;
+  } else {
+    axis_.end(axis_.slowing ? axis_.cause : Cause::arrived, until_);
+  }
+  for (const Event event : {Event::ended, Event::homed}) {
+    if ((axis_.events_between & bit(event)) != 0) axis_.event_at[static_cast<std::size_t>(event)] = at_;
+  }
+}
+
+/// Why an axis that is carried may not go on in a way.
+Cause AxisTick::against(int way) const {
+  // The one pulse beyond a soft limit is sent, as by the drive's motions: it is what triggers.
+  const auto& soft_limit = way > 0 ? axis_.settings.soft_limit_plus : axis_.settings.soft_limit_minus;
+  const Cause why = axis_.forbidden(way);
+  const bool soft = why == Cause::soft_limit_plus || why == Cause::soft_limit_minus;
+  if (soft && axis_.soft_limit_place() == *soft_limit) return Cause::none;
+  // On its way to a standstill by then.
+  return axis_.slowing && why != Cause::servo_off ? Cause::none : why;
+}
+
+/// Of pulses that come from elsewhere. Backlash comes out at once: there is no time of its own for it.
+bool AxisTick::sets_out(int way, Instant at) {
+  if (const Cause why = against(way); why != Cause::none) {
+    // Against a limit a wheel turns in vain; a path cannot go on.
+    if (axis_.task == Task::coordinated) axis_.end(why, at);
+    return false;
+  }
+  axis_.drive.direction = way;
+  if (!axis_.settings.slips) {
+    axis_.backlash_sent += axis_.play_before(way) * way;
+    axis_.play_pulses = way > 0 ? axis_.settings.backlash_pulses : 0;
+  }
+  axis_.last_direction = static_cast<std::int8_t>(way);
+  return true;
+}
+
+void AxisTick::go_on_carried(std::int64_t pulses, Instant at) {
+  axis_.travel_pulses += pulses;
+  axis_.base_pulses = axis_.travel_pulses;
+  axis_.meet(here_, at, pulses < 0 ? -1 : +1);
+}
+
+void AxisTick::go_by(std::int64_t pulses, Instant at) {
+  at_ = at;
+  const int way = pulses < 0 ? -1 : +1;
+  if (pulses != 0 && sets_out(way, at)) {
+    const bool too_fast = pulses * way > kMostInATick;
+    while (pulses != 0 && axis_.task == Task::coordinated && against(way) == Cause::none) {
+      axis_.watch(here_);
+      const std::int64_t room =
+          way > 0 ? axis_.watch_high - axis_.travel_pulses : axis_.travel_pulses - axis_.watch_low;
+      if (pulses * way <= room) {
+        axis_.travel_pulses += pulses;
+        axis_.base_pulses = axis_.travel_pulses;
+        pulses = 0;
+        break;
+      }
+      const std::int64_t now = too_fast ? pulses : (room + 1) * way;
+      pulses -= now;
+      go_on_carried(now, at);
+    }
+    if (pulses != 0 && axis_.task == Task::coordinated) axis_.end(against(way), at);
+  }
+  axis_.know_encoder(here_);
+  forget_next();
+}
+
+Events AxisTick::take_events() {
+  const Events fresh = axis_.events_between;
+  axis_.events_between = 0;
+  // What its own turning round begins, is at its beginning when the tick ends.
+  at_end_ = static_cast<Events>(at_end_ | (fresh & events_of(Moment::end)));
+  const auto now = static_cast<Events>(fresh & ~events_of(Moment::end));
+  taken_ = static_cast<Events>(taken_ | now);
+  return now;
+}
+
+void AxisTick::leave_start_to_next_tick() {
+  next_tick_ = static_cast<Events>(next_tick_ | (axis_.events_between & events_of(Moment::end)));
+  axis_.events_between = static_cast<Events>(axis_.events_between & ~events_of(Moment::end));
+}
+
+std::int64_t AxisTick::finish() {
+  take_events();
+  axis_.watch(here_);
+  // A path or a wheel may turn towards the limit that the axis stands on, or stands still at first.
+  const bool may_turn = axis_.task == Task::coordinated || axis_.task == Task::following;
+  const bool at_a_limit =
+      may_turn && (axis_.forbidden(+1) != Cause::none || axis_.forbidden(-1) != Cause::none);
+  const std::int64_t pulses = axis_.travel_pulses - travel_before_ + axis_.backlash_sent - backlash_before_;
+  if (pulses != 0) axis_.raise(Event::pulse, until_);
+  axis_.attentive = axis_.attentive || axis_.in_backlash || at_a_limit ||
+                    (axis_.settings.raises & bit(Event::pulse)) != 0 || axis_.waits_for_constant_speed();
+  if (axis_.task == Task::following)
+    axis_.drive.next_look = 0;  // it has no plan: each of its ticks comes here
+  axis_.events = static_cast<Events>(taken_ | at_end_ | axis_.events_between);
+  axis_.events_between = next_tick_;
+  return axis_.inverted ? -pulses : pulses;
+}
+
+}  // namespace understudy::motion

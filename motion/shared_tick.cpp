@@ -1,0 +1,206 @@
+#include "motion/shared_tick.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "motion/axis.h"
+#include "motion/axis_tick.h"
+#include "motion/coordinated.h"
+#include "motion/path_tick.h"
+#include "motion/pulse_drive.h"
+
+namespace understudy::motion {
+
+namespace {
+
+constexpr Events kAtEnd = events_of(Moment::end);
+
+/// Actions that bring about each other at one moment: more are left to the next tick.
+constexpr int kMostAtOnce = 64;
+
+}  // namespace
+
+void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* path, EdgeOwner* owner,
+                   bool stays_engaged) {
+  if (path != nullptr && !path->engaged) path = nullptr;
+  std::array<Axis::QuietTick, SharedTick::kMost> quiet;
+  std::uint32_t restless = 0;  // of the singles
+  std::size_t count = 0;
+  for (std::uint32_t left = singles; left != 0; left &= left - 1) {
+    const auto axis = static_cast<std::size_t>(std::countr_zero(left));
+    const bool is_quiet = all.axes[axis].step_quietly(all.tick, all.here[axis], quiet[count++]);
+    if (!is_quiet) [[unlikely]]
+      restless |= 1U << axis;
+  }
+  std::optional<Coordinated::Ahead> ahead;
+  if (path != nullptr) ahead = path->look_ahead(all.tick, all.axes, all.here, stays_engaged);
+  count = 0;
+  if (restless == 0 && (!ahead || ahead->is_quiet)) [[likely]] {
+    for (std::uint32_t left = singles; left != 0; left &= left - 1) {
+      all.pulses[static_cast<std::size_t>(std::countr_zero(left))] += quiet[count++].pulses;
+    }
+    if (path == nullptr) return;
+    path->cross(*ahead, all.axes, all.pulses);
+    return path->settle(all.tick, all.axes);
+  }
+  SharedTick tick(all, path, owner);
+  for (std::uint32_t left = singles; left != 0; left &= left - 1) {
+    SharedTick::Member& member = tick.members_[tick.count_++];
+    member.axis = static_cast<std::size_t>(std::countr_zero(left));
+    member.is_quiet = (restless >> member.axis & 1U) == 0;
+    member.quiet = quiet[count++];
+  }
+  tick.ahead_ = ahead;
+  tick.run(stays_engaged);
+}
+
+SharedTick::Member* SharedTick::member_of(std::size_t axis) {
+  for (Member& member : std::span(members_).first(count_)) {
+    if (member.axis == axis) return &member;
+  }
+  return nullptr;
+}
+
+/// One that had nothing in its way is taken back to where the tick began.
+void SharedTick::open(Member& member) {
+  if (member.part) return;
+  Axis& axis = all_.axes[member.axis];
+  if (member.is_quiet) axis.take_back(member.quiet);
+  member.part.emplace(axis, all_.here[member.axis], all_.tick, member.quiet.followed);
+}
+
+void SharedTick::open_path() {
+  if (path_ == nullptr || path_tick_) return;
+  PathTick::Parts parts{};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::int8_t number = path_->axis_of[i];
+    if (number < 0 || static_cast<std::size_t>(number) >= all_.axes.size()) continue;
+    Member* const member = member_of(static_cast<std::size_t>(number));
+    open(*member);
+    parts[i] = &*member->part;
+  }
+  path_tick_.emplace(*path_, *ahead_, all_.tick, all_.axes, parts, stays_engaged_);
+}
+
+void SharedTick::run(bool stays_engaged) {
+  stays_engaged_ = stays_engaged;
+  now_ = {.tick = all_.tick - 1};
+  for (std::size_t i = 0; path_ != nullptr && i < path_->axis_of.size(); ++i) {
+    const std::int8_t number = path_->axis_of[i];
+    if (number < 0 || static_cast<std::size_t>(number) >= all_.axes.size()) continue;
+    Member& member = members_[count_++];
+    member.axis = static_cast<std::size_t>(number);
+    member.is_on_path = true;
+  }
+  for (Member& member : std::span(members_).first(count_)) {
+    if (!member.is_on_path && !member.is_quiet) open(member);
+  }
+  if (path_ != nullptr && !ahead_->is_quiet) open_path();
+  heed_events();
+  while (look_at_first()) heed_events();
+  finish();
+}
+
+/// Whoever has something next goes there. False where nobody has.
+bool SharedTick::look_at_first() {
+  Member* first = nullptr;
+  for (Member& member : std::span(members_).first(count_)) {
+    if (!member.part || member.part->is_over()) continue;
+    if (first == nullptr || is_before(member.part->next(), first->part->next())) first = &member;
+  }
+  const bool path_has = path_tick_ && !path_tick_->is_over();
+  if (path_has && (first == nullptr || is_before(path_tick_->next(), first->part->next()))) {
+    now_ = path_tick_->next();
+    path_tick_->look();
+    return true;
+  }
+  if (first == nullptr) return false;
+  now_ = first->part->next();
+  first->part->look();
+  if (first->is_on_path && path_tick_) path_tick_->look_again();
+  return true;
+}
+
+void SharedTick::heed_events() {
+  for (int round = 0; round < kMostAtOnce; ++round) {
+    bool has_happened = false;
+    for (Member& member : std::span(members_).first(count_)) {
+      if (!member.part) continue;
+      const Events events = member.part->take_events();
+      if (events == 0 || owner_ == nullptr) continue;
+      has_happened = true;
+      act(member.axis, events);
+    }
+    if (!has_happened) return;
+  }
+}
+
+void SharedTick::act(std::size_t axis, Events events) {
+  std::array<bool, kMost> was_attentive{};
+  for (std::size_t i = 0; i < count_; ++i) {
+    bool& attentive = all_.axes[members_[i].axis].attentive;
+    was_attentive[i] = attentive;
+    attentive = false;
+  }
+  owner_->at_edge(*this, axis, events);
+  for (std::size_t i = 0; i < count_; ++i) {
+    bool& attentive = all_.axes[members_[i].axis].attentive;
+    if (members_[i].part) {
+      members_[i].part->leave_start_to_next_tick();
+      attentive ? members_[i].part->look_again() : members_[i].part->forget_next();
+    }
+    attentive = attentive || was_attentive[i];
+  }
+  if (path_tick_) path_tick_->look_again();
+}
+
+void SharedTick::bring(std::size_t axis) {
+  if (is_closed_) return;
+  if (path_ != nullptr && path_->takes(axis)) {
+    open_path();
+    path_tick_->go_to(now_);
+    return;
+  }
+  Member* const member = member_of(axis);
+  if (member == nullptr) return;
+  open(*member);
+  if (!member->part->is_over()) member->part->go_to(now_);
+}
+
+void SharedTick::slow_path(Cause why, const SpeedLaw& by) {
+  if (path_ == nullptr) return;
+  if (is_closed_) {
+    path_->run.set_speed(by, now_.tick);
+    return path_->slow_down(now_.tick, why);
+  }
+  open_path();
+  path_tick_->go_to(now_);
+  path_tick_->slow_down(why, by);
+}
+
+void SharedTick::finish() {
+  now_ = {.tick = all_.tick};
+  if (path_ != nullptr && !path_tick_) path_->cross(*ahead_, all_.axes, all_.pulses);
+  if (path_ != nullptr) path_->settle(all_.tick, all_.axes);
+  heed_events();
+  is_closed_ = true;
+  std::array<Events, kMost> at_end{};
+  for (std::size_t i = 0; i < count_; ++i) {
+    Member& member = members_[i];
+    if (member.part) {
+      all_.pulses[member.axis] += member.part->finish();
+      at_end[i] = static_cast<Events>(all_.axes[member.axis].events & kAtEnd);
+    } else if (!member.is_on_path) {
+      all_.pulses[member.axis] += member.quiet.pulses;
+    }
+  }
+  for (std::size_t i = 0; i < count_ && owner_ != nullptr; ++i) {
+    if (at_end[i] != 0) owner_->at_edge(*this, members_[i].axis, at_end[i]);
+  }
+}
+
+}  // namespace understudy::motion

@@ -1,0 +1,105 @@
+// The one place where a tick is divided: the axes of a device, and the path that carries some of them, go
+// from edge to edge, and whatever an edge reads, sets or stops, of its own axis or of others, is of that
+// moment.
+//
+//   X  ├────────────●─────────────────────┤     ● an edge; its owner is told, and acts
+//   Y  ├────────────┊──────────●──────────┤     ┊ and brings there whom it acts on
+//   path ├───────────────────┊────────────┤
+//
+// The order is that of the moments (kMoments in motion/axis.h); of equal ones that of the axes, the path
+// last; what an action brings about at its moment comes next. Where nothing can happen in the tick it is
+// that of each axis alone, and costs as little.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "motion/axis.h"
+#include "motion/axis_tick.h"
+#include "motion/coordinated.h"
+#include "motion/path_tick.h"
+#include "motion/pulse_drive.h"
+
+namespace understudy::motion {
+
+class SharedTick;
+
+/// Who acts when something happens to an axis.
+class EdgeOwner {
+ public:
+  /// At tick.now(), where `axis` has come to; others are there when they have been brought.
+  virtual void at_edge(SharedTick& tick, std::size_t axis, Events events) = 0;
+
+ protected:
+  ~EdgeOwner() = default;
+};
+
+/// A tick of some axes; the spans go together, and pulses are added to, signed as they come out.
+struct TickOfAxes {
+  Tick tick = 0;
+  std::span<Axis> axes;
+  std::span<const Surroundings> here;
+  std::span<std::int64_t> pulses;
+};
+
+/// Steps the axes of the mask `singles`, which no path carries, and those that `path` carries (null: none):
+/// at most SharedTick::kMost. `owner` may be null.
+void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* path, EdgeOwner* owner,
+                   bool stays_engaged = false);
+
+/// What the owner may ask while it acts. It changes an axis only after it has brought it here, and then at
+/// this moment.
+class SharedTick {
+ public:
+  static constexpr std::size_t kMost = 4;
+
+  Instant now() const { return now_; }
+  Tick tick() const { return all_.tick; }
+  std::span<Axis> axes() const { return all_.axes; }
+  /// Of the whole tick, where the event is of its end.
+  std::int64_t pulses(std::size_t axis) const { return all_.pulses[axis]; }
+  /// On to the present moment; all of a path's axes come along.
+  void bring(std::size_t axis);
+  /// Brings the path here and slows it down, by the ramps of `by`.
+  void slow_path(Cause why, const SpeedLaw& by);
+
+ private:
+  friend void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* path, EdgeOwner* owner,
+                            bool stays_engaged);
+
+  struct Member {
+    std::size_t axis = 0;
+    bool is_on_path = false;
+    bool is_quiet = false;
+    Axis::QuietTick quiet{};
+    std::optional<AxisTick> part{};
+  };
+
+  SharedTick(const TickOfAxes& all, Coordinated* path, EdgeOwner* owner) noexcept
+      : all_(all), path_(path), owner_(owner) {}
+
+  void run(bool stays_engaged);
+  void open(Member& member);
+  void open_path();
+  Member* member_of(std::size_t axis);
+  bool look_at_first();
+  void heed_events();
+  void act(std::size_t axis, Events events);
+  void finish();
+
+  const TickOfAxes& all_;
+  Coordinated* path_;
+  EdgeOwner* owner_;
+  std::array<Member, kMost> members_{};
+  std::size_t count_ = 0;
+  std::optional<Coordinated::Ahead> ahead_{};
+  bool stays_engaged_ = false;
+  std::optional<PathTick> path_tick_{};
+  Instant now_{};
+  bool is_closed_ = false;
+};
+
+}  // namespace understudy::motion
