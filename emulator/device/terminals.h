@@ -17,6 +17,9 @@ class Terminals {
   virtual bool has_terminal(int /*terminal*/) const { return true; }
   /// Whether an output conducts.
   virtual bool output(int terminal) const = 0;
+  /// Whether an output may change in ticks that only count on (Device::cross_to), because it goes by what
+  /// moves with an axis. Where a wire leads from it those ticks are run, so that the wire has it at its tick.
+  virtual bool output_moves(int terminal) const = 0;
   /// Of `count` digital outputs from `first` on, 32 at most; the first in bit 0. Where there are hundreds a
   /// device has them ready.
   virtual std::uint32_t output_word(int first, int count) const {

@@ -211,6 +211,7 @@ class World final : public WorldView {
   void run_lines(SimTime time);
   Tick next_active_tick() const;
   Tick next_event_tick(Tick most) const;
+  bool has_moving_wires() const;
   /// Fewer ticks are run one by one sooner than crossed.
   static constexpr Tick kWorthCrossing = 4;
   bool may_cross(Tick most) const {

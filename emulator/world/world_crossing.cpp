@@ -6,6 +6,8 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/machine_ahead.h"
+#include "emulator/device/terminals.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/plant/plant.h"
 #include "emulator/world/world.h"
 
@@ -35,10 +37,18 @@ class Machines final : public MachineAhead {
 
 }  // namespace
 
+/// Whether a wire leads from what may change in ticks that only count on.
+bool World::has_moving_wires() const {
+  return std::any_of(wires_.begin(), wires_.end(), [&](const WireSetup& wire) {
+    const bool is_outputs = wire.from_axis < 0 && devices_[wire.from_device]->powered();
+    return is_outputs && devices_[wire.from_device]->terminals()->output_moves(wire.from_terminal);
+  });
+}
+
 /// The first tick at which something happens besides motion that goes on; not beyond `most` + 1.
 Tick World::next_event_tick(Tick most) const {
   constexpr Tick kFarAhead = 1'000'000'000'000;  // so that closed forms stay within their numbers
-  if (!input_turns_.empty()) return done_ + 1;
+  if (!input_turns_.empty() || has_moving_wires()) return done_ + 1;
   Tick last = std::min({most, next_fault_tick() - 1, done_ + kFarAhead});
   for (std::size_t d = 0; d < devices_.size() && last > done_; ++d) {
     for (const PlantAxis& plant : plants_[d]) last = std::min(last, plant.next_active_tick(done_) - 1);

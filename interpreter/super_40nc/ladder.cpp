@@ -62,10 +62,7 @@ class LadderMaker {
       note_reads(line);
     }
     ladder_.steps_.push_back({});
-    for (const auto& [letter, number] : reads_) {
-      ladder_.reads_.push_back({letter, number});
-      ladder_.reads_special_ |= is_special(ladder_.reads_.back());
-    }
+    for (const auto& [letter, number] : reads_) ladder_.reads_.push_back({letter, number});
     look_at_timers();
   }
 

@@ -78,7 +78,6 @@ class Ladder {
   /// Everything that a scan may look at, each once: when none of it has changed since a scan that changed
   /// nothing, a scan would change nothing. Special ones may be computed, so the device has to know them.
   const std::vector<Operand>& reads() const { return reads_; }
-  bool reads_special() const { return reads_special_; }
 
  private:
   friend class LadderMaker;
@@ -90,7 +89,6 @@ class Ladder {
   std::size_t memory_count_ = 0;
   std::vector<std::uint32_t> timers_;
   std::vector<Operand> reads_;
-  bool reads_special_ = false;
 };
 
 }  // namespace understudy::interpreter::super_40nc

@@ -74,6 +74,14 @@ struct Cell {
   bool high_half = true;  // a write: the high word came with it (always so for 16-bit registers)
 };
 
+/// When what a reader gives may be another although nobody writes it. Whoever sleeps over ticks goes by it: a
+/// program that has looked at a value need look again in these ticks only.
+enum class Varies : std::uint8_t {
+  in_ticks,      // in ticks that are run as they are, or by what comes from outside
+  while_moving,  // with the pulses of an axis: in ticks that only count on as well (Device::cross_to)
+  with_time,     // by the clock alone, at the ticks that `changes_at` gives
+};
+
 /// The present value, if it is not simply the stored one.
 using Reader = Value (*)(const RegisterBank& bank, Cell cell);
 /// The first tick after `done` at which the value may be another although nothing happens: it tells time.
@@ -125,10 +133,12 @@ struct BitField {
   std::string_view name;
   int width = 1;
   Reader reader = nullptr;  // their present value, where it is not simply the register's
+  Varies varies = Varies::in_ticks;
 
-  template <auto function>
+  template <auto function, Varies when>
   constexpr BitField& reads() {
     reader = Handler<function>::call;
+    varies = when;
     return *this;
   }
   constexpr std::uint32_t mask() const { return (width >= 32 ? ~0U : (1U << width) - 1U) << bit; }
@@ -174,7 +184,8 @@ struct RegisterRow {
 
   int argument = 0;
   Reader reader = nullptr;
-  NextChange next_change = nullptr;  // null: it changes only when something happens
+  Varies varies = Varies::in_ticks;  // what the reader gives
+  NextChange next_change = nullptr;  // of what tells time
   Effect effect = nullptr;
   bool is_view = false;  // of other state: no slot in the image, and not kept; without a reader `factory`
   std::span<const BitField> fields{};
@@ -246,9 +257,10 @@ struct RegisterRow {
     since = version;
     return *this;
   }
-  template <auto function>
+  template <auto function, Varies when>
   constexpr RegisterRow& reads(int with_argument = 0) {
     reader = Handler<function>::call;
+    varies = when;
     argument = with_argument;
     return *this;
   }
@@ -259,10 +271,10 @@ struct RegisterRow {
     return *this;
   }
   /// A view of other state, by a reader; writes reach that state by the effect.
-  template <auto function>
+  template <auto function, Varies when>
   constexpr RegisterRow& shows(int with_argument = 0) {
     is_view = true;
-    return reads<function>(with_argument);
+    return reads<function, when>(with_argument);
   }
   /// A view that never changes.
   constexpr RegisterRow& always(Value value) {
@@ -289,6 +301,12 @@ struct RegisterRow {
   constexpr RegisterRow& triggers(int with_argument = 0) {
     acts_on_zero = false;
     return does<function>(with_argument);
+  }
+  /// Of its reader, or of a field's.
+  constexpr bool moves() const {
+    bool does = varies == Varies::while_moving;
+    for (const BitField& field : fields) does = does || field.varies == Varies::while_moving;
+    return does;
   }
   constexpr RegisterRow& missing_trigger(std::string_view what_is_missing) {
     acts_on_zero = false;

@@ -80,6 +80,8 @@ void demand_sense_of_acts(const RegisterRow& row, const Demand& demand) {
   demand(can_be_written || (row.effect == nullptr && row.acts_on_zero),
          "can only be read, and has an effect");
   demand(row.access != Access::write || row.reader == nullptr, "can only be written, and has a reader");
+  demand((row.varies == Varies::with_time) == (row.next_change != nullptr),
+         "changes with time, and does not say at which ticks, or says so and does not change");
   demand(!row.is_view || !can_be_written || row.effect != nullptr || row.message != nullptr,
          "is a view that can be written, and nothing takes what is written");
   if (row.message == nullptr) return;

@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/complete_table.h"
 #include "base/simulated_time.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/row.h"
@@ -111,6 +113,25 @@ enum class View : std::uint8_t {
   at_lower_limit,
 };
 inline constexpr std::size_t kViews = 11;
+/// When each of them changes although no host writes it.
+inline constexpr HandlerRow<View, Varies> kChangesOfViews[] = {
+    {View::position, Varies::while_moving},   {View::actual_speed, Varies::while_moving},
+    {View::encoder, Varies::while_moving},    {View::busy, Varies::in_ticks},
+    {View::ready, Varies::in_ticks},          {View::arrived, Varies::in_ticks},
+    {View::homed, Varies::in_ticks},          {View::enabled, Varies::in_ticks},
+    {View::alarm, Varies::in_ticks},          {View::at_upper_limit, Varies::in_ticks},
+    {View::at_lower_limit, Varies::in_ticks},
+};
+static_assert(std::size(kChangesOfViews) == kViews);
+constexpr Varies changes_of(View view) {
+  constexpr std::array kAll = [] {
+    std::array<View, kViews> all{};
+    for (std::size_t i = 0; i < kViews; ++i) all[i] = static_cast<View>(i);
+    return all;
+  }();
+  constexpr CompleteTable<View, Varies> kTable(kAll, kChangesOfViews);
+  return kTable[view];
+}
 /// Whether it is 0 or 1.
 constexpr bool is_flag(View view) { return view >= View::busy; }
 

@@ -335,4 +335,8 @@ bool ImportedDevice::output(int terminal) const {
   return powered() && spot && value_at(*spot) != 0;
 }
 
+bool ImportedDevice::output_moves(int terminal) const {
+  return model_.output_moves(static_cast<std::size_t>(terminal)) && any_moves();
+}
+
 }  // namespace understudy::emulator::models::imported

@@ -82,11 +82,12 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
 
   // --- terminals and axes -------------------------------------------------------------------------
   bool output(int terminal) const override;
+  bool output_moves(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override { return at(axis).sent_pulses; }
   double speed_pps(int axis) const override { return imported::speed_pps(at(axis), now()); }
   std::optional<bool> servo_on(int axis) const override;
-  void connect_encoder(int axis, std::int64_t counts) override { set_encoder(axis, counts); }
-  void set_encoder(int axis, std::int64_t counts) override { at(axis).encoder_counts = counts; }
+  void connect_encoder(int axis, std::int64_t counts) override { at(axis).encoder_counts = counts; }
+  void set_encoder(int axis, std::int64_t counts) override;
   bool meets_edges() const override { return true; }
   std::int64_t place_pulses(int axis) const override { return at(axis).motor.travel_pulses; }
   void set_edges(int axis, const MachineEdges& edges) override;
@@ -122,6 +123,7 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   void look_round(std::size_t axis_number);
   void finish_step(std::size_t axis_number, std::int64_t pulses);
   bool is_quiet(const AxisState& axis) const;
+  bool any_moves() const;
   Tick next_tick_of_values(Tick done) const;
   void renew_followed(Tick tick);
 

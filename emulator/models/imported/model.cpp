@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -57,7 +58,9 @@ std::vector<RegisterRow> ImportedModel::bound_rows() {
     RegisterRow& row = rows[i];
     row.argument = static_cast<int>(i);
     if (shown_[i].empty() || row.access == Access::write) continue;
-    row.reads<read_shown>(static_cast<int>(i));
+    const bool does_move = moves(description_, shown_, {.number = i});
+    row.reads<read_shown, Varies::in_ticks>(static_cast<int>(i));
+    if (does_move) row.varies = Varies::while_moving;
     row.is_view = shown_[i].front().spot.is_whole();
     if (row.is_view && row.access != Access::read) row.does<write_shown>(static_cast<int>(i));
   }
@@ -72,6 +75,18 @@ ImportedModel::ImportedModel(Description description)
   for (const RegisterRow& row : map_.rows()) {
     slots_.push_back(
         map_.at(row.table, row.address, kFirmwares.back(), description_.policy.low_word_first).slot);
+  }
+  find_what_moves();
+}
+
+void ImportedModel::find_what_moves() {
+  for (const Terminal& terminal : description_.terminals) {
+    moving_outputs_.push_back(!terminal.is_input && terminal.spot &&
+                              moves(description_, shown_, *terminal.spot));
+  }
+  for (const AxisBinding& axis : description_.axes) {
+    for (const std::optional<Quantity>& number : axis.numbers)
+      numbers_move_ |= number && number->spot && moves(description_, shown_, *number->spot);
   }
 }
 

@@ -32,16 +32,23 @@ class ImportedModel {
   int slot_of(std::size_t number) const { return slots_[number]; }
   Type type_of(std::size_t number) const { return description_.registers[number].type; }
   std::span<const ShownPart> shown(std::size_t number) const { return shown_[number]; }
+  /// Whether an output may change with each pulse of an axis, by what it shows.
+  bool output_moves(std::size_t terminal) const { return moving_outputs_[terminal]; }
+  /// Whether a number that an axis runs by does: then it is asked for in each tick.
+  bool numbers_move() const { return numbers_move_; }
 
  private:
   std::vector<RegisterRow> bound_rows();
   Model made_model();
+  void find_what_moves();
 
   const Description description_;
   const std::vector<std::vector<ShownPart>> shown_;
   std::vector<std::vector<BitField>> fields_;
   const RegisterMap map_;
   std::vector<int> slots_;
+  std::vector<bool> moving_outputs_;  // by terminal
+  bool numbers_move_ = false;
   std::vector<PortRow> ports_;
   std::vector<TerminalRow> terminals_;
   std::vector<AxisRow> axes_;

@@ -1,8 +1,10 @@
 #include "emulator/models/imported/shown.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/imported/description.h"
 
 namespace understudy::emulator::models::imported {
@@ -26,6 +28,34 @@ std::vector<std::vector<ShownPart>> shown_parts(const Description& description) 
   for (std::size_t i = 0; i < description.comparisons.size(); ++i)
     add({.what = ShownPart::What::comparison, .spot = description.comparisons[i].spot, .number = i});
   return all;
+}
+
+namespace {
+
+bool meet(const Spot& a, const Spot& b) {
+  return a.is_whole() || b.is_whole() || (a.bit < b.bit + b.width && b.bit < a.bit + a.width);
+}
+
+}  // namespace
+
+bool moves(const Description& description, const std::vector<std::vector<ShownPart>>& shown,
+           const Spot& spot) {
+  const auto side_moves = [&](const Quantity& side) {
+    return side.spot && moves(description, shown, *side.spot);
+  };
+  return std::any_of(shown[spot.number].begin(), shown[spot.number].end(), [&](const ShownPart& part) {
+    if (!meet(part.spot, spot)) return false;
+    switch (part.what) {
+      case ShownPart::What::axis: return changes_of(part.view) == Varies::while_moving;
+      case ShownPart::What::input: return false;      // a tick is run for it
+      case ShownPart::What::following: return false;  // it is renewed in ticks of its own
+      case ShownPart::What::comparison: {
+        const Comparison& comparison = description.comparisons[part.number];
+        return side_moves(comparison.left) || side_moves(comparison.right);
+      }
+    }
+    return false;
+  });
 }
 
 }  // namespace understudy::emulator::models::imported

@@ -17,6 +17,11 @@ struct ShownPart {
   View view = View::position;
 };
 
+/// Whether what a spot shows may change with each pulse of an axis (Varies::while_moving). `shown`: of all
+/// registers. A relation's sides show none themselves.
+bool moves(const Description& description, const std::vector<std::vector<ShownPart>>& shown,
+           const Spot& spot);
+
 /// All of them, for each register of the list.
 std::vector<std::vector<ShownPart>> shown_parts(const Description& description);
 

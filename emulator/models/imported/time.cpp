@@ -19,6 +19,7 @@
 #include "emulator/models/imported/axis_drive.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/models/imported/follower.h"
+#include "emulator/models/imported/model.h"
 #include "motion/surroundings.h"
 #include "motion/tick.h"
 
@@ -95,8 +96,20 @@ void ImportedDevice::renew_followed(Tick tick) {
   }
 }
 
+bool ImportedDevice::any_moves() const {
+  return std::any_of(state_.axes.begin(), state_.axes.end(),
+                     [](const AxisState& axis) { return axis.motor.moving(); });
+}
+
+void ImportedDevice::set_encoder(int axis, std::int64_t counts) {
+  if (at(axis).encoder_counts == counts) return;
+  at(axis).encoder_counts = counts;
+  if (model_.numbers_move()) state_.touched = true;
+}
+
 void ImportedDevice::update_outputs(Tick tick) {
   renew_followed(tick);
+  if (model_.numbers_move() && any_moves()) state_.touched = true;
   state_.eeprom.step(tick, state_.image);
 }
 
@@ -108,12 +121,11 @@ bool ImportedDevice::is_quiet(const AxisState& axis) const {
 
 /// Without what moves: when a value is renewed next that is not where it goes, or may not stay there.
 Tick ImportedDevice::next_tick_of_values(Tick done) const {
-  const bool any_moves = !std::all_of(state_.axes.begin(), state_.axes.end(),
-                                      [](const AxisState& axis) { return !axis.motor.moving(); });
+  const bool are_moving = any_moves();
   Tick next = state_.eeprom.next_active_tick();
   for (std::size_t i = 0; i < state_.followed.size(); ++i) {
     const Following& following = its().followings[i];
-    if (!any_moves && state_.followed[i] == goal_of(following)) continue;
+    if (!are_moving && state_.followed[i] == goal_of(following)) continue;
     next = std::min(next, done + following.every - done % following.every);
   }
   return next;

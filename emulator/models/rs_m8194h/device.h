@@ -79,6 +79,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
 
   // --- terminals and axes ------------------------------------------------------------------------
   bool output(int terminal) const override;
+  bool output_moves(int /*terminal*/) const override { return false; }  // pulses have ticks of their own
   std::uint32_t output_word(int first, int count) const override;
   std::int64_t output_pulses(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override;

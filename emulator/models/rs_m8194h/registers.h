@@ -69,99 +69,99 @@ constexpr RegisterRow with_names(RegisterRow row, std::span<const BitField> name
 
 // clang-format off
 inline constexpr auto kInputRows1 = section("12.1.1", {
-    input(0,   "FRnet DO group {}", u16).times(8, 1, 0).shows<do_word>(),
-    input(8,   "FRnet DI group {}", u16).times(8, 1, 8).shows<di_word>(),
+    input(0,   "FRnet DO group {}", u16).times(8, 1, 0).shows<do_word, Varies::in_ticks>(),
+    input(8,   "FRnet DI group {}", u16).times(8, 1, 8).shows<di_word, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows2 = section("12.1.2", {
-    with_names(input(16, "DI_ALL {}", u16).also("DI_ALL_{}").each(kAxisNames, 1).shows<di_all>(), kDiAllBits),
+    with_names(input(16, "DI_ALL {}", u16).also("DI_ALL_{}").each(kAxisNames, 1).shows<di_all, Varies::in_ticks>(), kDiAllBits),
 });
 inline constexpr auto kInputRows3 = section("12.1.3", {
-    with_names(input(20, "ERROR_CODE {}", u16).also("ERROR_CODE_{}").each(kAxisNames, 1).shows<error_code>(), kErrorBits),
-    input(24,  "MP Call number", u16).also("MP_Call_number").shows<running_mp>(),
-    input(25,  "EMERGENCY_STOP state", u16).also("EMERGENCY_STOP").shows<emergency_state>(),
+    with_names(input(20, "ERROR_CODE {}", u16).also("ERROR_CODE_{}").each(kAxisNames, 1).shows<error_code, Varies::in_ticks>(), kErrorBits),
+    input(24,  "MP Call number", u16).also("MP_Call_number").shows<running_mp, Varies::in_ticks>(),
+    input(25,  "EMERGENCY_STOP state", u16).also("EMERGENCY_STOP").shows<emergency_state, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows4 = section("12.1.4", {
-    input(26,  "Logic Position {}", s32).each(kAxisNames, 2).in("pulse").shows<logic_position>(),
-    input(34,  "Encoder Position {}", s32).each(kAxisNames, 2).in("pulse").shows<encoder_position>(),
-    input(42,  "Current velocity {}", s32).each(kAxisNames, 2).in("PPS").shows<current_velocity>(),
-    input(50,  "Current acceleration {}", s32).each(kAxisNames, 2).in("PPS/s").shows<current_acceleration>(),
+    input(26,  "Logic Position {}", s32).each(kAxisNames, 2).in("pulse").shows<logic_position, Varies::while_moving>(),
+    input(34,  "Encoder Position {}", s32).each(kAxisNames, 2).in("pulse").shows<encoder_position, Varies::while_moving>(),
+    input(42,  "Current velocity {}", s32).each(kAxisNames, 2).in("PPS").shows<current_velocity, Varies::while_moving>(),
+    input(50,  "Current acceleration {}", s32).each(kAxisNames, 2).in("PPS/s").shows<current_acceleration, Varies::while_moving>(),
 });
 inline constexpr auto kInputRows5 = section("12.1.5", {
-    input(58,  "Stop Status {}", u16).also("STOP_{}").each(kAxisNames, 1).shows<stop_status>(),
+    input(58,  "Stop Status {}", u16).also("STOP_{}").each(kAxisNames, 1).shows<stop_status, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows6 = section("12.1.6", {
-    input(62,  "Latch {}", s32).also("LATCH_{}").each(kAxisNames, 2).in("pulse").shows<latch>(),
+    input(62,  "Latch {}", s32).also("LATCH_{}").each(kAxisNames, 2).in("pulse").shows<latch, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows7 = section("12.1.7", {
-    input(70,  "ERROR_STATE", u16).shows<error_state>(),
-    input(71,  "FREE_BUFFER_SIZE", u16).shows<free_blocks>(),
+    input(70,  "ERROR_STATE", u16).shows<error_state, Varies::in_ticks>(),
+    input(71,  "FREE_BUFFER_SIZE", u16).shows<free_blocks, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows8 = section("12.1.8", {
-    input(72,  "RINT_STATE_ALL", u16).shows<rint_word>(),
-    input(73,  "Line_Scan_Completed", u16).shows<rint_bit>(0),
-    input(74,  "MP_Completed", u16).shows<rint_bit>(1),
-    input(75,  "User-Defined_RINT", u16).shows<rint_bit>(2),
-    input(76,  "Continuous_Inp_Interrupt", u16).shows<rint_bit>(3),
-    input(79,  "Axes_Error", u16).shows<rint_bit>(6),
-    input(80,  "Module_Error", u16).shows<rint_bit>(7),
+    input(72,  "RINT_STATE_ALL", u16).shows<rint_word, Varies::in_ticks>(),
+    input(73,  "Line_Scan_Completed", u16).shows<rint_bit, Varies::in_ticks>(0),
+    input(74,  "MP_Completed", u16).shows<rint_bit, Varies::in_ticks>(1),
+    input(75,  "User-Defined_RINT", u16).shows<rint_bit, Varies::in_ticks>(2),
+    input(76,  "Continuous_Inp_Interrupt", u16).shows<rint_bit, Varies::in_ticks>(3),
+    input(79,  "Axes_Error", u16).shows<rint_bit, Varies::in_ticks>(6),
+    input(80,  "Module_Error", u16).shows<rint_bit, Varies::in_ticks>(7),
 });
 inline constexpr auto kInputRows9 = section("12.1.9", {
-    input(81,  "i-8094H Module ID", u16).also("MODULE_ID").shows<module_id>(),
-    input(82,  "RS-M8194H Firmware Version", u32).also("RSM_FIRMWARE").shows<rsm_firmware>(),
-    input(84,  "i-8094H Firmware Version", u32).also("I8094H_FIRMWARE").shows<module_firmware>(),
+    input(81,  "i-8094H Module ID", u16).also("MODULE_ID").shows<module_id, Varies::in_ticks>(),
+    input(82,  "RS-M8194H Firmware Version", u32).also("RSM_FIRMWARE").shows<rsm_firmware, Varies::in_ticks>(),
+    input(84,  "i-8094H Firmware Version", u32).also("I8094H_FIRMWARE").shows<module_firmware, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows10 = section("4.14", {
-    input(87,  "InterpolationRdyFlag", u16).shows<interpolation_ready>(),
+    input(87,  "InterpolationRdyFlag", u16).shows<interpolation_ready, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows11 = section("12.1.10", {
-    with_names(input(88, "DI_SIGNAL {}", u16).also("DI_SIGNAL_{}").each(kAxisNames, 1).shows<di_signal>(), kDiSignalBits),
+    with_names(input(88, "DI_SIGNAL {}", u16).also("DI_SIGNAL_{}").each(kAxisNames, 1).shows<di_signal, Varies::in_ticks>(), kDiSignalBits),
 });
 inline constexpr auto kInputRows12 = section("4.8", {
-    input(92,  "HOME_STATE {}", u16).also("HOME_STATE_{}").each(kAxisNames, 1).shows<home_state>(),
+    input(92,  "HOME_STATE {}", u16).also("HOME_STATE_{}").each(kAxisNames, 1).shows<home_state, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows13 = section("4.13", {
-    with_names(input(96, "DRIVING_AXIS", u16).shows<driving_axes>(), kAxisMaskBits),
+    with_names(input(96, "DRIVING_AXIS", u16).shows<driving_axes, Varies::in_ticks>(), kAxisMaskBits),
 });
 inline constexpr auto kInputRows14 = section("12.1.12", {
-    input(100, "RS-M8194H state", u16).also("RSM_STATE").shows<rsm_state>(),
-    input(101, "i-8094H state", u16).also("I8094H_STATE").shows<module_state>(),
-    input(102, "Illegal Modbus function", u16).also("IllegalFuncErr").shows<illegal_reason>(),
+    input(100, "RS-M8194H state", u16).also("RSM_STATE").shows<rsm_state, Varies::in_ticks>(),
+    input(101, "i-8094H state", u16).also("I8094H_STATE").shows<module_state, Varies::in_ticks>(),
+    input(102, "Illegal Modbus function", u16).also("IllegalFuncErr").shows<illegal_reason, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows15 = section("12.1.13", {
-    input(110, "Download: MP number", u16).also("DOWNLOAD_MP").shows<download_field>(0),
-    input(111, "Download: ISR number", u16).also("DOWNLOAD_ISR").shows<download_field>(1),
-    input(112, "Download: command type", u16).also("DOWNLOAD_CMD").shows<download_field>(2),
-    input(113, "Download: line number", u16).also("DOWNLOAD_LINE").shows<download_field>(3),
-    input(114, "Download: error type", u16).also("DOWNLOAD_ERROR").shows<download_field>(4),
+    input(110, "Download: MP number", u16).also("DOWNLOAD_MP").shows<download_field, Varies::in_ticks>(0),
+    input(111, "Download: ISR number", u16).also("DOWNLOAD_ISR").shows<download_field, Varies::in_ticks>(1),
+    input(112, "Download: command type", u16).also("DOWNLOAD_CMD").shows<download_field, Varies::in_ticks>(2),
+    input(113, "Download: line number", u16).also("DOWNLOAD_LINE").shows<download_field, Varies::in_ticks>(3),
+    input(114, "Download: error type", u16).also("DOWNLOAD_ERROR").shows<download_field, Varies::in_ticks>(4),
 });
 inline constexpr auto kInputRows16 = section("12.1.14", {
-    input(115, "Execution: MP number", u16).also("EXECUTION_MP").shows<execution_field>(0),
-    input(116, "Execution: ISR number", u16).also("EXECUTION_ISR").shows<execution_field>(1),
-    input(117, "Execution: command type", u16).also("EXECUTION_CMD").shows<execution_field>(2),
-    input(118, "Execution: line number", u16).also("EXECUTION_LINE").shows<execution_field>(3),
-    input(119, "Execution: error type", u16).also("EXECUTION_ERROR").shows<execution_field>(4),
+    input(115, "Execution: MP number", u16).also("EXECUTION_MP").shows<execution_field, Varies::in_ticks>(0),
+    input(116, "Execution: ISR number", u16).also("EXECUTION_ISR").shows<execution_field, Varies::in_ticks>(1),
+    input(117, "Execution: command type", u16).also("EXECUTION_CMD").shows<execution_field, Varies::in_ticks>(2),
+    input(118, "Execution: line number", u16).also("EXECUTION_LINE").shows<execution_field, Varies::in_ticks>(3),
+    input(119, "Execution: error type", u16).also("EXECUTION_ERROR").shows<execution_field, Varies::in_ticks>(4),
 });
 inline constexpr auto kInputRows17 = section("12.1.15", {
-    with_names(input(130, "INT factor 0 PULSE", u16).also("INT_PULSE").shows<factor_axes>(0), kAxisMaskBits),
-    with_names(input(131, "INT factor 1 P>=C-", u16).also("INT_P_GE_C-").shows<factor_axes>(1), kAxisMaskBits),
-    with_names(input(132, "INT factor 2 P<C-", u16).also("INT_P_LT_C-").shows<factor_axes>(2), kAxisMaskBits),
-    with_names(input(133, "INT factor 3 P<C+", u16).also("INT_P_LT_C+").shows<factor_axes>(3), kAxisMaskBits),
-    with_names(input(134, "INT factor 4 P>=C+", u16).also("INT_P_GE_C+").shows<factor_axes>(4), kAxisMaskBits),
-    with_names(input(135, "INT factor 5 C-END", u16).also("INT_C-END").shows<factor_axes>(5), kAxisMaskBits),
-    with_names(input(136, "INT factor 6 C-STA", u16).also("INT_C-STA").shows<factor_axes>(6), kAxisMaskBits),
-    with_names(input(137, "INT factor 7 D-END", u16).also("INT_D-END").shows<factor_axes>(7), kAxisMaskBits),
-    with_names(input(138, "INT factor 8 HMEND", u16).also("INT_HMEND").shows<factor_axes>(8), kAxisMaskBits),
-    with_names(input(139, "INT factor 9 SYNC", u16).also("INT_SYNC").shows<factor_axes>(9), kAxisMaskBits),
+    with_names(input(130, "INT factor 0 PULSE", u16).also("INT_PULSE").shows<factor_axes, Varies::in_ticks>(0), kAxisMaskBits),
+    with_names(input(131, "INT factor 1 P>=C-", u16).also("INT_P_GE_C-").shows<factor_axes, Varies::in_ticks>(1), kAxisMaskBits),
+    with_names(input(132, "INT factor 2 P<C-", u16).also("INT_P_LT_C-").shows<factor_axes, Varies::in_ticks>(2), kAxisMaskBits),
+    with_names(input(133, "INT factor 3 P<C+", u16).also("INT_P_LT_C+").shows<factor_axes, Varies::in_ticks>(3), kAxisMaskBits),
+    with_names(input(134, "INT factor 4 P>=C+", u16).also("INT_P_GE_C+").shows<factor_axes, Varies::in_ticks>(4), kAxisMaskBits),
+    with_names(input(135, "INT factor 5 C-END", u16).also("INT_C-END").shows<factor_axes, Varies::in_ticks>(5), kAxisMaskBits),
+    with_names(input(136, "INT factor 6 C-STA", u16).also("INT_C-STA").shows<factor_axes, Varies::in_ticks>(6), kAxisMaskBits),
+    with_names(input(137, "INT factor 7 D-END", u16).also("INT_D-END").shows<factor_axes, Varies::in_ticks>(7), kAxisMaskBits),
+    with_names(input(138, "INT factor 8 HMEND", u16).also("INT_HMEND").shows<factor_axes, Varies::in_ticks>(8), kAxisMaskBits),
+    with_names(input(139, "INT factor 9 SYNC", u16).also("INT_SYNC").shows<factor_axes, Varies::in_ticks>(9), kAxisMaskBits),
 });
 inline constexpr auto kInputRows18 = section("12.1.11", {
-    input(160, "Absolute Logic Position {}", s32).each(kAxisNames, 2).in("pulse").shows<absolute_position>(),
+    input(160, "Absolute Logic Position {}", s32).each(kAxisNames, 2).in("pulse").shows<absolute_position, Varies::while_moving>(),
 });
 
 inline constexpr auto kHoldingRows1 = section("12.2.1", {
-    reg(0,    "FRnet DO group {}", u16, RW).times(8, 1, 0).shows<do_word>().does<write_do_word>(),
+    reg(0,    "FRnet DO group {}", u16, RW).times(8, 1, 0).shows<do_word, Varies::in_ticks>().does<write_do_word>(),
 });
 inline constexpr auto kHoldingRows2 = section("12.2.2", {
-    reg(8,    "CALL_MPn", u16, RW).also("CALL_MP").range(1, 157).reads<call_register>().does<call_mp>(),
+    reg(8,    "CALL_MPn", u16, RW).also("CALL_MP").range(1, 157).reads<call_register, Varies::in_ticks>().does<call_mp>(),
     reg(9,    "FRnet Event", u16, RW).also("FRNET_EVENT").range(0, 1).kept_at_once().does<enable_triggers>(),
     reg(14,   "WORD Order", u16, RW).also("WORD_ORDER").range(0, 1),
 });
@@ -173,11 +173,11 @@ inline constexpr auto kHoldingRows3 = section("12.2.3", {
     reg(29,   "RS-M8194H_Gateway{}", u16, RW).times(2, 1, 0),
 });
 inline constexpr auto kHoldingRows4 = section("12.2.4", {
-    reg(82,   "Absolute Position {}", s32, RW).also("ABS_{}").each(kAxisNames, 2).in("pulse").range(-kMostPosition, kMostPosition).shows<absolute_position>().does<queue_absolute_position>(),
-    reg(90,   "Logic Position {}", s32, RW).also("LP_{}").each(kAxisNames, 2).in("pulse").range(-kMostPosition, kMostPosition).shows<logic_position>().does<queue_logic_position>(),
-    reg(98,   "Encoder Position {}", s32, RW).also("EP_{}").each(kAxisNames, 2).in("pulse").range(-kMostPosition, kMostPosition).shows<encoder_position>().does<queue_encoder_position>(),
-    reg(106,  "Current Velocity {}", s32, R).also("CV_{}").each(kAxisNames, 2).in("PPS").shows<current_velocity>(),
-    reg(114,  "Current Acceleration {}", s32, R).also("CA_{}").each(kAxisNames, 2).in("PPS/s").shows<current_acceleration>(),
+    reg(82,   "Absolute Position {}", s32, RW).also("ABS_{}").each(kAxisNames, 2).in("pulse").range(-kMostPosition, kMostPosition).shows<absolute_position, Varies::while_moving>().does<queue_absolute_position>(),
+    reg(90,   "Logic Position {}", s32, RW).also("LP_{}").each(kAxisNames, 2).in("pulse").range(-kMostPosition, kMostPosition).shows<logic_position, Varies::while_moving>().does<queue_logic_position>(),
+    reg(98,   "Encoder Position {}", s32, RW).also("EP_{}").each(kAxisNames, 2).in("pulse").range(-kMostPosition, kMostPosition).shows<encoder_position, Varies::while_moving>().does<queue_encoder_position>(),
+    reg(106,  "Current Velocity {}", s32, R).also("CV_{}").each(kAxisNames, 2).in("PPS").shows<current_velocity, Varies::while_moving>(),
+    reg(114,  "Current Acceleration {}", s32, R).also("CA_{}").each(kAxisNames, 2).in("PPS/s").shows<current_acceleration, Varies::while_moving>(),
 });
 inline constexpr auto kHoldingRows5 = section("3.18.1", {
     reg(128,  "bVAR{}", u16, RW).times(128, 1, 0).holding_bits(0xFF),
@@ -194,82 +194,82 @@ inline constexpr auto kHoldingRows8 = section("12.2.6", {
 });
 
 inline constexpr auto kCoilRows1 = section("12.4.1", {
-    coil(0,   "FRnet DO group 0 channel {}").times(16, 1, 0).shows<do_bit>(0).does<write_do_bit>(0),
-    coil(16,  "FRnet DO group 1 channel {}").times(16, 1, 0).shows<do_bit>(1).does<write_do_bit>(1),
-    coil(32,  "FRnet DO group 2 channel {}").times(16, 1, 0).shows<do_bit>(2).does<write_do_bit>(2),
-    coil(48,  "FRnet DO group 3 channel {}").times(16, 1, 0).shows<do_bit>(3).does<write_do_bit>(3),
-    coil(64,  "FRnet DO group 4 channel {}").times(16, 1, 0).shows<do_bit>(4).does<write_do_bit>(4),
-    coil(80,  "FRnet DO group 5 channel {}").times(16, 1, 0).shows<do_bit>(5).does<write_do_bit>(5),
-    coil(96,  "FRnet DO group 6 channel {}").times(16, 1, 0).shows<do_bit>(6).does<write_do_bit>(6),
-    coil(112, "FRnet DO group 7 channel {}").times(16, 1, 0).shows<do_bit>(7).does<write_do_bit>(7),
+    coil(0,   "FRnet DO group 0 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(0).does<write_do_bit>(0),
+    coil(16,  "FRnet DO group 1 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(1).does<write_do_bit>(1),
+    coil(32,  "FRnet DO group 2 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(2).does<write_do_bit>(2),
+    coil(48,  "FRnet DO group 3 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(3).does<write_do_bit>(3),
+    coil(64,  "FRnet DO group 4 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(4).does<write_do_bit>(4),
+    coil(80,  "FRnet DO group 5 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(5).does<write_do_bit>(5),
+    coil(96,  "FRnet DO group 6 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(6).does<write_do_bit>(6),
+    coil(112, "FRnet DO group 7 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(7).does<write_do_bit>(7),
 });
 inline constexpr auto kCoilRows2 = section("12.4.2", {
-    coil(128, "Servo {}", R).each(kAxisNames, 1).shows<servo_is_on>(),
+    coil(128, "Servo {}", R).each(kAxisNames, 1).shows<servo_is_on, Varies::in_ticks>(),
 });
 
 inline constexpr auto kDiscreteRows1 = section("12.5.1", {
-    discrete(0,   "FRnet DI group 8 channel {}").times(16, 1, 0).shows<di_bit>(8),
-    discrete(16,  "FRnet DI group 9 channel {}").times(16, 1, 0).shows<di_bit>(9),
-    discrete(32,  "FRnet DI group 10 channel {}").times(16, 1, 0).shows<di_bit>(10),
-    discrete(48,  "FRnet DI group 11 channel {}").times(16, 1, 0).shows<di_bit>(11),
-    discrete(64,  "FRnet DI group 12 channel {}").times(16, 1, 0).shows<di_bit>(12),
-    discrete(80,  "FRnet DI group 13 channel {}").times(16, 1, 0).shows<di_bit>(13),
-    discrete(96,  "FRnet DI group 14 channel {}").times(16, 1, 0).shows<di_bit>(14),
-    discrete(112, "FRnet DI group 15 channel {}").times(16, 1, 0).shows<di_bit>(15),
+    discrete(0,   "FRnet DI group 8 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(8),
+    discrete(16,  "FRnet DI group 9 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(9),
+    discrete(32,  "FRnet DI group 10 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(10),
+    discrete(48,  "FRnet DI group 11 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(11),
+    discrete(64,  "FRnet DI group 12 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(12),
+    discrete(80,  "FRnet DI group 13 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(13),
+    discrete(96,  "FRnet DI group 14 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(14),
+    discrete(112, "FRnet DI group 15 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(15),
 });
 inline constexpr auto kDiscreteRows2 = section("12.5.2", {
-    discrete(128, "{} DRIVING").each(kAxisNames, 16).shows<di_all_bit>(0),
-    discrete(129, "{} LIMIT+").each(kAxisNames, 16).shows<di_all_bit>(1),
-    discrete(130, "{} LIMIT-").each(kAxisNames, 16).shows<di_all_bit>(2),
-    discrete(131, "{} EMERGENCY").each(kAxisNames, 16).shows<di_all_bit>(3),
-    discrete(132, "{} ALARM").each(kAxisNames, 16).shows<di_all_bit>(4),
-    discrete(133, "{} HOME (IN1)").each(kAxisNames, 16).shows<di_all_bit>(5),
-    discrete(134, "{} NHOME (IN0)").each(kAxisNames, 16).shows<di_all_bit>(6),
-    discrete(135, "{} IN3").each(kAxisNames, 16).shows<di_all_bit>(7),
-    discrete(136, "{} INPOS").each(kAxisNames, 16).shows<di_all_bit>(8),
-    discrete(137, "{} INDEX (IN2)").each(kAxisNames, 16).shows<di_all_bit>(9),
+    discrete(128, "{} DRIVING").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(0),
+    discrete(129, "{} LIMIT+").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(1),
+    discrete(130, "{} LIMIT-").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(2),
+    discrete(131, "{} EMERGENCY").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(3),
+    discrete(132, "{} ALARM").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(4),
+    discrete(133, "{} HOME (IN1)").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(5),
+    discrete(134, "{} NHOME (IN0)").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(6),
+    discrete(135, "{} IN3").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(7),
+    discrete(136, "{} INPOS").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(8),
+    discrete(137, "{} INDEX (IN2)").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(9),
 });
 // The manual prints LIMIT+, LIMIT-, ALARM and EMERGENCY twice: these are those of the error code. Bit 9 of it
 // is not in the printed table of discrete inputs.
 inline constexpr auto kDiscreteRows3 = section("12.5.3", {
-    discrete(192, "{} SOFT LIMIT+").each(kAxisNames, 16).shows<error_bit>(0),
-    discrete(193, "{} SOFT LIMIT-").each(kAxisNames, 16).shows<error_bit>(1),
-    discrete(194, "{} LIMIT+ error").each(kAxisNames, 16).shows<error_bit>(2),
-    discrete(195, "{} LIMIT- error").each(kAxisNames, 16).shows<error_bit>(3),
-    discrete(196, "{} ALARM error").each(kAxisNames, 16).shows<error_bit>(4),
-    discrete(197, "{} EMERGENCY error").each(kAxisNames, 16).shows<error_bit>(5),
+    discrete(192, "{} SOFT LIMIT+").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(0),
+    discrete(193, "{} SOFT LIMIT-").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(1),
+    discrete(194, "{} LIMIT+ error").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(2),
+    discrete(195, "{} LIMIT- error").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(3),
+    discrete(196, "{} ALARM error").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(4),
+    discrete(197, "{} EMERGENCY error").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(5),
     discrete(198, "{} Reserved").each(kAxisNames, 16).always(0),
-    discrete(199, "{} HOME").each(kAxisNames, 16).shows<error_bit>(7),
-    discrete(200, "{} Stop Command").each(kAxisNames, 16).shows<error_bit>(8),
-    discrete(201, "{} SOFT EMG").each(kAxisNames, 16).shows<error_bit>(9),
+    discrete(199, "{} HOME").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(7),
+    discrete(200, "{} Stop Command").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(8),
+    discrete(201, "{} SOFT EMG").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(9),
 });
 // U's are printed at 380; the pattern of the others gives 280, where they are as well. The
 // argument tells the places apart: 8 and more are at 280, 16 and more at 380.
 inline constexpr auto kDiscreteRows4 = section("12.5.4", {
-    discrete(256, "{} Near Home (IN0)").each(kFirstThreeAxes, 8).shows<di_signal_bit>(0),
-    discrete(257, "{} Home (IN1)").each(kFirstThreeAxes, 8).shows<di_signal_bit>(1),
-    discrete(258, "{} Index (IN2)").each(kFirstThreeAxes, 8).shows<di_signal_bit>(2),
-    discrete(259, "{} IN3 signal").each(kFirstThreeAxes, 8).shows<di_signal_bit>(3),
-    discrete(260, "{} MPG+ (EXP+)").each(kFirstThreeAxes, 8).shows<di_signal_bit>(4),
-    discrete(261, "{} MPG- (EXP-)").each(kFirstThreeAxes, 8).shows<di_signal_bit>(5),
-    discrete(262, "{} InPos").each(kFirstThreeAxes, 8).shows<di_signal_bit>(6),
-    discrete(263, "{} Alarm").each(kFirstThreeAxes, 8).shows<di_signal_bit>(7),
-    discrete(280, "{} Near Home (IN0) at 280").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+0),
-    discrete(281, "{} Home (IN1) at 281").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+1),
-    discrete(282, "{} Index (IN2) at 282").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+2),
-    discrete(283, "{} IN3 signal at 283").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+3),
-    discrete(284, "{} MPG+ (EXP+) at 284").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+4),
-    discrete(285, "{} MPG- (EXP-) at 285").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+5),
-    discrete(286, "{} InPos at 286").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+6),
-    discrete(287, "{} Alarm at 287").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+7),
-    discrete(380, "{} Near Home (IN0)").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+0),
-    discrete(381, "{} Home (IN1)").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+1),
-    discrete(382, "{} Index (IN2)").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+2),
-    discrete(383, "{} IN3 signal").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+3),
-    discrete(384, "{} MPG+ (EXP+)").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+4),
-    discrete(385, "{} MPG- (EXP-)").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+5),
-    discrete(386, "{} InPos").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+6),
-    discrete(387, "{} Alarm").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+7),
+    discrete(256, "{} Near Home (IN0)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(0),
+    discrete(257, "{} Home (IN1)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(1),
+    discrete(258, "{} Index (IN2)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(2),
+    discrete(259, "{} IN3 signal").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(3),
+    discrete(260, "{} MPG+ (EXP+)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(4),
+    discrete(261, "{} MPG- (EXP-)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(5),
+    discrete(262, "{} InPos").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(6),
+    discrete(263, "{} Alarm").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(7),
+    discrete(280, "{} Near Home (IN0) at 280").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+0),
+    discrete(281, "{} Home (IN1) at 281").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+1),
+    discrete(282, "{} Index (IN2) at 282").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+2),
+    discrete(283, "{} IN3 signal at 283").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+3),
+    discrete(284, "{} MPG+ (EXP+) at 284").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+4),
+    discrete(285, "{} MPG- (EXP-) at 285").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+5),
+    discrete(286, "{} InPos at 286").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+6),
+    discrete(287, "{} Alarm at 287").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+7),
+    discrete(380, "{} Near Home (IN0)").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+0),
+    discrete(381, "{} Home (IN1)").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+1),
+    discrete(382, "{} Index (IN2)").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+2),
+    discrete(383, "{} IN3 signal").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+3),
+    discrete(384, "{} MPG+ (EXP+)").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+4),
+    discrete(385, "{} MPG- (EXP-)").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+5),
+    discrete(386, "{} InPos").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+6),
+    discrete(387, "{} Alarm").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+7),
 });
 // clang-format on
 

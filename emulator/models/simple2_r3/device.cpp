@@ -286,8 +286,8 @@ Tick Simple2R3::next_slot(Tick done) const {
 
 Tick Simple2R3::next_tick_without_axes(Tick done) const {
   if (state_.touched) return done + 1;
-  if (done < state_.first_tick && starts_by_itself()) return state_.first_tick;
-  Tick next = state_.eeprom.next_active_tick();
+  Tick next = state_.eeprom.next_active_tick();  // it goes on while the device boots
+  if (done < state_.first_tick && starts_by_itself()) next = std::min(next, state_.first_tick);
   if (state_.execution.running) next = std::min(next, next_slot(done));
   for (const AxisState& axis : state_.axes) {
     if (axis.alarm_clear_until > done) next = std::min(next, axis.alarm_clear_until);

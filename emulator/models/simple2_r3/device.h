@@ -162,6 +162,9 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   bool same_state(const Device& other) const override;
 
   bool output(int terminal) const override;
+  bool output_moves(int /*terminal*/) const override {
+    return false;
+  }  // switched by commands, in ticks of their own
   std::int64_t pulses_this_tick(int axis) const override;
   double speed_pps(int axis) const override;
   std::int64_t pulses_to_come(int axis) const override;

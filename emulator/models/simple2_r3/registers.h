@@ -57,12 +57,12 @@ inline constexpr BitField kStatusBits[] = {
 
 // clang-format off
 inline constexpr auto kStatusRows = section("狀態相關", {
-    reg(0x0000, "STATUS",         u16, R).reads<read_status>().with_bits(kStatusBits),
+    reg(0x0000, "STATUS",         u16, R).reads<read_status, Varies::in_ticks>().with_bits(kStatusBits),
     reg(0x0001, "HW_Code",        u16, R).from_factory(0xC001),
-    reg(0x0002, "Version",        u16, R).from_factory(152).reads<read_version>(),
-    reg(0x0004, "Aaxis_Mode",     u16, R).range(0, 3).reads<read_mode>(kAxisA),
-    reg(0x0005, "Baxis_Mode",     u16, R).range(0, 3).reads<read_mode>(kAxisB),
-    reg(0x000F, "EEPROM_Writing", u16, R).range(0, 1).reads<read_eeprom_busy>(),
+    reg(0x0002, "Version",        u16, R).from_factory(152).reads<read_version, Varies::in_ticks>(),
+    reg(0x0004, "Aaxis_Mode",     u16, R).range(0, 3).reads<read_mode, Varies::in_ticks>(kAxisA),
+    reg(0x0005, "Baxis_Mode",     u16, R).range(0, 3).reads<read_mode, Varies::in_ticks>(kAxisB),
+    reg(0x000F, "EEPROM_Writing", u16, R).range(0, 1).reads<read_eeprom_busy, Varies::in_ticks>(),
 });
 
 inline constexpr auto kAssignmentRows = section("輸入輸出功能指配相關", {
@@ -83,23 +83,23 @@ inline constexpr auto kAssignmentRows = section("輸入輸出功能指配相關"
 });
 
 inline constexpr auto kIoRows = section("輸入輸出相關", {
-    reg(0x0D00, "DOUT_{}",  u16, RW).range(0, 1).times(7, 1, 0).reads<read_output>().does<write_output>(),
-    reg(0x0D10, "DIN_{}",   u16, R).range(0, 1).times(11, 1, 0).reads<read_input>(),
-    reg(0x0DF0, "DOUT_ALL", u16, RW).range(0, 0x7F).reads<read_all_outputs>().does<write_all_outputs>(),
-    reg(0x0DF1, "DIN_ALL",  u16, R).range(0, 0x7FF).reads<read_all_inputs>(),
+    reg(0x0D00, "DOUT_{}",  u16, RW).range(0, 1).times(7, 1, 0).reads<read_output, Varies::in_ticks>().does<write_output>(),
+    reg(0x0D10, "DIN_{}",   u16, R).range(0, 1).times(11, 1, 0).reads<read_input, Varies::in_ticks>(),
+    reg(0x0DF0, "DOUT_ALL", u16, RW).range(0, 0x7F).reads<read_all_outputs, Varies::in_ticks>().does<write_all_outputs>(),
+    reg(0x0DF1, "DIN_ALL",  u16, R).range(0, 0x7FF).reads<read_all_inputs, Varies::in_ticks>(),
 });
 
 inline constexpr auto kPositionRows = section("編碼器，座標，類比輸入相關", {
-    reg(0x0E00, "ENCA",     s32, RW).range(kS32Min, kS32Max).in("Pulse").reads<read_encoder>(kAxisA).does<preset_encoder>(kAxisA),
-    reg(0x0E02, "ENCB",     s32, RW).range(kS32Min, kS32Max).in("Pulse").reads<read_encoder>(kAxisB).does<preset_encoder>(kAxisB),
-    reg(0x0E04, "Cord_A",   s32, RW).range(kS32Min, kS32Max).in("Pulse").reads<read_coordinate>(kAxisA).does<preset_coordinate>(kAxisA),
-    reg(0x0E06, "Cord_B",   s32, RW).range(kS32Min, kS32Max).in("Pulse").reads<read_coordinate>(kAxisB).does<preset_coordinate>(kAxisB),
-    reg(0x0E08, "Analog_A", u16, R).range(0, 65535).reads<read_analog>(0),
-    reg(0x0E09, "Analog_B", u16, R).range(0, 65535).reads<read_analog>(1),
+    reg(0x0E00, "ENCA",     s32, RW).range(kS32Min, kS32Max).in("Pulse").reads<read_encoder, Varies::while_moving>(kAxisA).does<preset_encoder>(kAxisA),
+    reg(0x0E02, "ENCB",     s32, RW).range(kS32Min, kS32Max).in("Pulse").reads<read_encoder, Varies::while_moving>(kAxisB).does<preset_encoder>(kAxisB),
+    reg(0x0E04, "Cord_A",   s32, RW).range(kS32Min, kS32Max).in("Pulse").reads<read_coordinate, Varies::while_moving>(kAxisA).does<preset_coordinate>(kAxisA),
+    reg(0x0E06, "Cord_B",   s32, RW).range(kS32Min, kS32Max).in("Pulse").reads<read_coordinate, Varies::while_moving>(kAxisB).does<preset_coordinate>(kAxisB),
+    reg(0x0E08, "Analog_A", u16, R).range(0, 65535).reads<read_analog, Varies::in_ticks>(0),
+    reg(0x0E09, "Analog_B", u16, R).range(0, 65535).reads<read_analog, Varies::in_ticks>(1),
     reg(0x0E0A, "ENCA_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
     reg(0x0E0C, "ENCB_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
-    reg(0x0E0E, "ENCA_RPM", s16, R).range(-32768, 32767).in("RPM").reads<read_encoder_speed>(kAxisA).changes_at<every_tick>(),
-    reg(0x0E0F, "ENCB_RPM", s16, R).range(-32768, 32767).in("RPM").reads<read_encoder_speed>(kAxisB).changes_at<every_tick>(),
+    reg(0x0E0E, "ENCA_RPM", s16, R).range(-32768, 32767).in("RPM").reads<read_encoder_speed, Varies::with_time>(kAxisA).changes_at<every_tick>(),
+    reg(0x0E0F, "ENCB_RPM", s16, R).range(-32768, 32767).in("RPM").reads<read_encoder_speed, Varies::with_time>(kAxisB).changes_at<every_tick>(),
 });
 
 // Speeds are printed with a minimum of 1, but the factory's value is 0 and appendix A documents it.
@@ -108,30 +108,30 @@ inline constexpr auto kMotionRows = section("運動相關", {
     reg(0x1002, "Aaxis_Speed",     u16, RW).range(0, k2To15).in("RPM").does<change_speed>(kAxisA),
     reg(0x1003, "Aaxis_AccTime",   u16, RW).range(0, 3000).in("10ms").does<change_speed>(kAxisA),
     reg(0x1004, "Aaxis_DecTime",   u16, RW).range(0, 3000).in("10ms").does<change_speed>(kAxisA),
-    reg(0x1005, "Aaxis_Move_INC",  u16, RW).range(0, 1).in("ON/OFF").reads<read_incremental_trigger>(kAxisA).triggers<start_incremental>(kAxisA),
+    reg(0x1005, "Aaxis_Move_INC",  u16, RW).range(0, 1).in("ON/OFF").reads<read_incremental_trigger, Varies::in_ticks>(kAxisA).triggers<start_incremental>(kAxisA),
     reg(0x1006, "Baxis_Pulse",     s32, RW).range(kS32Min, kS32Max).in("Pulse"),
     reg(0x1008, "Baxis_Speed",     u16, RW).range(0, k2To15).in("RPM").does<change_speed>(kAxisB),
     reg(0x1009, "Baxis_AccTime",   u16, RW).range(0, 3000).in("10ms").does<change_speed>(kAxisB),
     reg(0x100A, "Baxis_DecTime",   u16, RW).range(0, 3000).in("10ms").does<change_speed>(kAxisB),
-    reg(0x100B, "Baxis_Move_INC",  u16, RW).range(0, 1).in("ON/OFF").reads<read_incremental_trigger>(kAxisB).triggers<start_incremental>(kAxisB),
+    reg(0x100B, "Baxis_Move_INC",  u16, RW).range(0, 1).in("ON/OFF").reads<read_incremental_trigger, Varies::in_ticks>(kAxisB).triggers<start_incremental>(kAxisB),
     reg(0x100C, "ALL_Move_INC",    u16, W).range(0, 1).in("ON/OFF").triggers<start_incremental>(kAllAxes),
     reg(0x100D, "ALL_STOP",        u16, W).range(0, 1).in("ON/OFF").triggers<stop_motion>(kAllAxes),
-    reg(0x100E, "Aaxis_STOP",      u16, RW).range(0, 1).in("ON/OFF").reads<read_zero>().triggers<stop_motion>(kAxisA),
-    reg(0x100F, "Baxis_STOP",      u16, RW).range(0, 1).in("ON/OFF").reads<read_zero>().triggers<stop_motion>(kAxisB),
+    reg(0x100E, "Aaxis_STOP",      u16, RW).range(0, 1).in("ON/OFF").reads<read_zero, Varies::in_ticks>().triggers<stop_motion>(kAxisA),
+    reg(0x100F, "Baxis_STOP",      u16, RW).range(0, 1).in("ON/OFF").reads<read_zero, Varies::in_ticks>().triggers<stop_motion>(kAxisB),
     reg(0x1010, "ALL_GoHome",      u16, W).range(0, 1).in("ON/OFF").triggers<go_home>(kAllAxes),
-    reg(0x1011, "Aaxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads<read_homing_trigger>(kAxisA).triggers<go_home>(kAxisA),
-    reg(0x1012, "Baxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads<read_homing_trigger>(kAxisB).triggers<go_home>(kAxisB),
+    reg(0x1011, "Aaxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads<read_homing_trigger, Varies::in_ticks>(kAxisA).triggers<go_home>(kAxisA),
+    reg(0x1012, "Baxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads<read_homing_trigger, Varies::in_ticks>(kAxisB).triggers<go_home>(kAxisB),
     reg(0x1013, "ALL_SVON",        u16, W).range(0, 1).in("ON/OFF").does<switch_servo>(kAllAxes),
-    reg(0x1014, "Aaxis_SVON",      u16, RW).range(0, 1).in("ON/OFF").reads<read_servo>(kAxisA).does<switch_servo>(kAxisA),
-    reg(0x1015, "Baxis_SVON",      u16, RW).range(0, 1).in("ON/OFF").reads<read_servo>(kAxisB).does<switch_servo>(kAxisB),
+    reg(0x1014, "Aaxis_SVON",      u16, RW).range(0, 1).in("ON/OFF").reads<read_servo, Varies::in_ticks>(kAxisA).does<switch_servo>(kAxisA),
+    reg(0x1015, "Baxis_SVON",      u16, RW).range(0, 1).in("ON/OFF").reads<read_servo, Varies::in_ticks>(kAxisB).does<switch_servo>(kAxisB),
     reg(0x1016, "ALL_ACLR",        u16, W).range(0, 1).in("ON/OFF").triggers<clear_alarm>(kAllAxes),
-    reg(0x1017, "Aaxis_ACLR",      u16, RW).range(0, 1).in("ON/OFF").reads<read_alarm_clear>(kAxisA).triggers<clear_alarm>(kAxisA),
-    reg(0x1018, "Baxis_ACLR",      u16, RW).range(0, 1).in("ON/OFF").reads<read_alarm_clear>(kAxisB).triggers<clear_alarm>(kAxisB),
+    reg(0x1017, "Aaxis_ACLR",      u16, RW).range(0, 1).in("ON/OFF").reads<read_alarm_clear, Varies::in_ticks>(kAxisA).triggers<clear_alarm>(kAxisA),
+    reg(0x1018, "Baxis_ACLR",      u16, RW).range(0, 1).in("ON/OFF").reads<read_alarm_clear, Varies::in_ticks>(kAxisB).triggers<clear_alarm>(kAxisB),
     reg(0x1019, "Aaxis_DirectPWM", u16, RW).range(0, 100).does<command_pwm>(kAxisA),
     reg(0x101A, "Baxis_DirectPWM", u16, RW).range(0, 100).does<command_pwm>(kAxisB),
     reg(0x101B, "ALL_Move_ABS",    u16, W).range(0, 1).in("ON/OFF").triggers<start_absolute>(kAllAxes),
-    reg(0x101C, "Aaxis_Move_ABS",  u16, RW).range(0, 1).in("ON/OFF").reads<read_absolute_trigger>(kAxisA).triggers<start_absolute>(kAxisA),
-    reg(0x101D, "Baxis_Move_ABS",  u16, RW).range(0, 1).in("ON/OFF").reads<read_absolute_trigger>(kAxisB).triggers<start_absolute>(kAxisB),
+    reg(0x101C, "Aaxis_Move_ABS",  u16, RW).range(0, 1).in("ON/OFF").reads<read_absolute_trigger, Varies::in_ticks>(kAxisA).triggers<start_absolute>(kAxisA),
+    reg(0x101D, "Baxis_Move_ABS",  u16, RW).range(0, 1).in("ON/OFF").reads<read_absolute_trigger, Varies::in_ticks>(kAxisB).triggers<start_absolute>(kAxisB),
 });
 
 inline constexpr auto kPositionSetRows = section("預存位置表", {
@@ -168,12 +168,12 @@ inline constexpr auto kProgramRows = section("程式控制", {
     reg(0x3000, "PROG_MAIN_RunTime_START",  u16, W).range(0, 255).in("line").does<start_program>(),
     reg(0x3001, "PROG_MAIN_RunTime_END",    u16, W).range(0, 1).triggers<stop_program>(),
     reg(0x3004, "PROG_MAIN_Erase_ALL",      u16, W).range(0, 1).triggers<erase_program>(),
-    reg(0x3010, "PROG_MAIN_NowLine",        u16, R).range(0, 255).in("line").reads<read_now_line>(),
-    reg(0x3012, "PROG_MAIN_RunTime_Status", u16, R).range(0, 1).reads<read_program_runs>(),
-    reg(0x4000, "MAIN_LINE{}_CMD",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads<read_cell>(0).does<write_cell>(0),
-    reg(0x4001, "MAIN_LINE{}_DATA1", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads<read_cell>(1).does<write_cell>(1),
-    reg(0x4002, "MAIN_LINE{}_DATA2", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads<read_cell>(2).does<write_cell>(2),
-    reg(0x4003, "MAIN_LINE{}_JMP",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads<read_cell>(3).does<write_cell>(3),
+    reg(0x3010, "PROG_MAIN_NowLine",        u16, R).range(0, 255).in("line").reads<read_now_line, Varies::in_ticks>(),
+    reg(0x3012, "PROG_MAIN_RunTime_Status", u16, R).range(0, 1).reads<read_program_runs, Varies::in_ticks>(),
+    reg(0x4000, "MAIN_LINE{}_CMD",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads<read_cell, Varies::in_ticks>(0).does<write_cell>(0),
+    reg(0x4001, "MAIN_LINE{}_DATA1", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads<read_cell, Varies::in_ticks>(1).does<write_cell>(1),
+    reg(0x4002, "MAIN_LINE{}_DATA2", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads<read_cell, Varies::in_ticks>(2).does<write_cell>(2),
+    reg(0x4003, "MAIN_LINE{}_JMP",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads<read_cell, Varies::in_ticks>(3).does<write_cell>(3),
     reg(0x8000, "PROG_MEM{}", s32, RW).kept().times(32, 2, 0).halves("_RegL", "_RegH"),
     reg(0x8100, "PROG_VAR{}", s32, RW).times(32, 2, 0).halves("_RegL", "_RegH"),
 });
@@ -218,21 +218,21 @@ inline constexpr auto kApplicationRows = section("程式應用相關", {
     reg(0xF100, "CalcREG",        s32, RW),
     reg(0xF122, "Counter1_Value", u16, RW).range(0, 65535),
     reg(0xF123, "Counter2_Value", u16, RW).range(0, 65535),
-    reg(0xF126, "Timer1_Value",   u32, RW).range(0, 4294967295).reads<read_timer>(0).changes_at<next_count_of_timer>().does<preset_timer>(0),
-    reg(0xF128, "Timer2_Value",   u32, RW).range(0, 4294967295).reads<read_timer>(1).changes_at<next_count_of_timer>().does<preset_timer>(1),
+    reg(0xF126, "Timer1_Value",   u32, RW).range(0, 4294967295).reads<read_timer, Varies::with_time>(0).changes_at<next_count_of_timer>().does<preset_timer>(0),
+    reg(0xF128, "Timer2_Value",   u32, RW).range(0, 4294967295).reads<read_timer, Varies::with_time>(1).changes_at<next_count_of_timer>().does<preset_timer>(1),
 });
 
 inline constexpr auto kFactoryRows = section("附錄 C", {
-    reg(0xFF00, "ADC_A",         u16, R).reads<read_adc>(0),
-    reg(0xFF01, "ADC_B",         u16, R).reads<read_adc>(1),
+    reg(0xFF00, "ADC_A",         u16, R).reads<read_adc, Varies::in_ticks>(0),
+    reg(0xFF01, "ADC_B",         u16, R).reads<read_adc, Varies::in_ticks>(1),
     reg(0xFF02, "ADC_10V_A",     u16, RW).from_factory(4000).kept(),
     reg(0xFF03, "ADC_10V_B",     u16, RW).from_factory(4000).kept(),
     reg(0xFF04, "ADC_1V_A",      u16, RW).from_factory(400).kept(),
     reg(0xFF05, "ADC_1V_B",      u16, RW).from_factory(400).kept(),
     reg(0xFF06, "Factory_Reset", u16, W).range(0, 1).triggers<reset_to_factory>(),
     reg(0xFF07, "PWD_Input",     u16, RW).also("PWD_INPUT").range(0, 65535).does<enter_password>().since_firmware(151),
-    reg(0xFF08, "PROG_UNLOCK",   u16, R).range(0, 1).from_factory(1).reads<read_unlocked>().since_firmware(151),
-    reg(0xFF09, "NEW_PWD",       u16, RW).range(0, 65535).reads<read_password>().does<change_password>().since_firmware(151),
+    reg(0xFF08, "PROG_UNLOCK",   u16, R).range(0, 1).from_factory(1).reads<read_unlocked, Varies::in_ticks>().since_firmware(151),
+    reg(0xFF09, "NEW_PWD",       u16, RW).range(0, 65535).reads<read_password, Varies::in_ticks>().does<change_password>().since_firmware(151),
 });
 // clang-format on
 

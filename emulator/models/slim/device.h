@@ -121,6 +121,9 @@ class Slim final : public DeviceOf<Slim>,
   bool has_axis(int axis) const override { return axis < modules_ || state_.chain.linked(axis); }
   bool has_terminal(int terminal) const override { return has_axis(terminal / kTerminalsOfModule); }
   bool output(int terminal) const override;
+  bool output_moves(int /*terminal*/) const override {
+    return false;
+  }  // those by position and by time have ticks of their own
   std::int64_t pulses_this_tick(int axis) const override { return state_.chain.pulses(axis); }
   double speed_pps(int axis) const override { return state_.chain.speed_pps(axis); }
   std::optional<bool> servo_on(int axis) const override { return powered() && state_.chain.servo_on(axis); }

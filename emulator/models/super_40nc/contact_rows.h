@@ -35,8 +35,8 @@ inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(�
     relays(8009, 8011),
     relays(8012, 8019),
     relays(8020, 8021),
-    relay(8022).shows<read_pausing>().does<write_nothing>(),
-    relay(8023).shows<read_file_changed>().does<write_nothing>(),
+    relay(8022).shows<read_pausing, Varies::in_ticks>().does<write_nothing>(),
+    relay(8023).shows<read_file_changed, Varies::in_ticks>().does<write_nothing>(),
     relays(8024, 8099),
 });
 
@@ -54,53 +54,53 @@ inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU
     axis_relay(8109).does<write_command>(8109),  // MPG*10
     axis_relay(8110).does<write_command>(8110),  // MPG*100
     axis_relays(8111, 8119, 0), axis_relays(8111, 8119, 1), axis_relays(8111, 8119, 2), axis_relays(8111, 8119, 3),
-    axis_relay(8120, R).shows<read_status>(SSCM),
-    axis_relay(8121, R).shows<read_status>(SRUN),
-    axis_relay(8122, R).shows<read_status>(SENI),
-    axis_relay(8123, R).from_factory(1).shows<read_status>(SEND),
-    axis_relay(8124, R).shows<read_status>(SERR),
+    axis_relay(8120, R).shows<read_status, Varies::in_ticks>(SSCM),
+    axis_relay(8121, R).shows<read_status, Varies::while_moving>(SRUN),
+    axis_relay(8122, R).shows<read_status, Varies::in_ticks>(SENI),
+    axis_relay(8123, R).from_factory(1).shows<read_status, Varies::in_ticks>(SEND),
+    axis_relay(8124, R).shows<read_status, Varies::in_ticks>(SERR),
     axis_relay(8125, R).always(0),  // SINT
     axis_relay(8126, R).always(0),  // SSC0
     axis_relay(8127, R).always(0),  // SSC1
-    axis_relay(8128, R).shows<read_status>(SCP1),
-    axis_relay(8129, R).shows<read_status>(SCP2),
-    axis_relay(8130, R).shows<read_status>(SCP3),
-    axis_relay(8131, R).shows<read_status>(SCP4),
-    axis_relay(8132, R).shows<read_status>(SCP5),
+    axis_relay(8128, R).shows<read_status, Varies::while_moving>(SCP1),
+    axis_relay(8129, R).shows<read_status, Varies::while_moving>(SCP2),
+    axis_relay(8130, R).shows<read_status, Varies::while_moving>(SCP3),
+    axis_relay(8131, R).shows<read_status, Varies::while_moving>(SCP4),
+    axis_relay(8132, R).shows<read_status, Varies::while_moving>(SCP5),
     axis_relay(8133, R).always(0),  // SEOR
     axis_relay(8134, R).always(0),  // SPRF
     axis_relay(8135, R).always(0),  // SPDF
-    axis_relay(8136, R).shows<read_status>(SFU),
-    axis_relay(8137, R).shows<read_status>(SFD),
-    axis_relay(8138, R).shows<read_status>(SFC),
-    axis_relay(8139, R).shows<read_status>(SALM),
-    axis_relay(8140, R).shows<read_status>(SPEL),
-    axis_relay(8141, R).shows<read_status>(SMEL),
-    axis_relay(8142, R).shows<read_status>(SORG),
+    axis_relay(8136, R).shows<read_status, Varies::while_moving>(SFU),
+    axis_relay(8137, R).shows<read_status, Varies::while_moving>(SFD),
+    axis_relay(8138, R).shows<read_status, Varies::while_moving>(SFC),
+    axis_relay(8139, R).shows<read_status, Varies::in_ticks>(SALM),
+    axis_relay(8140, R).shows<read_status, Varies::in_ticks>(SPEL),
+    axis_relay(8141, R).shows<read_status, Varies::in_ticks>(SMEL),
+    axis_relay(8142, R).shows<read_status, Varies::in_ticks>(SORG),
     axis_relay(8143, R).always(0),  // SSD
-    axis_relay(8144, R).shows<read_status>(SDIR),
+    axis_relay(8144, R).shows<read_status, Varies::while_moving>(SDIR),
     axis_relay(8145, R).always(0),  // SSTA
     axis_relay(8146, R).always(0),  // SSTP
-    axis_relay(8147, R).shows<read_status>(SEMG),
+    axis_relay(8147, R).shows<read_status, Varies::in_ticks>(SEMG),
     axis_relay(8148, R).always(0),  // SPCS
-    axis_relay(8149, R).shows<read_status>(SERC),
-    axis_relay(8150, R).shows<read_status>(SEZ),
+    axis_relay(8149, R).shows<read_status, Varies::in_ticks>(SERC),
+    axis_relay(8150, R).shows<read_status, Varies::in_ticks>(SEZ),
     axis_relay(8151, R).always(0),  // SDRP
-    axis_relay(8152, R).shows<read_status>(SCLR),
-    axis_relay(8153, R).shows<read_status>(SLTC),
+    axis_relay(8152, R).shows<read_status, Varies::in_ticks>(SCLR),
+    axis_relay(8153, R).shows<read_status, Varies::in_ticks>(SLTC),
     axis_relay(8154, R).always(0),  // SDIN
-    axis_relay(8155, R).shows<read_status>(SINP),
+    axis_relay(8155, R).shows<read_status, Varies::in_ticks>(SINP),
     axis_relay(8156, R).always(0),  // PFC0
     axis_relay(8157, R).always(0),  // PFC1
     axis_relay(8158, R).always(0),  // PFM0
     axis_relays(8159, 8191, 0), axis_relays(8159, 8191, 1), axis_relays(8159, 8191, 2), axis_relays(8159, 8191, 3),
-    axis_relay(8192, R).shows<read_status>(SRDY),
+    axis_relay(8192, R).shows<read_status, Varies::in_ticks>(SRDY),
     axis_relays(8193, 8194, 0), axis_relays(8193, 8194, 1), axis_relays(8193, 8194, 2), axis_relays(8193, 8194, 3),
-    axis_relay(8195, R).shows<read_status>(HOME_DONE),
-    axis_relay(8196, R).shows<read_status>(ZERO_DONE),
-    axis_relay(8197, R).shows<read_status>(HOME_RUNS),
-    axis_relay(8198, R).shows<read_status>(ZERO_RUNS),
-    axis_relay(8199, R).shows<read_status>(WHEEL_RUNS),
+    axis_relay(8195, R).shows<read_status, Varies::in_ticks>(HOME_DONE),
+    axis_relay(8196, R).shows<read_status, Varies::in_ticks>(ZERO_DONE),
+    axis_relay(8197, R).shows<read_status, Varies::in_ticks>(HOME_RUNS),
+    axis_relay(8198, R).shows<read_status, Varies::in_ticks>(ZERO_RUNS),
+    axis_relay(8199, R).shows<read_status, Varies::in_ticks>(WHEEL_RUNS),
 });
 
 inline constexpr auto kPanelContactRows = section("M85x 人機對應接點", {

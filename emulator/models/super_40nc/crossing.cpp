@@ -4,9 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "base/simulated_time.h"
 #include "emulator/device/machine_ahead.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/ownership.h"
@@ -15,6 +19,7 @@
 #include "emulator/models/super_40nc/row_words.h"
 #include "emulator/models/super_40nc/settings.h"
 #include "emulator/models/super_40nc/terminals.h"
+#include "interpreter/super_40nc/operand.h"
 #include "interpreter/super_40nc/plc.h"
 #include "motion/axis.h"
 
@@ -30,7 +35,51 @@ bool latches_by_comparator(const Settings& its, int axis) { return its.of(kept_x
 /// Ticks that the PLC needs no scan in, if nothing that it reads changes.
 Tick Super40nc::quiet_scans(bool moves) const {
   if (ladder_->is_empty() || !state_.plc.runs) return kNever;
-  return moves && ladder_->reads_special() ? 0 : state_.plc_quiet_scans;
+  return moves && watches_what_moves_ ? 0 : state_.plc_quiet_scans;
+}
+
+bool Super40nc::scans_in(Tick tick) const {
+  const bool is_one_of_them = options_.scan_ms <= 1 || tick % options_.scan_ms == 0;
+  return is_one_of_them && tick >= state_.flash_until;
+}
+
+/// A scan that has changed nothing is the same again until what it reads changes. What hosts and step
+/// programs write, they tell (touched, programs_are_busy()); the rest is looked at in each tick that is run.
+/// In those that are not, only what moves changes, by its row (Varies).
+void Super40nc::find_what_plc_watches() {
+  using language::Letter;
+  watched_.clear();
+  watches_what_moves_ = false;
+  for (const language::Operand& read : ladder_->reads()) {
+    Place place;
+    if (read.letter == Letter::x) {
+      place = at(Table::discrete, static_cast<std::uint16_t>(read.number));
+    } else if (read.letter == Letter::y) {  // signals come and go
+      place = at(Table::coil, static_cast<std::uint16_t>(read.number));
+    } else if (is_special(read)) {
+      place = read.letter == Letter::m ? at(Table::coil, relay_address(read.number))
+                                       : at(Table::holding, data_address(read.number));
+    }
+    if (!place) continue;
+    place.part = Place::Part::whole;
+    watched_.push_back(place);
+    watches_what_moves_ |= place.row->moves();
+  }
+}
+
+void Super40nc::note_what_plc_sees() {
+  seen_.resize(watched_.size());
+  for (std::size_t i = 0; i < watched_.size(); ++i) seen_[i] = read_value(*this, watched_[i]);
+}
+
+/// At the end of a tick.
+void Super40nc::wake_plc_by_what_changed() {
+  const bool sleeps = !ladder_->is_empty() && state_.plc.runs && state_.plc_quiet_scans > 0;
+  if (!sleeps) return;
+  bool is_as_seen = seen_.size() == watched_.size();  // else the ladder is another one since
+  for (std::size_t i = 0; is_as_seen && i < watched_.size(); ++i)
+    is_as_seen = read_value(*this, watched_[i]) == seen_[i];
+  if (!is_as_seen) state_.plc_quiet_scans = 0;
 }
 
 bool Super40nc::is_quiet(int axis_number) const {

@@ -24,7 +24,7 @@ inline constexpr auto kDataRows = section("暫存器元件編號一覽表", {
 });
 
 inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用(一般用途)", {
-    data(8000).in("step").shows<read_pointer>().does<write_pointer>(0),  // C
+    data(8000).in("step").shows<read_pointer, Varies::in_ticks>().does<write_pointer>(0),  // C
     data(8001),
     data(8002).does<select_file_by_alias>(),
     data(8003).range(0, 1000).does<limit_voltage>(0),  // Vout1; 1000 are 3.3 V
@@ -34,27 +34,27 @@ inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用
     data(8007).range(0, 2),       // plane in force
     data(8008),
     data(8009, 8018),
-    data(8019).shows<read_table_line>().does<write_nothing>(),  // line of the user table
+    data(8019).shows<read_table_line, Varies::in_ticks>().does<write_nothing>(),  // line of the user table
     data(8020).range(0, 4).does<select_wheel_or_command>(),
     data(8021).range(0, 2).does<select_wheel>(),
     data(8022).range(0, 2).does<select_jog_speed>(),
     data(8023, 8029),
     data(8030, 8089),
     data(8090),
-    data(8091, 8093, R).shows<read_analog>(),
-    data(8094, R).shows<read_error>(0),
-    data(8095, R).shows<read_error>(1),
-    data(8096, R).shows<read_error>(2),
-    data(8097, R).in("count").shows<read_receive_errors>(0),  // RS232
-    data(8098, R).in("count").shows<read_receive_errors>(1),  // RS485
+    data(8091, 8093, R).shows<read_analog, Varies::in_ticks>(),
+    data(8094, R).shows<read_error, Varies::in_ticks>(0),
+    data(8095, R).shows<read_error, Varies::in_ticks>(1),
+    data(8096, R).shows<read_error, Varies::in_ticks>(2),
+    data(8097, R).in("count").shows<read_receive_errors, Varies::in_ticks>(0),  // RS232
+    data(8098, R).in("count").shows<read_receive_errors, Varies::in_ticks>(1),  // RS485
     data(8099, R).from_factory(100),
 });
 
 // D8x20 to D8x63 bear the names of the chip's registers: PRCMD, PRMV ... RCI.
 inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(XYZU 軸用)", {
-    axis_data(8100).in("step").shows<read_pointer>(1).does<write_pointer>(1),
+    axis_data(8100).in("step").shows<read_pointer, Varies::in_ticks>(1).does<write_pointer>(1),
     axis_data(8101, 8116, 0), axis_data(8101, 8116, 1), axis_data(8101, 8116, 2), axis_data(8101, 8116, 3),
-    axis_data(8117).in("0.001 mm").shows<read_work_position>().does<set_work_position>(),
+    axis_data(8117).in("0.001 mm").shows<read_work_position, Varies::while_moving>().does<set_work_position>(),
     axis_data(8118).range(0, 2).from_factory(1).does<change_axis>(),  // +EL as in force
     axis_data(8119).range(0, 2).from_factory(1).does<change_axis>(),  // -EL as in force
     axis_data(8120),  // PRCMD
@@ -77,10 +77,10 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8137).not_modelled("RENV5"),
     axis_data(8138).not_modelled("RENV6"),
     axis_data(8139).not_modelled("RENV7"),
-    axis_data(8140).in("pulse").shows<read_counter>(0).does<set_counter>(0),  // RCUN1
-    axis_data(8141).in("pulse").shows<read_counter>(1).does<set_counter>(1),  // RCUN2
-    axis_data(8142).in("pulse").shows<read_counter>(2).does<set_counter>(2),  // RCUN3
-    axis_data(8143).in("pulse").shows<read_counter>(3).does<set_counter>(3),  // RCUN4
+    axis_data(8140).in("pulse").shows<read_counter, Varies::while_moving>(0).does<set_counter>(0),  // RCUN1
+    axis_data(8141).in("pulse").shows<read_counter, Varies::while_moving>(1).does<set_counter>(1),  // RCUN2
+    axis_data(8142).in("pulse").shows<read_counter, Varies::while_moving>(2).does<set_counter>(2),  // RCUN3
+    axis_data(8143).in("pulse").shows<read_counter, Varies::while_moving>(3).does<set_counter>(3),  // RCUN4
     axis_data(8144).in("pulse").does<change_axis>(),  // RCMP1: +soft limit in force
     axis_data(8145).in("pulse").does<change_axis>(),  // RCMP2: -soft limit in force
     axis_data(8146).does<change_axis>(),              // RCMP3
@@ -101,16 +101,16 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8161),  // RDS
     axis_data(8162),  // RCMP5
     axis_data(8163),  // RCI
-    axis_data(8164, R).shows<read_operation>(),  // CND
-    axis_data(8165, R).in("pulse").shows<read_latch>(0),  // RLTC1
-    axis_data(8166, R).in("pulse").shows<read_latch>(1),  // RLTC2
-    axis_data(8167, R).in("pulse").shows<read_latch>(2),  // RLTC3
-    axis_data(8168, R).in("pulse").shows<read_latch>(3),  // RLTC4
-    axis_data(8169, R).in("pulse").shows<read_remainder>(),       // RPLS
-    axis_data(8170, R).shows<read_chip_speed>(),                  // RSPD
-    axis_data(8171, R).in("count").shows<read_index_count>(),     // EZ
+    axis_data(8164, R).shows<read_operation, Varies::while_moving>(),  // CND
+    axis_data(8165, R).in("pulse").shows<read_latch, Varies::in_ticks>(0),  // RLTC1
+    axis_data(8166, R).in("pulse").shows<read_latch, Varies::in_ticks>(1),  // RLTC2
+    axis_data(8167, R).in("pulse").shows<read_latch, Varies::in_ticks>(2),  // RLTC3
+    axis_data(8168, R).in("pulse").shows<read_latch, Varies::in_ticks>(3),  // RLTC4
+    axis_data(8169, R).in("pulse").shows<read_remainder, Varies::while_moving>(),       // RPLS
+    axis_data(8170, R).shows<read_chip_speed, Varies::while_moving>(),                  // RSPD
+    axis_data(8171, R).in("count").shows<read_index_count, Varies::in_ticks>(),     // EZ
     axis_data(8172, R).always(0),                                 // idle pulses
-    axis_data(8173, R).in("pulse").shows<read_braking_distance>(),  // RSDC
+    axis_data(8173, R).in("pulse").shows<read_braking_distance, Varies::while_moving>(),  // RSDC
     axis_data(8174, R).always(0),                                 // RCIC
     axis_data(8175, R).always(0),                                 // RIPS
     axis_data(8176, 8199, 0), axis_data(8176, 8199, 1), axis_data(8176, 8199, 2), axis_data(8176, 8199, 3),

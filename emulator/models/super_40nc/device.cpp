@@ -122,7 +122,10 @@ DeviceAnswer Super40nc::admits(const RegisterRequest& request, Checked checked) 
 
 bool Super40nc::answers_refusals() const { return !chose(option("exceptions", "no_answer")); }
 
-void Super40nc::receive_failed(std::size_t port, pty::ReceiveError) { ++state_.receive_errors[port]; }
+void Super40nc::receive_failed(std::size_t port, pty::ReceiveError) {
+  ++state_.receive_errors[port];
+  state_.touched = true;  // D8097, D8098
+}
 
 // ---- the tick
 
@@ -147,7 +150,8 @@ void Super40nc::look_at_inputs() {
   }
 }
 
-void Super40nc::sample_inputs(Tick) {
+void Super40nc::sample_inputs(Tick tick) {
+  if (state_.plc_quiet_scans > 0 && !scans_in(tick)) note_what_plc_sees();
   if (!take_inputs_changed()) return;
   const bool was_emergency = state_.emergency;
   look_at_inputs();
@@ -161,8 +165,7 @@ void Super40nc::sample_inputs(Tick) {
 
 /// PLC, keys, contacts, step programs: later writers win.
 void Super40nc::run_interpreters(Tick tick) {
-  if (options_.scan_ms > 1 && tick % options_.scan_ms != 0) return;
-  if (tick < state_.flash_until) return;
+  if (!scans_in(tick)) return;
   const bool contacts_first = chose(option("scan_order", "contacts_before_the_plc"));
   if (contacts_first) look_at_contacts();
   run_plc();
@@ -170,6 +173,7 @@ void Super40nc::run_interpreters(Tick tick) {
   if (programs_are_busy()) {
     ProgramMachine machine(*this);
     language::StepPrograms(state_.steps, codes_, machine, options_).run_slices();
+    state_.plc_quiet_scans = 0;  // they may have written what the PLC reads
   }
   leave_table();
 }
@@ -183,6 +187,7 @@ void Super40nc::run_plc() {
     const bool was_told = state_.touched;
     const language::Scanned scanned = language::scan(state_.plc, *ladder, machine, steps, options_);
     state_.plc_quiet_scans = was_told || scanned.has_changed ? 0 : scanned.quiet_scans;
+    if (state_.plc_quiet_scans > 0) note_what_plc_sees();
   }
 }
 
@@ -267,6 +272,7 @@ void Super40nc::update_outputs(Tick tick) {
     state_.logo_over = true;
     state_.logo_at = kNever;
   }
+  wake_plc_by_what_changed();
 }
 
 Tick Super40nc::next_timed_tick(Tick done) const {

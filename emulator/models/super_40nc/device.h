@@ -99,6 +99,9 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // --- terminals and axes --------------------------------------------------------------------------
   bool has_terminal(int terminal) const override;
   bool output(int terminal) const override;
+  bool output_moves(int /*terminal*/) const override {
+    return false;
+  }  // signals have ticks of their own, and a PLC that looks at what moves scans in each
   std::int32_t analog_level(int terminal) const override;
   std::int64_t pulses_this_tick(int axis_number) const override;
   double speed_pps(int axis_number) const override;
@@ -386,6 +389,10 @@ class Super40nc final : public DeviceOf<Super40nc>,
 
   // --- crossing.cpp
   Tick quiet_scans(bool moves) const;
+  bool scans_in(Tick tick) const;
+  void find_what_plc_watches();
+  void note_what_plc_sees();
+  void wake_plc_by_what_changed();
   /// The first tick after `done` at which anything is due by its time.
   Tick next_timed_tick(Tick done) const;
   bool is_quiet(int axis_number) const;
@@ -430,6 +437,9 @@ class Super40nc final : public DeviceOf<Super40nc>,
       std::make_shared<const interpreter::super_40nc::Ladder>();
   std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
   NamedBlocks::mapped_type ready_texts_;        // that those two are made of
+  std::vector<Place> watched_;                  // what the ladder reads and others write without telling it
+  bool watches_what_moves_ = false;             // of it, what goes with the pulses of an axis
+  std::vector<Value> seen_;                     // by the PLC in the present tick: not state
   std::vector<int> table_lines_;                // of the user table, while it runs
   interpreter::super_40nc::Options options_;
   MapPolicy map_policy_;

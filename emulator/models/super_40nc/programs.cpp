@@ -70,6 +70,7 @@ void Super40nc::make_programs_ready() {
     const language::AreaProgram program = stored.value_or(language::AreaProgram{.base = row.base});
     if (row.area == language::Area::plc) {
       ladder_ = std::make_shared<const language::Ladder>(program, machine.layout(), options_);
+      find_what_plc_watches();
     } else {
       codes_[language::index_of(row.area)] = language::StepCode(program, labels);
     }

@@ -115,7 +115,7 @@ RegisterRow row_of(const Declaration& fact, int number) {
   if (fact.count > 1 || fact.name.find("{}") != std::string::npos) {
     row.times(fact.count, fact.words(), fact.first_number);
   }
-  if (fact.held == "view") row.shows<seen>(number);
+  if (fact.held == "view") row.shows<seen, Varies::in_ticks>(number);
   if (fact.held == "view" && access != Access::read) row.does<take>(number);
   return fact.is_kept ? row.kept() : row;
 }

@@ -44,8 +44,8 @@ inline constexpr int kFifoFull = 0xC1;
 inline constexpr int kModuleAbsent = 0xC2;
 
 inline constexpr BitField kModeBits[] = {bits(0, "AUTO"), bits(1, "HOLD"), bits(4, "PROGRAM", 4)};
-inline constexpr BitField kStateBits[] = {bits(0, "DRIVING").reads<is_any_driving>(),
-                                          bits(4, "WAITING", 2).reads<fifo_length>()};
+inline constexpr BitField kStateBits[] = {bits(0, "DRIVING").reads<is_any_driving, Varies::in_ticks>(),
+                                          bits(4, "WAITING", 2).reads<fifo_length, Varies::in_ticks>()};
 
 inline constexpr RegisterRow kRows[] = {
     reg(0x0000, "Speed_{}", Type::u16, Access::read_write)
@@ -56,7 +56,7 @@ inline constexpr RegisterRow kRows[] = {
     reg(0x0008, "Offset", Type::s16, Access::read_write).range(-500, 500),
     reg(0x0010, "Position_{}", Type::s32, Access::read_write)
         .each(kAxes, 2)
-        .shows<position_of>()
+        .shows<position_of, Varies::while_moving>()
         .does<set_position>(),
     reg(0x0020, "Gain_{}", Type::f32, Access::read_write)
         .each(kAxes, 2)
@@ -67,7 +67,7 @@ inline constexpr RegisterRow kRows[] = {
     reg(0x0031, "Word_Order", Type::u16, Access::read_write).range(0, 1),
     reg(0x0032, "Key", Type::u16, Access::write),
     reg(0x0033, "Station", Type::u16, Access::read_write).range(0, 247).from_factory(1).kept(),
-    reg(0x0040, "Done", Type::u32, Access::read).shows<commands_done>(),
+    reg(0x0040, "Done", Type::u32, Access::read).shows<commands_done, Varies::in_ticks>(),
     reg(0x0064, "D{}", Type::u16, Access::read_write).times(125, 1, 0),
     reg(0x0200, "Step{}", Type::u16, Access::read_write).times(3, 0x10, 8101).numbered_by(100),
     reg(0x0300, "Volts", Type::u16, Access::read_write).range(0, 5000),
@@ -77,22 +77,22 @@ inline constexpr RegisterRow kRows[] = {
     window<take_block>(kBlockWindow, "Block{}", kBlockWords, 1),
 
     input(0, "STATE", Type::u16).shows_bits(kStateBits),
-    input(2, "Position_{}", Type::s32).each(kAxes, 2).shows<position_of>(),
-    input(8, "Temperature", Type::f32).shows<temperature>(),
-    input(15, "Program_Refused", Type::u16).shows<program_refused>(),
-    input(16, "Cause", Type::u16).shows<last_cause>(),
-    input(17, "Reason", Type::u16).shows<last_reason>(),
-    input(18, "Receive_Errors_{}", Type::u16).each(kPortNames, 1).shows<receive_errors>(),
+    input(2, "Position_{}", Type::s32).each(kAxes, 2).shows<position_of, Varies::while_moving>(),
+    input(8, "Temperature", Type::f32).shows<temperature, Varies::in_ticks>(),
+    input(15, "Program_Refused", Type::u16).shows<program_refused, Varies::in_ticks>(),
+    input(16, "Cause", Type::u16).shows<last_cause, Varies::in_ticks>(),
+    input(17, "Reason", Type::u16).shows<last_reason, Varies::in_ticks>(),
+    input(18, "Receive_Errors_{}", Type::u16).each(kPortNames, 1).shows<receive_errors, Varies::in_ticks>(),
     input(20, "Module_ID", Type::u16).always(0x44),
 
     coil(0, "Output_{}").times(kOutputs, 1, 0),
-    coil(100, "Servo_{}", Access::read).each(kAxes, 1).shows<is_driving>(),
+    coil(100, "Servo_{}", Access::read).each(kAxes, 1).shows<is_driving, Varies::in_ticks>(),
     coil(110, "Run"),
     coil(111, "Absent"),
     coil(0x1000, "Relay_{}").times(kRelays, 1, 0),
 
-    discrete(0, "Input_{}").times(16, 1, 0).shows<input_level>(),
-    discrete(16, "DRIVING_{}").each(kAxes, 16).shows<is_driving>(),
+    discrete(0, "Input_{}").times(16, 1, 0).shows<input_level, Varies::in_ticks>(),
+    discrete(16, "DRIVING_{}").each(kAxes, 16).shows<is_driving, Varies::in_ticks>(),
     discrete(17, "Always_On_{}").each(kAxes, 16).always(1),
 };
 

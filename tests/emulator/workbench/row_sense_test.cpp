@@ -18,7 +18,7 @@ constexpr BitField kDottedName[] = {bits(3, "A.B")};
 constexpr BitField kSameNames[] = {bits(0, "A"), bits(1, "A")};
 constexpr BitField kShared[] = {bits(0, "A", 3), bits(2, "B")};
 constexpr BitField kBeyond[] = {bits(15, "A", 2)};
-constexpr BitField kReading[] = {bits(0, "A").reads<is_any_driving>()};
+constexpr BitField kReading[] = {bits(0, "A").reads<is_any_driving, Varies::in_ticks>()};
 constexpr BitField kPlain[] = {bits(0, "A")};
 constexpr std::string_view kTwo[] = {"X", "Y"};
 
@@ -69,8 +69,10 @@ const Case kCases[] = {
     {input(0, "I", Type::u16).always(1).kept(), "is a view, which keeps nothing"},
     {input(0, "I", Type::s32).does<set_position>(), "can only be read, and has an effect"},
     {reg(0, "R", Type::u16, Access::read).missing_trigger("x"), "can only be read, and has an effect"},
-    {reg(0, "W", Type::u16, Access::write).reads<last_cause>(), "can only be written, and has a reader"},
-    {word().shows<last_cause>(), "is a view that can be written, and nothing takes what is written"},
+    {reg(0, "W", Type::u16, Access::write).reads<last_cause, Varies::in_ticks>(),
+     "can only be written, and has a reader"},
+    {word().shows<last_cause, Varies::in_ticks>(),
+     "is a view that can be written, and nothing takes what is written"},
     {word().always(1), "is a view that can be written, and nothing takes what is written"},
     {with(command(), [](RegisterRow& row) { row.least_words = 6; }), "is not a window of words"},
     {with(command(), [](RegisterRow& row) { row.least_words = 0; }), "is not a window of words"},
@@ -88,7 +90,8 @@ const Case kCases[] = {
     {word().with_bits(kOtherNumberName), "has a field whose name is not one"},
     {word().with_bits(kDottedName), "has a field whose name is not one"},
     {word().with_bits(kSameNames), "has two fields of one name"},
-    {word().reads<last_cause>().with_bits(kReading), "has a reader, and a field with another"},
+    {word().reads<last_cause, Varies::in_ticks>().with_bits(kReading),
+     "has a reader, and a field with another"},
 };
 
 TEST(RowSense, WhatCannotBeIsRefusedInWords) {
@@ -144,8 +147,8 @@ TEST(Also, ANameForOneIsThatOfTheFirst) {
 TEST(Each, CountsAxesAsTheDeviceDoes) {
   static constexpr std::string_view kZU[] = {"Z", "U"};
   static const RegisterRow kRowsOfAxes[] = {
-      reg(0, "All_{}", Type::u16, Access::read).each(kAxes, 1).shows<axis_and_index>(),
-      reg(8, "Last_{}", Type::u16, Access::read).each(kZU, 1, 2).shows<axis_and_index>()};
+      reg(0, "All_{}", Type::u16, Access::read).each(kAxes, 1).shows<axis_and_index, Varies::in_ticks>(),
+      reg(8, "Last_{}", Type::u16, Access::read).each(kZU, 1, 2).shows<axis_and_index, Varies::in_ticks>()};
   static const RegisterMap map(kRowsOfAxes, {});
   struct Plain final : RegisterBankOf<Workbench> {
     Plain(Workbench& bench, const RegisterMap& of) : RegisterBankOf(bench, of, 100) {}

@@ -156,6 +156,7 @@ class Workbench final : public DeviceOf<Workbench>,
     if (number < kFirstOutput || number >= kVolts) return false;
     return powered() && state.image[first_output_ + static_cast<std::size_t>(number - kFirstOutput)] != 0;
   }
+  bool output_moves(int) const override { return false; }
   std::uint32_t output_word(int first, int count) const override {
     if (first < kFirstGroupedOutput) return Terminals::output_word(first, count);
     // A run of them lies in three words at most.

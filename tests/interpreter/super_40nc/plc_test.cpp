@@ -358,7 +358,6 @@ TEST(Super40ncPlc, ActsOnSpecialOnes) {
   EXPECT_TRUE(plc.machine.special.contains(8000));
   EXPECT_TRUE(plc.machine.special.contains(8102));
   EXPECT_EQ(plc.machine.registers[8020], 42);
-  EXPECT_TRUE(plc.ladder.reads_special());
 }
 
 TEST(Super40ncPlc, MovesByEdgeAndSetsModesByLevel) {
@@ -465,7 +464,6 @@ TEST(Super40ncPlc, SaysWhenItHasSettled) {
   EXPECT_FALSE(plc.scan().has_changed);
   plc.machine.set(x(2), true);
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(plc.scan().has_changed);
-  EXPECT_FALSE(plc.ladder.reads_special());
 }
 
 TEST(Super40ncPlc, CrossesScansOfTimersAsIfItHadRunThem) {

@@ -22,7 +22,8 @@ Value shown_bit(const ToyDevice&, Cell cell) { return (cell.index * 5 + cell.arg
 constexpr Value kFieldShows = 5;
 Value shown_in_field(const ToyDevice&, Cell) { return kFieldShows; }
 
-constexpr BitField kFields[] = {bits(2, "PLAIN"), bits(4, "SHOWN", 3).reads<shown_in_field>()};
+constexpr BitField kFields[] = {bits(2, "PLAIN"),
+                                bits(4, "SHOWN", 3).reads<shown_in_field, Varies::in_ticks>()};
 
 /// What one address has, by its row alone.
 struct Spot {
@@ -134,8 +135,8 @@ class Drawn {
     switch (access == Access::read ? below(4) : below(5) / 4 * 4) {
       case 0: return row;
       case 1: return row.always(below(2));
-      case 2: return row.shows<shown_bit>(below(4));
-      case 3: return row.reads<shown_bit>(below(4));
+      case 2: return row.shows<shown_bit, Varies::in_ticks>(below(4));
+      case 3: return row.reads<shown_bit, Varies::in_ticks>(below(4));
       default: row.access = Access::write; return row;
     }
   }
@@ -147,8 +148,8 @@ class Drawn {
     switch (access == Access::read ? below(6) : below(6) / 5 * 6) {
       case 0: return row;
       case 1: return row.always(below(30000));
-      case 2: return row.shows<shown>(below(4));
-      case 3: return row.reads<shown>(below(4));
+      case 2: return row.shows<shown, Varies::in_ticks>(below(4));
+      case 3: return row.reads<shown, Varies::in_ticks>(below(4));
       case 4: return row.type == Type::f32 ? row : row.with_bits(kFields);
       case 5: return row.type == Type::f32 ? row : row.shows_bits(kFields);
       default: row.access = Access::write; return row;

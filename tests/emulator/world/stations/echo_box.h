@@ -169,6 +169,7 @@ class EchoBox final : public DeviceOf<EchoBox>,
     return state_ == dynamic_cast<const EchoBox&>(other).state_;
   }
   bool output(int) const override { return false; }
+  bool output_moves(int) const override { return false; }
 
  protected:
   void power_up() override {

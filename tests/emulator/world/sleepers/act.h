@@ -1,0 +1,31 @@
+// Something that comes to a world from outside, as a value that can be given to several worlds, and told.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "emulator/world/world.h"
+#include "tests/emulator/world/sleepers/draw.h"
+
+namespace understudy::emulator::world {
+
+struct Act {
+  std::string words;  // what it is called where a course is told
+  std::function<void(World&)> carry_out;
+  SimTime before{0};  // since the act before it
+};
+
+// Each of these does nothing where the world does not have it, or refuses it.
+Act write_act(const std::string& name, Value value);
+Act assign_act(const std::string& name, double value);
+Act command_act(const std::string& text);
+Act line_act(const std::string& text);
+Act program_act(const std::string& text);
+Act frame_act(std::vector<std::uint8_t> bytes, std::size_t line = 0);
+
+/// What can come to any controller, with all that its model lists: registers, inputs, faults, the power,
+/// frames. Device 0 is `m`, device 1 a neighbour.
+Act any_act(Draw& draw, const Model& model);
+
+}  // namespace understudy::emulator::world

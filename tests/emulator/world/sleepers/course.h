@@ -1,0 +1,23 @@
+// A course: a bench of a controller `m` and a Simple2-R3 `n` that are wired to each other, and what comes to
+// them from outside; all of it drawn from a seed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/world/bench/bench.h"
+#include "tests/emulator/world/sleepers/act.h"
+
+namespace understudy::emulator::world {
+
+struct Course {
+  std::string bench_text;
+  Bench bench;
+  std::vector<Act> acts;
+};
+
+Course course_of(std::string_view model, std::uint64_t seed);
+
+}  // namespace understudy::emulator::world
