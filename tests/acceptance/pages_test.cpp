@@ -145,7 +145,7 @@ class Script {
         text_ += "out=$home/block." + std::to_string(block.line) + "\nexec >$out 2>&1\n" +
                  (is_shown ? "unjudged\n" : "judge\n");
         add(block, !is_shown);
-        text_ += "[ -n \"$first\" ] || wait\n";
+        text_ += "wait_for_all\n";
         if (is_shown) shown_[block.line] = blocks[i + 1].lines;
       } else if (block.language.starts_with("dialogue ")) {
         converse(block, block.language.substr(9));

@@ -31,6 +31,11 @@ in_first_terminal() {
   done
   failed "$at" "did not become ready: $(cat "$home/first")"
 }
+# Bash gives the number of a job that has ended to none until it has told of it, and a script tells when it likes.
+wait_for_all() {
+  [ -n "$first" ] || wait
+  jobs >/dev/null
+}
 type_in() {
   local i answer=
   for ((i = 0; i < 50; ++i)); do
