@@ -12,7 +12,7 @@
 #include "emulator/world/names/names.h"
 #include "pty/rtu_crc.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 
 namespace sleepers_act {
 
@@ -225,4 +225,4 @@ Act any_act(Draw& draw, const Model& model) {
   }
 }
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

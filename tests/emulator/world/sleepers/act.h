@@ -8,7 +8,7 @@
 #include "emulator/world/world.h"
 #include "tests/emulator/world/sleepers/draw.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 
 struct Act {
   std::string words;  // what it is called where a course is told
@@ -28,4 +28,4 @@ Act frame_act(std::vector<std::uint8_t> bytes, std::size_t line = 0);
 /// frames. Device 0 is `m`, device 1 a neighbour.
 Act any_act(Draw& draw, const Model& model);
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

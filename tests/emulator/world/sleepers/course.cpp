@@ -7,7 +7,7 @@
 #include "tests/emulator/model_file/described.h"
 #include "tests/emulator/world/sleepers/lives.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 
 namespace sleepers_course {
 
@@ -133,4 +133,4 @@ std::unique_ptr<Life> life_of(std::string_view model) {
   return model == "imported" ? life_of_imported() : nullptr;
 }
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

@@ -10,7 +10,7 @@
 #include "emulator/world/bench/bench.h"
 #include "tests/emulator/world/sleepers/act.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 
 struct Course {
   std::string bench_text;
@@ -20,4 +20,4 @@ struct Course {
 
 Course course_of(std::string_view model, std::uint64_t seed);
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 
 class Draw {
  public:
@@ -31,4 +31,4 @@ class Draw {
   std::mt19937_64 random_;
 };
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

@@ -10,7 +10,7 @@
 #include "tests/emulator/world/sleepers/act.h"
 #include "tests/emulator/world/sleepers/draw.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 
 class Life {
  public:
@@ -29,4 +29,4 @@ class Life {
 /// By the name of a model; "imported" stands for those that files describe.
 std::unique_ptr<Life> life_of(std::string_view model);
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

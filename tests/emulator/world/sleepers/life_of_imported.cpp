@@ -3,7 +3,7 @@
 #include "tests/emulator/model_file/described.h"
 #include "tests/emulator/world/sleepers/lives.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 namespace sleepers_imported {
 
 constexpr const char* kList =
@@ -107,4 +107,4 @@ class ImportedLife final : public Life {
 
 std::unique_ptr<Life> life_of_imported() { return std::make_unique<sleepers_imported::ImportedLife>(); }
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

@@ -6,7 +6,7 @@
 #include "interpreter/rs_m8194h/text.h"
 #include "tests/emulator/world/sleepers/lives.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 namespace sleepers_rs_m8194h {
 
 namespace language = interpreter::rs_m8194h;
@@ -148,4 +148,4 @@ class RsM8194hLife final : public Life {
 
 std::unique_ptr<Life> life_of_rs_m8194h() { return std::make_unique<sleepers_rs_m8194h::RsM8194hLife>(); }
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

@@ -6,7 +6,7 @@
 #include "interpreter/simple2/instructions.h"
 #include "tests/emulator/world/sleepers/lives.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 namespace sleepers_simple2 {
 
 namespace language = interpreter::simple2;
@@ -95,4 +95,4 @@ class Simple2Life final : public Life {
 
 std::unique_ptr<Life> life_of_simple2() { return std::make_unique<sleepers_simple2::Simple2Life>(); }
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

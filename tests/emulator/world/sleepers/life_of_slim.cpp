@@ -2,7 +2,7 @@
 
 #include "tests/emulator/world/sleepers/lives.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 namespace sleepers_slim {
 
 /// What may stand in a program, and most of it typed as well.
@@ -102,4 +102,4 @@ class SlimLife final : public Life {
 
 std::unique_ptr<Life> life_of_slim() { return std::make_unique<sleepers_slim::SlimLife>(); }
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

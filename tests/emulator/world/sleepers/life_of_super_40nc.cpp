@@ -2,7 +2,7 @@
 
 #include "tests/emulator/world/sleepers/lives.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 namespace sleepers_super_40nc {
 
 /// What a PLC and step programs may look at: everything that shows something, and some of what keeps
@@ -175,4 +175,4 @@ class Super40ncLife final : public Life {
 
 std::unique_ptr<Life> life_of_super_40nc() { return std::make_unique<sleepers_super_40nc::Super40ncLife>(); }
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

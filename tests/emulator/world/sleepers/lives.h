@@ -5,7 +5,7 @@
 
 #include "tests/emulator/world/sleepers/life.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 
 std::unique_ptr<Life> life_of_simple2();
 std::unique_ptr<Life> life_of_super_40nc();
@@ -14,4 +14,4 @@ std::unique_ptr<Life> life_of_slim();
 /// A controller that a file describes, another one for each course.
 std::unique_ptr<Life> life_of_imported();
 
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers

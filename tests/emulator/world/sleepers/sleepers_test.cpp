@@ -21,7 +21,7 @@
 
 #include "tests/emulator/world/stepping.h"
 
-namespace understudy::emulator::world {
+namespace understudy::emulator::world::sleepers {
 namespace sleepers_test {
 
 using namespace std::chrono_literals;
@@ -263,4 +263,4 @@ TEST(SleepersTable, HasALifeForEveryModel) {
 }
 
 }  // namespace sleepers_test
-}  // namespace understudy::emulator::world
+}  // namespace understudy::emulator::world::sleepers
