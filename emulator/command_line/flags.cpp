@@ -49,9 +49,6 @@ struct CommandLine {
   explicit CommandLine(ModelList known) : models(known) {
     app.require_subcommand(1);
     app.set_version_flag("--version", UNDERSTUDY_VERSION);
-    app.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return "understudy: " + one_line(error.what()) + " (see --help for what is expected)\n";
-    });
     add_models();
     add_describe();
     add_serve();
@@ -192,8 +189,7 @@ struct CommandLine {
                         "How many are played at a time [one for each core; in real time at least 8]");
     command->add_option("--shard", run.shard, "I/N: the I-th of all scenarios, and every N-th after it")
         ->check(kNotEmpty);
-    command->add_option("--seed", run.seed, "Instead of the scenarios' own seeds")
-        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{INT64_MAX}));
+    command->add_option("--seed", run.seed, "Instead of the scenarios' own seeds")->check(kSeed);
     command
         ->add_option("--filter", run.filter,
                      "Those whose names match this pattern, such as '*move*'; or one case, by its identity")
@@ -272,6 +268,10 @@ struct CommandLine {
     };
     for (const ControlWord& word : kControlWords) {
       CLI::App* const sub = add(word.verb, word.help, word.operand, word.operand_help);
+      if (std::string_view(word.verb) == "scope") {
+        sub->add_option("--trace", control.trace, "Write what was kept to this file: FILE.csv, for plot")
+            ->check(kNotEmpty);
+      }
       if (std::string_view(word.verb) != "run-until") continue;
       sub->add_option("--within", control.within, "Simulated time after which to give up")
           ->capture_default_str();
@@ -306,7 +306,8 @@ struct CommandLine {
     command->add_option("--command", poll.commands, "A command by the model's name, sent before the items")
         ->check(kNotEmpty)
         ->allow_extra_args(false);
-    command->add_option("--station", poll.station, "Station to ask")->capture_default_str();
+    command->add_option("--station", poll.station,
+                        "Station to ask; without it the model's factory number, or 1");
     command->add_option("--model", poll.model, "Model whose names to use")->check(kNotEmpty);
     command
         ->add_option("--word-order", poll.word_order,
@@ -430,15 +431,12 @@ std::function<int()> parse_command_line(int argc, char** argv, ModelList models)
   try {
     line->app.parse(argc, argv);
     return [line] { return line->chosen(); };
-  } catch (const CLI::RequiredError& error) {
-    const std::string unknown = unknown_command(line->app, argc, argv, 1);
-    if (!unknown.empty()) {
-      std::fprintf(stderr, "understudy: %s (--help lists them)\n", one_line(unknown).c_str());
-    } else {
-      line->app.exit(error);
-    }
+  } catch (const CLI::Success& help) {
+    line->app.exit(help);
+    code = kExitWell;
   } catch (const CLI::ParseError& error) {
-    if (line->app.exit(error) == 0) code = kExitWell;
+    const std::string complaint = complaint_about(line->app, error, argc, argv);
+    std::fprintf(stderr, "understudy: %s\n", one_line(complaint).c_str());
   }
   return [code] { return code; };
 }
