@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/files/background_writer.h"
+#include "base/files/content_kind.h"
 #include "base/files/output_file.h"
 #include "pty/capture.h"
 #include "pty/capture_pcapng.h"
@@ -28,7 +29,7 @@ constexpr std::size_t kMostWaiting = 4
 
 OutputFile open_file(const std::string& path) {
   try {
-    return OutputFile(path);
+    return OutputFile(path, ContentKind::capture);
   } catch (const OutputError& error) {
     refuse(path, error);
   }
@@ -83,8 +84,9 @@ void CaptureFile::add(const CapturedPacket& packet) {
 
 void CaptureFile::tell_failure() {
   const int error = writer_->failure().error;
-  if (error == 0 || std::exchange(has_told_failure_, true)) return;
-  log_(path_ + ": the capture has ended early: " + std::generic_category().message(error));
+  if (error == 0 || !failure_.empty()) return;
+  failure_ = path_ + ": the capture has ended early: " + std::generic_category().message(error);
+  log_(failure_);
 }
 
 void CaptureFile::finish() {

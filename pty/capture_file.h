@@ -36,6 +36,8 @@ class CaptureFile {
 
   /// Packets that are not in the file: the disk was too slow, or full.
   std::uint64_t lost() const { return lost_ + (writer_ ? writer_->failure().lost : 0); }
+  /// Why it has ended early; empty if it has not. Known at the end: after finish().
+  const std::string& failure() const { return failure_; }
 
  private:
   void tell_failure();
@@ -48,7 +50,7 @@ class CaptureFile {
   std::vector<std::uint64_t> lost_before_;  // of each line, since its last packet in the file
   std::uint64_t lost_ = 0;
   bool has_told_slow_ = false;
-  bool has_told_failure_ = false;
+  std::string failure_;
   bool is_finished_ = false;
   std::string piece_;
   std::unique_ptr<BackgroundWriter> writer_;  // last: its thread uses the others

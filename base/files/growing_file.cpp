@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/files/content_kind.h"
 #include "base/files/output_file.h"
 
 namespace understudy {
@@ -19,9 +20,9 @@ constexpr std::size_t kMostWaiting = 16 << 20;  // bytes
   throw GrowingFileError(path + ": " + what + " cannot be written: " + error.what());
 }
 
-OutputFile open_file(const std::string& path, const std::string& what) {
+OutputFile open_file(const std::string& path, ContentKind kind, const std::string& what) {
   try {
-    return OutputFile(path);
+    return OutputFile(path, kind);
   } catch (const OutputError& error) {
     refuse(path, what, error);
   }
@@ -29,14 +30,14 @@ OutputFile open_file(const std::string& path, const std::string& what) {
 
 }  // namespace
 
-GrowingFile::GrowingFile(const std::string& path, std::string what,
+GrowingFile::GrowingFile(const std::string& path, ContentKind kind,
                          std::function<void(const std::string&)> log)
-    : path_(path), what_(std::move(what)), log_(std::move(log)), file_(open_file(path, what_)) {}
+    : path_(path), what_(the(kind)), log_(std::move(log)), file_(open_file(path, kind, what_)) {}
 
 GrowingFile::~GrowingFile() { finish(); }
 
 void GrowingFile::take(std::string_view line) {
-  if (has_given_up_) return;
+  if (!failure_.empty()) return;
   if (!has_begun_) return begin(line);
   if (!writer_) return;
   switch (writer_->append(line)) {
@@ -58,15 +59,18 @@ void GrowingFile::begin(std::string_view line) {
 }
 
 void GrowingFile::give_up(const std::string& why) {
-  if (std::exchange(has_given_up_, true) || !log_) return;
-  log_(path_ + ": " + what_ + " has ended early: " + why);
+  if (!failure_.empty()) return;
+  failure_ = path_ + ": " + what_ + " has ended early: " + why;
+  if (log_) log_(failure_);
 }
 
-void GrowingFile::finish() {
-  if (!writer_) return;
-  writer_->finish();
-  if (const int error = writer_->failure().error; error != 0) give_up(std::strerror(error));
-  writer_.reset();
+std::string GrowingFile::finish() {
+  if (writer_) {
+    writer_->finish();
+    if (const int error = writer_->failure().error; error != 0) give_up(std::strerror(error));
+    writer_.reset();
+  }
+  return failure_;
 }
 
 }  // namespace understudy

@@ -11,9 +11,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+
+#include "base/files/content_kind.h"
+#include "base/files/descriptor.h"
 
 namespace understudy {
 namespace {
@@ -21,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMostLinks = 40;  // from one to the next, as many as Linux follows
+constexpr mode_t kPermissions = 0777;
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
@@ -42,8 +47,23 @@ void demand_own_way(const fs::path& absolute) {
     if (S_ISLNK(status.st_mode) && is_left_by_a_stranger(way, status)) {
       throw OutputError(
           way.string() +
-          "is another user's link in a folder that everyone can write to; expected a path of your own");
+          ": it is another user's link in a folder that everyone can write to; expected a path of your own");
     }
+  }
+}
+
+/// The beginning of a file that is open. Throws OutputError.
+std::string head_of(int file) {
+  std::string head(kTellingBytes, '\0');
+  const ssize_t size = ::pread(file, head.data(), head.size(), 0);
+  if (size < 0) throw OutputError("it cannot be read: " + error_text(errno));
+  head.resize(static_cast<std::size_t>(size));
+  return head;
+}
+
+void demand_kind(int file, ContentKind kind) {
+  if (const std::string why = why_not_replaceable_by(kind, head_of(file)); !why.empty()) {
+    throw OutputError(why);
   }
 }
 
@@ -54,6 +74,7 @@ std::string kind_of_file(mode_t mode) {
   if (S_ISDIR(mode)) return "a directory";
   if (S_ISSOCK(mode)) return "a socket";
   if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISLNK(mode)) return "a link";
   return "a device";
 }
 
@@ -86,10 +107,52 @@ std::string output_target(const std::string& path) {
   throw OutputError(error_text(ELOOP));
 }
 
-OutputFile::OutputFile(const std::string& path)
+void demand_replaceable(const std::string& target, ContentKind kind) {
+  const Descriptor file(::open(target.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (file) return demand_kind(file.get(), kind);
+  if (errno != ENOENT) throw OutputError("it cannot be read: " + error_text(errno));
+}
+
+std::string why_not_writable(const std::string& path, ContentKind kind) {
+  try {
+    demand_replaceable(output_target(path), kind);
+    return "";
+  } catch (const OutputError& error) {
+    return error.what();
+  }
+}
+
+std::optional<FileAccess> access_of(const std::string& path) {
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileAccess{.owner = status.st_uid, .group = status.st_gid, .mode = status.st_mode & kPermissions};
+}
+
+void give_access(int file, const FileAccess& access) {
+  struct stat status = {};
+  if (::fstat(file, &status) != 0) return;
+  const bool is_same = status.st_uid == access.owner && status.st_gid == access.group;
+  const bool has_owner = is_same || ::fchown(file, access.owner, access.group) == 0 ||
+                         ::fchown(file, static_cast<uid_t>(-1), access.group) == 0;
+  // What was for one group is not for another.
+  const mode_t mode = has_owner ? access.mode : access.mode & ~static_cast<mode_t>(S_IRWXG);
+  [[maybe_unused]] const int ignored = ::fchmod(file, mode);
+}
+
+void give_access(const std::string& path, const FileAccess& access) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (file) give_access(file.get(), access);
+}
+
+void make_like(const std::string& path, const FileAccess& access) {
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+  if (file) give_access(file.get(), access);
+}
+
+OutputFile::OutputFile(const std::string& path, ContentKind kind)
     : target_(output_target(path)),
-      file_(::open(target_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC,
-                   0666)) {
+      file_(
+          ::open(target_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666)) {
   if (!file_) throw OutputError(error_text(errno));
   struct stat status = {};
   if (::fstat(file_.get(), &status) != 0) throw OutputError(error_text(errno));
@@ -97,6 +160,7 @@ OutputFile::OutputFile(const std::string& path)
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     throw OutputError("another program is writing it; expected another path");
   }
+  demand_kind(file_.get(), kind);
 }
 
 void OutputFile::begin(std::string_view head) {

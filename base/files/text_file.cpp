@@ -1,19 +1,27 @@
 #include "base/files/text_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
+#include "base/files/content_kind.h"
 #include "base/files/descriptor.h"
 #include "base/files/output_file.h"
+#include "base/text/parse_integer.h"
 
 namespace understudy {
 
@@ -44,23 +52,52 @@ int write_all(int file, const std::string& contents) {
   return 0;
 }
 
-/// Writes to a new file and waits for the disk; 0, or the error.
-int write_whole(int file, const std::string& contents) {
-  int error = write_all(file, contents);
-  if (error == 0 && ::fsync(file) != 0) error = errno;
-  if (::close(file) != 0 && error == 0) error = errno;
-  return error;
+constexpr std::string_view kBeside = ".new";
+
+/// The names beside `path`, first and further ones: "a.json.new", "a.json.new-2".
+std::string name_beside(const std::string& path, int number) {
+  return path + std::string(kBeside) + (number == 1 ? "" : "-" + std::to_string(number));
 }
 
-/// A new file under the first free name beside `path`; its descriptor, or -1.
-int make_beside(const std::string& path, std::string& name) {
-  int file = -1;
-  for (int i = 1; file < 0; ++i) {
-    name = path + ".new" + (i == 1 ? "" : "-" + std::to_string(i));
-    file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    if (file < 0 && errno != EEXIST) break;
+/// Whether the rest of a name behind that of the file is one of those.
+bool is_beside(std::string_view rest) {
+  if (!rest.starts_with(kBeside)) return false;
+  rest.remove_prefix(kBeside.size());
+  return rest.empty() || (rest.starts_with("-") && parse_integer(rest.substr(1)).value_or(0) > 1);
+}
+
+bool is_still_there(int file, const std::string& name) {
+  struct stat opened = {};
+  struct stat named = {};
+  return ::fstat(file, &opened) == 0 && ::lstat(name.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+         opened.st_dev == named.st_dev;
+}
+
+/// A new file beside `path`, locked while it is written: so one that is not was left by a writer that was
+/// killed.
+Descriptor make_beside(const std::string& path, mode_t mode, std::string& name) {
+  for (int number = 1;; ++number) {
+    name = name_beside(path, number);
+    Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+    if (!file && errno != EEXIST) return file;
+    // Somebody who clears up may have taken it away before it was locked.
+    if (file && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0 && is_still_there(file.get(), name)) return file;
   }
-  return file;
+}
+
+/// Writes it and waits for the disk; 0, or the error.
+int write_whole(int file, const std::string& contents) {
+  const int error = write_all(file, contents);
+  return error == 0 && ::fsync(file) != 0 ? errno : error;
+}
+
+void remove_if_left(const std::string& name, ContentKind kind) {
+  const Descriptor file(::open(name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  struct stat status = {};
+  const bool is_one = file && ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode) &&
+                      ::flock(file.get(), LOCK_EX | LOCK_NB) == 0 && is_still_there(file.get(), name);
+  if (!is_one) return;
+  if (is_of_kind(kind, head_of_file(name))) ::unlink(name.c_str());
 }
 
 }  // namespace
@@ -94,27 +131,54 @@ FileText read_text_of(int descriptor) {
   return text;
 }
 
+std::string head_of_file(const std::string& path) {
+  std::string why;
+  const Descriptor file = open_regular(path, why);
+  std::string head(kTellingBytes, '\0');
+  const ssize_t size = file ? ::pread(file.get(), head.data(), head.size(), 0) : 0;
+  head.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+  return head;
+}
+
 std::string why_not_readable(const std::string& path) {
   std::string why;
   open_regular(path, why);
   return why;
 }
 
-std::string replace_text_file(const std::string& path, const std::string& contents) {
+std::string replace_text_file(const std::string& path, const std::string& contents, ContentKind kind) {
   std::string target;
   try {
     target = output_target(path);
+    demand_replaceable(target, kind);
   } catch (const OutputError& error) {
     return error.what();
   }
+  const std::optional<FileAccess> access = access_of(target);
   std::string beside;
-  const int file = make_beside(target, beside);
-  if (file < 0) return std::strerror(errno);
-  int error = write_whole(file, contents);
+  // Until it has the mode of what it replaces, nobody else may look into it.
+  const Descriptor file = make_beside(target, access ? 0600 : 0644, beside);
+  if (!file) return std::strerror(errno);
+  int error = write_whole(file.get(), contents);
+  if (access) give_access(file.get(), *access);
   if (error == 0 && std::rename(beside.c_str(), target.c_str()) != 0) error = errno;
   if (error == 0) return "";
   unlink(beside.c_str());
   return std::strerror(error);
+}
+
+void remove_left_beside(const std::string& path, ContentKind kind) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path file(path);
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const std::string own_name = file.filename().string();
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (name.starts_with(own_name) && is_beside(std::string_view(name).substr(own_name.size()))) {
+      remove_if_left(it->path().string(), kind);
+    }
+  }
 }
 
 }  // namespace understudy

@@ -1,10 +1,15 @@
 #include "emulator/command_line/app_words.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/text/one_line.h"
+#include "base/text/parse_real.h"
 #include "base/text/suggestion.h"
 #include "emulator/command_line/completion.h"
 
@@ -23,24 +28,146 @@ CommandWords words_of(const CLI::App& app) {
   return words;
 }
 
-std::string unknown_command(const CLI::App& app, int argc, char** argv, int first) {
-  for (int i = first; i < argc; ++i) {
+namespace {
+
+constexpr std::string_view kListed = " (--help lists them)";
+
+bool is_flag(std::string_view word) { return word.size() > 1 && word.starts_with("-"); }
+
+/// As it is understood behind that command: those above a command may stand behind it as well.
+const CLI::Option* flag_called(const CLI::App& command, const std::string& name) {
+  for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
+    if (const CLI::Option* const flag = app->get_option_no_throw(name)) return flag;
+    if (!app->get_fallthrough()) break;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> flags_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
+    for (const CLI::Option* const option : app->get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    if (!app->get_fallthrough()) break;
+  }
+  return names;
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& known) {
+  const auto near = near_word(word, known);
+  return near ? "; the nearest is " + quoted(*near) : "";
+}
+
+/// The words of a command line, in their order, as far as they are commands and flags.
+struct Walk {
+  const CLI::App* command;  // the last one that was named
+  std::string complaint;    // about the first word that is none
+};
+
+Walk walk(const CLI::App& app, int argc, char** argv) {
+  Walk found{.command = &app, .complaint = {}};
+  for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word.starts_with("-")) {
-      const CLI::Option* const flag = app.get_option_no_throw(word.substr(0, word.find('=')));
-      if (flag == nullptr) return understudy::quoted(word) + " is not a flag here";
-      if (flag->get_items_expected_max() > 0 && word.find('=') == std::string::npos) ++i;  // its value
+    if (word == "--") break;
+    if (is_flag(word)) {
+      const std::string name = word.substr(0, word.find('='));
+      const CLI::Option* const flag = flag_called(*found.command, name);
+      const bool is_number = parse_real(word).has_value();
+      if (flag == nullptr && is_number) continue;
+      if (flag == nullptr) {
+        found.complaint = quoted(name) + " is not a flag here" + nearest(name, flags_of(*found.command)) +
+                          std::string(kListed);
+        return found;
+      }
+      const bool has_value = flag->get_items_expected_min() > 0 && word.find('=') == std::string::npos;
+      if (has_value) ++i;
       continue;
     }
+    const auto commands = found.command->get_subcommands(nullptr);
+    if (commands.empty()) continue;  // an operand
     std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands(nullptr)) {
-      names.push_back(command->get_name());
-      if (word != command->get_name()) continue;
-      return command->get_subcommands(nullptr).empty() ? "" : unknown_command(*command, argc, argv, i + 1);
+    for (const CLI::App* const command : commands) names.push_back(command->get_name());
+    const auto named = std::find(names.begin(), names.end(), word);
+    if (named == names.end()) {
+      found.complaint = quoted(word) + " is not a command" + nearest(word, names) + std::string(kListed);
+      return found;
     }
-    return understudy::quoted(word) + " is not a command" + suggestion(word, names);
+    found.command = commands[static_cast<std::size_t>(named - names.begin())];
   }
-  return "";
+  return found;
+}
+
+/// "ctl clear: ", and nothing for the program itself.
+std::string path_of(const CLI::App& command) {
+  std::string path;
+  for (const CLI::App* app = &command; app->get_parent() != nullptr; app = app->get_parent()) {
+    path = app->get_name() + (path.empty() ? "" : " ") + path;
+  }
+  return path.empty() ? "" : path + ": ";
+}
+
+/// The first word, in the order of the command line, that nobody has taken.
+std::string first_left(const CLI::App& app, int argc, char** argv) {
+  const std::vector<std::string> left = app.remaining(true);
+  for (int i = 1; i < argc; ++i) {
+    if (std::find(left.begin(), left.end(), argv[i]) != left.end()) return argv[i];
+  }
+  return left.empty() ? "" : left.front();
+}
+
+/// What its help says is expected, within a sentence.
+std::string expected_of(const CLI::App& command, const std::string& option) {
+  const CLI::Option* const found = command.get_option_no_throw(option);
+  std::string help = found == nullptr ? "" : found->get_description();
+  if (help.empty()) return "one";
+  const bool is_word = help.size() > 1 && std::islower(static_cast<unsigned char>(help[1])) != 0;
+  if (is_word || help[1] == ' ')
+    help[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(help[0])));
+  return help;
+}
+
+/// "--page" of "--page: ...".
+std::string before(const std::string& text, std::string_view end) { return text.substr(0, text.find(end)); }
+
+}  // namespace
+
+std::string complaint_about(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const Walk found = walk(app, argc, argv);
+  if (!found.complaint.empty()) return found.complaint;
+  const std::string told = error.what();
+  const std::string& kind = error.get_name();
+  const std::string where = path_of(*found.command);
+  if (kind == "RequiredError") {
+    const std::string what = before(told, " is required");
+    if (what == "A subcommand") return where + "expected a command" + std::string(kListed);
+    return where + what + " is missing; expected " + expected_of(*found.command, what);
+  }
+  if (kind == "ExtrasError")
+    return where + quoted(first_left(app, argc, argv)) + " is one word too many; expected nothing more";
+  if (kind == "ExcludesError") {
+    const std::string first = before(told, " excludes ");
+    return where + first + " and " + told.substr(first.size() + std::string_view(" excludes ").size()) +
+           " do not go together; expected one of the two";
+  }
+  if (kind == "ArgumentMismatch") {
+    if (told.find("At Most") != std::string::npos)
+      return before(told, ":") + ": is given twice; expected it once";
+    if (told.find("flag override") == std::string::npos)
+      return before(told, ":") + ": has no value; expected one";
+    return before(told, " was given") + ": has a value; expected none";
+  }
+  if (kind == "ConversionError") {
+    constexpr std::string_view kBegin = "Could not convert: ";
+    if (!told.starts_with(kBegin)) return before(told, ":") + ": has a value; expected none";
+    const std::string name = before(told.substr(kBegin.size()), " = ");
+    const CLI::Option* const option = flag_called(*found.command, name);
+    if (option != nullptr && option->get_items_expected_max() == 0)
+      return name + ": has a value; expected none";
+    return name + ": " + quoted(told.substr(kBegin.size() + name.size() + 3)) +
+           " is not a whole number; expected one";
+  }
+  return told;
 }
 
 }  // namespace understudy::emulator::command_line

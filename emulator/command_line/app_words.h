@@ -7,15 +7,16 @@
 
 namespace CLI {
 class App;
-}
+class ParseError;
+}  // namespace CLI
 
 namespace understudy::emulator::command_line {
 
 /// All commands and flags, with their help.
 CommandWords words_of(const CLI::App& app);
 
-/// CLI11 takes an unknown command for a stray word and complains that one is missing. Says which word or flag
-/// it was, and what is similar; empty if the trouble is something else.
-std::string unknown_command(const CLI::App& app, int argc, char** argv, int first);
+/// What is wrong with a command line that it does not understand, in the words of this program: the first
+/// word that is no command or flag, with the nearest one, or what `error` is about.
+std::string complaint_about(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
 }  // namespace understudy::emulator::command_line

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
@@ -20,6 +21,7 @@
 #include "emulator/command_line/text_argument.h"
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/mistakes_told.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
@@ -138,9 +140,12 @@ CheckedFile checked_file(ModelList models, const std::string& file, const std::s
 CheckedFile checked_program(const Model& model, const std::string& file, const DeviceSettings& settings) {
   CheckedFile checked{.file = file, .kind = "program"};
   const auto text = read_text_argument(file);
-  const auto mistakes =
-      text ? check_program(model, *text, settings)
-           : std::vector<ProgramMistake>{{.line = 0, .column = 0, .what = text.why + "; expected a file"}};
+  const auto mistakes = [&]() -> std::vector<ProgramMistake> {
+    if (!text) return {{.line = 0, .column = 0, .what = text.why + "; expected a file"}};
+    const std::string why = is_another_kind(*text, ContentKind::program);
+    if (!why.empty()) return {{.line = 1, .column = 1, .what = why}};
+    return with_word_of_more(check_program(model, *text, settings));
+  }();
   for (const ProgramMistake& mistake : mistakes) {
     checked.findings.push_back({.place = {file, mistake.line, mistake.column}, .text = mistake.what});
   }

@@ -135,6 +135,7 @@ struct ControlArguments {
   std::string verb;
   std::vector<std::string> operands;
   std::string within = "1h";  // of simulated time, for `run-until`
+  std::string trace;          // FILE.csv, for `scope`
 };
 int control(const ControlArguments& arguments);
 
@@ -172,9 +173,9 @@ void start_page_beside(const std::string& control, int port);
 
 struct PollArguments {
   std::string port;
-  int station = 1;
-  // Unsaid or empty: as the model's port has them, without one 19200 8E1.
+  // Unsaid or empty: as the model has them from the factory, without one station 1 at 19200 8E1.
   static constexpr int kUnsaid = INT_MIN;
+  int station = kUnsaid;
   int baud = kUnsaid;
   std::string parity;
   int stop_bits = kUnsaid;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
@@ -12,7 +13,9 @@
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/ctl_looks.h"
+#include "emulator/command_line/ctl_scope.h"
 #include "emulator/command_line/text_argument.h"
+#include "emulator/device/mistakes_told.h"
 #include "emulator/device/program_error.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/value_text.h"
@@ -23,22 +26,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// "NAME=VALUE" operands as an object.
+/// "NAME=VALUE" operands as an object. A word that is not a number goes as it is: whoever takes it knows what
+/// is expected there.
 Json assignments(const ControlArguments& arguments) {
   Json values = Json::object();
   for (const std::string& operand : arguments.operands) {
     const std::size_t equals = operand.find('=');
     const std::string name = operand.substr(0, equals);
     const std::string text = equals == std::string::npos ? std::string() : operand.substr(equals + 1);
-    const auto whole = parse_integer(text);
-    const auto real = parse_real(text);
-    if ((!whole && !real) || name.empty())
+    if (name.empty() || text.empty())
       throw UsageError("ctl " + arguments.verb + ": " + understudy::quoted(operand) +
                        " is not understood; expected NAME=VALUE");
     if (values.contains(name))
       throw UsageError("ctl " + arguments.verb + ": " + understudy::quoted(name) +
                        " is given twice; expected it once");
-    values[name] = whole ? Json(*whole) : Json(*real);
+    if (const auto whole = parse_integer(text)) {
+      values[name] = *whole;
+    } else if (const auto real = parse_real(text)) {
+      values[name] = *real;
+    } else {
+      values[name] = text;
+    }
   }
   if (values.empty()) throw UsageError("ctl " + arguments.verb + ": nothing to do; expected NAME=VALUE");
   return values;
@@ -100,6 +108,8 @@ std::string course_text(const Json& fault) {
 std::string listing_of(const std::string& path) {
   const auto text = read_text_argument(path);
   if (!text) throw UsageError("ctl program: " + path + ": " + text.why + "; expected a listing");
+  if (const std::string why = is_another_kind(*text, ContentKind::program); !why.empty())
+    throw UsageError("ctl program: " + path + ": " + why);
   return *text;
 }
 
@@ -242,9 +252,33 @@ void print_status(const Json& status) {
 
 }  // namespace
 
+namespace {
+
+/// Where in the listing that was to be loaded.
+ProgramMistake mistake_of(const Json& told, const std::string& before = "") {
+  return {told.at("line").get<int>(), told.at("column").get<int>(),
+          before + one_line(told.at("what").get<std::string>())};
+}
+
+/// Of a program that is refused the file is named, where editors look for it.
+std::string why_refused(const ControlArguments& arguments, const Json& reply) {
+  if (!reply.contains("mistakes") || arguments.operands.size() != 2) return reply.at("error");
+  std::vector<ProgramMistake> mistakes;
+  for (const Json& told : reply.at("mistakes")) mistakes.push_back(mistake_of(told));
+  return in_file(mistakes.at(0), arguments.operands[1]) + and_more(mistakes);
+}
+
+}  // namespace
+
 int control(const ControlArguments& arguments) {
   const Json message = message_for(arguments);
   const std::string path = choose_daemon(arguments.which);
+  if (!arguments.trace.empty()) {
+    if (!arguments.operands.empty())
+      throw UsageError("ctl scope: --trace writes what was kept; expected no names beside it");
+    write_scope(path, arguments.trace);
+    return kExitWell;
+  }
   const std::string line =
       serve::ask_control(path, message.dump(-1, ' ', false, Json::error_handler_t::replace));
   try {
@@ -254,7 +288,7 @@ int control(const ControlArguments& arguments) {
       std::printf("%s\n", line.c_str());
     } else if (!accepted) {
       std::fprintf(stderr, "understudy: ctl %s: %s\n", arguments.verb.c_str(),
-                   one_line(reply.at("error").get<std::string>()).c_str());
+                   one_line(why_refused(arguments, reply)).c_str());
     } else if (print_look(reply)) {
     } else if (reply.contains("status")) {
       print_status(reply.at("status"));
@@ -277,9 +311,8 @@ int control(const ControlArguments& arguments) {
     }
     if (accepted && !arguments.json && reply.contains("warnings")) {
       for (const Json& odd : reply.at("warnings")) {
-        const ProgramMistake warning{odd.at("line").get<int>(), odd.at("column").get<int>(),
-                                     "warning: " + one_line(odd.at("what").get<std::string>())};
-        std::fprintf(stderr, "understudy: ctl program: %s\n", in_text(warning).c_str());
+        const std::string warning = in_file(mistake_of(odd, "warning: "), arguments.operands.back());
+        std::fprintf(stderr, "understudy: ctl program: %s\n", one_line(warning).c_str());
       }
     }
     if (accepted && !reply.value("reached", true)) {

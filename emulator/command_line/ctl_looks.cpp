@@ -11,6 +11,7 @@
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/ctl_scope.h"
 
 namespace understudy::emulator::command_line {
 
@@ -81,9 +82,12 @@ void add_scope_words(const ControlArguments& arguments, Json& message) {
 }
 
 void add_send_words(const ControlArguments& arguments, Json& message) {
-  if (arguments.operands.empty() || arguments.operands.size() > 2) {
-    throw UsageError("ctl send: expected a line, and bytes in hexadecimal digits or text=TEXT");
+  if (arguments.operands.size() > 2) {
+    throw UsageError("ctl send: " + understudy::quoted(arguments.operands[2]) +
+                     " is one word too many; expected the bytes in quotes, such as '01 03 00 00 00 01'");
   }
+  if (arguments.operands.empty())
+    throw UsageError("ctl send: expected a line, and bytes in hexadecimal digits or text=TEXT");
   if (arguments.operands.size() == 2) message["line"] = arguments.operands[0];
   const std::string& what = arguments.operands.back();
   if (what.starts_with("text=")) {
@@ -181,7 +185,11 @@ bool print_look(const Json& reply) {
   } else if (reply.contains("next_frame")) {
     std::printf("frame %s\n", reply.at("next_frame").dump().c_str());
   } else {
-    for (const char* key : {"bench", "device", "choices", "scope"}) {
+    if (reply.contains("scope")) {
+      print_scope(reply.at("scope"));
+      return true;
+    }
+    for (const char* key : {"bench", "device", "choices"}) {
       if (!reply.contains(key)) continue;
       std::printf("%s\n", reply.at(key).dump(2, ' ', false, Json::error_handler_t::replace).c_str());
       return true;

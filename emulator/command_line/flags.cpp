@@ -58,9 +58,6 @@ struct CommandLine {
   CommandLine(ModelList known, std::optional<Words> among) : models(known), among_(among) {
     app.require_subcommand(1);
     app.set_version_flag("--version", UNDERSTUDY_VERSION);
-    app.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return "understudy: " + one_line(error.what()) + " (see --help for what is expected)\n";
-    });
     add_commands(app, kCommands);
   }
 
@@ -222,6 +219,10 @@ struct CommandLine {
       control.verb = verb;
       chosen = [this] { return understudy::emulator::command_line::control(control); };
     });
+    if (std::string_view(word.verb) == "scope") {
+      command.add_option("--trace", control.trace, "Write what was kept to this file: FILE.csv, for plot")
+          ->check(kNotEmpty);
+    }
     if (std::string_view(word.verb) != "run-until") return;
     command.add_option("--within", control.within, "Simulated time after which to give up")
         ->capture_default_str();
@@ -395,15 +396,12 @@ std::function<int()> parse_command_line(int argc, char** argv, ModelList models)
   int code = kExitBadInput;
   try {
     return parsed(whole);
-  } catch (const CLI::RequiredError& error) {
-    const std::string unknown = unknown_command(whole->app, argc, argv, 1);
-    if (!unknown.empty()) {
-      std::fprintf(stderr, "understudy: %s (--help lists them)\n", one_line(unknown).c_str());
-    } else {
-      whole->app.exit(error);
-    }
+  } catch (const CLI::Success& help) {
+    whole->app.exit(help);
+    code = kExitWell;
   } catch (const CLI::ParseError& error) {
-    if (whole->app.exit(error) == 0) code = kExitWell;
+    const std::string complaint = complaint_about(whole->app, error, argc, argv);
+    std::fprintf(stderr, "understudy: %s\n", one_line(complaint).c_str());
   }
   return [code] { return code; };
 }

@@ -1,11 +1,13 @@
 // `import`: a list of registers into a model of one's own.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
@@ -54,6 +56,31 @@ std::string counts_text(const std::vector<models::imported::ListedRegister>& reg
          ")";
 }
 
+/// Controllers of Modicon count from 1, with a digit for the table in front: 40001 is the first holding
+/// register. A list may mean that, or addresses as they go over the wire: it is taken as it stands, with a
+/// word.
+std::string remark_on_addresses(const std::vector<models::imported::ListedRegister>& registers) {
+  struct Block {
+    Table table;
+    int first;
+  };
+  constexpr std::array kBlocks{Block{Table::holding, 40001}, Block{Table::input, 30001},
+                               Block{Table::discrete, 10001}};
+  constexpr int kSize = 9999;
+  bool begins_with_digit = false;
+  for (const auto& listed : registers) {
+    const auto* const block = std::find_if(kBlocks.begin(), kBlocks.end(),
+                                           [&](const Block& row) { return row.table == listed.table; });
+    if (block == kBlocks.end()) continue;  // coils are 1 and up there, as anywhere
+    if (listed.address < block->first || listed.address >= block->first + kSize) return "";
+    begins_with_digit = true;
+  }
+  if (!begins_with_digit) return "";
+  return "remark: these addresses look like Modicon's, where 40001 is the first holding register, 0 on the "
+         "wire; they "
+         "are taken as addresses on the wire, as they stand (docs/import.md)";
+}
+
 }  // namespace
 
 int import_registers(ModelList models, const ImportArguments& arguments) {
@@ -64,6 +91,9 @@ int import_registers(ModelList models, const ImportArguments& arguments) {
   const auto text = read_text_argument(arguments.list);
   if (!text)
     throw FileError(arguments.list + ": registers: " + text.why + "; expected a list of registers (CSV)");
+  if (const std::string why = is_another_kind(*text, ContentKind::registers); !why.empty()) {
+    throw FileError({arguments.list, 1, 1}, "registers: " + why);
+  }
   const auto registers = model_file::read_list_file(*text, arguments.list);
   const fs::path list(arguments.list);
   const fs::path output =
@@ -78,6 +108,8 @@ int import_registers(ModelList models, const ImportArguments& arguments) {
   write_all(files);
   std::printf("%s: %s\n", arguments.list.c_str(), counts_text(registers).c_str());
   for (const NewFile& file : files) std::printf("wrote %s\n", file.path.c_str());
+  if (const std::string remark = remark_on_addresses(registers); !remark.empty())
+    std::printf("%s\n", remark.c_str());
   const std::string port = (bench.parent_path() / (name + ".port")).string();
   std::printf("next: understudy serve %s\n", bench.string().c_str());
   std::printf("      understudy poll %s --model %s '%s'\n", port.c_str(), output.string().c_str(),

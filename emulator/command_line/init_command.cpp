@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-#include "base/files/file_error.h"
+#include "base/files/growing_file.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
@@ -50,7 +50,8 @@ int write_first_files(ModelList models, const InitArguments& arguments) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw FileError(folder.string() + ": folder: cannot be made (" + error.message() + "); expected one");
+    throw GrowingFileError(folder.string() + ": folder: cannot be made (" + error.message() +
+                           "); expected one");
   write_all(files);
   for (const NewFile& file : files) std::printf("%s\n", file.path.c_str());
   std::printf("next: understudy run %s\n", files[1].path.c_str());

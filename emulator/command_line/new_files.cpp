@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 
 #include "base/files/descriptor.h"
 #include "base/files/file_error.h"
+#include "base/files/growing_file.h"
 
 namespace understudy::emulator::command_line {
 
@@ -29,8 +31,9 @@ bool is_there(const std::string& path) {
 void write_new(const NewFile& file) {
   const Descriptor made(::open(file.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   const auto refuse = [&file](int error) {
-    throw FileError(file.path + ": file: cannot be written (" + std::strerror(error) +
-                    "); expected a new file");
+    if (error == EEXIST) throw FileError(file.path + ": file: is there already; expected a new file");
+    throw GrowingFileError(file.path + ": file: cannot be written (" + std::strerror(error) +
+                           "); expected a new file");
   };
   if (!made) refuse(errno);
   for (std::string_view rest = file.text; !rest.empty();) {
@@ -58,7 +61,7 @@ void write_all(const std::vector<NewFile>& files) {
   std::size_t written = 0;
   try {
     for (; written < files.size(); ++written) write_new(files[written]);
-  } catch (const FileError&) {
+  } catch (const std::exception&) {
     for (std::size_t i = 0; i < written; ++i) ::unlink(files[i].path.c_str());
     throw;
   }

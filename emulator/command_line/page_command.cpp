@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/log.h"
 #include "emulator/page/page.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/sockets.h"
@@ -43,6 +44,10 @@ int show_page(const PageArguments& arguments) {
   options.address.port = static_cast<std::uint16_t>(arguments.port);
   if (options.sockets.empty()) options.sockets = daemons_to_show();
   std::signal(SIGPIPE, SIG_IGN);
+  for (const std::string& socket : arguments.sockets) {
+    if (!serve::is_answered(socket))
+      log_line("page: " + socket + ": nobody answers there; it shows when somebody does");
+  }
   page::Page shown(options);
   std::printf("page %s\n", shown.address().c_str());
   std::fflush(stdout);

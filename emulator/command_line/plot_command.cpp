@@ -10,6 +10,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/files/growing_file.h"
 #include "base/files/text_file.h"
@@ -98,7 +99,7 @@ int plot_trace(const PlotArguments& arguments) {
   const std::string script =
       play::plot_script(table, arguments.also, is_svg ? play::PlotFormat::svg : play::PlotFormat::png,
                         folder.picture(), arguments.trace);
-  demand_written("plot: " + folder.script(), replace_text_file(folder.script(), script));
+  demand_written("plot: " + folder.script(), replace_text_file(folder.script(), script, ContentKind::other));
   const int code = run_gnuplot(folder);
   const auto picture = read_text_file(folder.picture());
   if (code != 0 || !picture || picture->empty()) {
@@ -107,7 +108,8 @@ int plot_trace(const PlotArguments& arguments) {
                  one_line(complaint_in(said)).c_str());
     return kExitNoResource;
   }
-  demand_written("--output: " + output.string(), replace_text_file(output.string(), *picture));
+  demand_written("--output: " + output.string(),
+                 replace_text_file(output.string(), *picture, ContentKind::picture));
   std::printf("%s\n", output.c_str());
   return kExitWell;
 }

@@ -188,14 +188,20 @@ constexpr std::array kBauds{110,     300,     600,     1200,    2400,    4800,  
                             38400,   57600,   115200,  230400,  460800,  500000,  576000,  921600,
                             1000000, 1152000, 1500000, 2000000, 2500000, 3000000, 3500000, 4000000};
 
-/// What was not said of the line, as a device of the model has it.
+/// What was not said of the line and the station, as a device of the model has it from the factory.
 PollArguments with_line_of_model(ModelList models, PollArguments arguments) {
   pty::LineSettings line;
+  int station = 1;
   if (!arguments.model.empty()) {
-    const PortRow& port = demand_model(models, arguments.model).line.ports.front();
+    const Model& model = demand_model(models, arguments.model);
+    const PortRow& port = model.line.ports.front();
     line = port.settings;
     line.baud = port.bauds.front();
+    if (arguments.station == PollArguments::kUnsaid && model.rtu) {
+      station = make_device(model, DeviceSettings())->station_number().value_or(station);
+    }
   }
+  if (arguments.station == PollArguments::kUnsaid) arguments.station = station;
   if (arguments.baud == PollArguments::kUnsaid) arguments.baud = line.baud;
   if (arguments.stop_bits == PollArguments::kUnsaid) arguments.stop_bits = line.stop_bits;
   if (arguments.parity.empty()) {
@@ -206,11 +212,26 @@ PollArguments with_line_of_model(ModelList models, PollArguments arguments) {
   return arguments;
 }
 
+char letter_of_parity(const std::string& parity) {
+  return parity == "even" ? 'E' : parity == "odd" ? 'O' : parity == "none" ? 'N' : '?';
+}
+
+/// What has come of a request, for whoever must find out why: who was asked, where, how.
+std::string failure_text(const PollArguments& arguments, int error) {
+  const std::string station = one_line(arguments.port) + ": station " + std::to_string(arguments.station);
+  const std::string line = " at " + std::to_string(arguments.baud) + " 8" +
+                           letter_of_parity(arguments.parity) + std::to_string(arguments.stop_bits);
+  if (error == ETIMEDOUT) return station + " did not answer within " + arguments.timeout + line;
+  if (error > MODBUS_ENOBASE && error < EMBBADCRC) {
+    return station + " answered exception " + std::to_string(error - MODBUS_ENOBASE) + " (" +
+           modbus_strerror(error) + ")";
+  }
+  if (error >= EMBBADCRC) return station + line + ": " + modbus_strerror(error);
+  return one_line(arguments.port) + ": " + modbus_strerror(error);
+}
+
 Context connect(const PollArguments& arguments) {
-  const char parity = arguments.parity == "even"   ? 'E'
-                      : arguments.parity == "odd"  ? 'O'
-                      : arguments.parity == "none" ? 'N'
-                                                   : '?';
+  const char parity = letter_of_parity(arguments.parity);
   if (parity == '?')
     throw UsageError("--parity: " + quoted(arguments.parity) + " is unknown; expected even, odd or none");
   const auto timeout = parse_duration(arguments.timeout);
@@ -394,8 +415,9 @@ int poll_port(ModelList models, const PollArguments& arguments) {
     std::uint16_t word = 0;
     keep_silent(polled);
     if (modbus_read_registers(context.get(), order->address, 1, &word) < 0) {
+      const std::string why = failure_text(polled, errno);
       std::fprintf(stderr, "understudy: poll: %s, the order of words: %s (--word-order says it)\n",
-                   order->label.c_str(), modbus_strerror(errno));
+                   order->label.c_str(), why.c_str());
       return kExitFailed;
     }
     items = items_of(models, polled, word == 1);
@@ -411,7 +433,8 @@ int poll_port(ModelList models, const PollArguments& arguments) {
       if (good && order && item.write && item.table == order->table && item.address == order->address)
         items = items_of(models, polled, item.value == 1);  // from here on
       if (good || is_broadcast) continue;
-      std::fprintf(stderr, "understudy: poll: %s: %s\n", item.label.c_str(), modbus_strerror(errno));
+      const std::string why = failure_text(polled, errno);
+      std::fprintf(stderr, "understudy: poll: %s: %s\n", item.label.c_str(), why.c_str());
       return kExitFailed;
     }
     std::fflush(stdout);

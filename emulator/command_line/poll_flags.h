@@ -15,7 +15,8 @@ inline void add_poll_flags(CLI::App& command, PollArguments& poll) {
   command.add_option("--command", poll.commands, "A command by the model's name, sent before the items")
       ->check(kNotEmpty)
       ->allow_extra_args(false);
-  command.add_option("--station", poll.station, "Station to ask")->capture_default_str();
+  command.add_option("--station", poll.station,
+                     "Station to ask; without it the model's factory number, or 1");
   command.add_option("--model", poll.model, "Model whose names to use")->check(kNotEmpty);
   command
       .add_option("--word-order", poll.word_order,

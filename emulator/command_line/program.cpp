@@ -1,6 +1,7 @@
 #include "emulator/command_line/program.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -39,10 +40,22 @@ void open_standard_descriptors() {
   if (descriptor > STDERR_FILENO) close(descriptor);
 }
 
+/// Beyond such a limit a write fails, and its error is told: the signal would end the program. A handler,
+/// unlike "ignore", is not passed on to the programs that we start.
+void survive_file_size_limits() {
+  struct sigaction before = {};
+  if (sigaction(SIGXFSZ, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) return;
+  struct sigaction action = {};
+  action.sa_handler = [](int) {};
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGXFSZ, &action, nullptr);
+}
+
 }  // namespace
 
 int run_program(int argc, char** argv, ModelList models) {
   open_standard_descriptors();
+  survive_file_size_limits();
   try {
     const int code = parse_command_line(argc, argv, models)();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;

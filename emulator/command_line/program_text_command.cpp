@@ -4,11 +4,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/program_texts.h"
 #include "emulator/command_line/text_argument.h"
+#include "emulator/device/mistakes_told.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_cells.h"
 #include "emulator/device/program_error.h"
@@ -40,6 +42,10 @@ std::optional<ProgramFile> open_program(ModelList models, const ProgramTextArgum
   auto text = read_text_argument(arguments.file);
   if (!text) {
     std::fprintf(stderr, "%s: %s; expected a file\n", arguments.file.c_str(), text.why.c_str());
+    return std::nullopt;
+  }
+  if (const std::string why = is_another_kind(*text, ContentKind::program); !why.empty()) {
+    std::fprintf(stderr, "%s:1: %s\n", arguments.file.c_str(), why.c_str());
     return std::nullopt;
   }
   return ProgramFile{.cells = *language.cells(), .settings = std::move(settings), .text = *text};
@@ -96,7 +102,7 @@ DeviceSettings program_settings(const Model& model, const ProgramTextArguments& 
 }
 
 void print_mistakes(const std::vector<ProgramMistake>& mistakes, const std::string& file) {
-  for (const ProgramMistake& mistake : mistakes) {
+  for (const ProgramMistake& mistake : with_word_of_more(mistakes)) {
     std::fprintf(stderr, "%s\n", one_line(in_file(mistake, file)).c_str());
   }
 }

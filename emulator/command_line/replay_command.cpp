@@ -113,12 +113,16 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
     throw world::RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");
   }
+  if (const std::string why = is_another_kind(head_of_file(arguments.recording), ContentKind::recording);
+      !why.empty()) {
+    throw world::RecordingError(arguments.recording + ":1: recording: " + why);
+  }
   if (arguments.page) return travel_in(models, arguments, until);
   FileClaims claims;
   claims.add({arguments.recording, "the recording itself"});
   demand_looks(arguments, claims);
   std::ifstream file(arguments.recording, std::ios::binary);
-  ResultFile report("--report", arguments.report);
+  ResultFile report("--report", arguments.report, ContentKind::page);
   play::ScenarioResult seen;
   std::optional<world::WorldState> state;
   const auto begin = std::chrono::steady_clock::now();

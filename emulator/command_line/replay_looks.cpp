@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "base/files/file_claims.h"
+#include "base/files/growing_file.h"
 #include "base/simulated_time.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
@@ -68,10 +70,15 @@ void ReplayLooks::happened(const world::RecordedEvent& event, std::size_t line_n
 }
 
 void ReplayLooks::ended() {
-  if (!camera_) return;
-  seen_.steps.back().end = world_.now();
-  seen_.simulated = world_.now() - seen_.steps.front().begin;
-  camera_->finish(seen_);
+  if (camera_) {
+    seen_.steps.back().end = world_.now();
+    seen_.simulated = world_.now() - seen_.steps.front().begin;
+    camera_->finish(seen_);
+  }
+  for (const std::string& failure :
+       {trace_ ? trace_->finish() : std::string(), capture_ ? capture_->finish() : std::string()}) {
+    if (!failure.empty()) throw GrowingFileError(failure);
+  }
 }
 
 play::ScenarioResult result_of(const world::Replayed& replayed, const std::string& recording,

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/files/content_kind.h"
 #include "base/files/descriptor.h"
 #include "base/files/growing_file.h"
 #include "base/files/output_file.h"
@@ -25,7 +26,7 @@ inline constexpr std::string_view kStandardOutput = "-";
 class ResultFile {
  public:
   /// Nothing is written if the path is empty.
-  ResultFile(const char* flag, const std::string& path) : flag_(flag), path_(path) {
+  ResultFile(const char* flag, const std::string& path, ContentKind kind) : flag_(flag), path_(path) {
     if (path_.empty()) return;
     if (path_ == kStandardOutput) {
       stream_ = Descriptor(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0));
@@ -34,7 +35,7 @@ class ResultFile {
     }
     try {
       if (!is_stream(path_)) {
-        file_.emplace(path_);
+        file_.emplace(path_, kind);
         return;
       }
       stream_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));

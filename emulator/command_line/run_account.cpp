@@ -12,6 +12,7 @@
 
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/log.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_files.h"
 #include "emulator/command_line/terminal.h"
@@ -69,7 +70,13 @@ bool RunAccount::was_played(const play::CaseKey& key) {
 
 void RunAccount::begin() {
   if (arguments_.resume) return;
-  for (const auto& rows : rows_) rows->begin();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (rows_[i]->has_rows()) {
+      log_line("--results: " + arguments_.results[i] +
+               ": the rows of an earlier run are replaced; --resume goes on with them");
+    }
+    rows_[i]->begin();
+  }
 }
 
 void RunAccount::add(std::vector<play::ScenarioResult> results, std::uint64_t made_of, RunFiles& files,

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
 #include "base/state/state_bytes.h"
@@ -274,8 +275,8 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   if (!add_all(bill, arguments, known)) return kExitBadInput;
   demand_some(bill, arguments);
   demand_own_files(known, arguments);
-  ResultFile junit("--junit", arguments.junit);
-  ResultFile report("--report", arguments.report);
+  ResultFile junit("--junit", arguments.junit, ContentKind::junit);
+  ResultFile report("--report", arguments.report, ContentKind::page);
   RunAccount account(arguments);
   RunFiles files(folders_of(arguments), std::move(known.claims), arguments.real_time, arguments.version);
   junit.empty();

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/descriptor.h"
 #include "base/files/file_claims.h"
 #include "base/files/growing_file.h"
@@ -51,50 +52,56 @@ constexpr std::size_t kPieceOfCopy = 65536;  // bytes
 /// What is made of a play.
 struct FileKind {
   const char* flag;
+  ContentKind content;
   std::string RunFolders::*folder;
   std::string play::ScenarioResult::*place;
   const char* ending;
   std::array<const char*, 3> of_files;  // no folder has such a name
 };
 constexpr FileKind kRecording{
-    "--record", &RunFolders::recordings, &play::ScenarioResult::recording, ".jsonl", {".jsonl"}};
-constexpr FileKind kTrace{
-    "--trace", &RunFolders::traces, &play::ScenarioResult::trace, ".csv", {".csv", ".vcd"}};
-constexpr FileKind kCapture{"--capture",
-                            &RunFolders::captures,
-                            &play::ScenarioResult::capture,
-                            ".pcapng",
-                            {".pcapng", ".pcap", ".txt"}};
+    "--record", ContentKind::recording, &RunFolders::recordings, &play::ScenarioResult::recording, ".jsonl",
+    {".jsonl"}};
+constexpr FileKind kTrace{"--trace", ContentKind::trace, &RunFolders::traces, &play::ScenarioResult::trace,
+                          ".csv",    {".csv", ".vcd"}};
+constexpr FileKind kCapture{
+    "--capture", ContentKind::capture,        &RunFolders::captures, &play::ScenarioResult::capture,
+    ".pcapng",   {".pcapng", ".pcap", ".txt"}};
 constexpr std::array<FileKind, 3> kKinds{kRecording, kTrace, kCapture};
 constexpr FileKind kFailure{
-    "--failures", &RunFolders::failures, &play::ScenarioResult::recording, ".jsonl", {".jsonl"}};
+    "--failures", ContentKind::recording, &RunFolders::failures, &play::ScenarioResult::recording, ".jsonl",
+    {".jsonl"}};
 constexpr std::array<FileKind, 4> kFolders{kRecording, kTrace, kCapture, kFailure};
 
 /// A file about a play. Such a file has one course: where the play goes back to an earlier state, or is a
 /// branch that begins in one, it begins anew.
 class PlayFile final : public play::Onlooker {
  public:
-  using Begin = std::function<std::shared_ptr<void>(world::World&, const std::string& path)>;
+  /// What ends the file, and returns why it has ended early.
+  using Finish = std::function<std::string()>;
+  using Begin = std::function<Finish(world::World&, const std::string& path)>;
 
-  PlayFile(world::World& world, std::string path, std::string play::ScenarioResult::*place, Begin begin)
-      : world_(world), path_(std::move(path)), place_(place), begin_(std::move(begin)) {
+  PlayFile(world::World& world, std::string path, const FileKind& kind, Begin begin)
+      : world_(world), path_(std::move(path)), kind_(kind), begin_(std::move(begin)) {
     world_restored(0);
   }
   void world_restored(std::size_t) override {
-    file_.reset();  // the one before is over, and its file is free
-    file_ = begin_(world_, path_);
+    finish_ = {};  // the one before is over, and its file is free
+    finish_ = begin_(world_, path_);
   }
+  /// Throws GrowingFileError where the file has not become whole.
   void finish(play::ScenarioResult& result) override {
-    file_.reset();
-    result.*place_ = path_;
+    const std::string failure = finish_();
+    finish_ = {};
+    if (!failure.empty()) throw GrowingFileError(std::string(kind_.flag) + ": " + failure);
+    result.*kind_.place = path_;
   }
 
  private:
   world::World& world_;
   std::string path_;
-  std::string play::ScenarioResult::*place_;
+  const FileKind& kind_;
   Begin begin_;
-  std::shared_ptr<void> file_;
+  Finish finish_;  // owns the file
 };
 
 /// What any file system takes, and no shell needs quotes for.
@@ -142,8 +149,8 @@ void remove_abandoned_spools() {
 }
 
 /// What it cannot hold as a whole is not left there in part.
-void copy_file(const std::string& from, const std::string& to) {
-  OutputFile file(to);
+void copy_file(const std::string& from, const std::string& to, ContentKind content) {
+  OutputFile file(to, content);
   file.begin("");
   std::ifstream source(from, std::ios::binary);
   std::string piece(kPieceOfCopy, '\0');
@@ -158,13 +165,15 @@ void copy_file(const std::string& from, const std::string& to) {
 }
 
 /// Also from one file system to another.
-void move_file(const char* flag, const std::string& from, const std::string& path) {
+void move_file(const char* flag, const std::string& from, const std::string& path, ContentKind content) {
   std::error_code error;
   try {
     const std::string to = output_target(path);
+    demand_replaceable(to, content);
+    if (const auto access = access_of(to)) give_access(from, *access);
     fs::rename(from, to, error);
     if (!error) return;
-    copy_file(from, to);
+    copy_file(from, to, content);
   } catch (const OutputError& refused) {
     throw GrowingFileError(std::string(flag) + ": " + path + " cannot be written: " + refused.what());
   }
@@ -253,18 +262,18 @@ std::vector<play::OnlookerMaker> RunFiles::onlookers(const play::Scenario& scena
   const auto add = [&](const FileKind& kind, const PlayFile::Begin& begin) {
     if ((folders_.*kind.folder).empty()) return;
     makers.push_back([this, &kind, begin](world::World& world) {
-      return std::make_unique<PlayFile>(world, next_spool(kind.ending), kind.place, begin);
+      return std::make_unique<PlayFile>(world, next_spool(kind.ending), kind, begin);
     });
   };
   add(kTrace, [this](world::World& world, const std::string& path) {
     auto trace = std::make_shared<world::TraceFile>(world, path, folders_.trace_also, log_line);
     trace->begin();
-    return trace;
+    return [trace] { return trace->finish(); };
   });
   add(kCapture, [](world::World& world, const std::string& path) {
     auto capture = std::make_shared<world::WorldCapture>(world, path, log_line);
     capture->begin();
-    return capture;
+    return [capture] { return capture->finish(); };
   });
   return makers;
 }
@@ -303,7 +312,7 @@ void RunFiles::settle(play::ScenarioResult& result, bool is_new) {
         if (const std::string why = claims_.objection_to(place + part); !why.empty()) {
           throw GrowingFileError(std::string(flag) + ": " + place + part + ": " + why);
         }
-        move_file(flag, spooled + part, place + part);
+        move_file(flag, spooled + part, place + part, kind.content);
       } else {
         fs::remove(spooled + part, error);
       }

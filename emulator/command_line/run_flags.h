@@ -41,8 +41,7 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
                      "How many are played at a time [one for each core; in real time at least 8]");
   command.add_option("--shard", run.shard, "I/N: the I-th of all scenarios, and every N-th after it")
       ->check(kNotEmpty);
-  command.add_option("--seed", run.seed, "Instead of the scenarios' own seeds")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{INT64_MAX}));
+  command.add_option("--seed", run.seed, "Instead of the scenarios' own seeds")->check(kSeed);
   command
       .add_option("--filter", run.filter,
                   "Those whose names match this pattern, such as '*move*'; or one case, by its identity")

@@ -17,7 +17,6 @@ namespace understudy::emulator::command_line {
 int serve(ModelList models, const ServeArguments& arguments) {
   const Serving serving = make_serving(models, arguments, "serve");
   signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
-  signal(SIGXFSZ, SIG_IGN);  // a capture that may not grow further ends, the devices go on
   serve::Daemon daemon(serving.bench, serving.options, log_line);
   for (const auto& port : daemon.ports()) {
     if (serving.group && port->terminal() != nullptr)

@@ -15,6 +15,7 @@
 
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
+#include "base/files/growing_file.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/findings.h"
@@ -32,6 +33,7 @@
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/bench_file/program_warnings.h"
 #include "emulator/world/names/names.h"
+#include "emulator/world/recording/recording_spool.h"
 #include "emulator/world/speech/line_speech.h"
 #include "emulator/world/trace/trace.h"
 #include "pty/line.h"
@@ -210,7 +212,12 @@ void demand_names(const world::Bench& bench, const std::vector<std::string>& als
 
 /// And the file beside it, where its older part goes once it has grown large.
 std::string demand_recording(const std::string& path, FileClaims& claims) {
-  demand_output(claims, "--record", older_part_of(path));
+  const std::string older = older_part_of(path);
+  demand_output(claims, "--record", older);
+  const std::string why = older.empty() ? "" : world::why_no_older_part(older);
+  if (!why.empty()) {
+    throw GrowingFileError("--record: " + older + ", where its older part goes, cannot be written: " + why);
+  }
   return demand_output(claims, "--record", path);
 }
 

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
 
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
 #include "emulator/command_line/commands.h"
 
 namespace understudy::emulator::command_line {
@@ -11,6 +14,15 @@ namespace understudy::emulator::command_line {
 /// `--link "$UNSET"` is a slip, not a wish for the default.
 inline const CLI::Validator kNotEmpty(
     [](const std::string& value) { return value.empty() ? std::string("is empty; expected a value") : ""; },
+    "");
+
+inline const CLI::Validator kSeed(
+    [](const std::string& value) {
+      const auto number = parse_integer(value);
+      return number && *number >= 0 ? std::string()
+                                    : quoted(value) + " is not a seed; expected a whole number from 0 to " +
+                                          std::to_string(INT64_MAX);
+    },
     "");
 
 inline constexpr const char* kTraceAlsoHelp =

@@ -38,10 +38,27 @@ ProgramMistake no_program(const Model& model) {
   return {.what = std::string(model.name) + " takes no program from a file; expected none"};
 }
 
+namespace {
+
+/// What every reader of a model takes for granted; its devices are asked for their facets when one is made.
+const Model& whole(const Model& model) {
+  if (model.line.ports.empty())
+    throw std::logic_error(std::string(model.name) + ": lacks a port on its line");
+  for (const PortRow& port : model.line.ports) {
+    if (port.bauds.empty())
+      throw std::logic_error(std::string(model.name) + ": lacks a speed of its port " +
+                             std::string(port.name));
+  }
+  if (model.firmwares.empty()) throw std::logic_error(std::string(model.name) + ": lacks a firmware");
+  return model;
+}
+
+}  // namespace
+
 const Model* find_model(ModelList models, std::string_view name) {
   const auto has_name = [&](const ListedModel& model) { return model.name() == name; };
   const auto found = std::find_if(models.begin(), models.end(), has_name);
-  return found == models.end() ? nullptr : static_cast<const Model*>(*found);
+  return found == models.end() ? nullptr : &whole(*static_cast<const Model*>(*found));
 }
 
 bool names_model_file(std::string_view name) { return name.ends_with(".yaml") || name.ends_with(".yml"); }
@@ -255,12 +272,11 @@ void load_memory(Device& device, const NvImage& image) {
 
 /// What its model's tables list can be reached.
 void demand_facets(const Device& device) {
-  const Model& model = device.model();
+  const Model& model = whole(device.model());
   const auto demand = [&](bool is_there, std::string_view what) {
     if (!is_there) throw std::logic_error(std::string(model.name) + ": lacks " + std::string(what));
   };
   const auto find = [&](std::string_view name) { return find_register(model, name, device.firmware()); };
-  demand(!model.line.ports.empty(), "a port on its line");
   const auto& numbers = model.line.station_numbers;
   demand(!numbers || numbers->kept_in.empty() || find(numbers->kept_in),
          "the register of its station number");

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
 #include "base/files/text_file.h"
@@ -25,6 +26,9 @@ DescribedModels::~DescribedModels() = default;
 const Model& DescribedModels::load(const std::string& path, std::vector<FileClaim>& files) {
   const auto text = read_text_file(path);
   if (!text) throw FileError(path + ": model: " + text.why + "; expected a model file");
+  if (const std::string why = is_another_kind(*text, ContentKind::model); !why.empty()) {
+    throw FileError({path, 1, 1}, "model: " + why);
+  }
   files.push_back({path, "the model file " + quoted(path)});
   return read(*text, path, true, files);
 }

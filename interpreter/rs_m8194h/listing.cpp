@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/most_mistakes.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "interpreter/rs_m8194h/check.h"
@@ -60,11 +61,11 @@ class ListingReader {
     for (const TextLine line : TextLines(without_byte_order_mark(text))) {
       const std::vector<Token> tokens = tokens_of(line.text, line.number);
       if (!tokens.empty()) read(tokens);
+      if (errors_.size() >= kMostMistakes) break;
     }
-    end_macro();
+    if (errors_.size() < kMostMistakes) end_macro();
     ParsedListing parsed;
-    std::ranges::stable_sort(errors_, {},
-                             [](const TextError& error) { return std::pair(error.line, error.column); });
+    leave_first(errors_);
     if (errors_.empty()) parsed.listing = std::move(listing_);
     parsed.errors = std::move(errors_);
     parsed.first_trigger = first_trigger_;

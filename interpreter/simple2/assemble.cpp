@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/text/lines.h"
+#include "base/text/most_mistakes.h"
 #include "base/text/suggestion.h"
 #include "base/text/tokens.h"
 #include "interpreter/simple2/instructions.h"
@@ -45,22 +46,26 @@ class Assembler {
   Assembly run(std::string_view text) {
     for (const TextLine line : TextLines(without_byte_order_mark(text))) {
       read(tokens_of(line.text, line.number, Colon::ends_its_token));
+      if (errors_.size() >= kMostMistakes) break;
     }
-    if (pending_.mark)
-      fail(*pending_.mark, "label", quoted(pending_.mark->text) + " does not mark a line", "an instruction");
-    give_flags();
-    fill_in_flags();
+    if (errors_.size() < kMostMistakes) look_at_labels();
 
     Assembly assembly;
-    std::stable_sort(errors_.begin(), errors_.end(), [](const ListingError& a, const ListingError& b) {
-      return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-    });
+    leave_first(errors_);
     if (errors_.empty()) assembly.lines = lines_;
     assembly.errors = std::move(errors_);
     return assembly;
   }
 
  private:
+  /// When all of the text was read.
+  void look_at_labels() {
+    if (pending_.mark)
+      fail(*pending_.mark, "label", quoted(pending_.mark->text) + " does not mark a line", "an instruction");
+    give_flags();
+    fill_in_flags();
+  }
+
   /// What stands before an instruction, or alone on the lines of text above it.
   struct Marks {
     std::vector<Token> names;         // labels that get a flag of their own

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/text/lines.h"
+#include "base/text/most_mistakes.h"
 #include "base/text/one_line.h"
 #include "base/text/tokens.h"
 #include "interpreter/super_40nc/areas.h"
@@ -54,14 +55,14 @@ class Checker {
   Checked run(std::string_view text) {
     for (const TextLine line : TextLines(without_byte_order_mark(text))) {
       read(tokens_of(line.text, line.number));
+      if (checked_.errors.size() >= kMostMistakes) break;
     }
-    end_area();
-    if (options_.labels_are_common) look_at_common_labels();
-    const auto in_order = [](const Complaint& a, const Complaint& b) {
-      return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-    };
-    std::stable_sort(checked_.errors.begin(), checked_.errors.end(), in_order);
-    std::stable_sort(checked_.warnings.begin(), checked_.warnings.end(), in_order);
+    if (checked_.errors.size() < kMostMistakes) {
+      end_area();
+      if (options_.labels_are_common) look_at_common_labels();
+    }
+    leave_first(checked_.errors);
+    leave_first(checked_.warnings);
     if (checked_.errors.empty()) checked_.program = std::move(program_);
     return std::move(checked_);
   }

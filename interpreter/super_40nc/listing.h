@@ -41,7 +41,7 @@ std::string to_string(const Complaint& complaint);
 
 struct Checked {
   std::optional<Program> program;   // only if nothing is wrong
-  std::vector<Complaint> errors;    // all of them, in the order of the text
+  std::vector<Complaint> errors;    // the first kMostMistakes, in the order of the text
   std::vector<Complaint> warnings;  // what loads all the same, and is reported: a label twice
   std::vector<Complaint> notes;     // what loads and is not reported: a jump that will find no label
 };

@@ -12,8 +12,17 @@ import sys
 ID = 0x55535459  # of databases that `understudy run --results` has made
 
 
+def demand_own(path):
+    """Only a database of results is replaced; another file of that name may be there by mistake."""
+    with open(path, "rb") as there:
+        head = there.read(100)
+    if head and (head[:16] != b"SQLite format 3\0" or int.from_bytes(head[68:72], "big") != ID):
+        raise sqlite3.DatabaseError(f"{path} is not a file of results; expected one to replace, or a free path")
+
+
 def merge(target, sources):
-    if os.path.exists(target):
+    if os.path.lexists(target):
+        demand_own(target)
         os.remove(target)
     # The first brings the tables along.
     with sqlite3.connect(f"file:{sources[0]}?mode=ro", uri=True) as first, sqlite3.connect(target) as whole:
@@ -35,7 +44,7 @@ def main(arguments):
         return 2
     try:
         whole = merge(arguments[0], arguments[1:])
-    except sqlite3.Error as error:
+    except (OSError, sqlite3.Error) as error:
         print(f"merge_results: {error}", file=sys.stderr)
         return 2
     counts = dict(whole.execute("SELECT verdict, count(*) FROM results GROUP BY verdict"))

@@ -306,3 +306,81 @@ def test_lines_to_send_on_are_named():
         with pytest.raises(understudy.Refused, match="'RS422' is unknown; expected one of RS232, RS485"):
             bench.send(b"\0", line="RS422")
         assert bench.send(bytes.fromhex("000100000001"), line="RS485", checksum=True) == 1
+
+
+@pytest.mark.parametrize("values, says", [
+    ({"Aaxis_Speed": "fast"}, "Aaxis_Speed: 'fast' is not a number; expected 0 to 32768"),
+    ({"Aaxis_Speed": 3.5}, "Aaxis_Speed: 3.5 is not a whole number; expected 0 to 32768"),
+    ({"Aaxis_Speed": [1, 3]}, "Aaxis_Speed: [1,3] is not a number; expected 0 to 32768"),
+    ({"Aaxis_Speed": None}, "Aaxis_Speed: null is not a number; expected 0 to 32768"),
+    ({"Aaxis_Speed": 1 << 70}, "Aaxis_Speed: 1.1805916207174113e+21 is not a whole number; expected 0 to 32768"),
+    ({"Aaxis_Speed": 40000}, "Aaxis_Speed: 40000 is out of range; expected 0 to 32768"),
+    ({"DOUT_ALL.3": "on"}, "DOUT_ALL.3: 'on' is not a number; expected 0 or 1"),
+])
+def test_values_that_are_refused_are_quoted(bench, values, says):
+    with pytest.raises(understudy.Refused) as refused:
+        bench.set(values)
+    assert str(refused.value) == says
+
+
+def test_bits_and_inputs_may_be_true(bench):
+    bench.set({"Aaxis_SVON": True})
+    assert bench["Aaxis_SVON"] == 1
+    bench["Aaxis_SVON"] = False
+    assert bench["Aaxis_SVON"] == 0
+    bench.input({"DIN_10": True})
+    bench.advance("1ms")
+    assert bench["DIN_10"] == 1
+    bench.inject({"stuck": "DIN_10", "level": False})
+    bench.advance("1ms")
+    assert bench["DIN_10"] == 0
+
+
+class Number:
+    """As numpy's, which JSON does not know."""
+
+    def __init__(self, value):
+        self.value = value
+
+    def __index__(self):
+        return self.value
+
+
+def test_numbers_of_other_packages_are_numbers(bench):
+    bench["Aaxis_Speed"] = Number(77)
+    assert bench["Aaxis_Speed"] == 77
+    with pytest.raises(TypeError, match="is neither a number nor a text"):
+        bench["Aaxis_Speed"] = object()
+    assert bench["Aaxis_Speed"] == 77
+
+
+def test_bytes_to_send_may_be_numbers(bench):
+    first = bench.send([1, 3, 0, 1, 0, 1], checksum=True)
+    assert bench.frames()[0]["number"] == first
+    for wrong in (5, [300], [1, "x"], None):
+        with pytest.raises(TypeError, match="send: expected a text, bytes or a list of numbers from 0 to 255"):
+            bench.send(wrong)
+
+
+def test_a_path_is_no_program(bench, tmp_path):
+    for path in ("pick.lst", str(tmp_path)):
+        with pytest.raises(understudy.Refused, match=r"program\(\) takes the text itself, as open\("):
+            bench.program(path)
+    with pytest.raises(understudy.Refused) as refused:
+        bench.program("Nonsense 1")
+    assert "takes the text" not in str(refused.value)
+
+
+@pytest.mark.parametrize("asked, says", [
+    ({"bench": "nosuch.yaml"}, "nosuch.yaml"),
+    ({"model": "slimm"}, "slimm"),
+    ({"model": "simple2-r3", "firmware": "9.99"}, "9.99"),
+    ({"model": "simple2-r3", "speed": "fast"}, "--speed: 'fast' is unknown"),
+    ({"model": "simple2-r3", "choices": {"nosuch": "x"}}, "nosuch"),
+])
+def test_what_cannot_be_started_so_is_a_bad_setup(asked, says):
+    with pytest.raises(understudy.BadSetup) as error:
+        understudy.start(asked.pop("bench", None), **asked)
+    assert says in str(error.value)
+    assert "understudy-py-" not in str(error.value)  # a folder that is gone by now
+    assert isinstance(error.value, understudy.NotThere)

@@ -175,3 +175,28 @@ def test_a_failing_course_shrinks_to_its_least(pytester):
     course = [line.partition("state.")[2] for line in result.outlines if re.match(r"E\s+state\.(?!machine_is)", line)]
     # One pulse in 20 is lost: with fewer than 20 none is.
     assert course == ["lose_steps(one_in=20)", "move(pulses=20)", "teardown()"]
+
+
+MISTAKES_SUITE = """
+import pytest
+@pytest.mark.understudy(modle="slim")
+def test_misspelt(bench):
+    pass
+@pytest.mark.parametrize("bench", ["slim"], indirect=True)
+def test_no_dict(bench):
+    pass
+@pytest.mark.parametrize("bench", [{"firmwar": "1.40"}], indirect=True)
+def test_misspelt_parameter(bench):
+    pass
+"""
+
+
+def test_mistakes_are_told_to_the_tests_author(pytester):
+    pytester.makepyfile(MISTAKES_SUITE)
+    result = pytester.runpytest_subprocess("-p", "understudy.pytest_plugin")
+    result.assert_outcomes(errors=3)
+    said = result.stdout.str()
+    assert "understudy: 'modle' is not an argument of a bench; the nearest is 'model'" in said
+    assert "understudy: 'firmwar' is not an argument of a bench; the nearest is 'firmware'" in said
+    assert "bench: the parameter is 'slim'; expected a dict, such as {'model': 'slim'}" in said
+    assert "TypeError" not in said and "pytest_plugin.py" not in said

@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from understudy import Refused
 from understudy.robot import Understudy
 
 SUITE = pathlib.Path(__file__).parents[2] / "examples/robot/feeder.robot"
@@ -88,6 +89,20 @@ def test_a_keyword_that_fails_says_why():
         library.run_until("Cord_A == 1", "5ms")
     with pytest.raises(AssertionError, match="no frame has"):
         library.last_frames_should_contain("read")
+    library._end_suite(None, None)
+
+
+def test_what_a_keyword_is_given_wrongly_is_quoted():
+    library = Understudy()
+    library.start_bench(model="simple2-r3")
+    with pytest.raises(Refused, match="Aaxis_Speed: 'fast' is not a number; expected 0 to 32768"):
+        library.set_values(Aaxis_Speed="fast")
+    with pytest.raises(Refused, match="number: 'x' is not a whole number; expected one"):
+        library.clear_fault("x")
+    with pytest.raises(Refused, match="bytes: '01 0' is not hexadecimal digits"):
+        library.send_bytes("01 0")
+    with pytest.raises(AssertionError, match="line: 'rs485' is unknown; expected one of line"):
+        library.get_port("rs485")
     library._end_suite(None, None)
 
 

@@ -1,11 +1,11 @@
 """A running bench: names, inputs, faults, power, time, programs, commands, snapshots."""
 import json
 import os
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Union, cast
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Union, cast
 
 from .connection import Connection
 from .daemon import Daemon
-from .errors import NotThere, WrongVersion
+from .errors import NotThere, Refused, WrongVersion
 
 KNOWN = (0, 2)  # the protocol is the program's: major and minor
 Value = Union[int, float]
@@ -75,7 +75,13 @@ class Bench:
         """Writes a program; without a text reads the one that is there."""
         if text is None:
             return str(self.ask("program", **_of(device))["text"])
-        self.ask("program", text=text, **_of(device))
+        try:
+            self.ask("program", text=text, **_of(device))
+        except Refused as refused:
+            looks_like_a_path = "\n" not in text and (os.path.exists(text) or os.path.splitext(text)[1] != "")
+            if not looks_like_a_path:
+                raise
+            raise Refused(f"{refused}; program() takes the text itself, as open({text!r}).read() gives it") from refused
         return None
 
     def inject(self, fault: Dict[str, Any]) -> int:
@@ -169,9 +175,9 @@ class Bench:
     def scope_off(self) -> None:
         self.ask("scope", off=True)
 
-    def send(self, said: Union[bytes, str], line: Optional[str] = None, checksum: bool = False) -> int:
+    def send(self, said: Union[bytes, str, Iterable[int]], line: Optional[str] = None, checksum: bool = False) -> int:
         """Bytes, or a text, on a line as a host's; the number that its first frame will have among the frames."""
-        what: Dict[str, Any] = {"text": said} if isinstance(said, str) else {"bytes": said.hex(" ")}
+        what: Dict[str, Any] = {"text": said} if isinstance(said, str) else {"bytes": _bytes_of(said).hex(" ")}
         if checksum:
             what["checksum"] = True
         return int(self.ask("send", **what, **_given({"line": line}))["next_frame"])
@@ -218,6 +224,15 @@ class Bench:
             rows += reply[of]
             begin = reply.get("next")
         return rows
+
+
+def _bytes_of(said: Union[bytes, Iterable[int]]) -> bytes:
+    try:
+        if not isinstance(said, int):
+            return bytes(said)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"send: expected a text, bytes or a list of numbers from 0 to 255, not {said!r}")
 
 
 def _of(device: Optional[str]) -> Dict[str, str]:

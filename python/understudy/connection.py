@@ -1,5 +1,6 @@
 """One line of JSON there, one back: docs/control.md."""
 import json
+import operator
 import socket
 import struct
 from typing import Any, Dict, Optional
@@ -7,7 +8,21 @@ from typing import Any, Dict, Optional
 from .errors import NotThere, Refused
 
 MOST_REPLY_BYTES = 16 << 20  # messages are at most 4 MiB; a reply that does not end is not waited for
-_encode = json.JSONEncoder(separators=(",", ":")).encode  # made once: a control loop asks at every millisecond
+
+
+def _plain(value: Any) -> Any:
+    """Numbers of other packages, such as numpy's, are numbers as well."""
+    try:
+        return operator.index(value)
+    except TypeError:
+        pass
+    if hasattr(value, "__float__"):
+        return float(value)
+    raise TypeError(f"{value!r} is neither a number nor a text; expected one of these, or a list or dict of them")
+
+
+# Made once: a control loop asks at every millisecond.
+_encode = json.JSONEncoder(separators=(",", ":"), default=_plain).encode
 
 
 class Connection:

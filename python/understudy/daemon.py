@@ -1,5 +1,6 @@
 """A `serve` of our own: it ends with our process, however that ends, and leaves nothing behind."""
 import os
+import re
 import select
 import shutil
 import signal
@@ -9,7 +10,7 @@ import time
 import weakref
 from typing import IO, List, Optional, Sequence
 
-from .errors import NotThere
+from .errors import BadSetup, NotThere
 
 # A shell makes the folder and is the program's parent, so at no moment is either there without it. It reads the pipe
 # from us: its end says that we are done, or gone. The program holds the pipe to us: its end says that it is gone.
@@ -34,8 +35,12 @@ while kill -0 "$pid" 2>/dev/null; do
   [ $tries -eq 1000 ] && kill -KILL "$pid"
   sleep 0.01
 done
+wait "$pid"
+code=$?
 rm -rf "$folder"
+exit $code
 """
+BAD_SETUP = 2  # the program's exit code for flags and files that it does not take
 
 
 class Daemon:
@@ -74,8 +79,12 @@ class Daemon:
 
     def stop(self) -> None:
         """Ends the program as SIGTERM does (its links go, its recording is whole), and its folder."""
+        self._end()
+
+    def _end(self) -> Optional[int]:
+        """The program's exit code; None where nobody knows it any more."""
         if self._guard is None:
-            return
+            return None
         guard, self._guard = self._guard, None
         RUNNING.discard(self)
         self._to_guard.close()
@@ -83,6 +92,8 @@ class Daemon:
         self._from_program.close()
         if guard.returncode == -signal.SIGKILL:  # somebody killed it: its work is ours
             self._work_of_the_guard()
+            return None
+        return guard.returncode
 
     def forget(self) -> None:
         """In a forked process: what is our parent's to end is not held open by us."""
@@ -105,7 +116,10 @@ class Daemon:
             over = bool(select.select([self._from_program], [], [], 0.003)[0])
             said = self.said()
             if over:
-                raise NotThere(said.strip() or f"{program} ended without a word")
+                # Of a bench that was made of a model and choices nobody knows the file.
+                made_up = re.escape(self.folder) + r"/bench\.yaml:\d+:\d+: lines\.line\.stations\[0\]\.?"
+                why = re.sub(made_up, "", self.said()).strip() or f"{program} ended without a word"
+                raise BadSetup(why) if self._end() == BAD_SETUP else NotThere(why)
             if "ready " in said and os.path.exists(self.control):
                 return
             if time.monotonic() > end:

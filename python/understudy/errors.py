@@ -13,5 +13,9 @@ class NotThere(UnderstudyError):
     """The program could not be started, or does not answer any more."""
 
 
+class BadSetup(NotThere):
+    """The program does not take the bench, a flag or a choice that it was to be started with."""
+
+
 class WrongVersion(UnderstudyError):
     """The program is of a version that this client does not know."""

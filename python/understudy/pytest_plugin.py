@@ -1,9 +1,11 @@
 """Fixtures for pytest: `-p understudy.pytest_plugin`. A failed test keeps its recording, its report and its frames."""
 import contextlib
+import difflib
+import inspect
 import os
 import subprocess
 from pathlib import Path
-from typing import Any, Callable, Dict, Generator, List
+from typing import Any, Callable, Dict, Generator, List, Mapping
 
 import pytest
 
@@ -52,6 +54,16 @@ def draw(folder: Path) -> List[str]:
     return [str(file) for file in (recording, page, frames) if file.exists()] + said
 
 
+def demand_known(arguments: Mapping[str, Any]) -> None:
+    """Of a misspelt word the test's author is told, not a reader of this file."""
+    known = [name for name, it in inspect.signature(start).parameters.items() if it.kind is not it.VAR_POSITIONAL]
+    for name in arguments:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1)
+            hint = f"the nearest is {near[0]!r}" if near else "expected one of " + ", ".join(known)
+            pytest.fail(f"understudy: {name!r} is not an argument of a bench; {hint}", pytrace=False)
+
+
 @pytest.fixture
 def bench_factory(request: pytest.FixtureRequest, tmp_path: Path) -> Generator[Callable[..., Bench], None, None]:
     """Starts benches as `understudy.start` does, each with a folder and a recording."""
@@ -80,7 +92,11 @@ def bench(request: pytest.FixtureRequest, bench_factory: Callable[..., Bench]) -
     """What the marker `understudy` names; an indirect parameter's entries come over it; a Simple2-R3 without either."""
     marker = request.node.get_closest_marker("understudy")
     positional = list(marker.args) if marker else []
-    arguments: Dict[str, Any] = {**(marker.kwargs if marker else {}), **getattr(request, "param", {})}
+    given = getattr(request, "param", {})
+    if not isinstance(given, Mapping):
+        pytest.fail(f"bench: the parameter is {given!r}; expected a dict, such as {{'model': 'slim'}}", pytrace=False)
+    arguments: Dict[str, Any] = {**(marker.kwargs if marker else {}), **given}
+    demand_known(arguments)
     if not positional and "bench" not in arguments:
         arguments.setdefault("model", "simple2-r3")
     named = positional[0] if positional else arguments.pop("bench", None)

@@ -43,7 +43,10 @@ class Understudy:
 
     def get_port(self, line: Optional[str] = None) -> str:
         """The path of a line's port, or of the first."""
-        return self._bench.port if line is None else self._bench.ports[line]
+        ports = self._bench.ports
+        if line is not None and line not in ports:
+            raise AssertionError(f"line: {line!r} is unknown; expected one of {', '.join(ports)}")
+        return self._bench.port if line is None else ports[line]
 
     def get_value(self, name: str) -> Value:
         """A register, an input, or what else conditions can name."""
@@ -51,7 +54,7 @@ class Understudy:
 
     def set_values(self, **values: Given) -> None:
         """Registers, as a host's writes would, in this order: `Set Values    Aaxis_SVON=1    Aaxis_Speed=60`."""
-        self._bench.set({name: _number(value) for name, value in values.items()})
+        self._bench.ask("set", values={name: _number(value) for name, value in values.items()})
 
     def value_should_be(self, name: str, expected: Given) -> None:
         """Fails if the name has another value."""
@@ -82,7 +85,7 @@ class Understudy:
 
     def clear_fault(self, number: Union[int, str]) -> None:
         """Mends the fault of that number."""
-        self._bench.clear(int(number))
+        self._bench.ask("clear", number=_level(number))
 
     def clear_all_faults(self) -> None:
         """Mends all faults."""
@@ -120,7 +123,8 @@ class Understudy:
 
     def send_bytes(self, bytes_in_hex: str, line: Optional[str] = None) -> int:
         """On a line that no host has open, with the checksum added: `Send Bytes    01 03 00 01 00 01`."""
-        return self._bench.send(bytes.fromhex(bytes_in_hex), line, checksum=True)
+        where: Dict[str, str] = {} if line is None else {"line": line}
+        return int(self._bench.ask("send", bytes=bytes_in_hex, checksum=True, **where)["next_frame"])
 
     def last_frames_should_contain(self, text: str, last: Union[int, str] = 100) -> None:
         """Fails if none of the last frames has this in its words."""
@@ -139,13 +143,18 @@ class Understudy:
             self._benches.pop().close()
 
 
-def _number(value: Given) -> Value:
+def _number(value: Given) -> Given:
+    """A number where it is one; of anything else the program says what it expected."""
     if not isinstance(value, str):
         return value
     try:
         return int(value, 0)
     except ValueError:
+        pass
+    try:
         return float(value)
+    except ValueError:
+        return value
 
 
 def _level(value: Given) -> Union[int, str]:

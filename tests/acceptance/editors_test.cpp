@@ -162,8 +162,8 @@ TEST(Init, WritesAllOrNothing) {
   // No file may have more than a few blocks: the schemas do not fit.
   const Finished finished =
       run({"sh", "-c", "trap '' XFSZ; ulimit -f 8; exec " UNDERSTUDY_BINARY " init " + folder.path()});
-  EXPECT_EQ(finished.exit_code, 2);
-  EXPECT_EQ(finished.errors, (folder / "bench.schema.json") +
+  EXPECT_EQ(finished.exit_code, 3);
+  EXPECT_EQ(finished.errors, "understudy: " + (folder / "bench.schema.json") +
                                  ": file: cannot be written (File too large); expected a new file\n");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }

@@ -94,9 +94,10 @@ TEST(ControlFaults, ThatAreWrongAreRefusedWithOneLine) {
   expect_refused(daemon, {"clear", "1", "2"}, "clear: expected the number of a fault, or all");
   expect_refused(daemon, {"clear", "one"},
                  "clear: 'one' is not understood; expected the number of a fault, or all");
-  expect_refused(daemon, {"clear", "1"}, "clear: number: 1 is not a fault in force; expected one of `list`");
+  expect_refused(daemon, {"clear", "1"},
+                 "clear: number: 1 is not a fault in force; expected none, as nothing is broken");
   EXPECT_EQ(daemon.ctl({"list", "all"}).errors,
-            "understudy: The following argument was not expected: all (see --help for what is expected)\n");
+            "understudy: ctl list: 'all' is one word too many; expected nothing more\n");
   EXPECT_EQ(obeyed(daemon, {"list"}), "");
 
   const Finished refused = daemon.ctl({"--json", "inject", "jam", "A"});

@@ -163,7 +163,10 @@ TEST_F(OutputPaths, OfARunsFilesAreNothingThatALinkThereLeadsTo) {
 }
 
 TEST_F(OutputPaths, KeepTheFilesOfTheRunBeforeWhereOneCannotBeHad) {
-  for (const char* const name : {"old.txt", "old.jsonl", "old.csv", "old.xml"}) folder_.write(name, "old");
+  folder_.write("old.txt", "# simulated seconds, in (from the host) or out, line, bytes, # remark\n");
+  folder_.write("old.jsonl", R"({"understudy":1,"kind":"recording"})");
+  folder_.write("old.csv", "time_ms\n");
+  folder_.write("old.xml", "<testsuites/>");
   const std::string before = contents();
   const std::vector<Words> cases = {
       {"serve", at("bench.yaml"), "--capture", at("old.txt"), "--record", at("none/r")},

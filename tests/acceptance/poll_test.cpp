@@ -78,6 +78,36 @@ TEST_F(Poll, TellsTheTablesRangeOfWhatNoWordHolds) {
 
 TEST_F(Poll, FailsOnSilenceWithOneLine) { expect_failed({"--station", "9", "--timeout", "100ms", "2"}); }
 
+TEST_F(Poll, TellsWhoWasAskedWhereAndHow) {
+  const std::string before = "understudy: poll: 2: " + daemon_.port() + ": station ";
+  EXPECT_EQ(poll({"--station", "9", "--timeout", "100ms", "2"}).errors,
+            before + "9 did not answer within 100ms at 19200 8E1\n");
+  EXPECT_EQ(
+      poll({"--baud", "9600", "--stop-bits", "2", "--parity", "none", "--timeout", "100ms", "2"}).errors,
+      before + "1 did not answer within 100ms at 9600 8N2\n");
+  EXPECT_EQ(poll({"0x0003"}).errors, "understudy: poll: 0x0003: " + daemon_.port() +
+                                         ": station 1 answered exception 2 (Illegal data address)\n");
+  // The daemon knows why, and says it once.
+  poll({"--station", "9", "--timeout", "100ms", "2"});
+  EXPECT_TRUE(eventually([&] {
+    return daemon_.errors().find(
+               "understudy: line line: a host asks for station 9, which is not there; device is 1\n") !=
+           std::string::npos;
+  })) << daemon_.errors();
+  EXPECT_EQ(daemon_.errors().find("station 9"), daemon_.errors().rfind("station 9"));
+  EXPECT_NE(daemon_.errors().find("the host set 9600"), std::string::npos) << daemon_.errors();
+}
+
+TEST(PollByModel, AsksTheNumberThatItHasFromTheFactory) {
+  for (const auto& [model, name] : {std::pair<std::string, std::string>{"super-40nc", "D8117"},
+                                    {"simple2-r3", "HW_Code"},
+                                    {"rs-m8194h", "1"}}) {
+    const auto daemon = RunningUnderstudy::of_model(model);
+    const Finished finished = understudy({"poll", daemon->port(), "--model", model, name});
+    EXPECT_EQ(finished.exit_code, 0) << model << finished.errors;
+  }
+}
+
 TEST_F(Poll, WorksWithoutParity) { expect_printed({"--parity", "none", "2"}, "2 152\n"); }
 
 }  // namespace poll_test

@@ -2,15 +2,22 @@
 #include "base/files/text_file.h"
 #include "emulator/models/models.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
+#include <vector>
 
+#include "base/files/content_kind.h"
+#include "base/files/descriptor.h"
 #include "emulator/device/memory/nv_file.h"
 #include "emulator/play/plot/trace_table.h"
 #include "emulator/play/reading/scenario_file.h"
@@ -128,21 +135,86 @@ TEST_F(TextFile, IsReplacedAsAWholeAndTouchesNoNeighbour) {
   put("file", "old");
   put("file.new", "precious");
   put("file.new-2", "too");
-  EXPECT_EQ(replace_text_file(path("file"), "new"), "");
+  EXPECT_EQ(replace_text_file(path("file"), "new", ContentKind::other), "");
   EXPECT_EQ(content(path("file")), "new");
   EXPECT_EQ(content(path("file.new")), "precious");
   EXPECT_EQ(content(path("file.new-2")), "too");
   EXPECT_FALSE(fs::exists(path("file.new-3")));
-  EXPECT_EQ(replace_text_file(path("none/file"), "new"), "No such file or directory");
+  EXPECT_EQ(replace_text_file(path("none/file"), "new", ContentKind::other), "No such file or directory");
+}
+
+TEST_F(TextFile, WhatReplacesAFileHasItsMode) {
+  for (const auto mode : {fs::perms(0600), fs::perms(0640), fs::perms(0444), fs::perms(0666)}) {
+    const std::string file = put("file", "old");
+    fs::permissions(file, mode);
+    EXPECT_EQ(replace_text_file(file, "new", ContentKind::other), "");
+    EXPECT_EQ(content(file), "new");
+    EXPECT_EQ(fs::status(file).permissions(), mode);
+    fs::remove(file);
+  }
+  const mode_t before = umask(022);
+  EXPECT_EQ(replace_text_file(path("free"), "new", ContentKind::other), "");
+  umask(before);
+  EXPECT_EQ(fs::status(path("free")).permissions(), fs::perms(0644));
+}
+
+TEST_F(TextFile, WhatReplacesAFileHasItsOwner) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can give a file away";
+  const std::string file = put("file", "old");
+  ASSERT_EQ(chown(file.c_str(), 12345, 23456), 0);
+  EXPECT_EQ(replace_text_file(file, "new", ContentKind::other), "");
+  struct stat status = {};
+  ASSERT_EQ(stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, 12345U);
+  EXPECT_EQ(status.st_gid, 23456U);
+}
+
+// What is kept beside a memory may be somebody's own: only what a writer leaves goes, and nothing that is
+// being written.
+TEST_F(TextFile, WhatAKilledWriterHasLeftIsRemoved) {
+  const std::string image = R"({"understudy":1,"kind":"nv-image","model":"slim"})";
+  put("c.json", image);
+  const std::vector<std::pair<std::string, std::string>> stay = {
+      {"c.json.new-3", "precious"},
+      {"c.json.new-x", image},
+      {"c.json.newer", image},
+      {"c.json.new-1", image},
+      {"d.json.new", image},
+      {"c.json.old", image},
+      {"c.json.new-4", "understudy: 1\nlines: {}\n"}};
+  const std::vector<std::pair<std::string, std::string>> go = {
+      {"c.json.new", ""}, {"c.json.new-2", image}, {"c.json.new-35", "{\n  \"understudy\": 1,\n  \"ki"}};
+  for (const auto& [name, text] : stay) put(name, text);
+  for (const auto& [name, text] : go) put(name, text);
+  fs::create_directory(path("c.json.new-7"));
+  put("c.json.new-8", image);
+  const Descriptor being_written(open(path("c.json.new-8").c_str(), O_WRONLY | O_CLOEXEC));
+  ASSERT_EQ(flock(being_written.get(), LOCK_EX), 0);
+  remove_left_beside(path("c.json"), ContentKind::nv_image);
+  for (const auto& [name, text] : stay) EXPECT_EQ(content(path(name)), text) << name;
+  for (const auto& [name, text] : go) EXPECT_FALSE(fs::exists(path(name))) << name;
+  EXPECT_TRUE(fs::exists(path("c.json.new-7")));
+  EXPECT_TRUE(fs::exists(path("c.json.new-8")));
+  EXPECT_EQ(content(path("c.json")), image);
+}
+
+TEST_F(TextFile, OfAnotherKindIsNeverReplaced) {
+  const std::string bench = "understudy: 1\nlines: { a: { stations: [ { name: x, model: slim } ] } }\n";
+  put("bench", bench);
+  EXPECT_EQ(replace_text_file(path("bench"), "{}", ContentKind::snapshot),
+            "it is a bench; expected a snapshot to replace, or a free path");
+  EXPECT_EQ(content(path("bench")), bench);
+  EXPECT_FALSE(fs::exists(path("bench.new")));
 }
 
 TEST_F(TextFile, WhatIsNotARegularFileIsNeverReplaced) {
   fs::create_directory(path("folder"));
   const std::string expected = "; expected a regular file, or a free path";
-  EXPECT_EQ(replace_text_file(path("pipe"), "new"), "it is a pipe" + expected);
-  EXPECT_EQ(replace_text_file(path("link"), "new"), "it is a pipe" + expected) << "a link to it";
-  EXPECT_EQ(replace_text_file(path("folder"), "new"), "it is a directory" + expected);
-  EXPECT_EQ(replace_text_file("/dev/null", "new"), "it is a device" + expected);
+  EXPECT_EQ(replace_text_file(path("pipe"), "new", ContentKind::other), "it is a pipe" + expected);
+  EXPECT_EQ(replace_text_file(path("link"), "new", ContentKind::other), "it is a pipe" + expected)
+      << "a link to it";
+  EXPECT_EQ(replace_text_file(path("folder"), "new", ContentKind::other), "it is a directory" + expected);
+  EXPECT_EQ(replace_text_file("/dev/null", "new", ContentKind::other), "it is a device" + expected);
   EXPECT_TRUE(fs::is_fifo(path("pipe")));
   EXPECT_TRUE(fs::is_symlink(path("link")));
 }
@@ -152,8 +224,8 @@ TEST_F(TextFile, ALinkStaysAndWhatItLeadsToIsReplaced) {
   put("folder/real", "old");
   fs::create_symlink("folder/real", path("to it"));
   fs::create_symlink("folder/free", path("to nothing"));
-  EXPECT_EQ(replace_text_file(path("to it"), "new"), "");
-  EXPECT_EQ(replace_text_file(path("to nothing"), "made"), "");
+  EXPECT_EQ(replace_text_file(path("to it"), "new", ContentKind::other), "");
+  EXPECT_EQ(replace_text_file(path("to nothing"), "made", ContentKind::other), "");
   EXPECT_TRUE(fs::is_symlink(path("to it")));
   EXPECT_TRUE(fs::is_symlink(path("to nothing")));
   EXPECT_EQ(content(path("folder/real")), "new");

@@ -60,7 +60,7 @@ TEST_F(CaptureFileTest, IsThereFromTheBeginningAndGrows) {
 }
 
 TEST_F(CaptureFileTest, ReplacesARegularFile) {
-  std::ofstream(folder_ / "a.txt") << std::string(10'000, 'x');
+  std::ofstream(folder_ / "a.txt") << kHead + std::string(10'000, 'x');
   make(folder_ / "a.txt");
   EXPECT_EQ(contents_of(folder_ / "a.txt"), kHead);
 }

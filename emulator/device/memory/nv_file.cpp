@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_error.h"
 #include "base/files/output_file.h"
 #include "base/files/text_file.h"
@@ -28,22 +29,13 @@ std::optional<NvImage> read_nv_file(const std::string& path) {
   const auto text = read_text_file(path);
   if (!text)
     throw FileError({{.place = {path}, .text = path + ": file: " + text.why + "; expected an NV image"}});
+  if (const std::string why = is_another_kind(*text, ContentKind::nv_image); !why.empty()) {
+    throw FileError({{.place = {path}, .text = path + ": file: " + why}});
+  }
   try {
     return parse_nv_image(*text);
   } catch (const NvError& wrong) {
     throw FileError({complaint_of(wrong, path)});
-  }
-}
-
-std::string why_not_replaceable_by_image(const std::string& path) {
-  try {
-    if (std::error_code ignored; !std::filesystem::exists(output_target(path), ignored)) return "";
-    read_nv_file(path);
-    return "";
-  } catch (const OutputError& error) {
-    return error.what();
-  } catch (const FileError&) {
-    return "it is not an NV image; expected one to replace, or a free path";
   }
 }
 
@@ -108,7 +100,7 @@ void NvWriter::run() {
 }
 
 void NvWriter::replace(const std::string& path, const std::string& contents) {
-  const std::string why = replace_text_file(path, contents);
+  const std::string why = replace_text_file(path, contents, ContentKind::nv_image);
   bool& has_failed = has_failed_[path];
   if (!why.empty() == has_failed) return;
   has_failed = !why.empty();

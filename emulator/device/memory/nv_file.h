@@ -24,9 +24,6 @@ FileError::Complaint complaint_of(const NvError& wrong, const std::string& path)
 /// is.
 std::optional<NvImage> read_nv_file(const std::string& path);
 
-/// Why no image may be put there: something else is there. Empty if the path is free or has an image.
-std::string why_not_replaceable_by_image(const std::string& path);
-
 /// Writes images for an owner that may not wait: a helper thread does it.
 class NvWriter {
  public:

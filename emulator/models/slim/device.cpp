@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/simulated_time.h"
+#include "base/text/most_mistakes.h"
 #include "emulator/device/device.h"
 #include "emulator/device/device_of.h"
 #include "emulator/device/machine_ahead.h"
@@ -257,6 +258,7 @@ Slim::ReadProgram Slim::read_program(std::string_view text) const {
                                       : lang::why_not_command(std::string_view(line).substr(first));
     read.mistakes.push_back({number, static_cast<int>(first) + 1, what});
     if (error == Error::buffer_full) break;  // for all that follow as well
+    if (read.mistakes.size() >= kMostMistakes) break;
   }
   return read;
 }

@@ -13,6 +13,7 @@
 
 #include "base/simulated_time.h"
 #include "base/state/shared_text.h"
+#include "base/text/most_mistakes.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/row.h"
@@ -122,9 +123,7 @@ std::vector<ProgramMistake> Super40nc::warnings_about(std::string_view text) con
   const language::Checked checked = language::check(text, options_with_room());
   std::vector<language::Complaint> all = checked.warnings;
   all.insert(all.end(), checked.notes.begin(), checked.notes.end());
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-  });
+  leave_first(all);
   std::vector<ProgramMistake> warnings;
   for (const language::Complaint& one : all) warnings.push_back({one.line, one.column, one.message()});
   return warnings;

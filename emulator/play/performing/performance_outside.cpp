@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "emulator/device/device.h"
@@ -182,8 +183,7 @@ void Performance::perform(const MemoryStep& step) {
   stage_->with_world([&](world::World& world) { kept = world.device(step.device).memory()->kept_now(); });
   const NvImage present = kept();
   if (step.what == MemoryStep::What::save) {
-    std::string why = why_not_replaceable_by_image(step.file);
-    if (why.empty()) why = replace_text_file(step.file, to_json(present));
+    const std::string why = replace_text_file(step.file, to_json(present), ContentKind::nv_image);
     if (!why.empty()) throw StepError(step.file + ": cannot be written: " + why);
     return;
   }

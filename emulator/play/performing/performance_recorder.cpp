@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/files/content_kind.h"
 #include "base/files/growing_file.h"
 #include "emulator/play/results/result.h"
 #include "emulator/world/bench_file/bench_file.h"
@@ -23,12 +24,11 @@ PerformanceRecorder::PerformanceRecorder(world::World& world, world::RecordingHe
 }
 
 void PerformanceRecorder::begin() {
-  spool_.reset();  // the one before is over, and its file is free
-  // What breaks off is played as far as it goes: nobody needs to be told while the play is on.
-  const auto log = [](const std::string&) {};
-  spool_ = std::make_unique<world::RecordingSpool>(world_, header_,
-                                                   std::make_unique<GrowingFile>(path_, "the recording", log),
-                                                   world::kRecordingCapBytes, log);
+  spool_.reset();                              // the one before is over, and its file is free
+  const auto log = [](const std::string&) {};  // what breaks off is told when the play is over
+  spool_ = std::make_unique<world::RecordingSpool>(
+      world_, header_, std::make_unique<GrowingFile>(path_, ContentKind::recording, log),
+      world::kRecordingCapBytes, log);
 }
 
 void PerformanceRecorder::world_restored(std::size_t) {
@@ -45,7 +45,9 @@ void PerformanceRecorder::finish(ScenarioResult& result) {
   if (result.verdict != ScenarioResult::Verdict::passed) {
     spool_->finish(result.failure ? result.failure->what : std::string());
   }
+  const std::string failure = spool_->close();
   spool_.reset();
+  if (!failure.empty()) throw GrowingFileError(failure);
   result.recording = path_;
 }
 

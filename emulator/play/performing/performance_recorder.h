@@ -20,7 +20,7 @@ class PerformanceRecorder final : public Onlooker {
 
   void world_restored(std::size_t steps) override;
   void step_over() override;
-  /// Into ScenarioResult::recording.
+  /// Into ScenarioResult::recording. Throws GrowingFileError where it has not become whole.
   void finish(ScenarioResult& result) override;
 
  private:

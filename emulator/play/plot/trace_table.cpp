@@ -6,6 +6,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_error.h"
 #include "base/files/text_file.h"
 #include "base/simulated_time.h"
@@ -80,6 +81,9 @@ TraceTable read_trace(const std::string& path) {
   }
   const auto text = read_text_file(path);
   if (!text) throw FileError(path + ": " + text.why + "; expected a trace");
+  if (const std::string why = is_another_kind(*text, ContentKind::trace); !why.empty()) {
+    throw FileError(path + ": " + why);
+  }
   TraceTable table = is_csv ? parse_csv_trace(*text, path) : parse_vcd_trace(*text, path);
   if (table.ticks.empty()) throw FileError(path + ": has no rows; expected one at least");
   return table;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_error.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
@@ -140,6 +141,9 @@ void read_program(StepsReader& reader, const world::YamlFields& step, const worl
     } else {
       const auto text = read_text_file(program.file);
       if (!text) field.fail(program.file + " " + text.why + "; expected a listing");
+      if (const std::string why = is_another_kind(*text, ContentKind::program); !why.empty()) {
+        field.fail(program.file + " " + why);
+      }
       program.text = *text;
       reader.add_file(program.file, "a program that a step loads");
     }

@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
 #include "base/files/output_file.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/memory/nv_file.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
@@ -281,7 +281,7 @@ class ScenarioFile::Reader {
         field.fail(path + " is not below " + (save_below_.empty() ? "this folder" : save_below_) +
                    "; expected a path there (`--save-below FOLDER` allows another folder)");
       }
-      if (const std::string why = why_not_replaceable_by_image(path); !why.empty()) {
+      if (const std::string why = why_not_writable(path, ContentKind::nv_image); !why.empty()) {
         field.fail(path + " cannot be written: " + why);
       }
       scenario.saved.push_back(path);
@@ -325,6 +325,10 @@ ScenarioFile::ScenarioFile(const std::string& text, const std::string& path, con
   if (root.has("lines") && !root.has("bench") && !root.has("steps")) {
     throw FileError({path, 1, 1},
                     "scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
+  }
+  if ((root.has("registers") || root.has("model")) && !root.has("steps")) {
+    throw FileError({path, 1, 1},
+                    "scenario: is a model file; expected a scenario, with a bench whose stations name it");
   }
   reader_ = std::make_unique<Reader>(root, path, options, shared);
 }

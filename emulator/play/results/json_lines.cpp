@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <ios>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/growing_file.h"
 #include "base/files/output_file.h"
 #include "base/state/state_bytes.h"
@@ -33,11 +35,16 @@ class JsonLines final : public ResultsFile {
  public:
   JsonLines(const std::string& path, bool goes_on) : path_(path) {
     try {
-      file_.emplace(path);
+      file_.emplace(path, ContentKind::results);
       if (goes_on) read();
     } catch (const OutputError& error) {
       refuse(error.what());
     }
+  }
+
+  bool has_rows() override {
+    std::error_code error;
+    return std::filesystem::file_size(file_->target(), error) > 0 && !error;
   }
 
   void begin() override {

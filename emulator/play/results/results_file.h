@@ -51,6 +51,8 @@ struct CaseKey {
 class ResultsFile {
  public:
   virtual ~ResultsFile() = default;
+  /// Whether it has rows of an earlier run, which begin() would throw away.
+  virtual bool has_rows() = 0;
   /// Empties the file; not to be called if the run goes on in it.
   virtual void begin() = 0;
   /// Whether that case has been played before, and failed.

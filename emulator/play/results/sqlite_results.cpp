@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/files/content_kind.h"
 #include "base/files/growing_file.h"
 #include "base/files/output_file.h"
 #include "emulator/play/results/results_file.h"
@@ -51,7 +52,7 @@ class SqliteResults final : public ResultsFile {
  public:
   SqliteResults(const std::string& path, bool goes_on) : path_(path) {
     try {
-      lock_.emplace(path);
+      lock_.emplace(path, ContentKind::database);
     } catch (const OutputError& error) {
       refuse(error.what());
     }
@@ -76,6 +77,11 @@ class SqliteResults final : public ResultsFile {
   }
   SqliteResults(const SqliteResults&) = delete;
   SqliteResults& operator=(const SqliteResults&) = delete;
+
+  bool has_rows() override {
+    const Statement table = prepare("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'results'");
+    return step(table) && step(prepare("SELECT 1 FROM results LIMIT 1"));
+  }
 
   void begin() override {
     run("DROP VIEW IF EXISTS cases; DROP TABLE IF EXISTS results; DROP TABLE IF EXISTS parameter_names");

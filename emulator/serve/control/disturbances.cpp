@@ -1,21 +1,27 @@
 // What a user does to devices and machines from outside: inputs, power, programs, faults.
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/text/one_line.h"
 #include "emulator/device/device.h"
+#include "emulator/device/mistakes_told.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/refusal.h"
 #include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/server.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/check_fault.h"
+#include "emulator/world/events/event_log.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/trigger.h"
 #include "emulator/world/names/level.h"
@@ -25,20 +31,17 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-std::int64_t demand_integer(const Json& value, const std::string& name) {
+bool is_whole(const Json& value) {
   const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
-  if (!value.is_number_integer() || huge) throw MessageError(name + ": expected a whole number");
-  return value.get<std::int64_t>();
+  return value.is_number_integer() && !huge;
 }
 
 /// A whole number, or a level as text.
 std::int64_t level_of(const Json& value, const std::string& name, TerminalRow::Kind kind) {
-  if (!value.is_string()) return demand_integer(value, name);
-  const auto level = world::parse_level(value.get<std::string>(), kind);
-  if (!level) {
-    throw MessageError(name + ": " + understudy::quoted(value.get<std::string>()) +
-                       " is not a level; expected " + std::string(world::level_example(kind)));
-  }
+  if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
+  if (is_whole(value)) return value.get<std::int64_t>();
+  const auto level = value.is_string() ? world::parse_level(value.get<std::string>(), kind) : std::nullopt;
+  if (!level) throw is_not(name, value, "a level", world::level_example(kind));
   return *level;
 }
 
@@ -51,7 +54,8 @@ std::int32_t demand_level(const Json& value, const std::string& name, const Term
 /// Of a fault.
 std::string field_of(const Json& value, const std::string& name) {
   if (value.is_string()) return value.get<std::string>();
-  if (!value.is_number_integer()) throw MessageError(name + ": expected a whole number or a text");
+  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+  if (!value.is_number_integer()) throw is_not(name, value, "a whole number or a text");
   return value.dump();
 }
 
@@ -76,12 +80,10 @@ Json mistakes_as_json(const std::vector<ProgramMistake>& mistakes) {
 }
 
 /// The first mistake for people, and all of them.
-Json refusal_of(const ProgramError& error) {
-  const std::size_t more = error.mistakes.size() - 1;
-  return Json{
-      {"ok", false},
-      {"error", in_text(error.first()) + (more > 0 ? " (and " + std::to_string(more) + " more)" : "")},
-      {"mistakes", mistakes_as_json(error.mistakes)}};
+Json refusal_of(const std::vector<ProgramMistake>& mistakes) {
+  return Json{{"ok", false},
+              {"error", in_text(mistakes.front()) + and_more(mistakes)},
+              {"mistakes", mistakes_as_json(with_word_of_more(mistakes))}};
 }
 
 /// "it is busy (reason 5)"; the number is the device's own.
@@ -101,10 +103,7 @@ std::string why_refused(const Objection& refused) {
 
 Json input_message(Daemon& daemon, const Json& message) {
   demand_keys(message, {"do", "values"});
-  const Json& values = demand(message, "values");
-  if (!values.is_object() || values.empty()) {
-    throw MessageError("values: expected an object of names and levels");
-  }
+  const Json& values = demand_values(message, "names and levels");
   daemon.catch_up();
   const world::KnownDevices& known = daemon.world().known();
   std::vector<world::InputSetup> wanted;
@@ -127,15 +126,13 @@ Json input_message(Daemon& daemon, const Json& message) {
 
 Json turn_message(Daemon& daemon, const Json& message) {
   demand_keys(message, {"do", "values", "in"});
-  const Json& values = demand(message, "values");
-  if (!values.is_object() || values.empty()) {
-    throw MessageError("values: expected an object of names and counts");
-  }
+  const Json& values = demand_values(message, "names and counts");
   daemon.catch_up();
   std::vector<world::Fault> turns;
   for (const auto& [name, value] : values.items()) {
+    if (!is_whole(value)) throw is_not(name, value, "a whole number", "counts, such as 400");
     world::FaultText text{
-        .kind = "turn", .place = name, .fields = {{"counts", std::to_string(demand_integer(value, name))}}};
+        .kind = "turn", .place = name, .fields = {{"counts", std::to_string(value.get<std::int64_t>())}}};
     if (message.contains("in")) text.fields.emplace_back("in", demand_text(message, "in"));
     try {
       turns.push_back(world::find_fault(daemon.world().known(), text));
@@ -157,7 +154,7 @@ Json command_message(Daemon& daemon, const Json& message) {
   const std::string text = demand_text(message, "text");
   daemon.catch_up();
   const Device& device = daemon.world().device(number);
-  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
+  demand_power(device);
   Objection refused;
   try {
     refused = daemon.world().command(number, text);
@@ -181,26 +178,50 @@ Json power_message(Daemon& daemon, const Json& message) {
   return Json{{"ok", true}};
 }
 
-Json program_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "device", "text"});
-  const std::size_t number = demand_device(daemon, message);
+namespace {
+
+Json load_program(Daemon& daemon, std::size_t number, const std::string& text) {
   daemon.catch_up();
-  Device& device = daemon.world().device(number);
-  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
-  if (!message.contains("text")) {
-    const UserProgram* const program = device.user_program();
-    return Json{{"ok", true}, {"text", program != nullptr ? program->program_text() : ""}};
-  }
-  const std::string text = demand_text(message, "text");
+  const Device& device = daemon.world().device(number);
+  demand_power(device);
   try {
     daemon.world().load_program(number, text);
   } catch (const ProgramError& error) {
-    return refusal_of(error);
+    return refusal_of(error.mistakes);
   }
   Json reply{{"ok", true}};
   const auto warnings = program_warnings(device.model(), text, device.settings());
   if (!warnings.empty()) reply["warnings"] = mistakes_as_json(warnings);
   return reply;
+}
+
+}  // namespace
+
+void program_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  demand_keys(message, {"do", "device", "text"});
+  const std::size_t number = demand_device(daemon, message);
+  const Device& device = daemon.world().device(number);
+  demand_power(device);
+  if (!message.contains("text")) {
+    return answer(reply, [&] {
+      daemon.catch_up();
+      const UserProgram* const program = device.user_program();
+      return Json{{"ok", true}, {"text", program != nullptr ? program->program_text() : ""}};
+    });
+  }
+  const std::string text = demand_text(message, "text");
+  if (text.size() <= kMostAtOnce) return answer(reply, [&] { return load_program(daemon, number, text); });
+  // What is no program is found out aside: a device holds far less than a message, and takes its own soon.
+  daemon.do_aside([&daemon, &model = device.model(), settings = device.settings(), number, text,
+                   author = daemon.onlookers().events.author(), reply]() -> std::function<void()> {
+    std::vector<ProgramMistake> mistakes = check_program(model, text, settings);
+    return [&daemon, number, text, author, reply, mistakes = std::move(mistakes)] {
+      answer(reply, [&] {
+        daemon.onlookers().events.set_author(author);
+        return mistakes.empty() ? load_program(daemon, number, text) : refusal_of(mistakes);
+      });
+    };
+  });
 }
 
 Json inject_message(Daemon& daemon, const Json& message) {
@@ -223,6 +244,22 @@ Json inject_message(Daemon& daemon, const Json& message) {
   return Json{{"ok", true}, {"number", daemon.world().inject(fault)}};
 }
 
+namespace {
+
+/// "one of 1, 4"
+std::string numbers_of_faults(const world::World& world) {
+  constexpr std::size_t kMostListed = 8;
+  std::string numbers;
+  std::size_t count = 0;
+  for (const auto& [number, armed] : world.faults()) {
+    if (++count > kMostListed) return "one of " + numbers + ", ...";
+    numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
+  }
+  return numbers.empty() ? "none, as nothing is broken" : "one of " + numbers;
+}
+
+}  // namespace
+
 Json clear_message(Daemon& daemon, const Json& message) {
   demand_keys(message, {"do", "number"});
   daemon.catch_up();
@@ -231,11 +268,10 @@ Json clear_message(Daemon& daemon, const Json& message) {
     world.clear_faults();
     return Json{{"ok", true}};
   }
-  const std::int64_t number = demand_integer(message["number"], "number");
-  if (number < 0 || !world.clear_fault(static_cast<std::size_t>(number))) {
-    throw MessageError("number: " + std::to_string(number) +
-                       " is not a fault in force; expected one of `list`");
-  }
+  const Json& number = message["number"];
+  if (!is_whole(number)) throw is_not("number", number, "a whole number");
+  const bool is_there = number.get<std::int64_t>() >= 0 && world.clear_fault(number.get<std::size_t>());
+  if (!is_there) throw is_not("number", number, "a fault in force", numbers_of_faults(world));
   return Json{{"ok", true}};
 }
 

@@ -164,12 +164,12 @@ std::optional<std::uint64_t> demand_list(world::LookedNames& known, const Json& 
   if (!message.contains("names")) return std::nullopt;
   const Json& names = message["names"];
   if (!names.is_array() || names.size() > kMostNames) {
-    throw MessageError("names: expected a list of at most " + std::to_string(kMostNames) + " names");
+    throw is_not("names", names, "a list of at most " + std::to_string(kMostNames) + " names");
   }
   std::vector<std::string> texts;
   texts.reserve(names.size());
   for (const Json& name : names) {
-    if (!name.is_string()) throw MessageError("names: expected a list of names");
+    if (!name.is_string()) throw is_not("names", names, "a list of names");
     texts.push_back(name.get_ref<const std::string&>());
   }
   return known.keep(texts);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/text/one_line.h"
+#include "emulator/device/device.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/world.h"
@@ -21,6 +22,19 @@ void demand_keys(const Json& message, std::initializer_list<std::string_view> kn
       throw MessageError(understudy::quoted(key) + " is not a key of this message");
     }
   }
+}
+
+std::string shown(const Json& value) {
+  constexpr std::size_t kLongest = 80;
+  if (value.is_string()) return understudy::quoted(value.get_ref<const std::string&>());
+  const std::string text = one_line(value.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+MessageError is_not(std::string_view name, const Json& value, std::string_view what,
+                    std::string_view expected) {
+  return MessageError(std::string(name) + ": " + shown(value) + " is not " + std::string(what) +
+                      "; expected " + std::string(expected));
 }
 
 const Json& demand(const Json& message, const char* key) {
@@ -36,17 +50,33 @@ Json json_of(double value) {
 
 std::string demand_text(const Json& message, const char* key) {
   const Json& text = demand(message, key);
-  if (!text.is_string()) throw MessageError(std::string(key) + ": expected a text");
+  if (!text.is_string()) throw is_not(key, text, "a text");
   return text.get<std::string>();
+}
+
+const Json& demand_values(const Json& message, std::string_view expected) {
+  const Json& values = demand(message, "values");
+  if (!values.is_object() || values.empty()) {
+    throw is_not("values", values, "an object of " + std::string(expected), "one that is not empty");
+  }
+  if (values.size() > kMostNamed) {
+    throw MessageError("values: are " + std::to_string(values.size()) + "; expected at most " +
+                       std::to_string(kMostNamed) + " at once");
+  }
+  return values;
 }
 
 std::uint64_t demand_count(const Json& message, const char* key, std::uint64_t most) {
   const Json& value = message[key];
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
-    throw MessageError(std::string(key) + ": expected a whole number" +
-                       (most == UINT64_MAX ? "" : " of at most " + std::to_string(most)));
+    throw is_not(key, value, "a whole number",
+                 "one of " + (most == UINT64_MAX ? "0 or more" : "0 to " + std::to_string(most)));
   }
   return value.get<std::uint64_t>();
+}
+
+void demand_power(const Device& device) {
+  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
 }
 
 std::size_t demand_device(const Daemon& daemon, const Json& message) {

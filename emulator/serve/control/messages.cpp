@@ -25,6 +25,8 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr int kDeepest = 8;  // far deeper than any message
+// The text of a program or a file may be as long as a message. Others are names, conditions and frames.
+constexpr std::size_t kLongestText = std::size_t{64} << 10;
 
 /// What to do: answered at once, or later, or told in pieces.
 struct Verb {
@@ -42,7 +44,7 @@ constexpr std::array<Verb, 32> kVerbs{{{"status", nullptr, nullptr, status_messa
                                        {"turn", turn_message},
                                        {"command", command_message},
                                        {"power", power_message},
-                                       {"program", program_message},
+                                       {"program", nullptr, program_message},
                                        {"inject", inject_message},
                                        {"clear", clear_message},
                                        {"list", list_message},
@@ -83,9 +85,37 @@ const Verb& demand_verb(const Json& message) {
 std::string take_author(Json& message) {
   if (!message.contains("as")) return "control";
   const std::string author = demand_text(message, "as");
-  if (author != "page" && author != "control") throw MessageError("as: expected page or control");
+  if (author != "page" && author != "control")
+    throw is_not("as", message["as"], "an author", "page or control");
   message.erase("as");
   return author;
+}
+
+/// So that no name or condition takes longer to look through than hosts would wait.
+void demand_short_texts(const Json& json) {
+  if (json.is_string() && json.get_ref<const std::string&>().size() > kLongestText) {
+    throw MessageError(understudy::quoted(json.get_ref<const std::string&>()) +
+                       " is too long; expected a text of at most " + std::to_string(kLongestText) + " bytes");
+  }
+  for (const auto& [key, value] : json.items()) {
+    if (!json.is_structured()) return;
+    demand_short_texts(Json(key));
+    demand_short_texts(value);
+  }
+}
+
+Json parsed(const std::string& line) {
+  Json message = world::parse_strict_json<Json>(
+      line,
+      [](const std::string& key) {
+        return MessageError(understudy::quoted(key) + " appears twice; expected it once");
+      },
+      kDeepest);
+  for (const auto& [key, value] : message.items()) {
+    const bool is_of_program = key == "text" && message.value("do", Json()) == "program";
+    if (!is_of_program) demand_short_texts(value);
+  }
+  return message;
 }
 
 }  // namespace
@@ -135,25 +165,41 @@ void answer(const ControlServer::Reply& reply, const std::function<Json()>& make
   });
 }
 
-void handle_message(Daemon& daemon, const std::string& line,
-                    const std::function<void(const std::string&)>& reply) {
-  answer(reply, [&]() -> Json {
-    Json message = world::parse_strict_json<Json>(
-        line,
-        [](const std::string& key) {
-          return MessageError(understudy::quoted(key) + " appears twice; expected it once");
-        },
-        kDeepest);
-    const Verb& verb = demand_verb(message);
-    const std::string author = take_author(message);
-    daemon.onlookers().events.set_author(author);
-    if (verb.answer != nullptr) return verb.answer(daemon, message);
-    if (verb.tell != nullptr) {
-      tell(daemon, verb.tell(daemon, std::move(message)), reply);
-    } else {
-      verb.answer_later(daemon, message, reply);
+namespace {
+
+/// Does what a message says; null if the reply comes later.
+Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
+  const Verb& verb = demand_verb(message);
+  const std::string author = take_author(message);
+  daemon.onlookers().events.set_author(author);
+  if (verb.answer != nullptr) return verb.answer(daemon, message);
+  if (verb.tell != nullptr) {
+    tell(daemon, verb.tell(daemon, std::move(message)), reply);
+  } else {
+    verb.answer_later(daemon, message, reply);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void handle_message(Daemon& daemon, const std::string& line, const ControlServer::Reply& reply) {
+  if (line.size() <= kMostAtOnce) return answer(reply, [&] { return act_on(daemon, parsed(line), reply); });
+  // To read it would make the devices wait, and hosts with them.
+  daemon.do_aside([&daemon, line, reply]() -> std::function<void()> {
+    std::shared_ptr<Json> message;
+    std::exception_ptr refused;
+    try {
+      message = std::make_shared<Json>(parsed(line));
+    } catch (...) {
+      refused = std::current_exception();
     }
-    return nullptr;
+    return [&daemon, message, refused, reply] {
+      answer(reply, [&]() -> Json {
+        if (refused) std::rethrow_exception(refused);
+        return act_on(daemon, std::move(*message), reply);
+      });
+    };
   });
 }
 

@@ -334,7 +334,7 @@ Telling tell_values(Daemon& daemon, WantedPage wanted) {
     co_await pause;
   }
   daemon.catch_up();
-  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
+  demand_power(device);
   for (PageValue& value : page) read_page_value(value, device);
   ReplyText text;
   text.member("simulated_time_ns", daemon.world().now().count());

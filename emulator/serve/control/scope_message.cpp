@@ -42,7 +42,7 @@ Tick ticks_of(const Json& message, const char* key, Tick otherwise) {
   if (!message.contains(key)) return otherwise;
   const auto time = message[key].is_string() ? parse_duration(message[key].get<std::string>()) : std::nullopt;
   if (!time || *time < SimTime{0} || *time > time_of(world::ScopeSetup::kMostTicks)) {
-    throw MessageError(std::string(key) + ": expected a duration of at most 10s, such as \"500ms\"");
+    throw is_not(key, message[key], "a duration of at most 10s", "one such as \"500ms\"");
   }
   return tick_at(*time);
 }
@@ -52,11 +52,11 @@ world::ScopeSetup scope_setup(const Json& message) {
   world::ScopeSetup setup;
   const Json& names = message["names"];
   if (!names.is_array() || names.empty() || names.size() > world::ScopeSetup::kMostNames) {
-    throw MessageError("names: expected a list of 1 to " + std::to_string(world::ScopeSetup::kMostNames) +
-                       " names");
+    throw is_not("names", names,
+                 "a list of 1 to " + std::to_string(world::ScopeSetup::kMostNames) + " names");
   }
   for (const Json& name : names) {
-    if (!name.is_string()) throw MessageError("names: expected a list of names");
+    if (!name.is_string()) throw is_not("names", names, "a list of names");
     setup.names.push_back(name.get<std::string>());
   }
   if (message.contains("condition")) setup.condition = demand_text(message, "condition");
@@ -105,8 +105,10 @@ const Port& demand_port(const Daemon& daemon, const Json& message) {
     names += (names.empty() ? "" : ", ") + name;
   }
   if (!message.contains("line")) throw MessageError("'line' is missing; expected one of " + names);
-  throw MessageError("line: " + understudy::quoted(demand_text(message, "line")) +
-                     " is unknown; expected one of " + names);
+  const std::string wanted = demand_text(message, "line");
+  // "01 03" without quotes
+  const std::string hint = bytes_of(wanted) ? "; bytes stand in quotes, as one word" : "";
+  throw MessageError("line: " + understudy::quoted(wanted) + " is unknown; expected one of " + names + hint);
 }
 
 }  // namespace
@@ -179,7 +181,8 @@ Json send_message(Daemon& daemon, const Json& message) {
     if (line.speech.carries_text() && text.back() != '\r' && text.back() != '\n') bytes.push_back('\r');
   } else {
     const auto parsed = bytes_of(demand_text(message, "bytes"));
-    if (!parsed) throw MessageError("bytes: expected hexadecimal digits, such as \"01 03 00 00 00 01\"");
+    if (!parsed)
+      throw is_not("bytes", message["bytes"], "hexadecimal digits", "some such as \"01 03 00 00 00 01\"");
     bytes = *parsed;
   }
   if (message.contains("checksum") && message["checksum"] == true) understudy::pty::append_rtu_crc(bytes);

@@ -77,6 +77,7 @@ struct ControlServer::Client {
   bool has_said_all = false;  // it has closed its side
   std::string input;          // the beginning of a message
   std::string output;
+  std::size_t sent = 0;  // of the output
 };
 
 ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
@@ -170,20 +171,24 @@ void ControlServer::send(const std::shared_ptr<Client>& client, const std::strin
   const bool is_too_long = line.size() >= kMostUnread;
   client->output += is_too_long ? R"({"ok":false,"error":"the answer is longer than 8388608 bytes"})" : line;
   client->output += "\n";
-  if (!write_out(*client) || client->output.size() > kMostUnread) drop(client->socket.get());
+  if (!write_out(*client) || client->output.size() - client->sent > kMostUnread) drop(client->socket.get());
 }
 
 /// False if there is nothing more to do for the client.
 bool ControlServer::write_out(Client& client) {
-  while (!client.output.empty()) {
-    const ssize_t count =
-        ::send(client.socket.get(), client.output.data(), client.output.size(), MSG_NOSIGNAL);
+  while (client.sent < client.output.size()) {
+    const ssize_t count = ::send(client.socket.get(), client.output.data() + client.sent,
+                                 client.output.size() - client.sent, MSG_NOSIGNAL);
     if (count < 0) {
       if (errno == EINTR) continue;
       if (errno != EAGAIN) return false;
       break;
     }
-    client.output.erase(0, static_cast<std::size_t>(count));
+    client.sent += static_cast<std::size_t>(count);
+  }
+  if (client.sent == client.output.size()) {
+    client.sent = 0;
+    client.output = {};  // a large one does not stay with the daemon
   }
   if (client.has_said_all && client.output.empty()) return false;
   // What waits behind a message whose reply is to come stays in the socket.

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/files/content_kind.h"
 #include "base/files/text_file.h"
 #include "base/state/state_error.h"
 #include "base/text/one_line.h"
@@ -45,7 +46,7 @@ void demand_restorable(const Daemon& daemon) {
 /// Why it could not be; empty if it was.
 std::string written(const std::string& path, const world::WorldState& state, std::uint64_t bench_hash) {
   try {
-    return replace_text_file(path, world::to_text(state, bench_hash));
+    return replace_text_file(path, world::to_text(state, bench_hash), ContentKind::snapshot);
   } catch (const std::exception& error) {
     return error.what();
   }
@@ -81,6 +82,9 @@ namespace {
 world::WorldState read_snapshot(const std::string& path, std::uint64_t bench_hash) {
   const auto text = read_text_file(path);
   if (!text) throw MessageError(path + ": file: " + text.why + "; expected a snapshot");
+  if (const std::string why = is_another_kind(*text, ContentKind::snapshot); !why.empty()) {
+    throw MessageError(path + ": file: " + why);
+  }
   try {
     return world::parse_snapshot(*text, bench_hash);
   } catch (const world::SnapshotError& error) {

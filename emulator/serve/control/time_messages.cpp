@@ -22,7 +22,7 @@ namespace {
 SimTime demand_duration(const Daemon& daemon, const Json& message, const std::string& key) {
   const Json& field = demand(message, key.c_str());
   const auto duration = field.is_string() ? parse_duration(field.get<std::string>()) : std::nullopt;
-  if (!duration) throw MessageError(key + ": expected a duration with a unit, such as \"250ms\"");
+  if (!duration) throw is_not(key, field, "a duration with a unit", "one such as \"250ms\"");
   if (*duration > std::chrono::hours(24 * 365))
     throw MessageError(key + ": is more than a year; expected at most that");
   if (*duration > kHorizon - daemon.world().now()) {

@@ -105,7 +105,7 @@ class Travel {
     constexpr std::int64_t kMost = 1'000'000;
     if (!steps.is_number_integer() || steps.get<std::int64_t>() > kMost ||
         steps.get<std::int64_t>() < -kMost) {
-      throw MessageError("steps: expected a whole number");
+      throw is_not("steps", steps, "a whole number");
     }
     return steps.get<std::int64_t>();
   }
@@ -203,7 +203,7 @@ DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
       travelled();
       Json message;
       try {
-        message = Json::parse(line);
+        if (line.size() <= kMostAtOnce) message = Json::parse(line);
         message.erase("as");
       } catch (const Json::exception&) {
       }

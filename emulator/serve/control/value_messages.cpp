@@ -55,14 +55,24 @@ bool is_real_register(const world::KnownDevices& known, const std::string& name)
   }
 }
 
+/// Says what the register takes. Throws world::NameError if there is none of that name.
+MessageError no_number(const world::KnownDevices& known, const std::string& name, const Json& value) {
+  if (world::find_value(known, name)) return is_not(name, value, "a number");
+  const world::RegisterName place = world::find_register(known, name);
+  if (place.place.is_real()) return is_not(name, value, "a number");
+  const std::string range = range_text(place.place, -1);
+  if (value.is_number_integer())
+    return MessageError(name + ": " + shown(value) + " is out of range; expected " + range);
+  return is_not(name, value, value.is_number() ? "a whole number" : "a number", range);
+}
+
 /// The object under "values": names with numbers, whole ones for registers that hold no other.
 WantedValues named_values(const Json& message, const world::KnownDevices& known) {
   demand_keys(message, {"do", "values"});
-  const Json& values = demand(message, "values");
-  if (!values.is_object() || values.empty())
-    throw MessageError("values: expected an object of names and whole numbers");
+  const Json& values = demand_values(message, "names and whole numbers");
   WantedValues all;
-  for (const auto& [name, value] : values.items()) {
+  for (const auto& [name, given] : values.items()) {
+    const Json value = given.is_boolean() ? Json(given.get<bool>() ? 1 : 0) : given;
     if (value.is_number()) {
       if (auto found = world::find_value(known, name)) {
         all.values.emplace_back(std::move(*found), value.get<double>());
@@ -72,15 +82,11 @@ WantedValues named_values(const Json& message, const world::KnownDevices& known)
     const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
     const bool is_real = value.is_number() && is_real_register(known, name);
     if (!is_real && (!value.is_number_integer() || huge)) {
-      throw MessageError(name + ": expected a whole number");
+      throw no_number(known, name, value);
     }
     all.registers.push_back({name, value});
   }
   return all;
-}
-
-void demand_power(const Device& device) {
-  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
 }
 
 /// A number as JSON has it, and what it counts where it is not a plain one.
@@ -161,7 +167,7 @@ namespace {
 Telling get_names_message(Daemon& daemon, Json message) {
   demand_keys(message, {"do", "names"});
   const Json& names = demand(message, "names");
-  if (!names.is_array() || names.empty()) throw MessageError("names: expected a list of names");
+  if (!names.is_array() || names.empty()) throw is_not("names", names, "a list of names");
   daemon.catch_up();
   const Pause pause(daemon);
   const world::World& world = daemon.world();
@@ -170,7 +176,7 @@ Telling get_names_message(Daemon& daemon, Json message) {
   std::set<std::string> known;
   std::vector<std::string> texts;
   for (const Json& entry : names) {
-    if (!entry.is_string()) throw MessageError("names: expected a list of names");
+    if (!entry.is_string()) throw is_not("names", names, "a list of names");
     std::string name = entry.get<std::string>();
     if (!known.insert(name).second) continue;
     found.push_back(resolve(world, probes, name));

@@ -34,7 +34,7 @@ Json command_message(Daemon& daemon, const Json& message);
 /// {"do":"power","device":"feeder","to":"off"}, "on" or "cycle"
 Json power_message(Daemon& daemon, const Json& message);
 /// {"do":"program","device":"feeder","text":"..."}; without a text the reply brings the one there is
-Json program_message(Daemon& daemon, const Json& message);
+void program_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"inject","fault":{"lost_steps":"feeder.A","one_in":50}}, as a bench has it
 Json inject_message(Daemon& daemon, const Json& message);
 /// {"do":"clear","number":1}; without a number all of them

@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/growing_file.h"
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
@@ -82,11 +83,13 @@ Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
     : log_(std::move(log)),
       world_(bench, world_options(options), log_),
       frames_(world_, kFramesKept),
+      missing_stations_(world_, log_),
       onlookers_(world_, frames_),
       bench_path_(options.bench_path),
       bench_hash_(world::bench_hash(bench)),
       files_(options.files),
       pacer_(options.speed, wall_now()) {
+  frames_.tell([this](const pty::CapturedPacket& packet) { missing_stations_.look(packet); });
   if (options.watch_signals) watch_signals();
   watch_posts();
   make_ports(bench);
@@ -224,7 +227,7 @@ void Daemon::open_files(const world::Bench& bench, const DaemonOptions& options)
   }
   std::unique_ptr<GrowingFile> recording;
   if (!options.record_path.empty()) {
-    recording = std::make_unique<GrowingFile>(options.record_path, "the recording", log_);
+    recording = std::make_unique<GrowingFile>(options.record_path, ContentKind::recording, log_);
   }
   if (!options.trace_path.empty()) {
     trace_ = std::make_unique<world::TraceFile>(world_, options.trace_path, options.trace_also, log_);

@@ -12,6 +12,7 @@
 #include "base/files/file_claims.h"
 #include "base/files/helper_thread.h"
 #include "emulator/serve/daemon/door.h"
+#include "emulator/serve/daemon/missing_stations.h"
 #include "emulator/serve/daemon/nv_keeper.h"
 #include "emulator/serve/daemon/onlookers.h"
 #include "emulator/serve/loop/event_loop.h"
@@ -135,6 +136,7 @@ class Daemon {
   std::function<void(const std::string&)> log_;
   world::World world_;
   world::FrameLog frames_;
+  MissingStations missing_stations_;
   Onlookers onlookers_;
   std::string bench_path_;
   std::uint64_t bench_hash_;

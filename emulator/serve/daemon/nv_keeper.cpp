@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_error.h"
+#include "base/files/text_file.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_file.h"
@@ -120,6 +122,8 @@ void NvKeeper::claim(const world::DeviceSetup& device) {
                          ": nv: another understudy, which is running, keeps a memory there; expected a file, "
                          "or a folder with --nv, for each");
   }
+  // Nobody else writes it, so what lies beside it is of a writer that was killed.
+  remove_left_beside(file_of(device).string(), ContentKind::nv_image);
 }
 
 NvKeeper::~NvKeeper() {

@@ -24,7 +24,6 @@ ParentSignals::ParentSignals() {
   sigaddset(&blocked, SIGTTOU);  // or giving the terminal back would stop us
   sigprocmask(SIG_BLOCK, &blocked, &mask_before_);
   pipe_before_ = signal(SIGPIPE, SIG_IGN);
-  size_before_ = signal(SIGXFSZ, SIG_IGN);
 }
 
 ParentSignals::~ParentSignals() {
@@ -43,7 +42,6 @@ void ParentSignals::watch(EventLoop& loop, std::function<void(int)> on_signal) {
 
 void ParentSignals::restore() const {
   signal(SIGPIPE, pipe_before_);
-  signal(SIGXFSZ, size_before_);
   sigprocmask(SIG_SETMASK, &mask_before_, nullptr);
 }
 

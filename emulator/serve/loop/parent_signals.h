@@ -28,7 +28,6 @@ class ParentSignals {
  private:
   sigset_t mask_before_{};
   void (*pipe_before_)(int) = nullptr;
-  void (*size_before_)(int) = nullptr;
   int descriptor_ = -1;
 };
 

@@ -313,6 +313,9 @@ Bench read_whole(const std::string& text, const std::string& name, BenchReader r
     throw FileError({name, 1, 1},
                     "bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
   }
+  if (!root.has("lines") && (root.has("registers") || root.has("model"))) {
+    throw FileError({name, 1, 1}, "bench: is a model file; expected a bench, whose stations name it");
+  }
   Complaints complaints;
   complaints.attempt([&] { root.demand_keys(kBenchKeys); });
   complaints.attempt([&] { root.at("understudy").integer(kVersionForm); });

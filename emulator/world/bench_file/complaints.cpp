@@ -10,13 +10,14 @@
 
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
+#include "emulator/device/mistakes_told.h"
 #include "emulator/device/program_error.h"
 
 namespace understudy::emulator::world {
 
 FileError program_complaints(const ProgramError& error, const std::string& file) {
   std::vector<FileError::Complaint> complaints;
-  for (const ProgramMistake& mistake : error.mistakes) {
+  for (const ProgramMistake& mistake : with_word_of_more(error.mistakes)) {
     complaints.push_back({.place = {.file = file, .line = mistake.line, .column = mistake.column},
                           .text = one_line(in_file(mistake, file))});
   }

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
@@ -51,6 +52,9 @@ void read_program(const YamlFields& field, const std::optional<std::string>& fol
   const std::string path = path_in(folder, field);
   const auto text = read_text_file(path);
   if (!text) field.fail(path + " " + text.why + "; expected a listing");
+  if (const std::string why = is_another_kind(*text, ContentKind::program); !why.empty()) {
+    field.fail(path + " " + why);
+  }
   settings.program = *text;
   settings.program_name = path;
   bench.files.push_back({path, "the program of " + understudy::quoted(settings.name)});

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_error.h"
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
@@ -27,6 +28,10 @@ namespace understudy::emulator::world {
 
 YamlFields YamlFields::parse(const std::string& text, const std::string& file, const std::string& what,
                              const std::string& expected) {
+  const ContentKind kind = content_of(text);
+  if (kind < ContentKind::bench) {
+    throw FileError({file, 1, 1}, what + ": is " + std::string(name_of(kind)) + "; expected " + expected);
+  }
   std::shared_ptr<const YamlNode> document = parse_yaml(text, file, what);
   if (document->kind != YamlNode::Kind::map)
     throw FileError({file, 1, 1}, what + ": the file is not a map; expected " + expected);

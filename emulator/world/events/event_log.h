@@ -43,6 +43,7 @@ class EventLog final : private OutsideListener {
 
   /// Whoever acts from outside from now on: "control", "page".
   void set_author(std::string_view author) { author_ = author; }
+  const std::string& author() const { return author_; }
   /// Something that the world does not know about.
   void note(std::string_view what, std::string text);
   /// The world has another state.

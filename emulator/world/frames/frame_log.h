@@ -24,6 +24,9 @@ class FrameLog {
   FrameLog(const FrameLog&) = delete;
   FrameLog& operator=(const FrameLog&) = delete;
 
+  /// Has each frame told to `onlooker` as well.
+  void tell(std::function<void(const pty::CapturedPacket&)> onlooker) { onlooker_ = std::move(onlooker); }
+
   /// The last `most`, the oldest first: "3.0512s rs485 <- feeder.Cord_A = 32000".
   std::vector<std::string> last(std::size_t most);
 
@@ -74,6 +77,7 @@ class FrameLog {
 
   World& world_;
   std::size_t kept_;
+  std::function<void(const pty::CapturedPacket&)> onlooker_;
   std::uint64_t next_number_ = 1;
   std::deque<Frame> frames_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line

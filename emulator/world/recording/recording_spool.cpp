@@ -1,14 +1,18 @@
 #include "emulator/world/recording/recording_spool.h"
 
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "base/files/content_kind.h"
 #include "base/files/growing_file.h"
 #include "base/files/output_file.h"
 #include "emulator/world/bench_file/bench_file.h"
@@ -20,6 +24,14 @@
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::world {
+
+std::string why_no_older_part(const std::string& path) {
+  struct stat status = {};
+  if (::lstat(path.c_str(), &status) != 0) return errno == ENOENT ? "" : std::strerror(errno);
+  if (S_ISREG(status.st_mode)) return why_not_writable(path, ContentKind::recording);
+  // A link is not followed: the older part goes where the recording is.
+  return "it is " + kind_of_file(status.st_mode) + "; expected a recording to replace, or a free path";
+}
 
 RecordingSpool::RecordingSpool(World& world, RecordingHeader header, std::unique_ptr<GrowingFile> file,
                                std::size_t cap_bytes, std::function<void(const std::string&)> log)
@@ -45,20 +57,26 @@ void RecordingSpool::begin() {
 void RecordingSpool::put_aside() {
   const std::string path = file_->target();
   const std::string kept = path + kOlderPart;
-  const auto fail = [&](const std::string& why) {
-    return GrowingFileError("it cannot be put aside as " + kept + " (" + why + ")");
-  };
-  try {
-    if (std::rename(path.c_str(), output_target(kept).c_str()) != 0) throw fail(std::strerror(errno));
-  } catch (const OutputError& error) {
-    throw fail(error.what());
-  }
+  std::string why = why_no_older_part(kept);
+  const std::optional<FileAccess> access = access_of(path);
+  if (why.empty() && std::rename(path.c_str(), kept.c_str()) != 0) why = std::strerror(errno);
+  if (!why.empty()) throw GrowingFileError("it cannot be put aside as " + kept + ": " + why);
   before_ = std::move(file_);
-  file_ = std::make_unique<GrowingFile>(path, "the recording", log_);
+  if (access) make_like(path, *access);
+  file_ = std::make_unique<GrowingFile>(path, ContentKind::recording, log_);
 }
 
 void RecordingSpool::finish(std::string failed) {
   if (recorder_) recorder_->finish(std::move(failed));
+}
+
+std::string RecordingSpool::close() {
+  recorder_.reset();
+  for (const auto* const file : {&before_, &file_}) {
+    const std::string failure = *file ? (*file)->finish() : "";
+    if (failure_.empty()) failure_ = failure;
+  }
+  return failure_;
 }
 
 void RecordingSpool::look() {
@@ -71,7 +89,8 @@ void RecordingSpool::look() {
         to_text(save(world_), bench_hash(parse_recorded_bench(models_of(world_.known()), header_.bench)));
     begin();
   } catch (const GrowingFileError& error) {
-    log_(std::string("the recording ends here: ") + error.what());
+    failure_ = std::string("the recording ends here: ") + error.what();
+    log_(failure_);
   }
 }
 

@@ -18,11 +18,16 @@ TraceFile::TraceFile(World& world, const std::string& path, const std::vector<st
     : world_(world),
       signals_(trace_signals(world, also)),
       is_vcd_(path.ends_with(".vcd")),
-      file_(path, "the trace", std::move(log)) {}
+      file_(path, ContentKind::trace, std::move(log)) {}
 
 void TraceFile::begin() {
   const TakeLine take = [this](std::string_view lines) { file_.take(lines); };
   trace_ = std::make_unique<Trace>(world_, signals_, is_vcd_ ? vcd_format(take) : csv_format(take));
+}
+
+std::string TraceFile::finish() {
+  trace_.reset();
+  return file_.finish();
 }
 
 }  // namespace understudy::emulator::world

@@ -24,6 +24,8 @@ class TraceFile {
 
   /// From this moment on. Throws GrowingFileError.
   void begin();
+  /// Writes its end and waits until all is written. Returns why it has ended early, or nothing.
+  std::string finish();
 
  private:
   World& world_;

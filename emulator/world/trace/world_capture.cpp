@@ -58,12 +58,16 @@ void WorldCapture::begin() {
   }
 }
 
-WorldCapture::~WorldCapture() {
+WorldCapture::~WorldCapture() { finish(); }
+
+std::string WorldCapture::finish() {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     world_.remove_observer(i, *lines_[i]);
     lines_[i]->finish();
   }
+  lines_.clear();
   file_.finish();
+  return file_.failure();
 }
 
 }  // namespace understudy::emulator::world

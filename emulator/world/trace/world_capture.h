@@ -23,6 +23,8 @@ class WorldCapture {
 
   /// From this moment on. Throws pty::CaptureError.
   void begin();
+  /// Waits until all is written. Returns why it has ended early, or nothing.
+  std::string finish();
 
  private:
   World& world_;

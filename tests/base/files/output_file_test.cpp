@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::string refusal(const std::string& path) {
   try {
-    OutputFile file(path);
+    OutputFile file(path, ContentKind::other);
   } catch (const OutputError& error) {
     return error.what();
   }
@@ -35,9 +35,9 @@ class OutputFileTest : public testing::Test {
 
 TEST_F(OutputFileTest, KeepsWhatIsThereUntilItBegins) {
   const std::string path = put("a", "before");
-  { const OutputFile opened(path); }
+  { const OutputFile opened(path, ContentKind::other); }
   EXPECT_EQ(pty::contents_of(path), "before");
-  OutputFile file(path);
+  OutputFile file(path, ContentKind::other);
   file.begin("head");
   EXPECT_EQ(file.write(" and more"), 0);
   EXPECT_EQ(pty::contents_of(path), "head and more");
@@ -48,7 +48,7 @@ TEST_F(OutputFileTest, KeepsWhatIsThereUntilItBegins) {
 TEST_F(OutputFileTest, IsOnesOwn) {
   const std::string path = folder_ / "a";
   {
-    OutputFile first(path);
+    OutputFile first(path, ContentKind::other);
     first.begin("mine");
     EXPECT_EQ(refusal(path), "another program is writing it; expected another path");
   }
@@ -60,7 +60,7 @@ TEST_F(OutputFileTest, FollowsLinksAndLeavesThem) {
   fs::create_directory(folder_ / "inner");
   fs::create_symlink("inner/real", folder_ / "link");
   fs::create_symlink(folder_ / "link", folder_ / "link to a link");
-  OutputFile file(folder_ / "link to a link");
+  OutputFile file(folder_ / "link to a link", ContentKind::other);
   file.begin("text");
   EXPECT_EQ(fs::canonical(file.target()), fs::canonical(folder_ / "inner/real"));
   EXPECT_EQ(pty::contents_of(folder_ / "inner/real"), "text");
@@ -76,6 +76,19 @@ TEST_F(OutputFileTest, IsARegularOne) {
   EXPECT_EQ(refusal(folder_ / ""), "it is a directory" + expected);
   EXPECT_EQ(refusal("/dev/null"), "it is a device" + expected);
   EXPECT_EQ(refusal(folder_ / "none/a"), "No such file or directory");
+}
+
+TEST_F(OutputFileTest, OfAnotherKindStays) {
+  const std::string path = put("r.jsonl", R"({"understudy":1,"kind":"recording"})");
+  try {
+    OutputFile file(path, ContentKind::results);
+    ADD_FAILURE() << "taken";
+  } catch (const OutputError& error) {
+    EXPECT_STREQ(error.what(), "it is a recording; expected a file of results to replace, or a free path");
+  }
+  EXPECT_EQ(pty::contents_of(path), R"({"understudy":1,"kind":"recording"})");
+  OutputFile(path, ContentKind::recording).begin("new");
+  EXPECT_EQ(pty::contents_of(path), "new");
 }
 
 // As Linux forbids it where fs.protected_regular is on; whatever it is here.
@@ -128,7 +141,8 @@ TEST_F(OutputFileTest, IsNotReachedByAStrangersLinkInAnOpenFolder) {
   ASSERT_EQ(::lchown(way.c_str(), 12345, 12345), 0);
   EXPECT_EQ(
       refusal(way + "/precious"),
-      way + "is another user's link in a folder that everyone can write to; expected a path of your own");
+      way +
+          ": it is another user's link in a folder that everyone can write to; expected a path of your own");
 }
 
 }  // namespace output_file_test

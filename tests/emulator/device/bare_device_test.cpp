@@ -2,11 +2,13 @@
 // for, it does not speak of.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
 
 #include "base/state/state_bytes.h"
 #include "emulator/device/device.h"
 #include "emulator/device/terminals.h"
+#include "emulator/world/bench_file/bench_file.h"
 #include "tests/emulator/device/register_map/toy_device.h"
 
 namespace understudy::emulator {
@@ -144,6 +146,18 @@ TEST(BareDevice, IsNotMadeOfAModelThatListsMore) {
   EXPECT_EQ(complaint_of_making(with_wheel()), "bare: lacks the facet Axes, for its axes");
   EXPECT_EQ(complaint_of_making(with_frames()), "bare: lacks the facet ModbusStation, for its `rtu`");
   EXPECT_EQ(complaint_of_making(without_port()), "bare: lacks a port on its line");
+}
+
+// A bench is read by a model's ports before any device is made.
+TEST(BareDevice, OfAModelWithoutAPortIsRefusedByABench) {
+  const std::array<const Model*, 1> models{&without_port()};
+  try {
+    world::parse_bench(models, "understudy: 1\nlines: { a: { stations: [ { name: x, model: bare } ] } }\n",
+                       "b.yaml", ".");
+    ADD_FAILURE() << "taken";
+  } catch (const std::logic_error& error) {
+    EXPECT_STREQ(error.what(), "bare: lacks a port on its line");
+  }
 }
 
 }  // namespace bare_device_test

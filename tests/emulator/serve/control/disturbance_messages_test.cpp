@@ -152,7 +152,7 @@ TEST(FaultMessages, AreNumberedListedAndCleared) {
   EXPECT_EQ(rig.value("feeder.DIN_2"), 0);
   for (const char* number : {"4", "3", "0", "6", "-1"}) {
     EXPECT_EQ(error_of(rig, R"({"do":"clear","number":)" + std::string(number) + "}"),
-              "number: " + std::string(number) + " is not a fault in force; expected one of `list`");
+              "number: " + std::string(number) + " is not a fault in force; expected one of 1, 2, 5");
   }
   EXPECT_EQ(rig.ask(R"({"do":"list"})")["faults"].size(), 3u);
   EXPECT_EQ(rig.reply_to(R"({"do":"clear"})"), kDone);
@@ -232,7 +232,7 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
       {input(R"({"feeder.DIN_1":"7"})"), "feeder.DIN_1: 7 is not a level; expected 0 or 1"},
       {input(R"({"feeder.AIN_A":"2.5"})"),
        "feeder.AIN_A: '2.5' is not a level; expected a voltage such as 2.5V"},
-      {input(R"({"feeder.AIN_A":2.5})"), "feeder.AIN_A: expected a whole number"},
+      {input(R"({"feeder.AIN_A":2.5})"), "feeder.AIN_A: 2.5 is not a level; expected a voltage such as 2.5V"},
       {input(R"({"feeder.AIN_A":"13V"})"),
        "feeder.AIN_A: 13000 is not a level; expected 0 to 12000 millivolts"},
       {input(R"({"feeder.AIN_A":-1})"), "feeder.AIN_A: -1 is not a level; expected 0 to 12000 millivolts"},
@@ -250,13 +250,13 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
       {power("feedr", "off"), "no device is called 'feedr'; the nearest is 'feeder'"},
       {power("feeder", "down"), "to: 'down' is unknown; expected on, off or cycle"},
       {power("feeder", ""), "to: '' is unknown; expected on, off or cycle"},
-      {R"({"do":"power","device":1,"to":"off"})", "device: expected a text"},
-      {R"({"do":"power","device":"feeder","to":false})", "to: expected a text"},
+      {R"({"do":"power","device":1,"to":"off"})", "device: 1 is not a text; expected one"},
+      {R"({"do":"power","device":"feeder","to":false})", "to: false is not a text; expected one"},
       {R"({"do":"power","device":"feeder","to":"off","at":1})", "'at' is not a key of this message"},
 
       {R"({"do":"program"})", "no device is called ''; expected one of feeder, turner"},
-      {R"({"do":"program","device":"feeder","text":1})", "text: expected a text"},
-      {R"({"do":"program","device":"feeder","text":null})", "text: expected a text"},
+      {R"({"do":"program","device":"feeder","text":1})", "text: 1 is not a text; expected one"},
+      {R"({"do":"program","device":"feeder","text":null})", "text: null is not a text; expected one"},
       {R"({"do":"program","device":"feeder","file":"x"})", "'file' is not a key of this message"},
       {R"({"do":"program","device":"nobody","text":"NOP"})",
        "no device is called 'nobody'; expected one of feeder, turner"},
@@ -285,7 +285,7 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
       {inject(R"("fault":{"lost_steps":"feeder.A","one_in":"5O"})"),
        "lost_steps: one_in: '5O' is not possible; expected a whole number"},
       {inject(R"("fault":{"lost_steps":"feeder.A","one_in":1.5})"),
-       "one_in: expected a whole number or a text"},
+       "one_in: 1.5 is not a whole number or a text; expected one"},
       {inject(R"("fault":{"lost_steps":"feeder.A","one_in":18446744073709551615})"),
        "lost_steps: one_in: '18446744073709551615' is not possible; expected a whole number"},
       {inject(R"("fault":{"slip":"feeder.A","pulses":1000000001})"),
@@ -293,8 +293,8 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
       {inject(R"("fault":{"stuck":"feeder.DIN_1"})"), "stuck: level is missing; expected on or off"},
       {inject(R"("fault":{"stuck":"feeder.DIN_1","level":"high"})"),
        "stuck: level: 'high' is not possible; expected on or off"},
-      {inject(R"("fault":{"stuck":"feeder.DIN_1","level":true})"),
-       "level: expected a whole number or a text"},
+      {inject(R"("fault":{"stuck":"feeder.DIN_1","level":[true]})"),
+       "level: [true] is not a whole number or a text; expected one"},
       {inject(R"("fault":{"stuck":"feeder.DIP1","level":1})"),
        "'feeder.DIP1' cannot be stuck; expected a digital input"},
 
@@ -309,9 +309,10 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
       {inject(R"("fault":{"encoder_noise":"feeder.A","counts":1})"),
        "feeder.A has no encoder; expected one in `plant`"},
 
-      {R"({"do":"clear","number":1})", "number: 1 is not a fault in force; expected one of `list`"},
-      {R"({"do":"clear","number":"all"})", "number: expected a whole number"},
-      {R"({"do":"clear","number":null})", "number: expected a whole number"},
+      {R"({"do":"clear","number":1})",
+       "number: 1 is not a fault in force; expected none, as nothing is broken"},
+      {R"({"do":"clear","number":"all"})", "number: 'all' is not a whole number; expected one"},
+      {R"({"do":"clear","number":null})", "number: null is not a whole number; expected one"},
       {R"({"do":"clear","all":true})", "'all' is not a key of this message"},
       {R"({"do":"list","all":true})", "'all' is not a key of this message"},
   };

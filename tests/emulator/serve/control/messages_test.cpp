@@ -206,28 +206,31 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
   const auto get = [](const std::string& names) { return R"({"do":"get","names":)" + names + "}"; };
   const auto by = [](const std::string& duration) { return R"({"do":"advance","by":)" + duration + "}"; };
   const auto eval = [](const std::string& text) { return R"({"do":"eval","expression":")" + text + "\"}"; };
-  const std::string no_object = "values: expected an object of names and whole numbers";
-  const std::string no_levels = "values: expected an object of names and levels";
-  const std::string no_number = "feeder.Aaxis_Speed: expected a whole number";
-  const std::string no_list = "names: expected a list of names";
-  const std::string no_time = "by: expected a duration with a unit, such as \"250ms\"";
+  const std::string no_object =
+      " is not an object of names and whole numbers; expected one that is not empty";
+  const std::string no_levels = " is not an object of names and levels; expected one that is not empty";
+  const std::string speed = "feeder.Aaxis_Speed: ";
+  const std::string no_number = " is not a number; expected 0 to 32768";
+  const std::string not_whole = " is not a whole number; expected 0 to 32768";
+  const std::string no_list = " is not a list of names; expected one";
+  const std::string no_time = " is not a duration with a unit; expected one such as \"250ms\"";
   const std::vector<Bad> cases = {
       {R"({"do":"set"})", "'values' is missing"},
       {R"({"do":"set","values":{"feeder.Aaxis_Speed":1},"now":1})", "'now' is not a key of this message"},
-      {set("[]"), no_object},
-      {set("{}"), no_object},
-      {set("null"), no_object},
-      {set("\"feeder.Aaxis_Speed=1\""), no_object},
-      {set(R"({"feeder.Aaxis_Speed":"1"})"), no_number},
-      {set(R"({"feeder.Aaxis_Speed":1.5})"), no_number},
-      {set(R"({"feeder.Aaxis_Speed":1.0})"), no_number},
-      {set(R"({"feeder.Aaxis_Speed":true})"), no_number},
-      {set(R"({"feeder.Aaxis_Speed":null})"), no_number},
-      {set(R"({"feeder.Aaxis_Speed":[1]})"), no_number},
-      {set(R"({"feeder.Aaxis_Speed":{}})"), no_number},
-      {set(R"({"feeder.Aaxis_Speed":18446744073709551615})"), no_number},
-      {set(R"({"feeder.Aaxis_Speed":99999999999999999999999})"), no_number},
-      {set(R"({"feeder.Aaxis_Speed":-99999999999999999999999})"), no_number},
+      {set("[]"), "values: []" + no_object},
+      {set("{}"), "values: {}" + no_object},
+      {set("null"), "values: null" + no_object},
+      {set("\"feeder.Aaxis_Speed=1\""), "values: 'feeder.Aaxis_Speed=1'" + no_object},
+      {set(R"({"feeder.Aaxis_Speed":"1"})"), speed + "'1'" + no_number},
+      {set(R"({"feeder.Aaxis_Speed":1.5})"), speed + "1.5" + not_whole},
+      {set(R"({"feeder.Aaxis_Speed":1.0})"), speed + "1.0" + not_whole},
+      {set(R"({"feeder.Aaxis_Speed":null})"), speed + "null" + no_number},
+      {set(R"({"feeder.Aaxis_Speed":[1]})"), speed + "[1]" + no_number},
+      {set(R"({"feeder.Aaxis_Speed":{}})"), speed + "{}" + no_number},
+      {set(R"({"feeder.Aaxis_Speed":18446744073709551615})"),
+       speed + "18446744073709551615 is out of range; expected 0 to 32768"},
+      {set(R"({"feeder.Aaxis_Speed":99999999999999999999999})"), speed + "1e+23" + not_whole},
+      {set(R"({"feeder.Aaxis_Speed":-99999999999999999999999})"), speed + "-1e+23" + not_whole},
       {set(R"({"feeder.Aaxis_Speed":9223372036854775807})"),
        "feeder.Aaxis_Speed: 9223372036854775807 is out of range; expected 0 to 32768"},
       {set(R"({"feeder.Aaxis_Speed":-9223372036854775808})"),
@@ -257,7 +260,7 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
        "column 18 of 'feeder.STATUS == yes': 'yes' is not known here; expected on"},
       {R"({"do":"eval"})", "'expression' is missing"},
       {R"({"do":"frames","since":1,"last":1})", "since: is given together with last; expected one of them"},
-      {R"({"do":"frames","since":-1})", "since: expected a whole number"},
+      {R"({"do":"frames","since":-1})", "since: -1 is not a whole number; expected one of 0 or more"},
       {set(R"({"":1})"), "no device is called ''"},
       {set(R"({"feeder.":1})"), "feeder: no register is called ''"},
       {set(R"({"feeder.Aaxis_Sped":1})"),
@@ -268,31 +271,32 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
        "feeder.Aaxis_AccTime: 3001 is out of range; expected 0 to 3000"},
       {set(R"({"feeder.Aaxis_SVON":1,"feeder.HW_Code":1})"), "feeder.HW_Code cannot be written"},
       {set(R"({"feeder.Aaxis_SVON":1,"feeder.Nothing":1})"), "feeder: no register is called 'Nothing'"},
-      {set(R"({"feeder.Factory_Reset":1,"feeder.Aaxis_Speed":null})"), no_number},
+      {set(R"({"feeder.Factory_Reset":1,"feeder.Aaxis_Speed":null})"), speed + "null" + no_number},
       {R"({"do":"input"})", "'values' is missing"},
-      {input("{}"), no_levels},
+      {input("{}"), "values: {}" + no_levels},
       {input(R"({"feeder.DIN_1":2})"), "feeder.DIN_1: 2 is not a level; expected 0 or 1"},
       {input(R"({"feeder.DIN_1":-1})"), "feeder.DIN_1: -1 is not a level; expected 0 or 1"},
-      {input(R"({"feeder.DIN_1":true})"), "feeder.DIN_1: expected a whole number"},
+      {input(R"({"feeder.DIN_1":null})"), "feeder.DIN_1: null is not a level; expected on or off"},
+      {input(R"({"feeder.DIN_1":[true]})"), "feeder.DIN_1: [true] is not a level; expected on or off"},
       {input(R"({"feeder.DIN_1":1,"feeder.DIN_11":1})"), "no input of feeder is called 'DIN_11'"},
       {input(R"({"feeder.DIN_1":1,"feeder.DOUT_1":1})"), "no input of feeder is called 'DOUT_1'"},
       {input(R"({"feeder.DIN_1":1,"turner.DIN_1":7})"), "turner.DIN_1: 7 is not a level; expected 0 or 1"},
       {R"({"do":"get"})", "'names' is missing"},
-      {get("[]"), no_list},
-      {get("{}"), no_list},
-      {get("\"feeder.STATUS\""), no_list},
-      {get("[1]"), no_list},
-      {get(R"(["feeder.STATUS",null])"), no_list},
+      {get("[]"), "names: []" + no_list},
+      {get("{}"), "names: {}" + no_list},
+      {get("\"feeder.STATUS\""), "names: 'feeder.STATUS'" + no_list},
+      {get("[1]"), "names: [1]" + no_list},
+      {get(R"(["feeder.STATUS",null])"), "names: [\"feeder.STATUS\",null]" + no_list},
       {get(R"(["feeder.STATUS","feeder.STATUS.16"])"),
        "feeder: register 'STATUS' has no bit '16'; expected 0 to 15"},
       {get(R"(["\u0000"])"), "no device is called '"},
       {R"({"do":"advance"})", "'by' is missing"},
-      {by("250"), no_time},
-      {by("\"250\""), no_time},
-      {by("\"-1s\""), no_time},
-      {by("\"\""), no_time},
-      {by("[\"1s\"]"), no_time},
-      {by("\"99999999999999999999s\""), no_time},
+      {by("250"), "by: 250" + no_time},
+      {by("\"250\""), "by: '250'" + no_time},
+      {by("\"-1s\""), "by: '-1s'" + no_time},
+      {by("\"\""), "by: ''" + no_time},
+      {by("[\"1s\"]"), "by: [\"1s\"]" + no_time},
+      {by("\"99999999999999999999s\""), "by: '99999999999999999999s'" + no_time},
       {by("\"8761h\""), "by: is more than a year; expected at most that"},
   };
   DaemonRig rig;

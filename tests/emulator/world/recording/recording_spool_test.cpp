@@ -24,7 +24,7 @@ struct SpooledWorld {
   RecordingSpool spool(std::size_t cap_bytes) {
     return {world,
             {.version = "1.2.3", .bench = to_text(bench), .options = {}, .seed = 0, .snapshot = {}},
-            std::make_unique<GrowingFile>(path, "the recording", logger()),
+            std::make_unique<GrowingFile>(path, ContentKind::recording, logger()),
             cap_bytes,
             logger()};
   }
@@ -97,6 +97,64 @@ TEST(RecordingSpool, ThatCannotBePutAsideEndsWithAWord) {
   rig.talk(recording, 1000);
   ASSERT_EQ(rig.log.size(), 1U);
   EXPECT_NE(rig.log[0].find("the recording ends here: it cannot be put aside as "), std::string::npos);
+}
+
+TEST(RecordingSpool, ReplacesNoOlderPartThatIsNoRecording) {
+  struct Case {
+    const char* name;
+    std::function<void(const std::string& older)> put;
+    const char* why;  // why it stays
+  };
+  const auto text = [](const std::string& path, const std::string& words) { std::ofstream(path) << words; };
+  const std::vector<Case> cases = {
+      {"nothing", [](const std::string&) {}, ""},
+      {"an empty file", [&](const std::string& path) { text(path, ""); }, ""},
+      {"a recording", [&](const std::string& path) { text(path, R"({"understudy":1,"kind":"recording"})"); },
+       ""},
+      {"a text", [&](const std::string& path) { text(path, "precious"); },
+       "it is not a recording; expected one to replace, or a free path"},
+      {"results", [&](const std::string& path) { text(path, R"({"file":"a.yaml"})"); },
+       "it is a file of results; expected a recording to replace, or a free path"},
+      {"a link to a recording",
+       [&](const std::string& path) {
+         text(path + "-else", R"({"understudy":1,"kind":"recording"})");
+         fs::create_symlink(path + "-else", path);
+       },
+       "it is a link; expected a recording to replace, or a free path"},
+      {"a folder", [](const std::string& path) { fs::create_directory(path); },
+       "it is a directory; expected a recording to replace, or a free path"},
+  };
+  for (const Case& c : cases) {
+    SpooledWorld rig;
+    const std::string older = rig.path + ".1";
+    c.put(older);
+    EXPECT_EQ(why_no_older_part(older), c.why) << c.name;
+    const auto kind_before = fs::symlink_status(older).type();
+    {
+      RecordingSpool recording = rig.spool(50'000);
+      rig.talk(recording, 1000);
+    }
+    const bool is_kept = *c.why != '\0';
+    EXPECT_EQ(rig.log.size(), is_kept ? 1U : 0U) << c.name;
+    if (is_kept) {
+      EXPECT_EQ(fs::symlink_status(older).type(), kind_before) << c.name;
+      EXPECT_NE(rig.log.at(0).find(older + ": " + c.why), std::string::npos) << rig.log.at(0);
+    } else {
+      EXPECT_EQ(rig.replayed(older).verdict, ReplayResult::Verdict::same) << c.name;
+    }
+  }
+}
+
+TEST(RecordingSpool, BeginsAgainWithTheSameMode) {
+  SpooledWorld rig;
+  { const std::ofstream made(rig.path); }
+  fs::permissions(rig.path, fs::perms(0600));
+  {
+    RecordingSpool recording = rig.spool(50'000);
+    rig.talk(recording, 1000);
+  }
+  EXPECT_EQ(fs::status(rig.path).permissions(), fs::perms(0600));
+  EXPECT_EQ(fs::status(rig.path + ".1").permissions(), fs::perms(0600));
 }
 
 }  // namespace recording_spool_test

@@ -1,0 +1,35 @@
+// Says in the log that a host asks for a station that is not on the line: it gets no answer, and a host can
+// only say that time is over.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "emulator/world/world.h"
+#include "pty/capture.h"
+
+namespace understudy::emulator::serve {
+
+class MissingStations {
+ public:
+  MissingStations(const world::World& world, std::function<void(const std::string&)> log)
+      : world_(world), log_(std::move(log)) {}
+
+  /// Of each number it is said once, of a host that tries all of them a few times.
+  void look(const pty::CapturedPacket& packet);
+
+ private:
+  static constexpr std::size_t kMostTold = 8;  // of a line
+
+  bool is_new(std::size_t line, std::uint8_t address);
+
+  const world::World& world_;
+  std::function<void(const std::string&)> log_;
+  std::vector<std::vector<std::uint8_t>> told_;  // of each line
+};
+
+}  // namespace understudy::emulator::serve
