@@ -150,7 +150,7 @@ TEST(BareDevice, IsNotMadeOfAModelThatListsMore) {
 
 // A bench is read by a model's ports before any device is made.
 TEST(BareDevice, OfAModelWithoutAPortIsRefusedByABench) {
-  const std::array<const Model*, 1> models{&without_port()};
+  const std::array<ListedModel, 1> models{&without_port()};
   try {
     world::parse_bench(models, "understudy: 1\nlines: { a: { stations: [ { name: x, model: bare } ] } }\n",
                        "b.yaml", ".");
