@@ -175,12 +175,17 @@ void RsM8194h::look_again(std::size_t axis) {
   look_round(axis);
 }
 
-/// How many edges an input has had since it was looked at.
+/// More edges in a tick than the chip counts (4 MHz) are the last of them.
+constexpr std::uint32_t kMaxEdgesPerTick = 8'000;
+
+/// How many edges an input has had since it was looked at, whichever way its count was turned.
 std::uint32_t RsM8194h::external_edges(std::size_t axis, std::size_t which) {
   AxisUnit& unit = state_.units[axis];
   const Pin pin = which == 0 ? Pin::external_plus : Pin::external_minus;
   const auto count = static_cast<std::uint32_t>(input(terminal(axis, pin)));
-  std::uint32_t edges = count - unit.external_seen[which];
+  const std::uint32_t turned = count - unit.external_seen[which];
+  std::uint32_t edges = std::min(turned, 0U - turned);
+  if (edges > kMaxEdgesPerTick) edges = kMaxEdgesPerTick - (edges & 1U);
   unit.external_seen[which] = count;
   if (filter_ticks(unit, static_cast<int>(pin), machine_) > 0) {
     // Through its filter: what is too short is lost, the rest comes late.

@@ -106,6 +106,20 @@ TEST(RsM8194hExternalEdges, BothInputsCount) {
   }
 }
 
+TEST(RsM8194hExternalEdges, CountTurnedBackOrTooFarToo) {
+  QuickRsm rsm(4'000'000);
+  rsm.send("RSM_EXD_FP X 1");
+  rsm.turn(Pin::external_plus, -200, 100);
+  rsm.run(150);
+  EXPECT_EQ(rsm.get("LP_X"), 100);
+  // What no input could see is not gone through edge by edge.
+  rsm.turn(Pin::external_plus, 2'000'000'000, 1);
+  rsm.turn(Pin::external_plus, -2'000'000'000, 1);
+  rsm.run(20);
+  EXPECT_GT(rsm.get("LP_X"), 100);
+  EXPECT_LE(rsm.get("LP_X"), 100 + 2 * 4'000);
+}
+
 TEST(RsM8194hExternalEdges, NothingOfThemIsLeftBehindAStop) {
   for (const std::string_view stop : {"RSM_STOP_SUDDENLY X", "RSM_STOP_SLOWLY X", "RSM_EMERGENCY_STOP 0",
                                       "RSM_EXD_DISABLE X", "RSM_RESET_CARD"}) {
