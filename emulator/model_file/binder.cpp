@@ -45,7 +45,8 @@ std::uint32_t mask_of(const Spot& spot) {
 /// Of a condition, or a relation, that has none of the signs it may have: what people write for something
 /// else.
 void demand_known_sign(const YamlFields& field, const std::string& text,
-                       std::initializer_list<std::string_view> known, std::string_view expected) {
+                       std::initializer_list<std::string_view> known, std::string_view expected,
+                       std::string_view example) {
   constexpr std::string_view kSigns = "=<>!";
   const std::size_t at = text.find_first_of(kSigns);
   if (at == std::string::npos) return;
@@ -53,8 +54,9 @@ void demand_known_sign(const YamlFields& field, const std::string& text,
   if (sign == "=") field.fail("'=' is not an operator; expected '==' to compare");
   if (std::find(known.begin(), known.end(), sign) != known.end())
     field.fail(understudy::quoted(sign) + " has no blanks around it; expected them, as in " +
-               std::string(expected));
-  field.fail(understudy::quoted(sign) + " has no place here; expected " + std::string(expected));
+               std::string(example));
+  field.fail(understudy::quoted(sign) + " has no place here; expected " + std::string(expected) + ", as in " +
+             std::string(example));
 }
 
 }  // namespace
@@ -101,7 +103,7 @@ Condition Binder::condition(const YamlFields& field) const {
   const std::string text = field.text();
   const std::size_t equals = text.find(kEquals);
   if (equals == std::string::npos && !map_.find(trimmed(text), UINT16_MAX))
-    demand_known_sign(field, text, {"=="}, "a name, or one with a number as in COMMAND == 2");
+    demand_known_sign(field, text, {"=="}, "a name, or one with a number", "COMMAND == 2");
   Condition made{.spot = spot(field, trimmed(text.substr(0, equals)))};
   if (made.spot.is_whole() && listed(made.spot).type == Type::f32)
     field.fail(understudy::quoted(text) + " is a real number; expected a bit, or a whole number");
@@ -183,8 +185,8 @@ Comparison Binder::comparison(const YamlFields& field) const {
     made.right = quantity(field, trimmed(text.substr(at + sign.size())));
     return made;
   }
-  demand_known_sign(field, text, {"<=", ">=", "==", "!=", "<", ">"},
-                    "<=, >=, ==, !=, < or >, as in TEMPERATURE > LIMIT");
+  demand_known_sign(field, text, {"<=", ">=", "==", "!=", "<", ">"}, "<=, >=, ==, !=, < or >",
+                    "TEMPERATURE > LIMIT");
   field.fail(understudy::quoted(text) +
              " is not a relation; expected one such as TEMPERATURE > LIMIT, with blanks around the sign");
 }

@@ -264,10 +264,9 @@ TEST_F(Mistakes, OfAModelFilesConditionsSayWhatIsMeant) {
   for (const auto& [start, says] : std::vector<std::pair<std::string, std::string>>{
            {"COMMAND = 1", "'=' is not an operator; expected '==' to compare"},
            {"COMMAND=1", "'=' is not an operator; expected '==' to compare"},
-           {"COMMAND==1",
-            "'==' has no blanks around it; expected them, as in a name, or one with a number as in "
-            "COMMAND == 2"},
-           {"COMMAND > 1", "'>' has no place here; expected a name, or one with a number as in COMMAND == 2"},
+           {"COMMAND==1", "'==' has no blanks around it; expected them, as in COMMAND == 2"},
+           {"COMMAND > 1",
+            "'>' has no place here; expected a name, or one with a number, as in COMMAND == 2"},
            {"COMAND", "no register is called 'COMAND'; the nearest is 'COMMAND'"}}) {
     folder_.write("model.yaml", model(start));
     const Finished finished = understudy({"check", at("model.yaml")});

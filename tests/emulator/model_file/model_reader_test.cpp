@@ -177,9 +177,7 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"follows: { SPEED: { of: 5 } }\n", 1, 19,
        "follows.SPEED: 'SPEED' is written by hosts; expected a register that they only read (R)"},
       {"shows: { STATUS.1: TEMPERATURE>5 }\n", 1, 20,
-       "shows.STATUS.1: 'TEMPERATURE>5' is not a relation; expected one such as TEMPERATURE > LIMIT, with "
-       "blanks "
-       "around the sign"},
+       "shows.STATUS.1: '>' has no blanks around it; expected them, as in TEMPERATURE > LIMIT"},
       {"shows: { STATUS.1: SPEED > 5, SWITCH: STATUS > 0 }\n", 1, 39,
        "shows.SWITCH: compares a register that shows a relation itself; expected registers without one"},
       {"momentary: [ STATUS ]\n", 1, 14,
