@@ -35,8 +35,11 @@ bool latches_by_comparator(const Settings& its, int axis) { return its.of(kept_x
 /// Ticks that the PLC needs no scan in, if nothing that it reads changes.
 Tick Super40nc::quiet_scans(bool moves) const {
   if (ladder_->is_empty() || !state_.plc.runs) return kNever;
-  return moves && watches_what_moves_ ? 0 : state_.plc_quiet_scans;
+  return moves && watched_.some_move ? 0 : state_.plc_quiet_scans;
 }
+
+/// Signals have ticks of their own, and a PLC that looks at what moves scans in each.
+bool Super40nc::output_moves(int /*terminal*/) const { return false; }
 
 bool Super40nc::scans_in(Tick tick) const {
   const bool is_one_of_them = options_.scan_ms <= 1 || tick % options_.scan_ms == 0;
@@ -48,8 +51,8 @@ bool Super40nc::scans_in(Tick tick) const {
 /// In those that are not, only what moves changes, by its row (Varies).
 void Super40nc::find_what_plc_watches() {
   using language::Letter;
-  watched_.clear();
-  watches_what_moves_ = false;
+  watched_.places.clear();
+  watched_.some_move = false;
   for (const language::Operand& read : ladder_->reads()) {
     Place place;
     if (read.letter == Letter::x) {
@@ -62,23 +65,24 @@ void Super40nc::find_what_plc_watches() {
     }
     if (!place) continue;
     place.part = Place::Part::whole;
-    watched_.push_back(place);
-    watches_what_moves_ |= place.row->moves();
+    watched_.places.push_back(place);
+    watched_.some_move |= place.row->moves();
   }
 }
 
 void Super40nc::note_what_plc_sees() {
-  seen_.resize(watched_.size());
-  for (std::size_t i = 0; i < watched_.size(); ++i) seen_[i] = read_value(*this, watched_[i]);
+  watched_.seen.resize(watched_.places.size());
+  for (std::size_t i = 0; i < watched_.places.size(); ++i)
+    watched_.seen[i] = read_value(*this, watched_.places[i]);
 }
 
 /// At the end of a tick.
 void Super40nc::wake_plc_by_what_changed() {
   const bool sleeps = !ladder_->is_empty() && state_.plc.runs && state_.plc_quiet_scans > 0;
   if (!sleeps) return;
-  bool is_as_seen = seen_.size() == watched_.size();  // else the ladder is another one since
-  for (std::size_t i = 0; is_as_seen && i < watched_.size(); ++i)
-    is_as_seen = read_value(*this, watched_[i]) == seen_[i];
+  bool is_as_seen = watched_.seen.size() == watched_.places.size();  // else the ladder is another one since
+  for (std::size_t i = 0; is_as_seen && i < watched_.places.size(); ++i)
+    is_as_seen = read_value(*this, watched_.places[i]) == watched_.seen[i];
   if (!is_as_seen) state_.plc_quiet_scans = 0;
 }
 

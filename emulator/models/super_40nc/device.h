@@ -31,6 +31,7 @@
 #include "emulator/models/super_40nc/state.h"  // IWYU pragma: export
 #include "emulator/models/super_40nc/terminals.h"
 #include "emulator/models/super_40nc/user_table.h"
+#include "emulator/models/super_40nc/watched_places.h"
 #include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/ladder.h"
 #include "interpreter/super_40nc/plc.h"
@@ -99,9 +100,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // --- terminals and axes --------------------------------------------------------------------------
   bool has_terminal(int terminal) const override;
   bool output(int terminal) const override;
-  bool output_moves(int /*terminal*/) const override {
-    return false;
-  }  // signals have ticks of their own, and a PLC that looks at what moves scans in each
+  bool output_moves(int terminal) const override;
   std::int32_t analog_level(int terminal) const override;
   std::int64_t pulses_this_tick(int axis_number) const override;
   double speed_pps(int axis_number) const override;
@@ -432,15 +431,11 @@ class Super40nc final : public DeviceOf<Super40nc>,
   State state_;
   // Made from the listings that the memory has: not state.
   interpreter::super_40nc::StepCodes codes_;
-  /// Shared: a scan keeps the one that it has begun with.
-  std::shared_ptr<const interpreter::super_40nc::Ladder> ladder_ =
-      std::make_shared<const interpreter::super_40nc::Ladder>();
+  SharedLadder ladder_ = std::make_shared<const interpreter::super_40nc::Ladder>();
   std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
   NamedBlocks::mapped_type ready_texts_;        // that those two are made of
-  std::vector<Place> watched_;                  // what the ladder reads and others write without telling it
-  bool watches_what_moves_ = false;             // of it, what goes with the pulses of an axis
-  std::vector<Value> seen_;                     // by the PLC in the present tick: not state
-  std::vector<int> table_lines_;                // of the user table, while it runs
+  WatchedPlaces watched_;
+  std::vector<int> table_lines_;  // of the user table, while it runs
   interpreter::super_40nc::Options options_;
   MapPolicy map_policy_;
   bool lines_wait_ = false;                       // a choice that is asked for often
@@ -448,10 +443,6 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool parameters_wait_ = false;                  // likewise: those written act later, all at once
   int plc_step_ = 0;                              // not state: 0 outside of a line
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: they are told again
-  /// Of the tick that is stepped, not state: what has been counted of it so far.
-  struct CountedSoFar {
-    std::int64_t travel = 0, wheel = 0;  // up to there, and so many
-  };
   std::array<CountedSoFar, kAxisCount> counted_{};
   std::int32_t wheel_of_tick_ = 0;
 };
