@@ -26,6 +26,7 @@ add_compile_options("-DJSON_ASSERT(x)=((x)?void(0):__builtin_trap())")
 if(UNDERSTUDY_SANITIZERS)
   add_compile_options(-fsanitize=${UNDERSTUDY_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${UNDERSTUDY_SANITIZERS})
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)  # so that an index beyond the end is told, wherever it points
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # With sanitizers g++ takes the standard library's own variants for uninitialized (GCC bug 105562).
     add_compile_options(-Wno-maybe-uninitialized)
