@@ -125,7 +125,7 @@ TEST(ControlSet, IsRefusedWholeWithOneClearLine) {
   expect_refused(daemon, {"set", "Aaxis_Speed=5", "HW_Code=1"}, "read-only");
   expect_refused(daemon, {"set", "nobody.Aaxis_Speed=5"}, "nobody");
   expect_refused(daemon, {"set", "Aaxis_Speed"}, "NAME=VALUE");
-  expect_refused(daemon, {"set", "Aaxis_Speed=fast"}, "NAME=VALUE");
+  expect_refused(daemon, {"set", "Aaxis_Speed=fast"}, "'fast' is not a number; expected 0 to 32768");
   expect_refused(daemon, {"get", "Cord_Q"}, "'Cord_A'");
   EXPECT_EQ(value(daemon, "Aaxis_Speed"), 0);
   const Finished refused = daemon.ctl({"--json", "get", "Cord_Q"});

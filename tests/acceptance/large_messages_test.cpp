@@ -99,7 +99,7 @@ TEST_F(LargeMessages, OfAWrongProgramGetAHundredMistakes) {
 
 TEST_F(LargeMessages, OfAProgramThatIsTooLongLetHostsBeServed) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"feeder", times("NOP\n", 900'000)},
+      {"feeder", times("NOP\n", 800'000)},
       {"mill", "AREA PLC\n" + times("LD M0\n", 500'000) + "END\n"},
       {"cell", "MP 1\n" + times("RSM_MACRO_SET_RVAR 1 2\n", 160'000) + "END\n"},
       {"chain", times("MA 100\n", 500'000)},

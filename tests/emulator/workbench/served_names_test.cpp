@@ -111,7 +111,7 @@ TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
   const std::tuple<const char*, Json, const char*> cases[] = {
       {"Gain_Z", 10.5, "Gain_Z: 10.5 is out of range; expected 0 to 10"},
       {"Gain_Z", 1e300, "Gain_Z: 1e+300 is more than a 32-bit real can hold"},
-      {"Speed_X", 2.5, "Speed_X: 2.5 is not a whole number; expected 0 to 1000"},
+      {"Speed_X", 2.5, "Speed_X: 2.5 is not a whole number; expected 1 to 4000"},
       {"Output_9", 2, "Output_9: 2 is out of range; expected 0 or 1"},
       {"Mode.PROGRAM", 16, "Mode.PROGRAM: 16 is out of range; expected 0 to 15"},
       {"Mode.3", -1, "Mode.3: -1 is out of range; expected 0 or 1"},

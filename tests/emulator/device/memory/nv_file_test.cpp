@@ -53,6 +53,8 @@ NvImage image_of(std::int64_t value, int registers = 400) {
   return image;
 }
 
+std::string numbered(int i) { return to_json(image_of(i, 1)); }
+
 /// The value of an image that was written whole; -1 if it is of several.
 std::int64_t value_of_whole(const NvImage& image, std::size_t registers = 400) {
   if (image.registers.size() != registers) return -1;
@@ -151,19 +153,19 @@ TEST_F(NvFile, ALateImageIsMadeByTheWritersThread) {
 
 TEST_F(NvFile, ImagesInQuickSuccessionAreWrittenOnceTheLastOfThem) {
   NvWriter writer;
-  writer.write(path(), "first");
+  writer.write(path(), numbered(-1));
   writer.flush();
   const auto first = fs::last_write_time(path());
   const auto begin = Clock::now();
-  for (int i = 0; i < 1000; ++i) writer.write(path(), "number " + std::to_string(i));
+  for (int i = 0; i < 1000; ++i) writer.write(path(), numbered(i));
   const auto taken = Clock::now() - begin;
   // Nothing of it is on the disk before the time for coalescing is over.
   if (taken < NvWriter::kCoalesce / 2) {
-    EXPECT_EQ(text_of(path()), "first");
+    EXPECT_EQ(text_of(path()), numbered(-1));
     EXPECT_EQ(fs::last_write_time(path()), first);
   }
   while (!writer.is_idle() && Clock::now() - begin < 10s) std::this_thread::sleep_for(1ms);
-  EXPECT_EQ(text_of(path()), "number 999") << "by itself, without a flush";
+  EXPECT_EQ(text_of(path()), numbered(999)) << "by itself, without a flush";
   EXPECT_GE(Clock::now() - begin, NvWriter::kCoalesce);
 }
 
@@ -178,9 +180,9 @@ TEST_F(NvFile, FlushWaitsForAllAndNotForTheCoalescing) {
   NvWriter writer;
   const auto begin = Clock::now();
   for (int i = 0; i < 40; ++i) {
-    writer.write(path(), "number " + std::to_string(i));
+    writer.write(path(), numbered(i));
     writer.flush();
-    ASSERT_EQ(text_of(path()), "number " + std::to_string(i));
+    ASSERT_EQ(text_of(path()), numbered(i));
   }
   EXPECT_LT(Clock::now() - begin, 40 * NvWriter::kCoalesce);
   writer.flush();  // with nothing to do
@@ -191,9 +193,9 @@ TEST_F(NvFile, TheLastImageIsWrittenWhenTheWriterGoes) {
     const auto begin = Clock::now();
     {
       NvWriter writer;
-      writer.write(path(), "number " + std::to_string(i));
+      writer.write(path(), numbered(i));
     }
-    ASSERT_EQ(text_of(path()), "number " + std::to_string(i));
+    ASSERT_EQ(text_of(path()), numbered(i));
     EXPECT_LT(Clock::now() - begin, 5s);
   }
 }
@@ -273,7 +275,7 @@ TEST_F(NvFile, ThatCannotBeReplacedIsToldOnceAndStays) {
   fs::create_directories(path() + "/in the way");
   NvWriter writer;
   for (int i = 0; i < 3; ++i) {
-    writer.write(path(), "image");
+    writer.write(path(), numbered(1));
     writer.flush();
   }
   const auto news = writer.take_news();
@@ -287,16 +289,16 @@ TEST_F(NvFile, ThatCannotBeReplacedIsToldOnceAndStays) {
 
   fs::remove_all(path());
   for (int i = 0; i < 2; ++i) {
-    writer.write(path(), "image");
+    writer.write(path(), numbered(1));
     writer.flush();
   }
   EXPECT_EQ(writer.take_news(), std::vector<std::string>{path() + ": is written again"});
-  EXPECT_EQ(text_of(path()), "image");
+  EXPECT_EQ(text_of(path()), numbered(1));
 }
 
 TEST_F(NvFile, InAFolderThatIsNotThereIsTold) {
   NvWriter writer;
-  writer.write(path("gone/feeder.json"), "image");
+  writer.write(path("gone/feeder.json"), numbered(1));
   writer.write(path(), "another's");
   writer.flush();
   EXPECT_EQ(
@@ -349,26 +351,26 @@ TEST_F(NvFile, WritesThroughNoLinkThatStandsBesideIt) {
   put(path("precious"), "precious");
   fs::create_symlink(path("precious"), path() + ".new");
   NvWriter writer;
-  writer.write(path(), "image");
+  writer.write(path(), numbered(1));
   writer.flush();
-  EXPECT_EQ(text_of(path()), "image");
+  EXPECT_EQ(text_of(path()), numbered(1));
   EXPECT_EQ(text_of(path("precious")), "precious");
   EXPECT_TRUE(fs::is_symlink(path() + ".new"));
 }
 
 TEST_F(NvFile, InAFolderThatMayNotBeWrittenIsTold) {
-  put(path(), "old");
+  put(path(), numbered(1));
   fs::permissions(path("."), fs::perms::owner_read | fs::perms::owner_exec);
   {
     const OrdinaryUser nobody(path("."));
     NvWriter writer;
-    writer.write(path(), "new");
+    writer.write(path(), numbered(2));
     writer.flush();
     EXPECT_EQ(writer.take_news(),
               std::vector<std::string>{path() +
                                        ": cannot be written (Permission denied); what it held before stays"});
   }
-  EXPECT_EQ(text_of(path()), "old");
+  EXPECT_EQ(text_of(path()), numbered(1));
   fs::permissions(path("."), fs::perms::owner_all);
 }
 

@@ -114,10 +114,9 @@ TEST(RsM8194hExternalEdges, CountTurnedBackOrTooFarToo) {
   EXPECT_EQ(rsm.get("LP_X"), 100);
   // What no input could see is not gone through edge by edge.
   rsm.turn(Pin::external_plus, 2'000'000'000, 1);
-  rsm.turn(Pin::external_plus, -2'000'000'000, 1);
   rsm.run(20);
   EXPECT_GT(rsm.get("LP_X"), 100);
-  EXPECT_LE(rsm.get("LP_X"), 100 + 2 * 4'000);
+  EXPECT_LE(rsm.get("LP_X"), 100 + 4'000);
 }
 
 TEST(RsM8194hExternalEdges, NothingOfThemIsLeftBehindAStop) {

@@ -226,7 +226,7 @@ TEST(RunUntil, RefusesWhatIsNoConditionAndMovesNothing) {
            {R"({"do":"run-until","within":"1s"})", "'condition' is missing"},
            {R"({"do":"run-until","condition":"1"})", "'within' is missing"},
            {R"({"do":"run-until","condition":1,"within":"1s"})", "condition"},
-           {R"({"do":"run-until","condition":"1","within":"1"})", "within: expected a duration"},
+           {R"({"do":"run-until","condition":"1","within":"1"})", "within: '1' is not a duration"},
            {R"({"do":"run-until","condition":"feeder.Cord_Z > 0","within":"1s"})", "the nearest is 'Cord_"},
            {R"({"do":"run-until","condition":"feeder.Cord_A >","within":"1s"})", "condition: column"},
            {R"({"do":"run-until","condition":"1","within":"1s","by":"1s"})", "'by'"}}) {
