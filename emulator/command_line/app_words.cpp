@@ -143,7 +143,7 @@ std::string complaint_about(const CLI::App& app, const CLI::ParseError& error, i
     if (what == "A subcommand") return where + "expected a command" + std::string(kListed);
     return where + what + " is missing; expected " + expected_of(*found.command, what);
   }
-  if (kind == "ExtrasError")
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)  // whose name is the command's
     return where + quoted(first_left(app, argc, argv)) + " is one word too many; expected nothing more";
   if (kind == "ExcludesError") {
     const std::string first = before(told, " excludes ");

@@ -156,10 +156,11 @@ TEST(CtlProgram, TellsWhatIsOddAboutWhatItLoads) {
   EXPECT_EQ(loaded.exit_code, 0);
   EXPECT_EQ(
       loaded.errors,
-      "understudy: ctl program: line 3, column 1: warning: label K1 appears twice; expected one, as in line "
-      "2\n"
-      "understudy: ctl program: line 4, column 1: warning: JMP K9 names a label that the area does not have; "
-      "expected LAB K9\n");
+      "understudy: ctl program: " + odd +
+          ":3:1: warning: label K1 appears twice; expected one, as in line 2\nunderstudy: ctl program: " +
+          odd +
+          ":4:1: warning: JMP K9 names a label that the area does not have; "
+          "expected LAB K9\n");
   const Finished well = daemon->ctl({"program", "device", folder.write("well.lst", "AREA C\nEND\n")});
   EXPECT_EQ(well.output + well.errors, "");
 }

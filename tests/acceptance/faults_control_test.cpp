@@ -187,8 +187,9 @@ TEST(ControlProgram, ThatIsWrongIsRefusedWithOneLineAndTheOldOneStays) {
   obeyed(daemon, {"program", "device", good});
   const std::string before = obeyed(daemon, {"program"});
   expect_refused(daemon, {"program", "device", bad},
-                 "program: line 2, column 1: mnemonic: no instruction is called 'Dellay_mSec'; expected an "
-                 "instruction (nearest: 'Delay_mSec') (and 1 more)");
+                 "program: " + bad +
+                     ":2:1: mnemonic: no instruction is called 'Dellay_mSec'; expected an "
+                     "instruction (nearest: 'Delay_mSec') (and 1 more)");
   const std::string nowhere = daemon.folder() / "nowhere.lst";
   expect_refused(daemon, {"program", "device", nowhere},
                  "program: " + nowhere + ": cannot be read (No such file or directory); expected a listing");

@@ -288,10 +288,10 @@ TEST(Program, ThatIsWrongIsRefusedWithItsLineAndChangesNothing) {
   for (int i = 0; i < 257; ++i) too_long += "NOP\n";
   const Case cases[] = {
       {"unknown.lst", "NOP\nNOP\nJumpp JMP1\n",
-       "line 3, column 1: mnemonic: no instruction is called 'Jumpp'"},
-      {"operand.lst", "NOP\nOut DOUT_9 ON\n", "line 2, column 5: operand 1: "},
-      {"long.lst", too_long, "line 257, column 1: "},
-      {"binary.lst", std::string("NOP\n\x01\x02\xff\xfe\n"), "line 2, column 1: "},
+       "unknown.lst:3:1: mnemonic: no instruction is called 'Jumpp'"},
+      {"operand.lst", "NOP\nOut DOUT_9 ON\n", "operand.lst:2:5: operand 1: "},
+      {"long.lst", too_long, "long.lst:257:1: "},
+      {"binary.lst", std::string("NOP\n\x01\x02\xff\xfe\n"), "binary.lst:2:1: "},
   };
   for (const Case& c : cases) {
     expect_refused(daemon.ctl({"program", "device", folder.write(c.name, c.listing)}), c.why);

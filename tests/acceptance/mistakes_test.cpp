@@ -109,7 +109,7 @@ TEST_F(Mistakes, OfFlagsAndWordsAreToldInOneLine) {
        "understudy: page: 'NAME' is one word too many; expected nothing more"},
       {{"ctl", "--control", "a", "--bench", "b", "status"},
        2,
-       "understudy: --control and --bench do not go together; expected one of the two"},
+       "understudy: ctl status: --control and --bench do not go together; expected one of the two"},
   });
   EXPECT_EQ(understudy({"--help"}).exit_code, 0);
   EXPECT_EQ(understudy({"run", "--help"}).exit_code, 0);
