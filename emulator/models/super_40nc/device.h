@@ -429,8 +429,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void leave_table();
 
   State state_;
-  // Made from the listings that the memory has: not state.
-  interpreter::super_40nc::StepCodes codes_;
+  interpreter::super_40nc::StepCodes codes_;  // like the ladder made of the memory's listings: not state
   SharedLadder ladder_ = std::make_shared<const interpreter::super_40nc::Ladder>();
   std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
   NamedBlocks::mapped_type ready_texts_;        // that those two are made of
