@@ -16,17 +16,22 @@ namespace understudy::emulator::serve {
 
 namespace {
 
+constexpr std::size_t kMaxListed = 4;
+
 /// Who is there, for people; empty if somebody hears what is sent to that address, or may do so.
 std::string others_than(const world::WorldLine& line, std::uint8_t address) {
   std::string numbers;
+  std::size_t count = 0;
   for (const auto& station : line.stations) {
     const Device& device = station->device();
     const auto number = device.station_number();
     const bool may_hear = device.modbus() == nullptr || !number || *number == address ||
                           device.modbus()->addressing(address) != Addressing::ignore;
     if (may_hear) return "";
+    if (++count > kMaxListed) continue;
     numbers += (numbers.empty() ? "" : ", ") + device.name() + " is " + std::to_string(*number);
   }
+  if (count > kMaxListed) numbers += ", and " + std::to_string(count - kMaxListed) + " more";
   return numbers;
 }
 
