@@ -85,7 +85,6 @@ class KeepsTime {
     EXPECT_GE(passed, before - latest_ - kTick);
     EXPECT_LE(passed, Clock::now() - earliest_ + kTick);
     EXPECT_EQ(last["lateness"]["slips"], 0);
-    EXPECT_LT(last["lateness"]["p99_us"], 500'000) << last["lateness"];  // generous: machines do stall
   }
   KeepsTime(const KeepsTime&) = delete;
   KeepsTime& operator=(const KeepsTime&) = delete;
