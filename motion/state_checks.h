@@ -2,8 +2,11 @@
 // bytes may come in, and a few numbers have more bit patterns than states.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "base/state/state_error.h"
 #include "motion/axis.h"
@@ -167,7 +170,12 @@ inline void check_restored(const PathRun& run) {
 }
 
 inline void check_restored(const Coordinated& group) {
-  for (const std::int8_t axis : group.axis_of) demand_within(axis, Coordinated::kNone, INT8_MAX);
+  std::array<bool, INT8_MAX + 1> is_taken{};
+  for (const std::int8_t axis : group.axis_of) {
+    demand_within(axis, Coordinated::kNone, INT8_MAX);
+    if (axis == Coordinated::kNone) continue;
+    demand_state(!std::exchange(is_taken[static_cast<std::size_t>(axis)], true), "a path has an axis twice");
+  }
   for (const std::int64_t zero : group.zero_pulses) demand_reach(zero);
 }
 

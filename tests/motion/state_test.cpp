@@ -225,6 +225,9 @@ TEST(StateRefusal, WhatATypeCannotHoldIsRefusedByName) {
   Coordinated group;
   group.axis_of[0] = -2;
   EXPECT_TRUE(refuses(Coordinated{}, save(group)));
+  group.axis_of[0] = group.axis_of[2] = 1;
+  EXPECT_TRUE(refuses(Coordinated{}, save(group)));
+  group.axis_of[2] = Coordinated::kNone;
   group.axis_of[0] = 0;
   group.scale[0].divider = 0;
   EXPECT_TRUE(refuses(Coordinated{}, save(group)));
