@@ -37,9 +37,6 @@ MEMBERS = Rule("member functions", 60, 2, {
     "emulator/models/super_40nc/device.h Super40nc": 265,
 })
 LINES = Rule("lines", 60, 4, {
-    "emulator/command_line/ctl_command.cpp message_for": 67,
-    "emulator/command_line/poll_command.cpp parse_item": 61,
-    "emulator/command_line/serving_flags.h add_serving_flags": 67,
     "emulator/model_file/line_fields.cpp read_line": 67,
     "emulator/models/rs_m8194h/path_drawing.cpp RsM8194h::draw": 191,
     "emulator/models/rs_m8194h/power.cpp RsM8194h::reset_card": 61,
