@@ -44,10 +44,6 @@ LINES = Rule("lines", 60, 4, {
     "emulator/models/super_40nc/language_choices.cpp Super40nc::chosen_options": 79,
     "emulator/models/super_40nc/paths.cpp Super40nc::begin_path": 79,
     "emulator/page/page_bench.cpp PageBench::take_look": 70,
-    "emulator/world/probe/probe_names.cpp ProbeNames::find": 63,
-    "emulator/world/recording/replay.cpp replay": 83,
-    "emulator/world/snapshot.cpp difference": 74,
-    "emulator/world/world.cpp World::World": 63,
     "motion/homing_tables.cpp super40nc_homing": 64,
 })
 RULES = (CIRCLE, MEMBERS, LINES)
