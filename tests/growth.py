@@ -37,13 +37,11 @@ MEMBERS = Rule("member functions", 60, 2, {
     "emulator/models/super_40nc/device.h Super40nc": 265,
 })
 LINES = Rule("lines", 60, 4, {
-    "emulator/model_file/line_fields.cpp read_line": 67,
     "emulator/models/rs_m8194h/path_drawing.cpp RsM8194h::draw": 191,
     "emulator/models/rs_m8194h/power.cpp RsM8194h::reset_card": 61,
     "emulator/models/slim/chain_queues.cpp Chain::start_group": 66,
     "emulator/models/super_40nc/language_choices.cpp Super40nc::chosen_options": 79,
     "emulator/models/super_40nc/paths.cpp Super40nc::begin_path": 79,
-    "emulator/page/page_bench.cpp PageBench::take_look": 70,
     "motion/homing_tables.cpp super40nc_homing": 64,
 })
 RULES = (CIRCLE, MEMBERS, LINES)
