@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """What ./test looks at before it builds anything: formatting, a few rules of style that a script can judge, the
 wording of the documentation and of --help (plain_words.py), the changelog with its fragments (packaging/changelog.py),
-and the files of .github/ (github_files.py).
+the files of .github/ (github_files.py), and how large circles of files, classes and functions are (growth.py).
 
 usage: house_style.py [PROJECT]
 
-Prints a line for each fault, "file:line: what is wrong; what was expected", and exits 1 if there is any.
+Prints a line for each fault, "file:line: what is wrong; what was expected", and exits 1 if there is any; at
+the end the largest circle, class and function.
 """
 import concurrent.futures
 import os
@@ -18,6 +19,7 @@ sys.dont_write_bytecode = True  # this project's folders stay as they are
 sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "packaging"))
 import changelog  # noqa: E402
 import github_files  # noqa: E402
+import growth  # noqa: E402
 import plain_words  # noqa: E402
 
 LONGEST_FILE = 450  # lines; about 400 is the aim
@@ -96,7 +98,11 @@ def main(project):
     judges = (plain_words, changelog, github_files)
     for place, number, what in (fault for judge in judges for fault in judge.faults_of(project)):
         faults.append(f"{place}:{number}: {what}")
+    figures = growth.figures_of(project)
+    faults += [f"{place}:{number}: {what}" for place, number, what in growth.faults_of(project, figures)]
     print("\n".join(faults) or f"{len(paths)} files: formatted, and as the house has it")
+    for line in growth.largest(figures):
+        print(line)
     return 1 if faults else 0
 
 

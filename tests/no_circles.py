@@ -2,14 +2,20 @@
 """Refuses circles of includes between the folders of the house, and so between its rooms.
 
 usage: no_circles.py PROJECT [EXTRA_EDGE...]      an edge is FOLDER:FOLDER, as if one file included another
+       no_circles.py PROJECT --calls FOLDER       which calls of members make circles of the files in a folder
 
 Which room may know which is checked when the build is configured (cmake/rooms.cmake); that the folders inside
-a room form no circle is checked here. Exit 1, with a line for each circle.
+a room form no circle is checked here. Exit 1, with a line for each circle. Circles by calls are shown only: growth.py
+says how large they may be.
 """
 import collections
 import os
 import re
 import sys
+
+sys.dont_write_bytecode = True  # this project's folders stay as they are
+import member_calls  # noqa: E402
+import outline  # noqa: E402
 
 HOUSE = ("base", "motion", "interpreter", "pty", "emulator")
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
@@ -36,7 +42,7 @@ def edges_of(project):
 
 
 def circles_of(edges):
-    """Groups of folders that reach each other (Tarjan)."""
+    """Groups of folders, or of files, that reach each other (Tarjan)."""
     order, lowest, waiting, circles = {}, {}, [], []
 
     def visit(folder):
@@ -61,7 +67,32 @@ def circles_of(edges):
     return circles
 
 
+def show(circles, edges, what):
+    for circle in circles:
+        print(f"a circle of {len(circle)} {what}: {' '.join(circle)}")
+        for here in circle:
+            for there, shown_by in sorted(edges[here].items()):
+                if there in circle:
+                    print(f"  {shown_by}")
+
+
+def show_calls(project, folder):
+    outlines = {}
+    for path in files_of(project):
+        if os.path.dirname(path) == folder.rstrip("/"):
+            with open(os.path.join(project, path), encoding="utf-8") as file:
+                outlines[os.path.basename(path)] = outline.Outline(file.read())
+    if not outlines:
+        print(f"{folder}: holds no sources; expected a folder of the house, such as emulator/models/slim")
+        return 1
+    edges = member_calls.calls_of(outlines)
+    show(circles_of(edges), edges, "files")
+    return 0
+
+
 def main(project, extra):
+    if extra[:1] == ["--calls"] and len(extra) == 2:
+        return show_calls(project, extra[1])
     edges = edges_of(project)
     if len(edges) < 10:
         print(f"{project}: found no house; expected the project's root")
@@ -70,12 +101,7 @@ def main(project, extra):
         here, there = edge.split(":")
         edges[here].setdefault(there, f"{here} includes {there}, as asked")
     circles = circles_of(edges)
-    for circle in circles:
-        print(f"a circle of {len(circle)} folders: {' '.join(circle)}")
-        for here in circle:
-            for there, shown_by in sorted(edges[here].items()):
-                if there in circle:
-                    print(f"  {shown_by}")
+    show(circles, edges, "folders")
     return 1 if circles else 0
 
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/files/content_kind.h"
@@ -122,69 +123,111 @@ std::int64_t demand_number(const ControlArguments& arguments) {
   return *number;
 }
 
+void add_names(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.empty())
+    throw UsageError("ctl get: nothing to read; expected a name such as feeder.Cord_A");
+  message["names"] = arguments.operands;
+}
+
+void add_expression(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.size() != 1) {
+    throw UsageError("ctl eval: expected one expression, such as 'feeder.Cord_A / 3200'");
+  }
+  message["expression"] = arguments.operands[0];
+}
+
+void add_assignments(const ControlArguments& arguments, Json& message) {
+  message["values"] = assignments(arguments);
+}
+
+void add_levels(const ControlArguments& arguments, Json& message) { message["values"] = levels(arguments); }
+
+void add_turns(const ControlArguments& arguments, Json& message) {
+  ControlArguments turns = arguments;
+  std::erase_if(turns.operands, [&](const std::string& operand) {
+    if (!operand.starts_with("in=")) return false;
+    message["in"] = operand.substr(3);
+    return true;
+  });
+  message["values"] = assignments(turns);
+}
+
+void add_power(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.empty() || arguments.operands.size() > 2) {
+    throw UsageError("ctl power: expected a device, and on, off or cycle");
+  }
+  if (arguments.operands.size() == 2) message["device"] = arguments.operands.front();
+  message["to"] = arguments.operands.back();
+}
+
+void add_program(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.size() > 2) throw UsageError("ctl program: expected a device and a listing");
+  if (!arguments.operands.empty()) message["device"] = arguments.operands.front();
+  if (arguments.operands.size() == 2) message["text"] = listing_of(arguments.operands.back());
+}
+
+void add_command(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.empty() || arguments.operands.size() > 2)
+    throw UsageError("ctl command: expected a device and a command in quotes, such as cell 'MOVE X 1000'");
+  if (arguments.operands.size() == 2) message["device"] = arguments.operands.front();
+  message["text"] = arguments.operands.back();
+}
+
+void add_fault(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.size() < 2) throw UsageError("ctl inject: expected a fault and where");
+  message["fault"] = fault_of(arguments.operands);
+}
+
+void add_fault_number(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.size() != 1) throw UsageError("ctl clear: expected the number of a fault, or all");
+  if (arguments.operands[0] != "all") message["number"] = demand_number(arguments);
+}
+
+void add_file(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.size() != 1 || arguments.operands[0].empty()) {
+    throw UsageError("ctl " + arguments.verb + ": expected one file");
+  }
+  message["file"] = std::filesystem::absolute(arguments.operands[0]).string();
+}
+
+void add_duration(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.size() != 1 || !parse_duration(arguments.operands[0])) {
+    throw UsageError("ctl advance: expected one duration with a unit, such as 250ms");
+  }
+  message["by"] = arguments.operands[0];
+}
+
+void add_condition(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.size() != 1) {
+    throw UsageError("ctl run-until: expected one condition, such as 'feeder.STATUS.4 == 0'");
+  }
+  message["condition"] = arguments.operands[0];
+  message["within"] = arguments.within;
+}
+
+struct VerbRow {
+  std::string_view verb;
+  void (*add_operands)(const ControlArguments& arguments, Json& message);
+};
+
+/// Those that take operands of their own; the others look, or take none.
+constexpr VerbRow kVerbs[] = {
+    {"get", add_names},          {"eval", add_expression},     {"set", add_assignments},
+    {"input", add_levels},       {"turn", add_turns},          {"power", add_power},
+    {"program", add_program},    {"command", add_command},     {"inject", add_fault},
+    {"clear", add_fault_number}, {"snapshot", add_file},       {"restore", add_file},
+    {"advance", add_duration},   {"run-until", add_condition},
+};
+
 Json message_for(const ControlArguments& arguments) {
-  const std::string& verb = arguments.verb;
-  Json message{{"do", verb}};
-  if (verb == "get") {
-    if (arguments.operands.empty())
-      throw UsageError("ctl get: nothing to read; expected a name such as feeder.Cord_A");
-    message["names"] = arguments.operands;
-  } else if (verb == "eval") {
-    if (arguments.operands.size() != 1) {
-      throw UsageError("ctl eval: expected one expression, such as 'feeder.Cord_A / 3200'");
-    }
-    message["expression"] = arguments.operands[0];
-  } else if (verb == "set") {
-    message["values"] = assignments(arguments);
-  } else if (verb == "input") {
-    message["values"] = levels(arguments);
-  } else if (verb == "turn") {
-    ControlArguments turns = arguments;
-    std::erase_if(turns.operands, [&](const std::string& operand) {
-      if (!operand.starts_with("in=")) return false;
-      message["in"] = operand.substr(3);
-      return true;
-    });
-    message["values"] = assignments(turns);
-  } else if (verb == "power") {
-    if (arguments.operands.empty() || arguments.operands.size() > 2) {
-      throw UsageError("ctl power: expected a device, and on, off or cycle");
-    }
-    if (arguments.operands.size() == 2) message["device"] = arguments.operands.front();
-    message["to"] = arguments.operands.back();
-  } else if (verb == "program") {
-    if (arguments.operands.size() > 2) throw UsageError("ctl program: expected a device and a listing");
-    if (!arguments.operands.empty()) message["device"] = arguments.operands.front();
-    if (arguments.operands.size() == 2) message["text"] = listing_of(arguments.operands.back());
-  } else if (verb == "command") {
-    if (arguments.operands.empty() || arguments.operands.size() > 2)
-      throw UsageError("ctl command: expected a device and a command in quotes, such as cell 'MOVE X 1000'");
-    if (arguments.operands.size() == 2) message["device"] = arguments.operands.front();
-    message["text"] = arguments.operands.back();
-  } else if (verb == "inject") {
-    if (arguments.operands.size() < 2) throw UsageError("ctl inject: expected a fault and where");
-    message["fault"] = fault_of(arguments.operands);
-  } else if (verb == "clear") {
-    if (arguments.operands.size() != 1) throw UsageError("ctl clear: expected the number of a fault, or all");
-    if (arguments.operands[0] != "all") message["number"] = demand_number(arguments);
-  } else if (verb == "snapshot" || verb == "restore") {
-    if (arguments.operands.size() != 1 || arguments.operands[0].empty()) {
-      throw UsageError("ctl " + verb + ": expected one file");
-    }
-    message["file"] = std::filesystem::absolute(arguments.operands[0]).string();
-  } else if (verb == "advance") {
-    if (arguments.operands.size() != 1 || !parse_duration(arguments.operands[0])) {
-      throw UsageError("ctl advance: expected one duration with a unit, such as 250ms");
-    }
-    message["by"] = arguments.operands[0];
-  } else if (verb == "run-until") {
-    if (arguments.operands.size() != 1) {
-      throw UsageError("ctl run-until: expected one condition, such as 'feeder.STATUS.4 == 0'");
-    }
-    message["condition"] = arguments.operands[0];
-    message["within"] = arguments.within;
-  } else if (!add_look_words(arguments, message) && !arguments.operands.empty()) {
-    throw UsageError("ctl " + verb + ": " + understudy::quoted(arguments.operands[0]) +
+  Json message{{"do", arguments.verb}};
+  for (const VerbRow& row : kVerbs) {
+    if (row.verb != arguments.verb) continue;
+    row.add_operands(arguments, message);
+    return message;
+  }
+  if (!add_look_words(arguments, message) && !arguments.operands.empty()) {
+    throw UsageError("ctl " + arguments.verb + ": " + understudy::quoted(arguments.operands[0]) +
                      " is one word too many; expected nothing after it");
   }
   return message;

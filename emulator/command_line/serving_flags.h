@@ -29,9 +29,8 @@ inline constexpr const char* kTraceAlsoHelp =
     "Also trace these: registers, or anything else that a condition can name, such as feeder.Cord_A";
 inline constexpr const char* kLintHelp = "At exit, report protocol violations by the host";
 
-/// Those of everything that serves a bench.
-inline void add_serving_flags(CLI::App& command, ServeArguments& serving) {
-  serving.version = UNDERSTUDY_VERSION;
+/// What is served: a bench, or one device without one.
+inline void add_bench_flags(CLI::App& command, ServeArguments& serving) {
   command.add_option("BENCH", serving.bench, "A bench file, unless you use --model");
   command.add_option("--model", serving.model, "Serve one device of this model, without a bench file")
       ->check(kNotEmpty);
@@ -43,6 +42,10 @@ inline void add_serving_flags(CLI::App& command, ServeArguments& serving) {
       .add_option("--firmware", serving.firmware, "Firmware version of the device (with --model) [newest]")
       ->check(kNotEmpty);
   command.add_option("--baud", serving.baud, "Line speed (with --model) [the factory setting]");
+}
+
+/// How hosts reach its lines.
+inline void add_port_flags(CLI::App& command, ServeArguments& serving) {
   command
       .add_option("--link", serving.link,
                   "Path of the link to the port (with --model); other ports get PATH.NAME [a private path]")
@@ -75,6 +78,10 @@ inline void add_serving_flags(CLI::App& command, ServeArguments& serving) {
       .add_option("--byte-timeout", serving.byte_timeout,
                   "How long to wait for the rest of a frame [200ms, or the bench's setting]")
       ->check(kNotEmpty);
+}
+
+/// How it runs, and which files it writes.
+inline void add_running_flags(CLI::App& command, ServeArguments& serving) {
   command
       .add_option("--speed", serving.speed,
                   "How fast simulated time runs: real, free, manual, or a factor such as 10x")
@@ -96,6 +103,14 @@ inline void add_serving_flags(CLI::App& command, ServeArguments& serving) {
       ->check(kNotEmpty);
   command.add_option("--trace-also", serving.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
   command.add_flag("--lint", serving.lint, kLintHelp);
+}
+
+/// Those of everything that serves a bench, in the order in which --help lists them.
+inline void add_serving_flags(CLI::App& command, ServeArguments& serving) {
+  serving.version = UNDERSTUDY_VERSION;
+  add_bench_flags(command, serving);
+  add_port_flags(command, serving);
+  add_running_flags(command, serving);
 }
 
 }  // namespace understudy::emulator::command_line

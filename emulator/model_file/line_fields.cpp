@@ -41,6 +41,27 @@ std::uint8_t read_function(const YamlFields& field) {
   field.fail(std::to_string(code) + " is not a function that can be served; expected one of " + known);
 }
 
+/// How many registers or bits a request may ask for, by its function.
+void read_limits(const YamlFields& field, Line& line) {
+  field.demand_map();
+  for (const auto& [code, most] : field.entries()) {
+    const auto number = parse_integer(code);
+    const bool is_known =
+        number && std::find(line.functions.begin(), line.functions.end(), *number) != line.functions.end();
+    if (!is_known)
+      most.fail(understudy::quoted(code) + " is not one of its functions; expected one of `functions`");
+    const world::FunctionRow& row =
+        *std::find_if(std::begin(world::kModbusFunctions), std::end(world::kModbusFunctions),
+                      [&](const world::FunctionRow& one) { return one.code == *number; });
+    const auto count = most.integer(kMostForm);
+    if (count > row.most) {
+      most.fail(std::to_string(count) + " is more than function " + code + " can have; expected " +
+                std::to_string(row.most) + " or fewer");
+    }
+    line.limits.push_back({.code = row.code, .most = static_cast<int>(count)});
+  }
+}
+
 }  // namespace
 
 std::size_t read_word(const YamlFields& field, const Form& form) {
@@ -97,25 +118,7 @@ void read_line(const YamlFields& fields, Line& line, Complaints& complaints) {
     if (functions.empty()) field.fail("is empty; expected at least one");
     line.functions = functions;
   });
-  read("most", [&](const YamlFields& field) {
-    field.demand_map();
-    for (const auto& [code, most] : field.entries()) {
-      const auto number = parse_integer(code);
-      const bool is_known =
-          number && std::find(line.functions.begin(), line.functions.end(), *number) != line.functions.end();
-      if (!is_known)
-        most.fail(understudy::quoted(code) + " is not one of its functions; expected one of `functions`");
-      const world::FunctionRow& row =
-          *std::find_if(std::begin(world::kModbusFunctions), std::end(world::kModbusFunctions),
-                        [&](const world::FunctionRow& one) { return one.code == *number; });
-      const auto count = most.integer(kMostForm);
-      if (count > row.most) {
-        most.fail(std::to_string(count) + " is more than function " + code + " can have; expected " +
-                  std::to_string(row.most) + " or fewer");
-      }
-      line.limits.push_back({.code = row.code, .most = static_cast<int>(count)});
-    }
-  });
+  read("most", [&](const YamlFields& field) { read_limits(field, line); });
   read("broadcast",
        [&](const YamlFields& field) { line.obeys_broadcasts = read_word(field, kBroadcastForm) == 0; });
 }

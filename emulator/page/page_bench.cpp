@@ -53,6 +53,15 @@ std::uint64_t first_of(const Json& look, const char* key, const char* next_key) 
   return (list.empty() ? look.at(next_key) : list.front().at("number")).get<std::uint64_t>();
 }
 
+/// The frames or events that a look brings, if it brings any.
+template <class Ring>
+void take_list(const Json& look, const char* key, const char* next_key, Ring& ring, std::uint64_t& next) {
+  if (!look.contains(key)) return;
+  for (const Json& one : look[key]) ring.push_back({one.at("number").get<std::uint64_t>(), text_of(one)});
+  while (ring.size() > PageBench::kFramesKept) ring.pop_front();
+  next = look.at(next_key).get<std::uint64_t>();
+}
+
 }  // namespace
 
 PageBench::PageBench(Web& web, std::string socket, Hears hears)
@@ -184,14 +193,7 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
       for (const auto& one : lists_) one->look.reset();
       list->look.reset();
       if (is_by_number) return;
-      who_ = who;
-      ++epoch_;
-      next_frame_ = next_event_ = frames_from_ = events_from_ = 0;
-      for (auto& [name, known] : values_) known = {};
-      status_changed_ = 0;
-      frames_.clear();
-      events_.clear();
-      be(State::unknown);
+      begin_anew(who);
     }
     // What was told before is not what led here.
     const std::uint64_t restores = look.value("restores", std::uint64_t{0});
@@ -214,15 +216,8 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
       if (text == known->second.text && known->second.changed != 0) continue;
       known->second = {std::move(text), looks_};
     }
-    const auto take_list = [&](const char* key, const char* next_key, std::deque<Numbered>& ring,
-                               std::uint64_t& next) {
-      if (!look.contains(key)) return;
-      for (const Json& one : look[key]) ring.push_back({one.at("number").get<std::uint64_t>(), text_of(one)});
-      while (ring.size() > kFramesKept) ring.pop_front();
-      next = look.at(next_key).get<std::uint64_t>();
-    };
-    take_list("frames", "next_frame", frames_, next_frame_);
-    take_list("events", "next_event", events_, next_event_);
+    take_list(look, "frames", "next_frame", frames_, next_frame_);
+    take_list(look, "events", "next_event", events_, next_event_);
     if (look.contains("status")) {
       status_ = text_of(look["status"]);
       status_changed_ = looks_;
@@ -233,6 +228,18 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
   if (!is_last) return;
   ++looks_;
   hears_.looked();
+}
+
+/// Another daemon answers, or the same one anew.
+void PageBench::begin_anew(std::uint64_t who) {
+  who_ = who;
+  ++epoch_;
+  next_frame_ = next_event_ = frames_from_ = events_from_ = 0;
+  for (auto& [name, known] : values_) known = {};
+  status_changed_ = 0;
+  frames_.clear();
+  events_.clear();
+  be(State::unknown);
 }
 
 void PageBench::lose() {

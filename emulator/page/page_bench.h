@@ -97,6 +97,7 @@ class PageBench {
   void look();
   void send_asks();
   void take_look(const std::string& reply, const std::shared_ptr<NameList>& list, bool is_last);
+  void begin_anew(std::uint64_t who);
   void divide_names();
   void be(State state);
   void lose();

@@ -233,6 +233,48 @@ class Parts {
   std::size_t next_ = 0;
 };
 
+void or_else(std::string& found, std::string next) {
+  if (found.empty()) found = std::move(next);
+}
+
+std::string difference_of_worlds(const World& world, StateReader& reader_a, StateReader& reader_b) {
+  const WorldValues values_a = read_values(world, reader_a);
+  const WorldValues values_b = read_values(world, reader_b);
+  std::string found = difference_of_copies<World>(values_a, values_b, "world");
+  const PlantStates machines_a = read_machines(world, reader_a);
+  const PlantStates machines_b = read_machines(world, reader_b);
+  for (std::size_t d = 0; d < machines_a.size(); ++d) {
+    const Device& device = world.device(d);
+    for (std::size_t i = 0; i < machines_a[d].size(); ++i) {
+      or_else(found,
+              first_difference(machines_a[d][i], machines_b[d][i],
+                               device.name() + "." + std::string(device.model().axes[i].name) + ".machine"));
+    }
+  }
+  return found;
+}
+
+std::string difference_of_lines(const WorldLine& line, StateReader& reader_a, StateReader& reader_b) {
+  read_hearing(line, reader_a);
+  read_hearing(line, reader_b);
+  std::string found = difference_of_saved<pty::Line::State>(reader_a, reader_b, line.line.name());
+  for (const auto& station : line.stations) {
+    or_else(found,
+            station->difference(reader_a, reader_b, line.line.name() + "." + station->device().name()));
+  }
+  return found;
+}
+
+std::string difference_of_edges(const World& world, StateReader& reader_a, StateReader& reader_b) {
+  std::string found = difference_of_saved<std::remove_cvref_t<decltype(OfWorld::ticks(world))>>(
+      reader_a, reader_b, "world.ticks");
+  for (std::size_t i = 0; i < world.line_count(); ++i) {
+    or_else(found,
+            difference_of_saved<pty::Line::Edge>(reader_a, reader_b, world.line(i).line.name() + ".edge"));
+  }
+  return found;
+}
+
 }  // namespace
 
 WorldState save(const World& world) {
@@ -333,25 +375,8 @@ std::string difference(const World& world, const WorldState& a, const WorldState
       return found;
     });
   };
-  const auto or_else = [](std::string& found, std::string next) {
-    if (found.empty()) found = std::move(next);
-  };
-
   look_with_readers("world", [&](StateReader& reader_a, StateReader& reader_b) {
-    const WorldValues values_a = read_values(world, reader_a);
-    const WorldValues values_b = read_values(world, reader_b);
-    std::string found = difference_of_copies<World>(values_a, values_b, "world");
-    const PlantStates machines_a = read_machines(world, reader_a);
-    const PlantStates machines_b = read_machines(world, reader_b);
-    for (std::size_t d = 0; d < machines_a.size(); ++d) {
-      const Device& device = world.device(d);
-      for (std::size_t i = 0; i < machines_a[d].size(); ++i) {
-        or_else(found, first_difference(
-                           machines_a[d][i], machines_b[d][i],
-                           device.name() + "." + std::string(device.model().axes[i].name) + ".machine"));
-      }
-    }
-    return found;
+    return difference_of_worlds(world, reader_a, reader_b);
   });
   for (std::size_t i = 0; i < world.device_count(); ++i) {
     const Device& device = world.device(i);
@@ -363,24 +388,11 @@ std::string difference(const World& world, const WorldState& a, const WorldState
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     const WorldLine& line = world.line(i);
     look_with_readers("line " + line.line.name(), [&](StateReader& reader_a, StateReader& reader_b) {
-      read_hearing(line, reader_a);
-      read_hearing(line, reader_b);
-      std::string found = difference_of_saved<pty::Line::State>(reader_a, reader_b, line.line.name());
-      for (const auto& station : line.stations) {
-        or_else(found,
-                station->difference(reader_a, reader_b, line.line.name() + "." + station->device().name()));
-      }
-      return found;
+      return difference_of_lines(line, reader_a, reader_b);
     });
   }
   look_with_readers(std::string(kEdgePart), [&](StateReader& reader_a, StateReader& reader_b) {
-    std::string found = difference_of_saved<std::remove_cvref_t<decltype(OfWorld::ticks(world))>>(
-        reader_a, reader_b, "world.ticks");
-    for (std::size_t i = 0; i < world.line_count(); ++i) {
-      or_else(found,
-              difference_of_saved<pty::Line::Edge>(reader_a, reader_b, world.line(i).line.name() + ".edge"));
-    }
-    return found;
+    return difference_of_edges(world, reader_a, reader_b);
   });
   of_a.demand_end();
   of_b.demand_end();

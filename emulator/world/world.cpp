@@ -55,6 +55,34 @@ SimTime as_long_as(SimTime time, SimTime patience) {
   return scaled >= kMost ? kHorizon : SimTime{static_cast<std::int64_t>(scaled)};
 }
 
+/// With the stations that it connects.
+std::unique_ptr<WorldLine> made_line(const LineSetup& setup,
+                                     const std::vector<std::unique_ptr<Device>>& devices,
+                                     const WorldOptions& options,
+                                     const std::function<void(const std::string&)>& log) {
+  const StationSetup& first = setup.stations.front();
+  pty::LineOptions line_options{.settings = devices[first.device]->line_settings(first.port),
+                                .timing = setup.timing,
+                                .echoes = setup.echoes,
+                                .enforce_settings = options.enforce_settings,
+                                .baud_tolerance_ppm = setup.baud_tolerance_ppm};
+  const StationConditions conditions{.is_instant = setup.timing == pty::Timing::instant,
+                                     .strict_framing = options.strict_framing,
+                                     .patience = options.patience,
+                                     .rest_patience = as_long_as(setup.byte_timeout, options.patience)};
+  const LineSpeech& speech = speech_of(devices[first.device]->model());
+  auto line =
+      std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), speech, {}, {}});
+  for (const auto& [number, port] : setup.stations) {
+    Device& device = *devices[number];
+    const pty::RtuFraming framing = speech.framing(device.model(), conditions);
+    if (line->stations.empty() || framing.silence < line->framing.silence) line->framing = framing;
+    line->stations.push_back(speech.make_station(device, port, conditions));
+    line->line.attach(*line->stations.back());
+  }
+  return line;
+}
+
 }  // namespace
 
 World::World(const Bench& bench, const WorldOptions& options,
@@ -81,28 +109,8 @@ World::World(const Bench& bench, const WorldOptions& options,
     if (plant.has_encoder()) axes_[machine.device]->connect_encoder(machine.axis, plant.encoder_counts());
   }
   for (const LineSetup& setup : bench.lines) {
-    const StationSetup& first = setup.stations.front();
-    pty::LineOptions line_options{.settings = devices_[first.device]->line_settings(first.port),
-                                  .timing = setup.timing,
-                                  .echoes = setup.echoes,
-                                  .enforce_settings = options.enforce_settings,
-                                  .baud_tolerance_ppm = setup.baud_tolerance_ppm};
-    const StationConditions conditions{.is_instant = setup.timing == pty::Timing::instant,
-                                       .strict_framing = options.strict_framing,
-                                       .patience = options.patience,
-                                       .rest_patience = as_long_as(setup.byte_timeout, options.patience)};
-    const LineSpeech& speech = speech_of(devices_[first.device]->model());
-    lines_.push_back(
-        std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), speech, {}, {}}));
-    WorldLine& line = *lines_.back();
-    for (const auto& [number, port] : setup.stations) {
-      Device& device = *devices_[number];
-      const pty::RtuFraming framing = speech.framing(device.model(), conditions);
-      if (line.stations.empty() || framing.silence < line.framing.silence) line.framing = framing;
-      line.stations.push_back(speech.make_station(device, port, conditions));
-      line.line.attach(*line.stations.back());
-    }
-    if (speech.may_be_unasked()) unasked_lines_.push_back(&line);
+    lines_.push_back(made_line(setup, devices_, options, log));
+    if (lines_.back()->speech.may_be_unasked()) unasked_lines_.push_back(lines_.back().get());
   }
   for (const InputSetup& setup : bench.inputs) {
     set_external_input(setup.device, setup.terminal, setup.level);

@@ -42,6 +42,42 @@ bool has_name(const KnownDevice& device, std::string_view name) {
          (name.find('.') != std::string_view::npos && find_axis(*device.model, at_dot(name).first) >= 0);
 }
 
+bool find_of_line(const Inventory& inventory, std::string_view line, std::string_view rest,
+                  ProbeNames::Probe& probe) {
+  using What = ProbeNames::What;
+  static constexpr std::array<std::pair<std::string_view, What>, 3> kOfLine{{
+      {"bytes_in", What::bytes_in},
+      {"bytes_out", What::bytes_out},
+      {"collisions", What::collisions},
+  }};
+  for (std::size_t i = 0; i < inventory.line_count(); ++i) {
+    if (inventory.line_name(i) != line) continue;
+    for (const auto& [word, what] : kOfLine) {
+      if (word != rest) continue;
+      probe.what = what;
+      probe.device = i;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// What is asked of devices whatever their model.
+bool find_of_any_device(const Device& device, std::string_view rest, ProbeNames::Probe& probe) {
+  using What = ProbeNames::What;
+  static constexpr std::array<What, kOfDevice.size()> kWhatOfDevice{What::power, What::requests,
+                                                                    What::replies, What::exceptions};
+  for (std::size_t i = 0; i < kOfDevice.size(); ++i) {
+    if (kOfDevice[i] != rest) continue;
+    probe.what = kWhatOfDevice[i];
+    return true;
+  }
+  const Axes* const axes = device.axes();
+  if (rest != "pulse_format" || axes == nullptr || axes->pulse_formats().empty()) return false;
+  probe.what = What::pulse_format;
+  return true;
+}
+
 }  // namespace
 
 NamedNumber ProbeNames::resolve(std::string_view name) const {
@@ -136,20 +172,7 @@ ProbeNames::Probe ProbeNames::find(std::string_view name) const {
     return probe;
   }
   const auto [first, behind] = at_dot(name);
-  static constexpr std::array<std::pair<std::string_view, What>, 3> kOfLine{{
-      {"bytes_in", What::bytes_in},
-      {"bytes_out", What::bytes_out},
-      {"collisions", What::collisions},
-  }};
-  for (std::size_t i = 0; i < inventory_.line_count(); ++i) {
-    if (inventory_.line_name(i) != first) continue;
-    for (const auto& [word, what] : kOfLine) {
-      if (word != behind) continue;
-      probe.what = what;
-      probe.device = i;
-      return probe;
-    }
-  }
+  if (find_of_line(inventory_, first, behind, probe)) return probe;
   // Where there is one device its name may be left out.
   const KnownDevices& known = inventory_.known();
   std::string_view rest = name;
@@ -159,18 +182,7 @@ ProbeNames::Probe ProbeNames::find(std::string_view name) const {
     rest = behind;
   }
   if (rest == name && known.size() != 1) throw name_without_device(known, name, has_name, "NAME");
-  static constexpr std::array<What, kOfDevice.size()> kWhatOfDevice{What::power, What::requests,
-                                                                    What::replies, What::exceptions};
-  for (std::size_t i = 0; i < kOfDevice.size(); ++i) {
-    if (kOfDevice[i] != rest) continue;
-    probe.what = kWhatOfDevice[i];
-    return probe;
-  }
-  const Axes* const axes = inventory_.device(probe.device).axes();
-  if (rest == "pulse_format" && axes != nullptr && !axes->pulse_formats().empty()) {
-    probe.what = What::pulse_format;
-    return probe;
-  }
+  if (find_of_any_device(inventory_.device(probe.device), rest, probe)) return probe;
   if (find_of_axis(rest, probe)) return probe;
   const KnownDevice& device = known[probe.device];
   if (const auto place = find_register(*device.model, rest, device.firmware)) {

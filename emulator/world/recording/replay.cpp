@@ -1,5 +1,6 @@
 #include "emulator/world/recording/replay.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -10,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/simulated_time.h"
@@ -128,37 +130,77 @@ std::string compare_state(const World& world, const RecordingHeader& header, con
   return found.empty() ? found : "ends in another state: " + found + " (recorded against replayed)";
 }
 
+/// A recording's lines; what is wrong with one is told with its number.
+class RecordedLines {
+ public:
+  RecordedLines(std::istream& recording, std::string name) : recording_(recording), name_(std::move(name)) {}
+
+  bool next() {
+    if (!std::getline(recording_, line_)) return false;
+    ++number_;
+    return true;
+  }
+  const std::string& line() const { return line_; }
+  std::size_t number() const { return number_; }
+  /// Without its end, as the writer was killed in it.
+  bool is_torn() const { return recording_.eof(); }
+  RecordingError error(const std::string& what) const {
+    return RecordingError(name_ + ":" + std::to_string(std::max<std::size_t>(number_, 1)) + ": " + what);
+  }
+
+ private:
+  std::istream& recording_;
+  std::string name_;
+  std::string line_;
+  std::size_t number_ = 0;
+};
+
+void read_header(ModelList models, RecordedLines& lines, Replayed& replayed) {
+  if (!lines.next()) throw lines.error("recording: is empty or cannot be read; expected a header");
+  try {
+    replayed.header = parse_header(lines.line());
+    replayed.bench = parse_recorded_bench(models, replayed.header.bench);
+  } catch (const RecordingError& error) {
+    throw lines.error(error.what());
+  } catch (const BenchError& error) {
+    throw lines.error("bench: " + error.complaints().front().text);
+  }
+}
+
+/// The state in which the recording begins, if it is not the one at power-up.
+void restore_beginning(World& world, const RecordedLines& lines, const Replayed& replayed) {
+  if (replayed.header.snapshot.empty()) return;
+  try {
+    restore(world, parse_snapshot(replayed.header.snapshot, bench_hash(replayed.bench)));
+  } catch (const SnapshotError& error) {
+    throw lines.error(std::string("snapshot: ") + error.what());
+  } catch (const StateError& error) {
+    throw lines.error(std::string("snapshot: ") + error.what());
+  }
+}
+
+RecordedEvent event_of(const RecordedLines& lines, const World& world) {
+  RecordedEvent event;
+  try {
+    event = parse_event(lines.line(), world.known(), world.line_count());
+  } catch (const RecordingError& error) {
+    throw lines.error(error.what());
+  }
+  if (event.at < world.now()) throw lines.error("t: goes back in time; expected the events in their order");
+  return event;
+}
+
 }  // namespace
 
 Replayed replay(ModelList models, std::istream& recording, const std::string& name,
                 std::optional<SimTime> until, const ReplayWatcherMaker& watch,
                 const std::function<void(World&)>& done) {
-  std::size_t line_number = 1;
-  const auto fail = [&](const std::string& what) {
-    return RecordingError(name + ":" + std::to_string(line_number) + ": " + what);
-  };
-  std::string line;
-  if (!std::getline(recording, line)) throw fail("recording: is empty or cannot be read; expected a header");
+  RecordedLines lines(recording, name);
   Replayed replayed;
   ReplayResult& result = replayed.result;
-  try {
-    replayed.header = parse_header(line);
-    replayed.bench = parse_recorded_bench(models, replayed.header.bench);
-  } catch (const RecordingError& error) {
-    throw fail(error.what());
-  } catch (const BenchError& error) {
-    throw fail("bench: " + error.complaints().front().text);
-  }
+  read_header(models, lines, replayed);
   World world(replayed.bench, replayed.header.options, {});
-  if (!replayed.header.snapshot.empty()) {
-    try {
-      restore(world, parse_snapshot(replayed.header.snapshot, bench_hash(replayed.bench)));
-    } catch (const SnapshotError& error) {
-      throw fail(std::string("snapshot: ") + error.what());
-    } catch (const StateError& error) {
-      throw fail(std::string("snapshot: ") + error.what());
-    }
-  }
+  restore_beginning(world, lines, replayed);
   const std::unique_ptr<ReplayWatcher> watcher = watch ? watch(world) : nullptr;
   Speeches speeches(world);
   const auto expect_silence = [&] {
@@ -166,16 +208,9 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
     const Speeches::Speech& said = speeches.waiting().front();
     result.difference = "got " + text_of(world, said.line, said.at, said.bytes) + "; expected nothing";
   };
-  while (result.difference.empty() && !result.has_end && std::getline(recording, line)) {
-    ++line_number;
-    if (recording.eof()) break;  // torn: without its end, as the writer was killed in it
-    RecordedEvent event;
-    try {
-      event = parse_event(line, world.known(), world.line_count());
-    } catch (const RecordingError& error) {
-      throw fail(error.what());
-    }
-    if (event.at < world.now()) throw fail("t: goes back in time; expected the events in their order");
+  while (result.difference.empty() && !result.has_end && lines.next()) {
+    if (lines.is_torn()) break;
+    const RecordedEvent event = event_of(lines, world);
     if (until && event.at > *until) break;
     world.advance_to(event.at);
     ++result.events;
@@ -187,19 +222,18 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
     // All that was due was said before the next thing came from outside.
     expect_silence();
     result.has_end = event.what == What::end;
-    if (watcher && result.difference.empty()) watcher->happened(event, line_number);
+    if (watcher && result.difference.empty()) watcher->happened(event, lines.number());
     try {
       if (result.has_end && result.difference.empty()) {
         result.difference = compare_state(world, replayed.header, event.text);
       }
       if (result.difference.empty()) apply(world, event);
     } catch (const std::runtime_error& error) {
-      throw fail(error.what());
+      throw lines.error(error.what());
     }
   }
-  if (result.has_end && std::getline(recording, line)) {
-    ++line_number;
-    throw fail("line: comes after the end; expected nothing more");
+  if (result.has_end && lines.next()) {
+    throw lines.error("line: comes after the end; expected nothing more");
   }
   const bool is_stopped = until && result.difference.empty();
   if (is_stopped && !result.has_end) world.advance_to(*until);
