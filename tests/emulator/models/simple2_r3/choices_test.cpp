@@ -39,10 +39,10 @@ TEST(Choices, ThereIsACaseForEveryOneThatCanBeChosen) {
       "homing_sequence", "home_unassigned", "home_coordinate", "home_bit", "moving_bit", "velocity_unit",
       "velocity_commit", "velocity_step", "mode_after_stop", "values_after_stop", "dropped_value",
       "pwm_servo", "sync_ratio", "sync_slope", "sync_lost_pulses", "sync_period", "encoder_speed",
-      // reactions_test.cpp, and scenarios/choices/simple2-r3/
+      // reactions_test.cpp, and docs/fidelity/proofs/simple2-r3/
       "after_limit", "command_into_limit", "pwm_at_limit", "after_alarm", "sync_after_alarm",
       "move_in_other_mode", "command_while_servo_off", "stop",
-      // scenarios/choices/simple2-r3/
+      // docs/fidelity/proofs/simple2-r3/
       "sync_encoder", "sync_settings", "sync_slope_end", "velocity_settings", "wait_cut_short",
       "wait_move_homing", "undefined_flag", "timer_compare", "timer_overflow", "request_with_bad_value",
       "least_ramp", "homing_bits", "triggers_shown", "servo_unassigned", "locked_reset",

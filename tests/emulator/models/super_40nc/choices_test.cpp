@@ -1,5 +1,5 @@
 // Choices of the SUPER-40NC show their effects in its registers. All that can be made otherwise have a
-// scenario each (scenarios/choices/super-40nc), which is held against the rows.
+// scenario each (docs/fidelity/proofs/super-40nc), which is held against the rows.
 #include "emulator/models/super_40nc/choices.h"
 
 #include <functional>
