@@ -41,13 +41,10 @@ double processor_seconds(Work work) {
   return seconds_of(processor_time_here() - begin);
 }
 
-/// Those of choices are left out: what some of them let pass, as years in a second, would be most of the
-/// figure.
 std::vector<std::string> files_in(const std::string& folder) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string path = entry.path().string();
-    if (path.find("/choices/") != std::string::npos) continue;
     if (path.ends_with(".yaml") && emulator::play::kind_of_file(path) == emulator::play::FileKind::scenario) {
       files.push_back(path);
     }

@@ -53,9 +53,10 @@ foreach(licence IN LISTS licences)
   install(FILES ${PROJECT_SOURCE_DIR}/${licence} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT licence)
 endforeach()
 
-# Pages and pictures only; install(DIRECTORY) would leave empty folders where there are none.
+# Pages, pictures and proofs only; install(DIRECTORY) would leave empty folders where there are none.
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-     ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.svg ${PROJECT_SOURCE_DIR}/docs/*.png)
+     ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.svg ${PROJECT_SOURCE_DIR}/docs/*.png
+     ${PROJECT_SOURCE_DIR}/docs/fidelity/proofs/*.yaml ${PROJECT_SOURCE_DIR}/docs/fidelity/proofs/*.json)
 foreach(page IN LISTS pages)
   cmake_path(GET page PARENT_PATH folder)
   install(FILES ${PROJECT_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})

@@ -57,6 +57,13 @@ struct SectionRow {
   std::string_view in_english;
 };
 
+/// A part of a manual whose choices are proved in one file, docs/fidelity/proofs/MODEL/NAME.yaml.
+struct ProofRow {
+  std::string_view name;
+  /// Separated by '|'. A number stands for what is below it as well, as far as no row before this one has it.
+  std::string_view sections;
+};
+
 /// A row of a model's table of text commands.
 struct CommandRow {
   std::string_view command;  // the word that it is known by: "MA"
@@ -201,6 +208,7 @@ struct Model {
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
+  std::span<const ProofRow> proofs{};
   bool csv_has_bits = true;  // false: its CSV of registers is older than the names of its bits
   std::span<const TerminalRow> terminals;
   std::span<const TerminalGroup> terminal_groups{};

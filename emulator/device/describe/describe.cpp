@@ -226,10 +226,24 @@ Sheet commands(const Model& model, SheetFormat format) {
   return sheet;
 }
 
+/// Where the page of a model stands, and the proofs of its choices below it.
+constexpr std::string_view kFidelityFolder = "docs/fidelity/";
+
+/// "7.4" has "7.4" and "7.4.12".
+bool covers(std::string_view sections, std::string_view section) {
+  while (true) {
+    const std::size_t bar = sections.find('|');
+    const std::string_view one = sections.substr(0, bar);
+    if (section == one || (section.starts_with(one) && section[one.size()] == '.')) return true;
+    if (bar == std::string_view::npos) return false;
+    sections.remove_prefix(bar + 1);
+  }
+}
+
 std::string scenario_cell(const Model& model, const ChoiceRow& row, SheetFormat format) {
   std::string path = scenario_of_choice(model, row);
   if (path.empty() || format != SheetFormat::markdown) return path;
-  return "[" + std::string(row.id) + ".yaml](../../" + path + ")";  // from docs/fidelity/
+  return "[" + path.substr(path.rfind('/') + 1) + "](" + path.substr(kFidelityFolder.size()) + ")";
 }
 
 Sheet choices(const Model& model, SheetFormat format) {
@@ -288,8 +302,12 @@ Sheet blocks(const Model& model) {
 }  // namespace
 
 std::string scenario_of_choice(const Model& model, const ChoiceRow& row) {
-  if (options_of(row).size() < 2) return {};
-  return "scenarios/choices/" + std::string(model.name) + "/" + std::string(row.id) + ".yaml";
+  const auto proof = std::find_if(model.proofs.begin(), model.proofs.end(), [&](const ProofRow& proved) {
+    return covers(proved.sections, row.section);
+  });
+  if (proof == model.proofs.end()) return {};
+  return std::string(kFidelityFolder) + "proofs/" + std::string(model.name) + "/" + std::string(proof->name) +
+         ".yaml";
 }
 
 std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format) {

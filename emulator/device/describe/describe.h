@@ -15,8 +15,8 @@ namespace understudy::emulator {
 /// more.
 std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format);
 
-/// The shipped scenario that tells the options of a choice apart, "scenarios/choices/MODEL/ID.yaml"; empty
-/// where there is one option only.
+/// The file with the play that tells the options of a choice apart, "docs/fidelity/proofs/MODEL/NAME.yaml";
+/// empty where there is one option only.
 std::string scenario_of_choice(const Model& model, const ChoiceRow& row);
 
 }  // namespace understudy::emulator

@@ -23,7 +23,9 @@ std::string fidelity_page(const Model& model) {
       "elsewhere,\n"
       "*likely* (the cited standard, or devices of this kind, do so), *proposal* (the manual is silent). "
       "The\n"
-      "scenario shows what the options differ in: `understudy run` plays it with each of them.\n\n";
+      "scenario shows what the options differ in: `understudy run FILE --filter 'ID: *'` plays it with each "
+      "of "
+      "them.\n\n";
   page += format_sheet(*describe(model, "choices", SheetFormat::markdown), SheetFormat::markdown);
 
   Sheet missing{.columns = {"address", "register", "what is not modelled"}, .rows = {}};

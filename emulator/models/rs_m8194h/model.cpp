@@ -85,6 +85,22 @@ constexpr SectionRow kSections[] = {
     {"12.5.4", "signals of motion control"},
 };
 
+constexpr ProofRow kProofs[] = {
+    {"wire", "1|2|14"},
+    {"counters_and_variables", "3.15|3.17|3.18"},
+    {"settings", "3"},
+    {"interrupts", "4.15|4.16"},
+    {"state", "4"},
+    {"frnet_and_homing", "5|6"},
+    {"moves", "7.1|7.2"},
+    {"synchronous_actions", "7.3"},
+    {"paths", "7.4"},
+    {"stops", "7.5"},
+    {"macro_download", "9.12|10"},
+    {"macros", "8|9"},
+    {"tables", "12"},
+};
+
 }  // namespace
 
 const Model& model() {
@@ -103,6 +119,7 @@ const Model& model() {
       .language = &language(),
       .choices = kChoices,
       .sections = kSections,
+      .proofs = kProofs,
       .terminals = terminal_tables().rows,
       .terminal_groups = terminal_tables().groups,
       .axes = terminal_tables().axes,

@@ -114,6 +114,18 @@ constexpr SectionRow kSections[] = {
     {"1.40 以前", "up to 1.40"},
 };
 
+constexpr ProofRow kProofs[] = {
+    {"wire", "RS485"},
+    {"addresses", "位址列表"},
+    {"status", "狀態相關"},
+    {"inputs_and_outputs", "輸入輸出功能指配相關|輸入輸出相關|編碼器，座標，類比輸入相關"},
+    {"motion", "運動相關|預存位置表"},
+    {"system_parameters", "系統參數相關"},
+    {"appendices", "附錄 A|附錄 B|附錄 C"},
+    {"program_control", "程式控制|程式應用相關|旗標|程式碼通訊位址相關"},
+    {"program_instructions", "程式指令列表"},
+};
+
 }  // namespace
 
 const Model& model() {
@@ -127,6 +139,7 @@ const Model& model() {
       .language = &language(),
       .choices = kChoices,
       .sections = kSections,
+      .proofs = kProofs,
       .csv_has_bits = false,
       .terminals = kTerminals,
       .axes = kAxes,

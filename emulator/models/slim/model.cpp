@@ -38,6 +38,17 @@ constexpr SectionRow kSections[] = {
     {"緩衝區", "buffer"},
 };
 
+constexpr ProofRow kProofs[] = {
+    {"dialogue", "RS232|OUT|?IN|?ST|?MD|?time"},
+    {"permissions", "立即/外部|立即|TAREDO|GETI|程式/立即|緩衝區"},
+    {"programs", "G|SET EV|ON EV|PG|JE|addr|PE|PL|TAPZ|CALL"},
+    {"stops", "RESET|TASTOP|PZ|CLR BUF|DN|OUTP|P1SET|CS"},
+    {"motion", "FT|VM, VJ|JTI|JGF|AVM|?VM|TVA|VM|H|PWM"},
+    {"paths", "SAA|SAR|AA|PR4|SPI|PR3|CM|2MA|PR2, PR3"},
+    {"modules", "PN50|PN45|TX|PN37|DF|HON|FU|?MT|?AC|?TEMP|?VER"},
+    {"numbers", "?ERR|?ERC|R#|?PE|N#|N#, R#|NS, RS|TM"},
+};
+
 /// Names live as long as the program.
 struct Names {
   std::vector<std::string> texts;
@@ -137,6 +148,7 @@ const Model& model() {
       .commands = commands,
       .choices = kChoices,
       .sections = kSections,
+      .proofs = kProofs,
       .terminals = names.terminals,
       .axes = names.axes,
       .state_registers = kStateNames,

@@ -98,6 +98,25 @@ constexpr SectionRow kSections[] = {
     {"軟體架構", "structure of the software"},
 };
 
+constexpr ProofRow kProofs[] = {
+    {"wire", "人機系統參數設定|讀取0x接點的傳輸協定|讀取4x暫存器的傳輸協定|寫入0x接點的傳輸協定"},
+    {"contacts", "接點元件編號一覽表|M8 特殊接點的功用(一般用途)|M8x 特殊接點的功用(XYZU 軸用)"},
+    {"special_registers",
+     "暫存器元件編號一覽表|D8 特殊暫存器的功用(一般用途)|D8x 特殊暫存器的功用(XYZU 軸用)"},
+    {"parameters", "D9 參數暫存器的功用(一般用)|D9x 參數暫存器的功用(XYZU 軸用)|基本參數說明|參數使用說明"},
+    {"terminals", "I/O接線圖|X45./X46.|X40."},
+    {"axis_parameters", "X1.|X2./X3.|X10./X11.|X13.|X16.|X30.|X52.|C13./C14.|C16.|C21."},
+    {"homing_and_limits", "X20.|X25.|X33./X34."},
+    {"panel", "主畫面操作說明|MAN(手動)頁操作說明|命令範例|M85x 人機對應接點"},
+    {"plc", "軟體架構|END 指令"},
+    {"plc_logic", "LDP , LDF 指令|LD , LDI , OUT , OUTtc 指令|Logic 指令一覽表"},
+    {"plc_data", "Data 指令一覽表|FMV 指令|ADD , SUB , MUL , DIV 指令|ABSC , INCC 指令|DRV 指令"},
+    {"motion_instructions", "Motion指令一覽表|CWR , CCWR 指令|LIN 指令|F 指令"},
+    {"moves", "PSET 指令|MRK 指令|VDRV 指令"},
+    {"programs", "STR 指令|STP 指令|CHK 指令"},
+    {"sequence", "Sequence指令一覽表|CAL , RET 指令|TMR 指令|指令一覽表"},
+};
+
 }  // namespace
 
 const Model& model() {
@@ -111,6 +130,7 @@ const Model& model() {
       .language = &program_language(),
       .choices = kChoices,
       .sections = kSections,
+      .proofs = kProofs,
       .terminals = terminals(),
       .axes = kAxes,
       .state_registers = kStateRegisters,

@@ -32,32 +32,69 @@ const Parameters& no_parameters() {
 }  // namespace
 
 CaseTable::CaseTable(const world::YamlFields& root, std::optional<std::uint64_t> seed) : root_(root) {
-  if (root_.has("cases")) read_rows(root_);
+  if (root_.has("choice")) {
+    read_options(root_);
+  } else if (root_.has("cases")) {
+    read_rows(root_);
+  }
   if (root_.has("vary")) read_variations(root_, seed);
 }
 
-void CaseTable::read_rows(const world::YamlFields& root) {
+std::vector<std::string> CaseTable::common_parameters(const world::YamlFields& root) const {
   std::vector<std::string> known;
-  if (root.has("parameters")) {
-    for (const auto& [name, value] : root.at("parameters").entries()) known.push_back(name);
+  if (!root.has("parameters")) return known;
+  for (const auto& [name, value] : root.at("parameters").entries()) known.push_back(name);
+  return known;
+}
+
+/// The first row may bring names of its own; every other row has the same ones.
+void CaseTable::add_values(const world::YamlFields& row, std::vector<std::string>& known) {
+  row.demand_map();
+  for (const auto& [name, value] : row.entries()) {
+    const bool is_known = std::find(known.begin(), known.end(), name) != known.end();
+    if (!is_known && rows_.size() > 1) {
+      value.fail("is not a parameter, nor in the first case" + suggestion(name, known));
+    }
+    if (!is_known) known.push_back(name);
+    rows_.back().values.emplace_back(name, value.text());
   }
+}
+
+void CaseTable::read_rows(const world::YamlFields& root) {
+  std::vector<std::string> known = common_parameters(root);
   const auto rows = root.at("cases").with_rule(&no_parameters()).elements();
   if (rows.empty()) root.at("cases").fail("is empty; expected at least one row");
   for (const world::YamlFields& row : rows) {
-    row.demand_map();
     rows_.push_back({.where = row.with_rule(nullptr), .values = {}});
-    for (const auto& [name, value] : row.entries()) {
-      // The first row may bring names of its own; every other row has the same ones.
-      const bool is_known = std::find(known.begin(), known.end(), name) != known.end();
-      if (!is_known && rows_.size() > 1) {
-        value.fail("is not a parameter, nor in the first case" + suggestion(name, known));
-      }
-      if (!is_known) known.push_back(name);
-      rows_.back().values.emplace_back(name, value.text());
-    }
+    add_values(row, known);
     if (rows_.back().values.empty())
       row.fail("is empty; expected a parameter's value, as in `{ speed: 100 }`");
   }
+  size_ = rows_.size();
+}
+
+void CaseTable::read_options(const world::YamlFields& root) {
+  if (root.has("cases")) root.at("choice").fail("stands beside `cases`; expected one of them");
+  const auto choices = root.at("choice").with_rule(&no_parameters()).entries();
+  if (choices.size() != 1) {
+    root.at("choice").fail("names " + std::to_string(choices.size()) +
+                           " choices; expected one, as in `alarm_stop: [ at_once, by_ramp ]`");
+  }
+  const auto& [id, options] = choices.front();
+  choice_ = id;
+  std::vector<std::string> known = common_parameters(root);
+  const auto add = [&](const world::YamlFields& where, const std::string& option) {
+    rows_.push_back({.where = where.with_rule(nullptr), .values = {{std::string(kOptionParameter), option}}});
+  };
+  if (options.is_map()) {
+    for (const auto& [option, values] : options.entries()) {
+      add(values, option);
+      add_values(values, known);
+    }
+  } else {
+    for (const world::YamlFields& option : options.elements()) add(option, option.text());
+  }
+  if (rows_.empty()) options.fail("is empty; expected the options");
   size_ = rows_.size();
 }
 
@@ -118,7 +155,8 @@ world::YamlFields CaseTable::field_of(std::uint64_t number, const std::string& n
   for (const Variation& variation : variations_) {
     if (variation.name() == name) return variation.field();
   }
-  return rows_[row_of(number)].where.at(name);
+  const world::YamlFields& where = rows_[row_of(number)].where;
+  return where.is_map() && where.has(name) ? where.at(name) : where;
 }
 
 world::YamlFields CaseTable::place_of(std::uint64_t number) const {

@@ -1,10 +1,12 @@
-// The cases of a scenario file, by number: each row of `cases` with each combination of what `vary` says.
+// The cases of a play, by number: each row of `cases`, or each option of a `choice`, with each combination of
+// what `vary` says.
 // They are never listed, so there may be any number.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/play/reading/variation.h"
@@ -12,6 +14,9 @@
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::play {
+
+/// The parameter that names the option of a `choice`.
+inline constexpr std::string_view kOptionParameter = "option";
 
 class CaseTable {
  public:
@@ -21,6 +26,8 @@ class CaseTable {
   /// 1 for a file with neither.
   std::uint64_t size() const { return size_; }
   bool is_varied() const { return !variations_.empty(); }
+  /// The choice whose options are its cases, or empty: then the first value of each case is that option.
+  const std::string& choice() const { return choice_; }
   /// The last entry of `vary` changes fastest, the row slowest.
   Case at(std::uint64_t number) const;
   /// Where that case gets that parameter's value, for complaints.
@@ -38,10 +45,14 @@ class CaseTable {
     std::vector<std::pair<std::string, std::string>> values;
   };
   void read_rows(const world::YamlFields& root);
+  void read_options(const world::YamlFields& root);
+  std::vector<std::string> common_parameters(const world::YamlFields& root) const;
+  void add_values(const world::YamlFields& row, std::vector<std::string>& known);
   void read_variations(const world::YamlFields& root, std::optional<std::uint64_t> seed);
   std::uint64_t row_of(std::uint64_t number) const;
 
   world::YamlFields root_;
+  std::string choice_;
   std::vector<Row> rows_;
   std::vector<Variation> variations_;
   std::uint64_t size_ = 1;

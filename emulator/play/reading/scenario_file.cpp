@@ -1,332 +1,169 @@
 #include "emulator/play/reading/scenario_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
-#include <iterator>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "base/files/content_kind.h"
-#include "base/files/file_claims.h"
 #include "base/files/file_error.h"
-#include "base/files/output_file.h"
 #include "base/files/text_file.h"
-#include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
-#include "emulator/device/program_error.h"
-#include "emulator/device/register_map/row.h"
-#include "emulator/play/reading/case_table.h"
-#include "emulator/play/reading/parameters.h"
+#include "emulator/play/reading/play_reader.h"
 #include "emulator/play/reading/scenario_form.h"
-#include "emulator/play/reading/steps_reader.h"
-#include "emulator/play/reading/trial.h"
+#include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/serve/daemon/nv_keeper.h"
-#include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/bench_file/bench_form.h"
 #include "emulator/world/bench_file/complaints.h"
-#include "emulator/world/expression/tokens.h"
-#include "emulator/world/names/names.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::play {
 
-namespace {
-
-/// Wherever links lead.
-bool is_below(const std::string& path, const std::string& folder) {
-  namespace fs = std::filesystem;
-  std::string target = path;
-  try {
-    target = output_target(path);
-  } catch (const OutputError&) {
-    // What is there is refused for what it is.
-  }
-  const fs::path file = fs::weakly_canonical(fs::absolute(target));
-  const fs::path top = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder));
-  const auto [at_top, at_file] = std::mismatch(top.begin(), top.end(), file.begin(), file.end());
-  // A folder that is written with a slash at its end has an empty name there.
-  return at_top == top.end() || (at_top->empty() && std::next(at_top) == top.end());
-}
-
-}  // namespace
-
-/// Reads one case after the other.
+/// Reads one case after the other, of one play after the other.
 class ScenarioFile::Reader {
  public:
   Reader(const world::YamlFields& root, std::string path, const ReadingOptions& options,
          SharedReading& shared)
       : root_(root),
-        path_(std::move(path)),
-        save_below_(options.save_below.empty() ? root_.folder() : options.save_below),
-        seed_(options.seed),
-        file_{.shared = shared} {
+        file_{.path = std::move(path),
+              .save_below = options.save_below.empty() ? root.folder() : options.save_below,
+              .seed = options.seed,
+              .reading = {.shared = shared}} {
     head_.attempt([&] { root_.demand_keys(kScenarioKeys); });
     head_.attempt([&] { root_.at("understudy").integer(world::kVersionForm); });
     // Without its cases nothing more can be said.
-    if (!head_.attempt([&] { cases_.emplace(root_, seed_); })) head_.throw_if_any();
+    if (!head_.attempt([&] { read_plays(); })) head_.throw_if_any();
   }
 
-  const CaseTable& cases() const { return *cases_; }
-
+  std::uint64_t size() const { return first_.back(); }
+  bool is_varied() const {
+    return std::any_of(plays_.begin(), plays_.end(),
+                       [](const PlayReader& play) { return play.cases().is_varied(); });
+  }
+  Case case_of(std::uint64_t number) const {
+    const auto [play, of_play] = find(number);
+    return plays_[play].case_of(of_play);
+  }
   std::string name_of(std::uint64_t number) const {
-    const Case which = cases_->at(number);
-    Parameters parameters;
-    define_all(number, which, parameters);
-    return name_with(which, parameters);
+    const auto [play, of_play] = find(number);
+    return plays_[play].name_of(of_play);
   }
 
   Scenario read(std::uint64_t number) {
     head_.throw_if_any();
-    return read_one(number);
+    const auto [play, of_play] = find(number);
+    return read_one(plays_[play], of_play);
   }
 
   void check(const std::function<void(Scenario)>& take) {
     std::set<std::string> names;
     world::Complaints all = head_;
-    saved_before_.emplace();
+    file_.saved_before.emplace();
     all.demand([&] {
-      for (const std::uint64_t number : cases_->typical()) {
-        const Case which = cases_->at(number);
-        try {
-          Scenario scenario = read_one(number);
-          if (!names.insert(scenario.name).second && !cases_->is_varied()) {
-            cases_->place_of(number).fail("makes a second scenario called " +
-                                          understudy::quoted(scenario.name) + "; expected different values");
-          }
-          take(std::move(scenario));
-        } catch (const FileError& error) {
-          // What is wrong may be so in one case only.
-          all.add(error, which.values.empty() ? "" : "  " + to_text(which));
-        }
+      for (PlayReader& play : plays_) {
+        for (const std::uint64_t number : play.cases().typical()) check_one(play, number, names, all, take);
       }
+      all.attempt([&] { require_common_parameters_used(); });
     });
-    saved_before_.reset();
+    file_.saved_before.reset();
   }
 
  private:
-  Scenario read_one(std::uint64_t number) {
-    // What is read one by one, as what `vary` makes is, is never all there at once.
-    if (cases_->is_varied() || !saved_before_) {
-      file_.steps = 0;
-      file_.bytes = 0;
-    }
-    return read_case(number, cases_->at(number));
-  }
-
-  /// The case's values, and the defaults of all others; a default may use what is defined before it.
-  void define_all(std::uint64_t number, const Case& which, Parameters& parameters) const {
-    const auto define = [&](const auto& field, const std::string& name, const std::string& value) {
-      try {
-        parameters.define(name, value);
-      } catch (const world::NameError& error) {
-        field().fail(error.what());
-      }
-    };
-    for (const auto& [name, value] : which.values) {
-      define([&, &its_name = name] { return cases_->field_of(number, its_name); }, name, value);
-    }
-    if (!root_.has("parameters")) return;
-    const world::YamlFields defaults = root_.at("parameters").with_rule(&parameters);
-    defaults.demand_map();
-    const auto is_given = [&](const std::string& name) {
-      return std::any_of(which.values.begin(), which.values.end(),
-                         [&](const auto& value) { return value.first == name; });
-    };
-    for (const auto& [name, value] : defaults.entries()) {
-      if (!is_given(name)) define([&, &field = value] { return field; }, name, value.text());
-    }
-  }
-
-  /// Where one was meant and another was written, both are left over.
-  void demand_all_used(std::uint64_t number, const Case& which, const Parameters& parameters) const {
-    const auto fail = [&](const std::string& name, const world::YamlFields& field) {
-      field.fail(understudy::quoted(name) + " is used nowhere; expected ${" + name +
-                 "} somewhere in the scenario");
-    };
-    for (const auto& [name, value] : which.values) {
-      if (!parameters.was_used(name)) fail(name, cases_->field_of(number, name));
-    }
-    if (!root_.has("parameters")) return;
-    for (const auto& [name, value] : root_.at("parameters").entries()) {
-      if (!parameters.was_used(name)) fail(name, value);
-    }
-  }
-
-  /// What is written, and the values that tell this case from the others.
-  std::string name_with(const Case& which, const Parameters& parameters) const {
-    std::string name = std::filesystem::path(path_).stem().string();
-    if (!root_.has("name")) return which.values.empty() ? name : name + " " + to_text(which);
-    const std::string written = root_.at("name").text();
-    name = world::on_one_line(root_.with_rule(&parameters).at("name").text());
-    if (which.values.empty()) return name;
-    if (!which.is_varied) return name != written ? name : name + " " + to_text(which);
-    Case untold;
-    const auto told = parameters.used_in(written);
-    for (const auto& value : which.values) {
-      if (!told.contains(value.first)) untold.values.push_back(value);
-    }
-    return untold.values.empty() ? name : name + " " + to_text(untold);
-  }
-
-  world::Bench bench_at(const world::YamlFields& field) const {
-    auto& benches = file_.shared.benches;
-    auto it = benches.find(field.path());
-    if (it == benches.end())
-      it = benches.emplace(field.path(), world::load_bench(file_.shared.models, field)).first;
-    return it->second;
-  }
-
-  world::Bench read_its_bench(const world::YamlFields& root) const {
-    const world::YamlFields field = root.at("bench");
-    world::Bench bench =
-        field.is_map() ? world::read_bench(file_.shared.models, field, field.folder()) : bench_at(field);
-    if (root.has("nv")) {
-      const world::YamlFields nv = root.at("nv");
-      nv.demand_map();
-      for (const auto& [name, image] : nv.entries()) {
-        world::DeviceSetup& device = demand_device(bench, image, name);
-        device.nv_path = image.path();
-        if (const std::string why = why_not_readable(device.nv_path); !why.empty())
-          image.fail(device.nv_path + " " + why + "; expected an NV image");
-      }
-    }
-    if (root.has("firmware")) read_firmwares(root.at("firmware"), bench);
-    return bench;
-  }
-
-  static world::DeviceSetup& demand_device(world::Bench& bench, const world::YamlFields& field,
-                                           const std::string& name) {
-    std::vector<std::string> names;
-    for (world::DeviceSetup& device : bench.devices) {
-      if (device.settings.name == name) return device;
-      names.push_back(device.settings.name);
-    }
-    field.fail("no device is called " + understudy::quoted(name) + suggestion(name, names));
-  }
-
-  static void read_firmwares(const world::YamlFields& fields, world::Bench& bench) {
-    const auto read = [](const world::YamlFields& field) {
-      const Firmware firmware = parse_firmware(field.text());
-      if (firmware == 0)
-        field.fail(understudy::quoted(field.text()) + " is not a version; expected one like \"1.52\"");
-      return firmware;
-    };
-    if (!fields.is_map()) {
-      for (world::DeviceSetup& device : bench.devices) device.settings.firmware = read(fields);
+  void read_plays() {
+    if (!root_.has("plays")) {
+      plays_.emplace_back(root_, file_);
+      first_ = {0, plays_.front().cases().size()};
       return;
     }
-    fields.demand_map();
-    for (const auto& [name, field] : fields.entries()) {
-      demand_device(bench, field, name).settings.firmware = read(field);
+    if (root_.has("steps"))
+      root_.at("steps").fail("stands beside `plays`; expected them in one of the plays");
+    // The file's own name says what its plays have in common; each of them has its own.
+    static constexpr std::array<std::string_view, 3> kOfTheFile{"understudy", "name", "plays"};
+    const world::YamlFields common = root_.without(kOfTheFile);
+    const auto plays = root_.at("plays").elements();
+    if (plays.empty()) root_.at("plays").fail("is empty; expected at least one play");
+    world::Complaints complaints;
+    std::set<std::string> names;
+    for (const world::YamlFields& play : plays) {
+      complaints.attempt([&] {
+        PlayReader read(play, common, file_);
+        if (!names.insert(read.written_name()).second) {
+          play.fail("is called " + understudy::quoted(read.written_name()) +
+                    ", as another play is; expected a name of its own");
+        }
+        plays_.push_back(std::move(read));
+        first_.push_back(first_.back() + plays_.back().cases().size());
+      });
     }
+    complaints.throw_if_any();
   }
 
-  Scenario read_case(std::uint64_t number, const Case& which) {
-    Parameters parameters;
-    define_all(number, which, parameters);
-    const world::YamlFields root = root_.with_rule(&parameters);
-    Scenario scenario;
-    scenario.file = path_;
-    scenario.which = which;
-    scenario.name = std::filesystem::path(path_).stem().string();
-    // Without its bench nothing can be said of the steps.
-    scenario.bench = read_its_bench(root);
-    for (const world::DeviceSetup& device : scenario.bench.devices) {
-      if (device.nv_path.empty()) continue;
-      scenario.files.push_back(
-          {device.nv_path, "the memory that " + understudy::quoted(device.settings.name) + " begins with"});
-    }
-    const Trial trial = make_trial(root, scenario.bench);
-    world::Complaints all;
-    all.attempt([&] { scenario.name = name_with(which, parameters); });
-    all.attempt([&] {
-      if (root.has("gap")) scenario.gap = root.at("gap").duration();
-    });
-    all.attempt([&] {
-      if (!root.has("seed")) return;
-      scenario.bench.seed = static_cast<std::uint64_t>(root.at("seed").integer(world::kSeedForm));
-    });
-    if (seed_) scenario.bench.seed = *seed_;
-    scenario.seed = scenario.bench.seed;
-    StepsReader steps(trial, file_, path_);
-    all.attempt([&] { scenario.steps = steps.read(root.at("steps"), parameters); });
-    all.throw_if_any();
-    demand_all_used(number, which, parameters);
-    scenario.files.push_back({path_, "the scenario itself"});
-    for (const auto& files : {scenario.bench.files, steps.files()}) {
-      scenario.files.insert(scenario.files.end(), files.begin(), files.end());
-    }
-    demand_own_paths(steps, scenario);
-    return scenario;
+  /// The play that a case is of, and its number there.
+  std::pair<std::size_t, std::uint64_t> find(std::uint64_t number) const {
+    const auto behind = std::upper_bound(first_.begin(), first_.end(), number);
+    const auto play = static_cast<std::size_t>(behind - first_.begin()) - 1;
+    return {play, number - first_[play]};
   }
 
-  /// What is saved may be saved again, but by the same case: several may be played at a time.
-  void demand_own_paths(const StepsReader& steps, Scenario& scenario) {
-    FileClaims claims;
-    claims.add(scenario.files);
-    if (saved_before_) claims.add(*saved_before_);
-    for (const auto& [path, field] : steps.saved()) {
-      if (const std::string why = claims.objection_to(path); !why.empty()) field.fail(path + " " + why);
-      if (!is_below(path, save_below_)) {
-        field.fail(path + " is not below " + (save_below_.empty() ? "this folder" : save_below_) +
-                   "; expected a path there (`--save-below FOLDER` allows another folder)");
-      }
-      if (const std::string why = why_not_writable(path, ContentKind::nv_image); !why.empty()) {
-        field.fail(path + " cannot be written: " + why);
-      }
-      scenario.saved.push_back(path);
-      if (saved_before_) saved_before_->push_back({path, "what another case saves"});
-    }
-  }
-
-  /// The bench by itself has been checked, but a memory may not suit it, and another firmware may know less.
-  static Trial make_trial(const world::YamlFields& root, world::Bench& bench) {
-    const std::string key = root.has("firmware") ? "firmware" : "bench";
-    const world::YamlFields field = root.at(key);
+  void check_one(PlayReader& play, std::uint64_t number, std::set<std::string>& names, world::Complaints& all,
+                 const std::function<void(Scenario)>& take) {
     try {
-      serve::read_memories(bench, "");
-      // What is played leaves the files as they are; `save` writes them.
-      for (world::DeviceSetup& device : bench.devices) device.nv_path.clear();
-      return Trial(bench);
-    } catch (const SettingError& error) {
-      const std::string what = error.what();
-      field.fail(error.setting == key ? what.substr(key.size() + 2) : what);
-    } catch (const NvError& error) {
-      throw FileError(error.what());
-    } catch (const ProgramError& error) {
-      field.fail("program: " + in_text(error.first()));
+      Scenario scenario = read_one(play, number);
+      if (!names.insert(scenario.name).second && !play.cases().is_varied()) {
+        play.cases().place_of(number).fail("makes a second scenario called " +
+                                           understudy::quoted(scenario.name) + "; expected different values");
+      }
+      take(std::move(scenario));
+    } catch (const FileError& error) {
+      // What is wrong may be so in one case only.
+      const Case which = play.cases().at(number);
+      all.add(error, which.values.empty() ? "" : "  " + to_text(which));
+    }
+  }
+
+  Scenario read_one(PlayReader& play, std::uint64_t number) {
+    // What is read one by one, as what `vary` makes is, is never all there at once.
+    if (play.cases().is_varied() || !file_.saved_before) {
+      file_.reading.steps = 0;
+      file_.reading.bytes = 0;
+    }
+    return play.read(number);
+  }
+
+  void require_common_parameters_used() const {
+    if (!root_.has("plays") || !root_.has("parameters")) return;
+    for (const auto& [name, value] : root_.at("parameters").entries()) {
+      if (!file_.used_parameters.contains(name)) {
+        value.fail(understudy::quoted(name) + " is used nowhere; expected ${" + name +
+                   "} in one of the plays");
+      }
     }
   }
 
   world::YamlFields root_;
-  std::string path_;
-  std::string save_below_;
-  std::optional<std::uint64_t> seed_;
-  FileReading file_;
+  FilePlays file_;
   world::Complaints head_;  // what is wrong beside the cases
-  std::optional<CaseTable> cases_;
-  std::optional<std::vector<FileClaim>> saved_before_{};  // by the cases so far, while all are read
+  std::vector<PlayReader> plays_;
+  std::vector<std::uint64_t> first_{0};  // the first case of each play, and behind the last
 };
 
 ScenarioFile::ScenarioFile(const std::string& text, const std::string& path, const ReadingOptions& options,
                            SharedReading& shared) {
   const world::YamlFields root =
       world::YamlFields::parse(text, path, "scenario", "`understudy: 1`, `bench:` and `steps:`");
-  if (root.has("lines") && !root.has("bench") && !root.has("steps")) {
+  if (root.has("lines") && !root.has("bench") && !root.has("steps") && !root.has("plays")) {
     throw FileError({path, 1, 1},
                     "scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
   }
-  if ((root.has("registers") || root.has("model")) && !root.has("steps")) {
+  if ((root.has("registers") || root.has("model")) && !root.has("steps") && !root.has("plays")) {
     throw FileError({path, 1, 1},
                     "scenario: is a model file; expected a scenario, with a bench whose stations name it");
   }
@@ -344,9 +181,9 @@ ScenarioFile::ScenarioFile(const std::string& path, const ReadingOptions& option
 
 ScenarioFile::~ScenarioFile() = default;
 
-std::uint64_t ScenarioFile::size() const { return reader_->cases().size(); }
-bool ScenarioFile::is_varied() const { return reader_->cases().is_varied(); }
-Case ScenarioFile::case_of(std::uint64_t number) const { return reader_->cases().at(number); }
+std::uint64_t ScenarioFile::size() const { return reader_->size(); }
+bool ScenarioFile::is_varied() const { return reader_->is_varied(); }
+Case ScenarioFile::case_of(std::uint64_t number) const { return reader_->case_of(number); }
 std::string ScenarioFile::name_of(std::uint64_t number) const { return reader_->name_of(number); }
 Scenario ScenarioFile::read(std::uint64_t number) { return reader_->read(number); }
 void ScenarioFile::check(const std::function<void(Scenario)>& take) { reader_->check(take); }
@@ -384,6 +221,7 @@ FileKind kind_of_file(const std::string& path) {
       "a bench (`lines:`), a scenario (`bench:` and `steps:`) or a model (`registers:`)");
   const bool is_of_model = root.has("registers") || root.has("model");  // one of the two may be forgotten
   if (is_of_model && !root.has("lines")) return FileKind::model;
+  if (root.has("plays")) return FileKind::scenario;
   if (!root.has("steps"))
     return root.has("bench") && !root.has("lines") ? FileKind::scenario : FileKind::bench;
   return root.has("bench") || root.has("name") ? FileKind::scenario : FileKind::steps;

@@ -10,6 +10,10 @@ namespace understudy::emulator::play {
 
 inline constexpr std::array<const world::Form*, 2> kBenchWays{&world::kText, &world::kInlineBenchForm};
 inline constexpr world::Form kBenchOrFileForm = world::either_form(kBenchWays);
+/// What a play changes of the file's bench need not be a bench by itself.
+inline constexpr world::Form kBenchPartForm = world::part_form(world::kInlineBenchForm);
+inline constexpr std::array<const world::Form*, 2> kBenchPartWays{&world::kText, &kBenchPartForm};
+inline constexpr world::Form kBenchOrPartForm = world::either_form(kBenchPartWays);
 inline constexpr std::array<const world::Form*, 2> kFirmwareWays{&world::kText, &world::kTextByDevice};
 inline constexpr world::Form kFirmwareForm = world::either_form(kFirmwareWays);
 inline constexpr world::Form kCasesForm = world::list_form(world::kTextByName);
@@ -42,21 +46,66 @@ inline constexpr std::array<const world::Form*, 4> kVariationWays{&world::kTextL
 inline constexpr world::Form kVariationForm = world::either_form(kVariationWays);
 inline constexpr world::Form kVaryForm = world::names_form(kVariationForm);
 
+// --- choice --------------------------------------------------------------------------------------
+inline constexpr world::Form kOptionsForm = world::names_form(world::kTextByName);
+inline constexpr std::array<const world::Form*, 2> kOptionsWays{&world::kTextList, &kOptionsForm};
+inline constexpr world::Form kOptionsOrValuesForm = world::either_form(kOptionsWays);
+inline constexpr world::Form kChoiceForm = world::names_form(kOptionsOrValuesForm);
+
+// --- keys of a file, and of each of its plays ----------------------------------------------------
+inline constexpr world::KeyRow kNameKey{
+    "name", "What it is about, as a sentence; by default the file's name.", &world::kText};
+inline constexpr world::KeyRow kBenchKey{"bench", "The bench, or the path of its file.", &kBenchOrFileForm};
+inline constexpr world::KeyRow kNvKey{
+    "nv", "What the devices' memories hold at first: files of NV images, by device.", &world::kTextByDevice};
+inline constexpr world::KeyRow kFirmwareKey{
+    "firmware", "Another firmware than the bench's: for all devices, or by device.", &kFirmwareForm};
+inline constexpr world::KeyRow kGapKey{"gap", "Time that the host leaves between two requests, beyond t3.5.",
+                                       &world::kDuration};
+inline constexpr world::KeyRow kSeedKey{"seed", "Where randomness begins.", &world::kSeedForm};
+inline constexpr world::KeyRow kParametersKey{"parameters", "Names and values, used as ${name}.",
+                                              &world::kTextByName};
+inline constexpr world::KeyRow kCasesKey{"cases", "Rows of parameters; each is a scenario of its own.",
+                                         &kCasesForm};
+inline constexpr world::KeyRow kChoiceKey{
+    "choice",
+    "A choice that the manual leaves open, with its options: each is a scenario of its own, in which every "
+    "device that has the choice has that option. An option may give values to parameters.",
+    &kChoiceForm};
+inline constexpr world::KeyRow kVaryKey{
+    "vary", "Values of parameters; each combination is a case, with each row of `cases`.", &kVaryForm};
+
+/// A play has the keys of a scenario. It may leave out `bench`, and what else the file gives to all of them.
+inline constexpr std::array kPlayKeys{
+    world::KeyRow{kNameKey.key, "What it is about, as a sentence; no two plays share one.", &world::kText},
+    world::KeyRow{kBenchKey.key, "The bench; where the file has one too, what differs from that.",
+                  &kBenchOrPartForm},
+    kNvKey,
+    kFirmwareKey,
+    kGapKey,
+    kSeedKey,
+    kParametersKey,
+    kCasesKey,
+    kChoiceKey,
+    kVaryKey,
+    world::KeyRow{"steps", "What is done and expected, in this order.", &world::kSteps}};
+inline constexpr world::Form kPlayForm = world::keys_form(kPlayKeys);
+inline constexpr world::Form kPlaysForm = world::list_form(kPlayForm);
+
 inline constexpr std::array kScenarioKeys{
     world::kVersionKey,
-    world::KeyRow{"name", "What it is about, as a sentence; by default the file's name.", &world::kText},
-    world::KeyRow{"bench", "The bench, or the path of its file.", &kBenchOrFileForm, true},
-    world::KeyRow{"nv", "What the devices' memories hold at first: files of NV images, by device.",
-                  &world::kTextByDevice},
-    world::KeyRow{"firmware", "Another firmware than the bench's: for all devices, or by device.",
-                  &kFirmwareForm},
-    world::KeyRow{"gap", "Time that the host leaves between two requests, beyond t3.5.", &world::kDuration},
-    world::KeyRow{"seed", "Where randomness begins.", &world::kSeedForm},
-    world::KeyRow{"parameters", "Names and values, used as ${name}.", &world::kTextByName},
-    world::KeyRow{"cases", "Rows of parameters; each is a scenario of its own.", &kCasesForm},
-    world::KeyRow{"vary", "Values of parameters; each combination is a case, with each row of `cases`.",
-                  &kVaryForm},
-    world::KeyRow{"steps", "What is done and expected, in this order.", &world::kSteps, true}};
-inline constexpr world::Form kScenarioForm = world::keys_form(kScenarioKeys);
+    kNameKey,
+    kBenchKey,
+    kNvKey,
+    kFirmwareKey,
+    kGapKey,
+    kSeedKey,
+    kParametersKey,
+    kCasesKey,
+    kChoiceKey,
+    kVaryKey,
+    world::KeyRow{"steps", "What is done and expected, in this order.", &world::kSteps},
+    world::KeyRow{"plays", "Several plays, in place of `steps`: what stands beside it is common to them.",
+                  &kPlaysForm}};
 
 }  // namespace understudy::emulator::play

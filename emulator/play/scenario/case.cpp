@@ -19,7 +19,7 @@ std::string to_text(const Case& which) {
 std::uint64_t identity_of(const Case& which) {
   auto values = which.values;
   std::sort(values.begin(), values.end());
-  std::string all;
+  std::string all = which.play.empty() ? "" : std::to_string(which.play.size()) + ":" + which.play;
   for (const auto& [name, value] : values) all += name + "=" + std::to_string(value.size()) + ":" + value;
   return hash_of(std::as_bytes(std::span(all)));
 }

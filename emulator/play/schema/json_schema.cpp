@@ -38,6 +38,11 @@ class SchemaWriter {
       : models_(models), has_parameters_(has_parameters), has_names_(has_names) {}
 
   Json of(const world::Form& form) const {
+    if (form.is_part && requires_) {
+      SchemaWriter of_parts = *this;
+      of_parts.requires_ = false;
+      return of_parts.of(form);
+    }
     switch (form.kind) {
       case world::Form::Kind::text:
         return lists(form) ? reference(form.names_of) : Json{{"type", {"string", "number", "boolean"}}};
@@ -74,7 +79,7 @@ class SchemaWriter {
     Json required = Json::array();
     for (const world::KeyRow& row : rows) {
       properties[std::string(row.key)] = described(row);
-      if (row.required) required.push_back(row.key);
+      if (row.required && requires_) required.push_back(row.key);
     }
     Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
     if (!required.empty()) schema["required"] = required;
@@ -210,7 +215,15 @@ class SchemaWriter {
   ModelList models_;
   bool has_parameters_;
   bool has_names_;
+  bool requires_ = true;  // keys that a file cannot do without
 };
+
+/// A scenario has steps, or plays that do.
+Json whole_scenario(const SchemaWriter& writer) {
+  Json schema = writer.keys(kScenarioKeys);
+  schema["oneOf"] = Json{{{"required", {kBenchKey.key, "steps"}}}, {{"required", {"plays"}}}};
+  return schema;
+}
 
 Json step_definitions(const SchemaWriter& writer) {
   return Json{{"step", writer.step()},
@@ -236,7 +249,7 @@ std::string file_schema(const std::string& title, std::span<const world::KeyRow>
 
 std::string scenario_schema(ModelList models) {
   const SchemaWriter writer(models, true);
-  return finished("Understudy scenario", writer.keys(kScenarioKeys), step_definitions(writer));
+  return finished("Understudy scenario", whole_scenario(writer), step_definitions(writer));
 }
 
 std::string scenario_schema(ModelList models, const world::Bench& bench) {
@@ -247,7 +260,7 @@ std::string scenario_schema(ModelList models, const world::Bench& bench) {
                           world::Form::Of::turned, world::Form::Of::registers}) {
     definitions[SchemaWriter::definition_of(sort)] = writer.definition(bench_names(bench, sort));
   }
-  return finished("Understudy scenario", writer.keys(kScenarioKeys), definitions);
+  return finished("Understudy scenario", whole_scenario(writer), definitions);
 }
 
 }  // namespace understudy::emulator::play

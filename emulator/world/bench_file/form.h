@@ -42,6 +42,8 @@ struct Form {
     turned,
     registers
   } names_of = Of::anything;
+  /// What is required may be missing, at any depth: it stands elsewhere in the file.
+  bool is_part = false;
 };
 
 struct KeyRow {
@@ -65,6 +67,11 @@ constexpr Form names_form(const Form& of) { return {.kind = Form::Kind::names, .
 constexpr Form keys_form(std::span<const KeyRow> keys) { return {.kind = Form::Kind::keys, .keys = keys}; }
 constexpr Form either_form(std::span<const Form* const> ways) {
   return {.kind = Form::Kind::either, .ways = ways};
+}
+
+constexpr Form part_form(Form whole) {
+  whole.is_part = true;
+  return whole;
 }
 
 constexpr Form names_form(const Form& of, Form::Of whose) {

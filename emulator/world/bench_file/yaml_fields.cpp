@@ -64,6 +64,71 @@ YamlFields YamlFields::with_rule(const ScalarRule* rule) const {
   return same;
 }
 
+namespace {
+
+/// Nodes of a joined map, and the documents that what is in it belongs to.
+struct JoinedNodes {
+  std::shared_ptr<const YamlNode> own;
+  std::shared_ptr<const YamlNode> defaults;
+  std::vector<std::unique_ptr<YamlNode>> made{};
+
+  YamlNode& make(const YamlNode& like) {
+    YamlNode& node = *made.emplace_back(std::make_unique<YamlNode>());
+    node = {.kind = YamlNode::Kind::map, .line = like.line, .column = like.column};
+    return node;
+  }
+};
+
+const YamlNode* value_in(const YamlNode& map, const YamlNode& key) {
+  for (std::size_t i = 0; i + 1 < map.parts.size(); i += 2) {
+    const YamlNode& name = *map.parts[i];
+    if (name.kind == YamlNode::Kind::scalar && name.scalar == key.scalar) return map.parts[i + 1];
+  }
+  return nullptr;
+}
+
+/// An alias may stand inside what it names, so there is an end to how deep this looks.
+constexpr int kMaxJoinedDepth = 32;
+
+const YamlNode* joined(const YamlNode& own, const YamlNode& defaults, JoinedNodes& nodes, int depth = 0) {
+  const bool both_are_maps = own.kind == YamlNode::Kind::map && defaults.kind == YamlNode::Kind::map;
+  if (!both_are_maps || depth > kMaxJoinedDepth) return &own;
+  YamlNode& node = nodes.make(own);
+  for (std::size_t i = 0; i + 1 < defaults.parts.size(); i += 2) {
+    const YamlNode* const mine = value_in(own, *defaults.parts[i]);
+    const YamlNode& value = *defaults.parts[i + 1];
+    node.parts.push_back(defaults.parts[i]);
+    node.parts.push_back(mine == nullptr ? &value : joined(*mine, value, nodes, depth + 1));
+  }
+  for (std::size_t i = 0; i + 1 < own.parts.size(); i += 2) {
+    if (value_in(defaults, *own.parts[i]) != nullptr) continue;
+    node.parts.insert(node.parts.end(), {own.parts[i], own.parts[i + 1]});
+  }
+  return &node;
+}
+
+}  // namespace
+
+YamlFields YamlFields::with_defaults(const YamlFields& defaults) const {
+  auto nodes = std::make_shared<JoinedNodes>(JoinedNodes{.own = node_, .defaults = defaults.node_});
+  const YamlNode* const node = joined(*node_, *defaults.node_, *nodes);
+  YamlFields both = *this;
+  both.node_ = {std::move(nodes), node};
+  return both;
+}
+
+YamlFields YamlFields::without(std::span<const std::string_view> keys) const {
+  auto nodes = std::make_shared<JoinedNodes>(JoinedNodes{.own = node_, .defaults = nullptr});
+  YamlNode& node = nodes->make(*node_);
+  for (std::size_t i = 0; i + 1 < node_->parts.size(); i += 2) {
+    if (std::find(keys.begin(), keys.end(), node_->parts[i]->scalar) != keys.end()) continue;
+    node.parts.insert(node.parts.end(), {node_->parts[i], node_->parts[i + 1]});
+  }
+  YamlFields rest = *this;
+  rest.node_ = {std::move(nodes), &node};
+  return rest;
+}
+
 bool YamlFields::is_map() const { return node_->kind == YamlNode::Kind::map; }
 bool YamlFields::is_list() const { return node_->kind == YamlNode::Kind::list; }
 bool YamlFields::is_scalar() const { return node_->kind == YamlNode::Kind::scalar; }

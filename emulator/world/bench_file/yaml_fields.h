@@ -48,6 +48,11 @@ class YamlFields {
   /// Like this node, but read by another rule, which must outlive it and what is taken from it. Null: as
   /// written.
   YamlFields with_rule(const ScalarRule* rule) const;
+  /// This map, and what only `defaults`, another map of the same file, has. Where both have a map for a key
+  /// these are joined in the same way; anything else in `defaults` gives way.
+  YamlFields with_defaults(const YamlFields& defaults) const;
+  /// This map without some of its keys.
+  YamlFields without(std::span<const std::string_view> keys) const;
 
   bool is_map() const;
   bool is_list() const;

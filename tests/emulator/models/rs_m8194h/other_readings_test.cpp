@@ -1,5 +1,5 @@
 // Options that are not ours, where they meet what else the device does (8.5 of the behaviour; each one alone
-// is told apart by scenarios/choices/rs-m8194h/).
+// is told apart by docs/fidelity/proofs/rs-m8194h/).
 #include <gtest/gtest.h>
 
 #include <cmath>

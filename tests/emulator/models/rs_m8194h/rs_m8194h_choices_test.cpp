@@ -1,4 +1,5 @@
-// Where choices meet what else the device does: most of them are told apart by scenarios/choices/rs-m8194h/.
+// Where choices meet what else the device does: most of them are told apart by
+// docs/fidelity/proofs/rs-m8194h/.
 #include <gtest/gtest.h>
 
 #include <cstdint>

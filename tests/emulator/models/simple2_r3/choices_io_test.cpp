@@ -149,22 +149,6 @@ TEST(ChoicesOutputs, ReadBackIsThePinsLevelOrWhatWasWritten) {
   }
 }
 
-TEST(ChoicesOutputs, AclrAgainRestartsThe200MillisecondsOrIsIgnored) {
-  for (const auto& [option, end] : each_option<Tick>("aclr_again", {{"restarts", 351}, {"ignored", 251}})) {
-    OneSimple2 feeder(with("aclr_again", option));
-    feeder.run_to(50);
-    feeder.set("Aaxis_ACLR", 1);
-    feeder.run_to(150);
-    feeder.set("Aaxis_ACLR", 1);
-    feeder.run_to(end - 1);
-    EXPECT_EQ(feeder.get("Aaxis_ACLR"), 1) << option;
-    feeder.run_to(end);
-    EXPECT_EQ(feeder.get("Aaxis_ACLR"), 0) << option;
-    feeder.set("Aaxis_ACLR", 1);  // afterwards it works again
-    EXPECT_EQ(feeder.get("Aaxis_ACLR"), 1) << option;
-  }
-}
-
 TEST(ChoicesInputs, StatusOfUnassignedInputsIsZeroOrThePinsLevel) {
   // A: alarm, Ready, upper, lower limit at DIN 0 to 3. B: 5 to 8.
   constexpr std::pair<int, Value> kPins[] = {{0, 1}, {1, 1 << 2}, {2, 1 << 12}, {3, 1 << 14},
@@ -203,24 +187,6 @@ TEST(ChoicesInputs, AnalogIsALineThroughBothPointsOrThroughZero) {
     feeder.set("ADC_1V_A", 0);
     feeder.set("ADC_10V_A", 0);
     EXPECT_EQ(feeder.get("Analog_A"), 0) << option << ": no division by zero";
-  }
-}
-
-TEST(ChoicesInputs, AdcHas12Or10Bits) {
-  struct Expected {
-    Value at_5_v, at_12_v;
-  };
-  for (const auto& [option, expected] : each_option<Expected>(
-           "adc_width", {{"12_bits_400_a_volt", {2000, 4095}}, {"10_bits_100_a_volt", {500, 1023}}})) {
-    OneSimple2 feeder(with("adc_width", option));
-    const int terminal = find_terminal(model(), "AIN_B");
-    feeder.world().set_external_input(0, terminal, 5000);
-    feeder.run(1);
-    EXPECT_EQ(feeder.get("ADC_B"), expected.at_5_v) << option;
-    EXPECT_EQ(feeder.get("Analog_B"), 1000) << option << ": right without calibration";
-    feeder.world().set_external_input(0, terminal, 12'000);
-    feeder.run(1);
-    EXPECT_EQ(feeder.get("ADC_B"), expected.at_12_v) << option;
   }
 }
 

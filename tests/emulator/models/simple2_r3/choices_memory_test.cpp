@@ -4,45 +4,6 @@
 namespace understudy::emulator::models::simple2_r3 {
 namespace choices_memory_test {
 
-TEST(ChoicesMemory, FactoryResetOfVolatileResetsOrKeepsIt) {
-  for (const auto& [option, kept] :
-       each_option<bool>("factory_reset_of_volatile", {{"reset_too", false}, {"kept", true}})) {
-    OneSimple2 feeder(with("factory_reset_of_volatile", option));
-    feeder.set("PROG_VAR3", 7);
-    feeder.set("Aaxis_Speed", 200);
-    feeder.set("PROG_MEM3", 7);
-    feeder.set("Factory_Reset", 1);
-    EXPECT_EQ(feeder.get("PROG_VAR3"), kept ? 7 : 0) << option;
-    EXPECT_EQ(feeder.get("Aaxis_Speed"), kept ? 200 : 0) << option;
-    EXPECT_EQ(feeder.get("PROG_MEM3"), 0) << option;
-  }
-}
-
-TEST(ChoicesMemory, FactoryResetStopsMotionOrNot) {
-  for (const auto& [option, end] : each_option("factory_reset_motion", {{"stops", 50}, {"goes_on", 100}})) {
-    ReadySimple2 feeder(with("factory_reset_motion", option));
-    feeder.set_one_pulse_a_tick('A', 100);
-    feeder.set("Aaxis_Move_INC", 1);
-    feeder.run_to(11 + 55);
-    feeder.set("Factory_Reset", 1);
-    EXPECT_EQ(feeder.bit("STATUS.10"), end == 100) << option;
-    feeder.run(200);
-    EXPECT_EQ(feeder.coordinate('A'), end) << option;
-  }
-}
-
-TEST(ChoicesMemory, EepromTimeIsFiveOrOneMillisecondsAWord) {
-  for (const auto& [option, ticks] :
-       each_option<Tick>("eeprom_time", {{"5ms_a_word", 10}, {"1ms_a_word", 2}})) {
-    OneSimple2 feeder(with("eeprom_time", option));
-    feeder.set("PROG_MEM0", 1);  // two words, which begin with the next tick
-    feeder.run(ticks);
-    EXPECT_TRUE(feeder.bit("EEPROM_Writing")) << option;
-    feeder.run(1);
-    EXPECT_FALSE(feeder.bit("EEPROM_Writing")) << option;
-  }
-}
-
 TEST(ChoicesMemory, TheSameValueIsNotSavedAgainOrIs) {
   for (const auto& [option, again] :
        each_option<bool>("eeprom_same_value", {{"not_saved_again", false}, {"saved_again", true}})) {
@@ -58,20 +19,6 @@ TEST(ChoicesMemory, TheSameValueIsNotSavedAgainOrIs) {
     feeder.set("PROG_VAR0", 7);  // is not kept at all
     feeder.set("PROG_VAR0", 7);
     EXPECT_FALSE(feeder.bit("EEPROM_Writing")) << option;
-  }
-}
-
-TEST(ChoicesMemory, ErasureTakes500Or100Milliseconds) {
-  for (const char* command : {"PROG_MAIN_Erase_ALL", "Factory_Reset"}) {
-    for (const auto& [option, ticks] :
-         each_option<Tick>("eeprom_erasure", {{"500ms", 500}, {"100ms", 100}})) {
-      OneSimple2 feeder(with("eeprom_erasure", option));
-      feeder.set(command, 1);
-      feeder.run(ticks);
-      EXPECT_TRUE(feeder.bit("EEPROM_Writing")) << option << ", " << command;
-      feeder.run(1);
-      EXPECT_FALSE(feeder.bit("EEPROM_Writing")) << option << ", " << command;
-    }
   }
 }
 
@@ -145,29 +92,6 @@ TEST(ChoicesPassword, FromTheFactoryIs0Or65535) {
     feeder.set("PWD_Input", password);
     EXPECT_TRUE(feeder.bit("PROG_UNLOCK")) << option << ": the factory's again";
     EXPECT_EQ(feeder.get("NEW_PWD"), password) << option;
-  }
-}
-
-TEST(ChoicesPassword, IsShownWhileUnlockedOrNever) {
-  for (const auto& [option, shown] : each_option("password_read_back", {{"shown", 1234}, {"zero", 0}})) {
-    OneSimple2 feeder(with("password_read_back", option));
-    feeder.set("NEW_PWD", 1234);
-    EXPECT_EQ(feeder.get("NEW_PWD"), shown) << option;
-    feeder.set("PWD_Input", 1);
-    EXPECT_EQ(feeder.get("NEW_PWD"), 0) << option << ": locked";
-    feeder.set("PWD_Input", 1234);
-    EXPECT_TRUE(feeder.bit("PROG_UNLOCK")) << option;
-  }
-}
-
-TEST(ChoicesPassword, LockIsJudgedAtPowerUpAndInputOrAlways) {
-  for (const auto& [option, unlocked] :
-       each_option<bool>("lock_judged", {{"at_power_up_and_input", true}, {"always", false}})) {
-    OneSimple2 feeder(with("lock_judged", option));
-    feeder.set("NEW_PWD", 1234);
-    EXPECT_EQ(feeder.bit("PROG_UNLOCK"), unlocked) << option;
-    feeder.set("PWD_Input", 1);
-    EXPECT_FALSE(feeder.bit("PROG_UNLOCK")) << option;
   }
 }
 

@@ -62,29 +62,6 @@ TEST(ChoicesHoming, SequenceEndsOnTheEdgeOrBehindIt) {
   }
 }
 
-TEST(ChoicesHoming, WithoutAnAssignedInputSearchesOrIsDropped) {
-  for (const auto& [option, searches] :
-       each_option<bool>("home_unassigned", {{"searches", true}, {"dropped", false}})) {
-    HomingMachine feeder(with("home_unassigned", option));
-    feeder.set("DIN4_Aaxis_Home", 0);
-    feeder.set("Aaxis_GoHome", 1);
-    EXPECT_EQ(feeder.bit("STATUS.6"), searches) << option;
-    feeder.set("Aaxis_STOP", 1);
-    feeder.set("DIN4_Aaxis_Home", 1);
-    feeder.set("Aaxis_GoHome", 1);
-    EXPECT_TRUE(feeder.bit("STATUS.6")) << option;
-  }
-}
-
-TEST(ChoicesHoming, CoordinateBecomesZeroOrIsKept) {
-  for (const auto& [option, coordinate] : each_option("home_coordinate", {{"zero", 0}, {"kept", 100}})) {
-    HomingMachine feeder(with("home_coordinate", option));
-    feeder.home();
-    EXPECT_TRUE(feeder.bit("STATUS.8")) << option;
-    EXPECT_EQ(feeder.coordinate('A'), coordinate) << option;
-  }
-}
-
 TEST(ChoicesHoming, HomeBitLastsUntilTheNextHomingOrTheNextMotion) {
   const std::vector<std::pair<std::string, Value>> motions{
       {"Aaxis_Move_INC", 1}, {"Aaxis_Move_ABS", 1}, {"Aaxis_DirectmRPM", 5000}, {"Aaxis_SyncMode", 1}};
@@ -132,17 +109,6 @@ TEST(ChoicesModes, VelocityUnitIsLiteralOrAThousandTimesThat) {
   }
 }
 
-TEST(ChoicesModes, VelocityCommitWaitsForTheHighWordOrNot) {
-  for (const auto& [option, mode] :
-       each_option("velocity_commit", {{"waits_for_the_high_word", 0}, {"takes_effect", 1}})) {
-    ReadySimple2 feeder(with("velocity_commit", option));
-    feeder.set("Aaxis_DirectmRPM_L", 5000);
-    EXPECT_EQ(feeder.get("Aaxis_Mode"), mode) << option;
-    feeder.set("Aaxis_DirectmRPM_H", 0);
-    EXPECT_EQ(feeder.get("Aaxis_Mode"), 1) << option;
-  }
-}
-
 TEST(ChoicesModes, VelocityStepChangesSpeedOrCountsPulsesFirst) {
   // 32768 uRPM a step: 32768e-6 / 60 * 0.0005 * 3200 = 8.738e-4 pulses a step, times 1 + ... + 2000 =
   // 2001000, or 0 + ... + 1999 = 1999000: 1748.5 and 1746.8.
@@ -182,18 +148,6 @@ TEST(ChoicesModes, ModeAfterStopIsPositionOrStays) {
   }
 }
 
-TEST(ChoicesModes, ValuesAfterStopAreKeptOrZero) {
-  for (const auto& [option, kept] :
-       each_option<bool>("values_after_stop", {{"kept", true}, {"zero", false}})) {
-    ReadySimple2 feeder(with("values_after_stop", option));
-    feeder.set("Aaxis_DirectmRPM", 5000);
-    feeder.set("Aaxis_DirectPWM", 40);
-    feeder.set("Aaxis_STOP", 1);
-    EXPECT_EQ(feeder.get("Aaxis_DirectmRPM"), kept ? 5000 : 0) << option;
-    EXPECT_EQ(feeder.get("Aaxis_DirectPWM"), kept ? 40 : 0) << option;
-  }
-}
-
 TEST(ChoicesModes, DroppedValueIsStoredOrForgotten) {
   for (const auto& [option, stored] :
        each_option<bool>("dropped_value", {{"stored", true}, {"forgotten", false}})) {
@@ -230,23 +184,6 @@ TEST(ChoicesModes, PwmNeedsTheServoOrNot) {
   }
 }
 
-TEST(ChoicesModes, SyncRatioIsPulsesACountOrRevolutions) {
-  // 400 counts at 1/2: 200 pulses; or half a turn of 800 is a quarter turn of 3200.
-  for (const auto& [option, pulses] :
-       each_option("sync_ratio", {{"pulses_per_encoder_count", 200}, {"revolutions", 800}})) {
-    ReadySimple2 feeder(with("sync_ratio", option));
-    feeder.set("ENCA_Resoultion", 800);
-    feeder.set("Axis_EncSync_DEN", 2);
-    feeder.set("Aaxis_SyncMode", 1);
-    for (int counts = 1; counts <= 400; ++counts) {
-      feeder.device().axes()->set_encoder(0, counts);
-      feeder.run(1);
-    }
-    feeder.run(20);
-    EXPECT_EQ(feeder.coordinate('A'), pulses) << option;
-  }
-}
-
 TEST(ChoicesModes, SyncSlopeIsInRpmOrInPulsesEachPeriod) {
   // At 60000 pulses a revolution 1 RPM is 1000 a second, 5 in 5 ms. A slope of 3: 15, 30 and 45 pulses in the
   // first three periods, or 3, 6 and 9.
@@ -259,22 +196,6 @@ TEST(ChoicesModes, SyncSlopeIsInRpmOrInPulsesEachPeriod) {
       feeder.device().axes()->set_encoder(0, 1000 * tick);
       feeder.run(1);
     }
-    EXPECT_EQ(feeder.coordinate('A'), pulses) << option;
-  }
-}
-
-TEST(ChoicesModes, SyncForgetsLostPulsesOrCatchesUp) {
-  // 1 RPM of 60000 pulses lets 5 through in 5 ms.
-  for (const auto& [option, pulses] :
-       each_option("sync_lost_pulses", {{"forgotten", 5}, {"caught_up", 20}})) {
-    ReadySimple2 feeder(with("sync_lost_pulses", option));
-    feeder.set("Aaxis_Resoultion", 60'000);
-    feeder.set("Axis_SyncRPM", 1);
-    feeder.set("Aaxis_SyncMode", 1);
-    feeder.device().axes()->set_encoder(0, 20);
-    feeder.run(5);
-    EXPECT_EQ(feeder.coordinate('A'), 5) << option;
-    feeder.run(50);
     EXPECT_EQ(feeder.coordinate('A'), pulses) << option;
   }
 }

@@ -17,17 +17,6 @@ struct HalfWay : ReadySimple2 {
   }
 };
 
-TEST(ChoicesMotion, ServoAtPowerUpIsOffOrOn) {
-  for (const auto& [option, on] : each_option<bool>("servo_at_power_up", {{"off", false}, {"on", true}})) {
-    OneSimple2 feeder(with("servo_at_power_up", option));
-    EXPECT_EQ(feeder.get("STATUS"), on ? kServoA | kServoB : 0) << option;
-    feeder.set_one_pulse_a_tick('A', 100);
-    feeder.set("Aaxis_Move_INC", 1);
-    feeder.run(200);
-    EXPECT_EQ(feeder.coordinate('A'), on ? 100 : 0) << option;
-  }
-}
-
 TEST(ChoicesMotion, CommandWhileMovingReplacesTheMoveOrIsIgnored) {
   for (const auto& [option, end] :
        each_option("command_while_moving", {{"replaces", 150}, {"ignored", 100}})) {
@@ -128,35 +117,6 @@ TEST(ChoicesMotion, ResolutionInMotionWaitsForTheNextMoveOrActsAtOnce) {
     const Value before = feeder.coordinate('A');
     feeder.run(100);
     EXPECT_EQ(feeder.coordinate('A') - before, in_100_ticks) << option;
-  }
-}
-
-TEST(ChoicesMotion, MoveBeginsAtItsBeginningOrOneTickIn) {
-  for (const auto& [option, ticks] :
-       each_option<Tick>("move_begins", {{"at_its_beginning", 111}, {"one_tick_in", 110}})) {
-    ReadySimple2 feeder(with("move_begins", option));
-    feeder.set_one_pulse_a_tick('A', 100);  // 110 ms
-    feeder.set("Aaxis_Move_INC", 1);
-    feeder.run_to(11 + 55);
-    EXPECT_EQ(feeder.coordinate('A'), option == "one_tick_in" ? 51 : 50);
-    EXPECT_EQ(56 + feeder.run_while_moving('A'), ticks) << option;
-    EXPECT_EQ(feeder.coordinate('A'), 100) << option;
-  }
-}
-
-TEST(ChoicesMotion, TickOrderIsProgramFirstOrMotionFirst) {
-  for (const auto& [option, pulses] : each_option("tick_order", {{"program", 55}, {"motion", 54}})) {
-    OneSimple2 feeder(with("tick_order", option));
-    feeder.set("ALL_SVON", 1);
-    feeder.set_one_pulse_a_tick('A', 0);
-    feeder.set("PROG_MEM0", 100);
-    start_with_program(feeder, {{0x20, 0, 0, 0}, {0xFF, 0, 0, 0}});
-    feeder.run_to(12);
-    EXPECT_TRUE(feeder.moving('A')) << option;
-    feeder.run_to(12 + 60);  // 60 ms after its beginning in tick 12, or in the next
-    EXPECT_EQ(feeder.coordinate('A'), pulses) << option;
-    feeder.run_while_moving('A');
-    EXPECT_EQ(feeder.coordinate('A'), 100) << option;
   }
 }
 

@@ -187,28 +187,6 @@ TEST(ChoicesProgramRun, ItsEndLetsMotionGoOnOrStopsIt) {
   }
 }
 
-TEST(ChoicesProgramRun, ItsEndLetsTimersRunOnOrStopsThem) {
-  // From 11 to the last tick before slot 14, or on.
-  for (const auto& [option, count] : each_option("timers_at_end", {{"run_on", 100}, {"stop", 2}})) {
-    OneSimple2 feeder(with("timers_at_end", option));
-    start_with_program(feeder, {{kTimerStart, 1, 0, 0}, kTheEnd});
-    feeder.run_to(111);
-    EXPECT_EQ(feeder.get("Timer1_Value"), count) << option;
-  }
-}
-
-TEST(ChoicesProgramRun, NowLineAfterTheEndIsTheLastLineOrZero) {
-  for (const auto& [option, line] : each_option("line_after_end", {{"last_line", 2}, {"zero", 0}})) {
-    OneSimple2 feeder(with("line_after_end", option));
-    start_with_program(feeder, {{0, 0, 0, 0}, {0, 0, 0, 0}, kTheEnd});
-    feeder.run_to(14);
-    EXPECT_EQ(feeder.get("PROG_MAIN_NowLine"), 1) << option;
-    feeder.run_to(16);
-    EXPECT_FALSE(runs(feeder)) << option;
-    EXPECT_EQ(feeder.get("PROG_MAIN_NowLine"), line) << option;
-  }
-}
-
 TEST(ChoicesProgramRun, ErasingARunningProgramStopsItOrRunsOverNothing) {
   for (const auto& [option, goes_on] :
        each_option<bool>("erase_while_running", {{"stops_it", false}, {"goes_on", true}})) {

@@ -112,24 +112,33 @@ std::vector<ScenarioResult> played_with_hash(const Scenario& scenario) {
   return run_scenario(scenario, options);
 }
 
+/// The comment above each play: the plays are the items that are two letters in.
+std::vector<std::string> comments_in(const std::string& text) {
+  std::vector<std::string> comments;
+  std::string comment;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  #")) {
+      comment += line;
+      continue;
+    }
+    if (line.starts_with("  - ")) comments.push_back(comment);
+    comment.clear();
+  }
+  return comments;
+}
+
 class ChoiceCheck {
  public:
-  ChoiceCheck(const ChoiceRow& row, std::string path) : id_(row.id), path_(std::move(path)) {
+  explicit ChoiceCheck(const ChoiceRow& row) : id_(row.id) {
     for (const std::string_view option : options_of(row)) options_.emplace_back(option);
   }
 
-  std::vector<std::string> complaints(const std::string& text) {
-    look_at_comment(text);
-    std::vector<Scenario> cases;
-    try {
-      cases = parse_scenarios(models::all_models(), text, path_);
-    } catch (const FileError& error) {
-      complain(error.what());
-      return complaints_;
-    }
-    if (look_at_options(cases)) {
-      look_at_cases(cases);
-      look_at_causes(cases);
+  std::vector<std::string> complaints(const Proof& proof) {
+    look_at_comment(proof.comment);
+    if (look_at_options(proof.cases)) {
+      look_at_cases(proof.cases);
+      look_at_causes(proof.cases);
     }
     return complaints_;
   }
@@ -137,13 +146,10 @@ class ChoiceCheck {
  private:
   void complain(const std::string& what) { complaints_.push_back(id_ + ": " + what); }
 
-  void look_at_comment(const std::string& text) {
-    std::istringstream lines(text);
-    std::string comment;
-    for (std::string line; std::getline(lines, line) && line.starts_with("#");) comment += line;
+  void look_at_comment(const std::string& comment) {
     const std::size_t question = comment.find('?');
-    if (question == std::string::npos) return complain(path_ + " asks nothing in a comment at its top");
-    if (comment.size() < question + kLeastExplanation) complain(path_ + " explains nothing");
+    if (question == std::string::npos) return complain("asks nothing in a comment above it");
+    if (comment.size() < question + kLeastExplanation) complain("explains nothing");
   }
 
   bool look_at_options(const std::vector<Scenario>& cases) {
@@ -201,15 +207,31 @@ class ChoiceCheck {
 
   std::string id_;
   std::vector<std::string> options_;
-  std::string path_;
   std::vector<std::string> complaints_;
 };
 
 }  // namespace
 
-std::vector<std::string> complaints_of_choice(const ChoiceRow& row, const std::string& text,
-                                              const std::string& path) {
-  return ChoiceCheck(row, path).complaints(text);
+std::vector<Proof> proofs_in(const std::string& text, const std::string& path) {
+  const std::vector<std::string> comments = comments_in(text);
+  std::vector<Proof> proofs;
+  std::string last;
+  for (Scenario& scenario : parse_scenarios(models::all_models(), text, path)) {
+    const std::string play = scenario.which.play;
+    if (proofs.empty() || play != last) {
+      const std::size_t number = proofs.size();
+      proofs.push_back({.id = play.substr(0, play.find(':')),
+                        .comment = number < comments.size() ? comments[number] : "",
+                        .cases = {}});
+      last = play;
+    }
+    proofs.back().cases.push_back(std::move(scenario));
+  }
+  return proofs;
+}
+
+std::vector<std::string> complaints_of_proof(const ChoiceRow& row, const Proof& proof) {
+  return ChoiceCheck(row).complaints(proof);
 }
 
 }  // namespace understudy::emulator::play

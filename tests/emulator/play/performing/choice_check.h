@@ -1,4 +1,4 @@
-// Whether a scenario file tells the options of a choice apart: scenarios/choices/MODEL/ID.yaml.
+// Whether a play tells the options of a choice apart: those of docs/fidelity/proofs/MODEL/.
 #pragma once
 
 #include <string>
@@ -9,14 +9,22 @@
 
 namespace understudy::emulator::play {
 
-/// What is wrong with a file of this text, a sentence each that names the row; nothing if it is as it should
+struct Proof {
+  std::string id;       // of its choice
+  std::string comment;  // above the play
+  std::vector<Scenario> cases;
+};
+
+/// The plays of a file's text, each on a choice. Throws FileError.
+std::vector<Proof> proofs_in(const std::string& text, const std::string& path);
+
+/// What is wrong with the proof of a row, a sentence each that names the row; nothing if it is as it should
 /// be:
 ///  - it asks a question and explains it;
 ///  - it has one case for each option of the row, in the row's order, and each passes;
 ///  - what comes out differs from case to case (outcome_hash.h);
 ///  - and it does so by the choice alone. The first case is played without its expectations, with one option
 ///    after the other, and still comes out differently; and what another case does is just that.
-std::vector<std::string> complaints_of_choice(const ChoiceRow& row, const std::string& text,
-                                              const std::string& path);
+std::vector<std::string> complaints_of_proof(const ChoiceRow& row, const Proof& proof);
 
 }  // namespace understudy::emulator::play

@@ -1,11 +1,16 @@
-// Each choice that can be made otherwise has a scenario that tells its options apart, and there is no other.
+// Each choice that can be made otherwise has a play that tells its options apart, and there is no other.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "emulator/device/describe/describe.h"
 #include "emulator/device/model.h"
 #include "emulator/models/models.h"
 #include "tests/emulator/play/performing/choice_check.h"
@@ -15,43 +20,54 @@ namespace choice_scenarios_test {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = PROJECT_FOLDER "/scenarios/choices";
+const fs::path kFolder = PROJECT_FOLDER "/docs/fidelity/proofs";
 
-/// Where the scenario of a row is: "MODEL/ID.yaml".
-std::string place_of(const Model& model, const ChoiceRow& row) {
-  return std::string(model.name) + "/" + std::string(row.id) + ".yaml";
+using Proofs = std::map<std::string, std::vector<Proof>>;  // by file, below the project's folder
+
+Proofs proofs_of(const Model& model) {
+  Proofs proofs;
+  for (const auto& entry : fs::directory_iterator(kFolder / model.name)) {
+    if (entry.path().extension() != ".yaml") continue;
+    std::ostringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    proofs[fs::relative(entry.path(), PROJECT_FOLDER).string()] =
+        proofs_in(text.str(), entry.path().string());
+  }
+  return proofs;
 }
 
 TEST(ChoiceScenarios, TellTheOptionsOfEveryRowApart) {
   for (const Model* const model : models::all_models()) {
+    Proofs proofs = proofs_of(*model);
     for (const ChoiceRow& row : model->choices) {
       if (options_of(row).size() < 2) continue;
-      const fs::path path = kFolder / place_of(*model, row);
-      std::ifstream file(path);
-      if (!file) {
-        ADD_FAILURE() << row.id << ": scenarios/choices/" << place_of(*model, row) << " is missing";
+      const std::string file = scenario_of_choice(*model, row);
+      auto& there = proofs[file];
+      const auto proof =
+          std::find_if(there.begin(), there.end(), [&](const Proof& one) { return one.id == row.id; });
+      if (proof == there.end()) {
+        ADD_FAILURE() << row.id << ": "
+                      << (file.empty() ? "no row of kProofs has its section" : file + " has no play of it");
         continue;
       }
-      std::ostringstream text;
-      text << file.rdbuf();
-      for (const std::string& complaint : complaints_of_choice(row, text.str(), path.string())) {
-        ADD_FAILURE() << complaint;
-      }
+      for (const std::string& complaint : complaints_of_proof(row, *proof)) ADD_FAILURE() << complaint;
     }
   }
 }
 
 TEST(ChoiceScenarios, AreOfRowsThatThereAre) {
-  std::set<std::string> known;
   for (const Model* const model : models::all_models()) {
+    std::map<std::string, std::set<std::string>> expected;
     for (const ChoiceRow& row : model->choices) {
-      if (options_of(row).size() > 1) known.insert(place_of(*model, row));
+      const std::string file = scenario_of_choice(*model, row);
+      if (!file.empty()) expected[file].emplace(row.id);
     }
-  }
-  for (const auto& entry : fs::recursive_directory_iterator(kFolder)) {
-    if (entry.is_directory()) continue;
-    const std::string place = fs::relative(entry.path(), kFolder).string();
-    EXPECT_TRUE(known.contains(place)) << place << ": no model has such a choice with several options";
+    for (const auto& [file, proofs] : proofs_of(*model)) {
+      for (const Proof& proof : proofs) {
+        EXPECT_EQ(expected[file].erase(proof.id), 1U)
+            << file << ": " << proof.id << " is no choice of its sections with several options";
+      }
+    }
   }
 }
 

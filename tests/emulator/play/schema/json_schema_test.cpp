@@ -46,12 +46,14 @@ std::vector<std::string> examples_of(const std::string& page) {
 }
 
 TEST(JsonSchema, SuitsEveryShippedFile) {
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(PROJECT_FOLDER "/scenarios")) {
-    if (entry.path().extension() != ".yaml") continue;
-    const std::string path = entry.path().string();
-    const FileKind kind = kind_of_file(path);
-    if (kind == FileKind::steps) continue;
-    EXPECT_EQ(kind == FileKind::bench ? of_bench(contents(path)) : of_scenario(contents(path)), "") << path;
+  for (const char* const folder : {PROJECT_FOLDER "/scenarios", PROJECT_FOLDER "/docs/fidelity/proofs"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+      if (entry.path().extension() != ".yaml") continue;
+      const std::string path = entry.path().string();
+      const FileKind kind = kind_of_file(path);
+      if (kind == FileKind::steps) continue;
+      EXPECT_EQ(kind == FileKind::bench ? of_bench(contents(path)) : of_scenario(contents(path)), "") << path;
+    }
   }
 }
 

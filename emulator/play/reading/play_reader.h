@@ -1,0 +1,66 @@
+// One play of a scenario file: a bench and steps, with its cases. A file has one, or a list of `plays`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/files/file_claims.h"
+#include "emulator/play/reading/case_table.h"
+#include "emulator/play/reading/parameters.h"
+#include "emulator/play/reading/steps_reader.h"
+#include "emulator/play/reading/trial.h"
+#include "emulator/play/scenario/case.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::play {
+
+/// What all plays of a file share.
+struct FilePlays {
+  std::string path;
+  std::string save_below;             // what is saved must be below this folder
+  std::optional<std::uint64_t> seed;  // instead of the file's own
+  FileReading reading;
+  /// What the cases so far save, while all of them are read.
+  std::optional<std::vector<FileClaim>> saved_before{};
+  /// Of the file's own parameters those that a play has used.
+  std::set<std::string> used_parameters{};
+};
+
+class PlayReader {
+ public:
+  /// A file that is one play.
+  PlayReader(const world::YamlFields& root, FilePlays& file);
+  /// One of several; `common` is what the file says of all of them. Throws FileError.
+  PlayReader(const world::YamlFields& play, const world::YamlFields& common, FilePlays& file);
+
+  const CaseTable& cases() const { return cases_; }
+  Case case_of(std::uint64_t number) const;
+  std::string name_of(std::uint64_t number) const;
+  /// The name without any case's values; empty where the file's stands for it.
+  std::string written_name() const;
+  /// Reads a case and checks everything in it. Throws FileError.
+  Scenario read(std::uint64_t number);
+
+ private:
+  void define_all(std::uint64_t number, const Case& which, Parameters& parameters) const;
+  void require_all_used(std::uint64_t number, const Case& which, const Parameters& parameters) const;
+  std::string name_with(const Case& which, const Parameters& parameters) const;
+  world::Bench bench_at(const world::YamlFields& field) const;
+  world::Bench read_its_bench(const world::YamlFields& root) const;
+  void choose(std::uint64_t number, world::Bench& bench) const;
+  Scenario read_case(std::uint64_t number, const Case& which);
+  void require_own_paths(const StepsReader& steps, Scenario& scenario);
+
+  world::YamlFields own_;   // as it is written
+  world::YamlFields root_;  // with what the file says of all
+  FilePlays& file_;
+  bool is_one_of_several_ = false;
+  CaseTable cases_;
+};
+
+}  // namespace understudy::emulator::play
