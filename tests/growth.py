@@ -37,6 +37,7 @@ MEMBERS = Rule("member functions", 60, 2, {
     "emulator/models/super_40nc/device.h Super40nc": 265,
 })
 LINES = Rule("lines", 60, 4, {
+    "emulator/command_line/poll_command.cpp parse_item": 61,
     "emulator/models/rs_m8194h/path_drawing.cpp RsM8194h::draw": 191,
     "emulator/models/rs_m8194h/power.cpp RsM8194h::reset_card": 61,
     "emulator/models/slim/chain_queues.cpp Chain::start_group": 66,

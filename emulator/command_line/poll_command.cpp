@@ -96,32 +96,37 @@ void read_value_of(Item& item, const std::string& text) {
   item.value = value_of_real(single);
 }
 
-/// ADDRESS, ADDRESS:COUNT or ADDRESS=VALUE.
-void read_addressed(Item& item, const std::string& text, const PollArguments& arguments) {
-  const std::string& what = item.label;
-  const std::size_t colon = what.find(':');
-  const std::int64_t address = demand_integer(std::string_view(what).substr(0, colon), text);
-  if (address < 0 || address > 0xFFFF)
-    throw UsageError("poll: address " + what + " is out of range; expected 0 to 0xFFFF");
-  item.address = static_cast<std::uint16_t>(address);
-  item.type = is_table_of_bits(item.table) ? Type::bit : demand_type(arguments.type);
-  read_value_of(item, text);
-  // The function is what is read with.
-  if (item.write && item.table == Table::input) item.table = Table::holding;
-  if (colon != std::string::npos) {
-    const std::int64_t count = demand_integer(std::string_view(what).substr(colon + 1), text);
-    if (item.write) throw UsageError("poll: " + quoted(text) + " writes a range; expected one ADDRESS=VALUE");
-    const int most = most_at_once(item);
-    if (count < 1 || count > most)
-      throw UsageError("poll: count of " + what + " is out of range; expected 1 to " + std::to_string(most));
-    item.count = static_cast<int>(count);
-  }
-}
-
-/// NAME or NAME=VALUE, by the model's table.
-void read_named(Item& item, ModelList models, const std::string& text, const PollArguments& arguments,
+/// `low_word_first`: the order of words, if it is known better than by the model's table.
+Item parse_item(ModelList models, const std::string& text, const PollArguments& arguments,
                 std::optional<bool> low_word_first) {
-  const std::string& what = item.label;
+  Item item;
+  if (low_word_first) item.low_word_first = *low_word_first;
+  const std::size_t equals = text.find('=');
+  const std::string what = text.substr(0, equals);
+  item.label = what;
+  item.table = table_of_function(arguments.function);
+  if (!what.empty() && what[0] >= '0' && what[0] <= '9') {
+    const std::size_t colon = what.find(':');
+    const std::int64_t address = demand_integer(std::string_view(what).substr(0, colon), text);
+    if (address < 0 || address > 0xFFFF)
+      throw UsageError("poll: address " + what + " is out of range; expected 0 to 0xFFFF");
+    item.address = static_cast<std::uint16_t>(address);
+    item.type = is_table_of_bits(item.table) ? Type::bit : demand_type(arguments.type);
+    read_value_of(item, text);
+    // The function is what is read with.
+    if (item.write && item.table == Table::input) item.table = Table::holding;
+    if (colon != std::string::npos) {
+      const std::int64_t count = demand_integer(std::string_view(what).substr(colon + 1), text);
+      if (item.write)
+        throw UsageError("poll: " + quoted(text) + " writes a range; expected one ADDRESS=VALUE");
+      const int most = most_at_once(item);
+      if (count < 1 || count > most)
+        throw UsageError("poll: count of " + what + " is out of range; expected 1 to " +
+                         std::to_string(most));
+      item.count = static_cast<int>(count);
+    }
+    return item;
+  }
   if (arguments.model.empty())
     throw UsageError("poll: " + quoted(what) +
                      " is a name; expected --model MODEL to look it up, or an address");
@@ -151,20 +156,6 @@ void read_named(Item& item, ModelList models, const std::string& text, const Pol
   if (place.row->ranged && place.part == Place::Part::whole) item.range = range_text(*place.row);
   if (item.write && item.bit >= 0)
     throw UsageError("poll: " + quoted(text) + " writes a bit; expected a whole register");
-}
-
-/// `low_word_first`: the order of words, if it is known better than by the model's table.
-Item parse_item(ModelList models, const std::string& text, const PollArguments& arguments,
-                std::optional<bool> low_word_first) {
-  Item item;
-  if (low_word_first) item.low_word_first = *low_word_first;
-  item.label = text.substr(0, text.find('='));
-  item.table = table_of_function(arguments.function);
-  if (!item.label.empty() && item.label[0] >= '0' && item.label[0] <= '9') {
-    read_addressed(item, text, arguments);
-  } else {
-    read_named(item, models, text, arguments, low_word_first);
-  }
   return item;
 }
 
