@@ -1,4 +1,4 @@
-// The makers of lines and arcs: what is given is checked, then becomes begin, centre and sweep.
+// Functions that make lines and arcs: they check their arguments and compute begin, centre and sweep.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -60,7 +60,7 @@ struct Flat {
 double cross(const Flat& a, const Flat& b) { return a.x * b.y - a.y * b.x; }
 double dot(const Flat& a, const Flat& b) { return a.x * b.x + a.y * b.y; }
 
-/// What is common to the makers of arcs: the checked options, and what is in the plane and what is not.
+/// The common part of the functions that make arcs: the checked options, and the split into plane and rise.
 struct ArcDemand {
   std::string_view law;
   const ArcOptions& options;
@@ -117,7 +117,7 @@ Path finished(Path path, double growth_u, const ArcDemand& demand) {
     path.length_u = length_by_vector(path);
     return path;
   }
-  // What the tolerance forgives rides along; a true spiral has no such length in closed form.
+  // A difference within the tolerance is blended in; a true spiral has no such length in closed form.
   if (std::abs(growth_u) > demand.options.radius_tolerance_u || path.begin_radius_u == 0) {
     refuse(Refusal::out_of_range, demand.law,
            "growth of the radius must be 0 where the longest axis is the measure, is " + text(growth_u));
@@ -137,8 +137,8 @@ Path in_plane_of(const ArcDemand& demand, const Point& centre, double sweep_rad,
   return path;
 }
 
-/// Sets the end that a sweep leads to. Whole quarters of a turn are met exactly, so that a circle ends on the
-/// very point where it began.
+/// Sets the end of a sweep. Whole quarters of a turn are met exactly, so a circle ends on the very point
+/// where it began.
 void set_end_by_sweep(Path& path) {
   Turned turned = turned_to_share(path, 1);
   const double quarters = std::nearbyint(path.sweep_rad / (kPi / 2));
@@ -151,7 +151,7 @@ void set_end_by_sweep(Path& path) {
   path.end = place_on_arc(path, turned);
 }
 
-/// Where a chip ends whose end point is not on the circle (all relative to the centre).
+/// Returns where a chip ends an arc whose end point is not on the circle (all relative to the centre).
 Flat end_in_quadrant(const ArcDemand& demand, double radius_u, const Flat& end) {
   const bool x_is_shorter = std::abs(end.x) <= std::abs(end.y);
   const double shorter = std::abs(x_is_shorter ? end.x : end.y);
@@ -164,8 +164,8 @@ Flat end_in_quadrant(const ArcDemand& demand, double radius_u, const Flat& end) 
   return x_is_shorter ? Flat{end.x, std::copysign(longer, end.y)} : Flat{std::copysign(longer, end.x), end.y};
 }
 
-/// The sweep from one ray of a circle to another, > 0 for counter-clockwise; `chord` is their difference,
-/// from the points themselves: on a large circle it has more digits than the rays.
+/// Returns the sweep from one ray of a circle to another, > 0 for counter-clockwise. `chord` is their
+/// difference, computed from the points themselves: on a large circle it has more digits than the rays.
 double sweep_between(const Flat& from, const Flat& to, const Flat& chord, Turn turn) {
   const double least = angle_of(cross(from, chord), dot(from, to));
   const double whole = turn == Turn::clockwise ? -2 * kPi : 2 * kPi;
@@ -200,7 +200,7 @@ CircleThrough circle_through(const Flat& middle, const Flat& end, std::string_vi
   return {{end.x / 2 - side * end.y, end.y / 2 + side * end.x}, doubled_area > 0 ? sweep : -sweep};
 }
 
-/// An arc or a spiral about `centre` through a sweep.
+/// Makes an arc or a spiral about `centre` through a sweep.
 Path swept(const ArcDemand& demand, const Point& centre, double sweep_rad, double growth_u_turn,
            const Point& rise) {
   const Flat middle = demand.in_plane(centre);
@@ -222,7 +222,7 @@ Path swept(const ArcDemand& demand, const Point& centre, double sweep_rad, doubl
   }
   double growth = growth_u_turn * (std::abs(sweep_rad) / (2 * kPi));
   if (radius + growth < 0) {
-    // A spiral meant to end in its centre does so.
+    // A spiral that is meant to end in its centre does so.
     if (radius + growth < -kSameDirection_rad * radius) {
       refuse(Refusal::no_such_arc, demand.law,
              "radius must be 0 or above, is " + text(radius + growth) + " at the end");
@@ -249,7 +249,7 @@ Path line(const Point& begin, const Point& end, Measure measure) {
   if (measure == Measure::longest_axis) {
     path.length_u = longest;
   } else {
-    // The squares of the smallest ways would be 0.
+    // The squares of the shortest distances would be 0.
     path.length_u = longest < 1e-140 && longest > 0 ? longest * (way / longest).norm() : way.norm();
   }
   return path;
@@ -364,8 +364,8 @@ Path arc_in_space(const Point& begin, const Point& middle, const Point& end) {
   Path path;
   path.begin = begin;
   path.end = end;
-  // A plane through the three, first axis towards the end. Once is not at right angles enough where the
-  // points are nearly on one line; twice is.
+  // A plane through the three points, with its first axis towards the end. If the points are nearly on one
+  // line, one step does not make the axes perpendicular enough; two do.
   path.abscissa = to_end / to_end.norm();
   const Point off_chord = to_middle - to_middle.dot(path.abscissa) * path.abscissa;
   if (off_chord.norm() <= kFlatTriangle * std::max(to_middle.norm(), to_end.norm())) {

@@ -1,5 +1,4 @@
-// How far along an arc one is: the way between the length travelled and the angle turned. For path.cpp and
-// arc.cpp only.
+// Converts between the length travelled along an arc and the angle turned. For path.cpp and arc.cpp only.
 //
 // Share is the part of |sweep| done, 0..1. With radius(share) = r0 + growth * share the speed over the share,
 // the pace, is sqrt((|sweep| * radius)^2 + growth^2 + |rise|^2), and length its integral:
@@ -23,8 +22,8 @@ inline double growth_u(const Path& path) { return path.radius_slope_u_rad * std:
 
 // ---- true length -----------------------------------------------------------------------------------------
 
-/// The mean of sqrt(x^2 + across_squared) for x between two values >= 0, one of them or `across` above 0.
-/// Written so that nothing cancels, however near the two values are to each other.
+/// Returns the mean of sqrt(x^2 + across_squared) for x between two values >= 0, one of them or `across`
+/// above 0. It is written to avoid cancellation, however near the two values are to each other.
 inline double mean_pace(double low, double high, double across_squared) {
   if (low > high) std::swap(low, high);
   if (across_squared == 0) return 0.5 * (low + high);
@@ -47,25 +46,25 @@ inline double length_by_vector(const Path& path) {
   return mean_pace(from, std::max(0.0, from + turned * growth), across_squared);
 }
 
-/// For 0 < along < length. A spiral's share is such that the length to there is within 2e-15 of the whole
-/// length from `along`.
+/// Returns the share at `along`, for 0 < along < length. On a spiral, the length to that share is within
+/// 2e-15 of the whole length from `along`.
 inline double share_by_vector(const Path& path, double along) {
   const double growth = growth_u(path);
   if (growth == 0) return along / path.length_u;
-  constexpr int kMostSteps = 8;  // four were the most seen in millions of spirals
+  constexpr int kMostSteps = 8;  // four were the most needed in millions of spirals
   const double turned = std::abs(path.sweep_rad);
   const double across_squared = growth * growth + path.rise.squaredNorm();
   const double from = turned * path.begin_radius_u;
   const double gain = turned * growth;
   const double to = std::max(0.0, from + gain);
-  // First as if the pace changed evenly from begin to end.
+  // The first guess takes the pace to change evenly from begin to end.
   const double first = std::sqrt(from * from + across_squared);
   const double last = std::sqrt(to * to + across_squared);
   const double even = 0.5 * (first + last) * (along / path.length_u);
   const double change = gain * ((from + to) / (first + last));
   double share = 2 * even / (first + std::sqrt(std::max(0.0, first * first + 2 * change * even)));
   share = std::min(share, 1.0);
-  // For nearly equal radii that is the exact answer already.
+  // For nearly equal radii the guess is already exact.
   const double least = std::min(first, last) * std::min(first, last);
   if (gain * gain * across_squared <= 1e-16 * least * least) return share;
   for (int i = 0; i < kMostSteps; ++i) {
@@ -74,15 +73,15 @@ inline double share_by_vector(const Path& path, double along) {
     const double better = std::clamp(share - error / std::sqrt(here * here + across_squared), 0.0, 1.0);
     const double step = std::abs(better - share);
     share = better;
-    if (step <= 1e-8 * share) break;  // the next one would be of 1e-16
+    if (step <= 1e-8 * share) break;  // the next step would be about 1e-16
   }
   return share;
 }
 
 // ---- the length of the axis that moves most --------------------------------------------------------------
 
-/// A place on the unit circle, seen within the sector of +-45 degrees about the nearest axis: there the other
-/// axis moves most, and its coordinate is the sine. A clockwise arc is seen in the mirror.
+/// A place on the unit circle, relative to the nearest axis (a sector of +-45 degrees). There the other axis
+/// moves most, and its coordinate is the sine. A clockwise arc is mirrored.
 struct SectorPlace {
   double sine = 0;
   double cosine = 1;
@@ -106,7 +105,7 @@ inline double length_by_longest_axis(const Path& path) {
   const double rest = std::abs(path.sweep_rad) - whole_turns * (2 * kPi);
   const double last = begin.angle_rad() + rest;
   const double sectors = std::nearbyint(last / (kPi / 2));
-  // Within one sector a difference of sines, written as a product: short arcs keep their digits.
+  // Within one sector, a difference of sines is written as a product, to keep the digits of short arcs.
   const double part = sectors == 0
                           ? 2 * sine_cosine(rest / 2).sine * sine_cosine(last - rest / 2).cosine
                           : sectors * kSector + sine_cosine(last - sectors * (kPi / 2)).sine - begin.sine;
@@ -115,7 +114,7 @@ inline double length_by_longest_axis(const Path& path) {
 
 // ---- both ------------------------------------------------------------------------------------------------
 
-/// The turn done at a place along an arc: counter-clockwise is positive, as in the path.
+/// The turn at a place along an arc; counter-clockwise is positive, as in the path.
 struct Turned {
   double sine = 0;
   double cosine_less_1 = 0;  // keeps the digits of a short way on a large circle
@@ -137,10 +136,10 @@ inline Turned turned_by_longest_axis(const Path& path, double along) {
   here.cosine = std::sqrt((1 - here.sine) * (1 + here.sine));
   Turned turned;
   double angle_in_sectors = 0;
-  // Only what goes with the angle needs the angle itself.
+  // The angle itself is needed only for what depends on it: a spiral's radius and a rise.
   const bool angle_counts = path.radius_slope_u_rad != 0 || !path.rise.isZero(0);
   if (sectors == 0) {
-    // Within one sector from the way itself: short arcs keep their digits.
+    // Within one sector, compute from the way itself, to keep the digits of short arcs.
     const double slope = (begin.sine + here.sine) / (begin.cosine + here.cosine);
     turned = {way * (begin.cosine + begin.sine * slope), -0.5 * way * way * (1 + slope * slope)};
     if (angle_counts) angle_in_sectors = angle_of(turned.sine, 1 + turned.cosine_less_1);
@@ -163,25 +162,26 @@ inline Turned turned_by_longest_axis(const Path& path, double along) {
   return turned;
 }
 
-/// For 0 < along < length.
+/// Returns the turn at `along`, for 0 < along < length.
 inline Turned turned_at(const Path& path, double along) {
   return path.measure == Measure::vector ? turned_to_share(path, share_by_vector(path, along))
                                          : turned_by_longest_axis(path, along);
 }
 
-/// The unit vector from the centre to the beginning; on a spiral from its centre, to where it leaves.
+/// Returns the unit vector from the centre to the beginning; for a spiral from its centre, in the direction
+/// in which it leaves.
 inline Point first_ray(const Path& path) {
   if (path.begin_radius_u > 0) return (path.begin - path.centre) / path.begin_radius_u;
   const SineCosine angle = sine_cosine(path.begin_angle_rad);
   return angle.cosine * path.abscissa + angle.sine * path.ordinate;
 }
 
-/// A vector of the path's plane, turned left by a quarter.
+/// Returns a vector of the path's plane, turned left by a quarter.
 inline Point left_of(const Path& path, const Point& ray) {
   return ray.dot(path.abscissa) * path.ordinate - ray.dot(path.ordinate) * path.abscissa;
 }
 
-/// From the beginning, not from the centre: so a short way on a large circle loses nothing.
+/// Computes from the beginning, not from the centre, so a short way on a large circle loses no digits.
 inline Point place_on_arc(const Path& path, const Turned& turned) {
   const Point out = path.begin - path.centre;
   Point place = path.begin + turned.cosine_less_1 * out + turned.sine * left_of(path, out);

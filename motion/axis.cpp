@@ -30,13 +30,13 @@ void demand_distance(std::int64_t distance_pulses) {
 
 int sign_of(std::int64_t pulses) { return pulses < 0 ? -1 : +1; }
 
-/// Still at the very beginning. What was changed at this moment, and goes on by a profile that begins now, is
-/// not.
+/// Returns true if the drive is still at its very beginning. A drive that was changed at this moment, and
+/// continues by a profile that begins now, is not.
 bool not_begun(const PulseDrive& drive, Instant at) {
   return drive.elapsed_s(at) <= 0 && drive.sample(at).position_u <= 0;
 }
 
-/// Where the drive is, and never behind a pulse that is sent: moments are rounded.
+/// Returns the drive's position, but never behind a pulse already sent: moments are rounded.
 Sample forward_sample(const PulseDrive& drive, Instant at) {
   Sample here = drive.sample(at);
   here.position_u = std::max(here.position_u, static_cast<double>(drive.sent_pulses));
@@ -44,8 +44,8 @@ Sample forward_sample(const PulseDrive& drive, Instant at) {
   return here;
 }
 
-/// On to the target, and never back: a drive has one direction. What cannot stop there any more slows down
-/// as far as it gets, and ends there abruptly.
+/// Plans on to the target and never back, because a drive has one direction. If it can no longer stop there,
+/// it slows down as far as possible and ends there abruptly.
 Profile forward_to(const Sample& here, double target_u, const SpeedLaw& law) {
   Profile rest = change_target(here, target_u, law);
   if (rest.segment_count == 0) return rest;
@@ -57,8 +57,8 @@ Profile forward_to(const Sample& here, double target_u, const SpeedLaw& law) {
   return rest;
 }
 
-/// A stop never slows down less than the motion does already: by a law of time the same ramp would begin
-/// afresh, from the speed that is left.
+/// Makes a stop slow down at least as hard as the motion already does: by a law of time, the same ramp would
+/// begin again from the present speed.
 SpeedLaw no_gentler(const SpeedLaw& law, const Sample& here) {
   SpeedLaw stop = law;
   const double left_u_s = here.speed_u_s - law.start_speed_u_s;
@@ -98,12 +98,12 @@ Cause Axis::forbidden(int way, Signals ignored) const {
 Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedLaw& speed, Instant at,
                   bool for_homing) {
   check(speed);
-  // Planned before anything changes, so that a motion that cannot be changes nothing.
+  // Plan before anything changes: an impossible motion must change nothing.
   const Profile profile = for_homing && homing.runs_on_by() != nullptr ? homing.plan_to_run_on()
                           : what == Task::endless
                               ? plan_endless(speed)
                               : plan(static_cast<double>(size_of(distance_pulses)), speed);
-  // A stop from its greatest speed must be possible as well: a reaction cannot refuse.
+  // A stop from the greatest speed must be possible as well: a reaction cannot be refused.
   (void)slow_to_stop({.speed_u_s = speed.top_speed_u_s}, speed);
   const std::int64_t play = play_before(way);
   if (play > 0) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
@@ -133,7 +133,7 @@ Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedL
   return Cause::none;
 }
 
-/// How many pulses of play are in the way of a motion in `way`. Before the first motion nobody knows: none.
+/// Returns how many pulses of backlash precede a motion in `way`. Before the first motion it is unknown: 0.
 std::int64_t Axis::play_before(int way) const {
   if (settings.slips) return settings.backlash_pulses;
   if (last_direction == 0) return 0;
@@ -146,7 +146,7 @@ Profile Axis::planned(const SpeedLaw& speed) const {
   return task == Task::endless ? plan_endless(speed) : plan(static_cast<double>(target_pulses), speed);
 }
 
-/// What ran is gone, and did not end either. A moment of no tick near says that it was between ticks.
+/// Drops the running motion without an end event. A moment far from any tick means "between ticks".
 void Axis::drop(Instant at) {
   if (constant_pps != 0) raise(Event::constant_ended, at);
   constant_pps = 0;
@@ -178,8 +178,8 @@ Cause Axis::move_on(double speed_pps, std::int64_t distance_pulses, const SpeedL
   const Sample here{.speed_u_s = std::abs(speed_pps)};
   const Profile to_stop = slow_to_stop(here, speed);
   if (to_stop.segment_count == 0) return move(distance_pulses, speed, now);
-  // As change_distance() has it: what stops within half a pulse of the target reaches it, and a return that
-  // cannot be is refused now.
+  // As in change_distance(): a stop within half a pulse of the target reaches it, and an impossible return is
+  // refused now.
   const bool passes = to_stop.end_position_u > static_cast<double>(target) + 0.5;
   if (passes) plan(std::abs(std::floor(to_stop.end_position_u) - static_cast<double>(target)), speed);
   const Profile rest = passes ? to_stop : forward_to(here, static_cast<double>(target), speed);
@@ -274,7 +274,7 @@ void Axis::change_speed(const SpeedLaw& speed, Instant at) {
 
 void Axis::go_on_by(const SpeedLaw& speed, Instant at) {
   if (in_backlash || not_begun(drive, at)) {
-    // Not begun yet: it will begin so.
+    // It has not begun yet, so it begins with the new speed.
     const Profile whole = planned(speed);
     law = speed;
     if (!in_backlash) drive.go_on(whole, drive.beginning());
@@ -314,19 +314,19 @@ void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Ti
     return;
   }
   const auto target = static_cast<double>(distance_pulses);
-  // What cannot be must be refused now, not when it is time to return.
+  // An impossible return must be refused now, not when it is due.
   const auto demand_return = [&](double from_u) {
     plan(std::abs(std::floor(from_u) - target), law);
     if (settings.backlash_pulses > 0) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
   };
   if (comes_back) {
     demand_return(drive.profile.end_position_u);
-    target_pulses = distance_pulses;  // it stops first, and goes there then
+    target_pulses = distance_pulses;  // it stops first, and then goes there
     return;
   }
   const Sample here = forward_sample(drive, at);
   const Profile to_stop = slow_to_stop(here, law);
-  // At the pulse: what stops within half a pulse of the target reaches it.
+  // Compare in pulses: a stop within half a pulse of the target reaches it.
   if (!stop_if_passed && to_stop.end_position_u > target + 0.5) {
     demand_return(to_stop.end_position_u);
     comes_back = slowing = true;
@@ -347,7 +347,7 @@ void Axis::slow(Instant at, Cause why) {
   if (task == Task::none || (slowing && !comes_back)) return;
   cause = why;
   comes_back = false;
-  if (slowing) return;  // what was to turn round now only stops
+  if (slowing) return;  // a motion that was to turn round now only stops
   if (settling || in_backlash || (task != Task::move && task != Task::endless) || not_begun(drive, at)) {
     end(why, at);
     return;
@@ -362,7 +362,7 @@ void Axis::slow(Instant at, Cause why) {
   if (task == Task::move) {
     const auto target = static_cast<double>(target_pulses);
     rest.cut_at(std::max(target, rest.segments[0].position_u));
-    // By the ramp that ran already it ends there, but for roundings.
+    // By the ramp that already ran it ends there, but for roundings.
     constexpr double kRounding_pulses = 1e-5;
     if (std::abs(rest.end_position_u - target) < kRounding_pulses) rest.end_exactly_at(target);
   }
@@ -400,7 +400,7 @@ void Axis::react(Reaction reaction, Cause why, Instant at) {
   if (reaction == Reaction::slow_down && !in_backlash && (task == Task::move || task == Task::endless)) {
     slow(at, why);
   } else if (reaction == Reaction::slow_down && task == Task::coordinated) {
-    // The path slows down, with all its axes: motion/coordinated.h sees to it.
+    // motion/coordinated.h slows the path down, with all its axes.
     if (!slowing) cause = why;
     slowing = true;
   } else {
@@ -423,7 +423,7 @@ void check(const AxisSettings& settings) {
 
 void Axis::set(const AxisSettings& changed) {
   check(changed);
-  // Other backlash is as far taken up in the last direction as the one before was.
+  // New backlash is taken up in the last direction as far as the old one was.
   const bool is_positive = last_direction > 0;
   const std::int64_t before = is_positive ? settings.backlash_pulses - play_pulses : play_pulses;
   settings = changed;

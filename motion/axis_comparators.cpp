@@ -7,7 +7,7 @@
 #include "motion/bad_motion.h"
 #include "motion/pulse_drive.h"
 
-// Position compare: what an axis's counts pass on their way.
+// Position compare: the values that an axis's counts pass.
 namespace understudy::motion {
 
 namespace {
@@ -33,8 +33,8 @@ bool Comparator::holds(std::int64_t travel) const {
 
 std::optional<std::int64_t> Comparator::steps_until_change(std::int64_t travel, int direction) const {
   if (relation == Relation::off) return std::nullopt;
-  // Beyond the counts there are, or at the only one, the relation is always the same: a ring of one place
-  // would have an edge at each pulse.
+  // Beyond the range of the count, or if the range has only one value, the relation never changes: a ring of
+  // one place would have an edge at each pulse.
   const auto least = counter.least();
   const auto greatest = counter.greatest();
   if (least && (value > *greatest || *least == *greatest || (!asks_for_one_place() && value <= *least))) {
@@ -63,8 +63,8 @@ void Axis::set_comparator(std::size_t number, const Comparator& comparator) {
   const bool same_question = mine.relation == comparator.relation && mine.count == comparator.count;
   const bool was_true = mine.was_true;
   mine = comparator;
-  // A number that is written can make the relation true, which is an event; a relation that is true when it
-  // is first asked for waits for the next time it becomes so.
+  // A written number can make the relation true, which is an event. A relation that is true when the
+  // comparator is set waits for the next time it becomes true.
   mine.was_true =
       same_question ? was_true : mine.holds(mine.count == Count::command ? travel_pulses : encoder_pulses);
   attentive = true;
@@ -80,20 +80,20 @@ bool Axis::counts_by_encoder() const {
 void Axis::set_encoder(std::int64_t pulses) {
   if (pulses == encoder_pulses) return;
   encoder_pulses = pulses;
-  if (encoder_is_known) return;  // it has been met on the way
+  if (encoder_is_known) return;  // it has been followed within the tick
   if (counts_by_encoder()) {
     attentive = true;
   } else {
-    encoder_seen = pulses;  // nobody meets what lies between
+    encoder_seen = pulses;  // values in between are not compared
   }
 }
 
-/// Where its machine goes along with it: what the encoder counts at this very pulse.
+/// Computes the encoder's count at this very pulse, if the machine follows the axis.
 void Axis::know_encoder(const Surroundings& here) {
   if (encoder_is_known) encoder_pulses = here.encoder.at(travel_pulses);
 }
 
-/// The encoder's count goes from where it was to where it is: comparators meet all that lies between.
+/// Moves the encoder's count from its old value to its new one; comparators check everything between.
 void Axis::follow_encoder_count(Instant at) {
   const int way = encoder_pulses == encoder_seen ? 0 : encoder_pulses < encoder_seen ? -1 : +1;
   // A jump that far is not a motion: only its end counts.

@@ -6,7 +6,7 @@
 #include "motion/surroundings.h"
 #include "motion/tick.h"
 
-// Many ticks in one step, while an axis does nothing but go on along its plan.
+// Many ticks in one step, while an axis only continues along its plan.
 namespace understudy::motion {
 
 Tick Axis::quiet_until(Tick next, Tick most, const Surroundings& here, TravelRange range) const {
@@ -17,8 +17,8 @@ Tick Axis::quiet_until(Tick next, Tick most, const Surroundings& here, TravelRan
   const Tick last = std::min(most, drive.next_look - 1);
   if (last < next || travel_pulses < low || travel_pulses > high) return none;
   if (drive.drive != Drive::running) return last;
-  // A segment goes one way, but a rounding may send a pulse a tick early; so the last pulse before anything
-  // can happen is left to single ticks, and all between are inside because the last one is.
+  // A segment has one direction, but a rounding may send a pulse a tick early. So the last pulse before
+  // anything can happen is left to single ticks; all pulses before it are inside because the last one is.
   const bool upwards = drive.direction > 0;
   const auto is_inside = [&](Tick tick) {
     const std::int64_t travel = travel_ahead(tick);

@@ -8,14 +8,14 @@
 #include "motion/pulse_drive.h"
 #include "motion/tick.h"
 
-// C-STA and C-END: which pulses an axis sends at constant speed.
+// C-STA and C-END: the pulses that an axis sends at constant speed.
 namespace understudy::motion {
 
 namespace {
 
 constexpr Events kConstant = bit(Event::constant_started) | bit(Event::constant_ended);
 
-/// Plans that were made anew have the same speed but for roundings.
+/// New plans have the same speed, except for roundings.
 bool same_speed(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(a, b); }
 
 double constant_speed(const Segment& segment) {
@@ -23,7 +23,7 @@ double constant_speed(const Segment& segment) {
   return is_constant && segment.speed_u_s > 0 ? segment.speed_u_s : 0;
 }
 
-/// The last pulse that is sent before the profile is at `place_u`: one that lies there belongs to what
+/// Returns the last pulse sent before the profile is at `place_u`; a pulse exactly there belongs to what
 /// follows.
 std::int64_t last_pulse_before(double place_u, double tolerance) {
   constexpr double kMost = 9e18;
@@ -40,8 +40,8 @@ void Axis::raise(Event event, Instant at) {
   event_at[static_cast<std::size_t>(event)] = at;
 }
 
-/// Of the pulses beyond `sent_before`, which were sent between the two moments: which are the first and the
-/// last at a constant speed. Of drives on their own; homing has none.
+/// Finds the first and the last pulse at constant speed among those after `sent_before`, which were sent
+/// between the two moments. Only for drives of their own; homing has none.
 void Axis::look_at_speed(std::int64_t sent_before, Instant from, Instant until) {
   if ((settings.raises & kConstant) == 0 || homing.active() || drive.sent_pulses <= sent_before) return;
   const Profile& profile = drive.profile;
@@ -67,7 +67,7 @@ void Axis::look_at_speed(std::int64_t sent_before, Instant from, Instant until) 
   if (was_the_last) changes_to(0, drive.sent_pulses);
 }
 
-/// The next pulse may be an event, although it lies in the midst of a segment.
+/// Returns true if the next pulse may be an event, although it lies in the middle of a segment.
 bool Axis::waits_for_constant_speed() const {
   if ((settings.raises & kConstant) == 0 || !drive.moving() || in_backlash || homing.active()) return false;
   const bool is_constant = drive.now.second == 0 && drive.now.third == 0 && drive.now.first > 0;

@@ -9,12 +9,12 @@
 #include "motion/surroundings.h"
 #include "motion/tick.h"
 
-// The tick of an axis, where something can happen in it.
+// The tick of an axis in which something can happen.
 namespace understudy::motion {
 
 namespace {
 
-/// Nothing is watched for farther off than this: it is looked for again there.
+/// The watch window ends at this distance; it is computed again there.
 constexpr std::int64_t kNoEdge = std::int64_t{1} << 56;
 
 }  // namespace
@@ -25,7 +25,7 @@ std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here, std::opti
   return part.finish();
 }
 
-/// Has its follower step, and goes there if nothing lies between.
+/// Steps the follower, and moves the axis if nothing lies between.
 bool Axis::follow_quietly(const Surroundings& here, QuietTick& quiet) {
   if (!is_undisturbed(here)) return false;
   const std::int64_t pulses = follower.step();
@@ -36,7 +36,7 @@ bool Axis::follow_quietly(const Surroundings& here, QuietTick& quiet) {
   return true;
 }
 
-/// Everything that depends on the place, at the place the axis has come to.
+/// Handles everything that depends on the position, at the position that the axis has reached.
 void Axis::meet(const Surroundings& here, Instant at, int way) {
   know_encoder(here);
   compare(Count::command, travel_pulses, at, way);
@@ -73,7 +73,7 @@ void Axis::see(Signals now_on, Instant at) {
   if (settling && (now_on & bit(Signal::in_position)) != 0) end(Cause::arrived, at);
 }
 
-/// How far the axis may go before meet() has anything to do.
+/// Computes how far the axis may go before meet() has anything to do.
 void Axis::watch(const Surroundings& here) {
   std::int64_t up = kNoEdge;
   std::int64_t down = kNoEdge;
@@ -84,7 +84,7 @@ void Axis::watch(const Surroundings& here) {
     consider(up, here.steps_until_change(travel_pulses, +1));
     consider(down, here.steps_until_change(travel_pulses, -1));
   }
-  // In steps of the travel, where so many of what is counted are asked for.
+  // In steps of travel, if a number of counts is asked for.
   const auto consider_by = [&](Count count, std::int64_t& nearest, int way,
                                std::optional<std::int64_t> steps) {
     const bool by_encoder = count == Count::encoder;
@@ -103,8 +103,8 @@ void Axis::watch(const Surroundings& here) {
   if (const auto place = homing_place(); place && *place != travel_pulses) {
     consider(*place > travel_pulses ? up : down, std::abs(*place - travel_pulses));
   }
-  // Soft limits may be far out of reach, up to the last number there is. One that is on the side to which the
-  // encoder's count does not go is not met on the way.
+  // Soft limits may be far out of reach, up to the largest number. A limit on the side away from the
+  // encoder's direction is not met.
   const auto& most = settings.soft_limit_plus;
   const auto& least = settings.soft_limit_minus;
   const Count of = settings.soft_limits_of;

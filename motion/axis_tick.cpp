@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kTick_s = 1 / kTicksPerSecond;
 
-/// No drive is that fast; a state from outside may say so, and must not keep its tick for ever.
+/// No drive is this fast. A state from outside may claim it, and must not keep its tick running for ever.
 constexpr std::int64_t kMostInATick = 1'000'000;
 
 Instant later(const Instant& one, const Instant& other) { return is_before(one, other) ? other : one; }
@@ -40,7 +40,7 @@ AxisTick::AxisTick(Axis& axis, const Surroundings& here, Tick tick, std::optiona
   }
   axis_.encoder_is_known = here.encoder.is_known();
   if (axis_.encoder_is_known) {
-    // Since the last look it has met nothing, unless the machine has been moved, or does not follow any more.
+    // Since the last check nothing has happened, unless the machine was moved, or no longer follows.
     if (axis_.seen_version == here.version) axis_.encoder_seen = here.encoder.at(axis_.travel_pulses);
   }
   axis_.seen_version = here.version;
@@ -53,7 +53,7 @@ AxisTick::AxisTick(Axis& axis, const Surroundings& here, Tick tick, std::optiona
   if (carried_ != 0 && !sets_out(carried_ < 0 ? -1 : +1, at_)) carried_ = 0;
 }
 
-/// A profile that sends pulses of its own in this tick.
+/// Returns true if a profile sends pulses of its own in this tick.
 bool AxisTick::drives() const {
   return axis_.drive.drive == Drive::running && !axis_.in_backlash && axis_.drive.elapsed_s(until_) >= 0;
 }
@@ -64,7 +64,7 @@ Instant AxisTick::end_of_drive() const {
   return later(at_, {.tick = tick_ - 1, .after_s = std::max(0.0, kTick_s - over_s)});
 }
 
-/// Evenly over the tick, the last one at its end.
+/// Carried pulses are spread evenly over the tick, the last one at its end.
 Instant AxisTick::moment_of_carried(std::int64_t pulse) const {
   if (pulse >= std::abs(carried_)) return until_;
   const double part = static_cast<double>(pulse) / static_cast<double>(std::abs(carried_));
@@ -182,7 +182,7 @@ void AxisTick::look() {
   }
 }
 
-/// On to the first pulse beyond what was watched, at the moment it is sent.
+/// Goes to the first pulse beyond the watch window, at the moment it is sent.
 void AxisTick::go_to_edge() {
   PulseDrive& drive = axis_.drive;
   const std::int64_t travel = axis_.base_pulses + drive.direction * drive.pulses_at(tick_);
@@ -198,7 +198,7 @@ void AxisTick::go_to_edge() {
   axis_.meet(here_, at_, static_cast<int>(drive.direction));
 }
 
-/// Sends the last of the backlash, and begins the motion itself, at that very moment.
+/// Sends the last of the backlash, and begins the motion itself, at that moment.
 void AxisTick::end_backlash() {
   PulseDrive& drive = axis_.drive;
   const std::int64_t come = (drive.pulses_at(tick_) - drive.sent_pulses) * drive.direction;
@@ -211,7 +211,7 @@ void AxisTick::end_backlash() {
   drive.start(rest, way, at_);
 }
 
-/// Sends the last of a drive. What follows by itself begins at the tick's end.
+/// Sends the last pulses of a drive. What follows without a command begins at the tick's end.
 void AxisTick::end_drive() {
   PulseDrive& drive = axis_.drive;
   const std::int64_t sent_before = drive.sent_pulses;
@@ -242,21 +242,21 @@ void AxisTick::end_drive() {
   }
 }
 
-/// Why an axis that is carried may not go on in a way.
+/// Returns why a carried axis may not continue in a direction.
 Cause AxisTick::against(int way) const {
-  // The one pulse beyond a soft limit is sent, as by the drive's motions: it is what triggers.
+  // The one pulse beyond a soft limit is sent, as in the drive's own motions: it triggers the limit.
   const auto& soft_limit = way > 0 ? axis_.settings.soft_limit_plus : axis_.settings.soft_limit_minus;
   const Cause why = axis_.forbidden(way);
   const bool soft = why == Cause::soft_limit_plus || why == Cause::soft_limit_minus;
   if (soft && axis_.soft_limit_place() == *soft_limit) return Cause::none;
-  // On its way to a standstill by then.
+  // The axis is already slowing down to a stop.
   return axis_.slowing && why != Cause::servo_off ? Cause::none : why;
 }
 
-/// Of pulses that come from elsewhere. Backlash comes out at once: there is no time of its own for it.
+/// Begins to go in `way` by carried pulses. Backlash comes out at once: it has no time of its own.
 bool AxisTick::sets_out(int way, Instant at) {
   if (const Cause why = against(way); why != Cause::none) {
-    // Against a limit a wheel turns in vain; a path cannot go on.
+    // At a limit, a wheel has no effect; a path cannot continue.
     if (axis_.task == Task::coordinated) axis_.end(why, at);
     return false;
   }
@@ -303,7 +303,7 @@ void AxisTick::go_by(std::int64_t pulses, Instant at) {
 Events AxisTick::take_events() {
   const Events fresh = axis_.events_between;
   axis_.events_between = 0;
-  // What its own turning round begins, is at its beginning when the tick ends.
+  // Events that its own reversal causes have their moment at the tick's end.
   at_end_ = static_cast<Events>(at_end_ | (fresh & events_of(Moment::end)));
   const auto now = static_cast<Events>(fresh & ~events_of(Moment::end));
   taken_ = static_cast<Events>(taken_ | now);
@@ -318,7 +318,7 @@ void AxisTick::leave_start_to_next_tick() {
 std::int64_t AxisTick::finish() {
   take_events();
   axis_.watch(here_);
-  // A path or a wheel may turn towards the limit that the axis stands on, or stands still at first.
+  // A path or a wheel may turn towards the limit on which the axis stands, or may not move at first.
   const bool may_turn = axis_.task == Task::coordinated || axis_.task == Task::following;
   const bool at_a_limit =
       may_turn && (axis_.forbidden(+1) != Cause::none || axis_.forbidden(-1) != Cause::none);
@@ -327,7 +327,7 @@ std::int64_t AxisTick::finish() {
   axis_.attentive = axis_.attentive || axis_.in_backlash || at_a_limit ||
                     (axis_.settings.raises & bit(Event::pulse)) != 0 || axis_.waits_for_constant_speed();
   if (axis_.task == Task::following)
-    axis_.drive.next_look = 0;  // it has no plan: each of its ticks comes here
+    axis_.drive.next_look = 0;  // it has no plan, so each of its ticks comes here
   axis_.events = static_cast<Events>(taken_ | at_end_ | axis_.events_between);
   axis_.events_between = next_tick_;
   return axis_.inverted ? -pulses : pulses;

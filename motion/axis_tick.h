@@ -1,9 +1,9 @@
-// One axis in a tick in which something can happen: it goes from moment to moment, and meets what lies there.
+// One axis in a tick in which something can happen: it goes from moment to moment and handles each edge.
 //
 //   tick - 1 ├──────●───────────────●──────┤ tick       ● an edge at a pulse, the end of the drive
 //            begin  look            look   finish
 //
-// Whoever has several axes act on each other (motion/shared_tick.h) brings one to any moment between.
+// If several axes act on each other, motion/shared_tick.h brings an axis to any moment between.
 #pragma once
 
 #include <cstdint>
@@ -22,37 +22,37 @@ constexpr bool is_before(const Instant& one, const Instant& other) {
 
 class AxisTick {
  public:
-  /// Begins it: what has changed since the last tick is met at once. `carried`: pulses that come from
-  /// elsewhere, evenly over the tick; or what its follower has been asked for already.
+  /// Begins the tick and handles at once what has changed since the last tick. `carried` is the number of
+  /// pulses that come from elsewhere, evenly over the tick, or those already taken from the axis's follower.
   AxisTick(Axis& axis, const Surroundings& here, Tick tick, std::optional<std::int64_t> carried = {});
 
-  /// The next moment at which something can happen to it; the tick's end where nothing can.
+  /// Returns the next moment at which something can happen to the axis, or the tick's end if nothing can.
   const Instant& next();
-  /// On to a moment that is not beyond that.
+  /// Goes to a moment that is not after next().
   void go_to(Instant at);
-  /// On to next(), and through what is to happen there.
+  /// Goes to next() and handles what happens there.
   void look();
   bool is_over() const { return is_over_; }
-  /// How far it may go from here is known again.
+  /// Recomputes how far the axis may go from here before anything can happen.
   void watch() { axis_.watch(here_); }
-  /// Of an axis on a path, which alone moves it: goes by so many pulses, and meets what is there.
+  /// For an axis that only its path moves: goes by `pulses` and handles what is there.
   void go_by(std::int64_t pulses, Instant at);
-  /// Somebody else has changed it: it is to look round where it is.
+  /// Makes the axis check everything again where it is. Call it after another object has changed the axis.
   void look_again() {
     next_ = What::again;
     is_over_ = false;
   }
   void forget_next() { next_ = next_ == What::again ? next_ : What::unknown; }
 
-  /// What has happened since it was asked last.
+  /// Returns what has happened since the last call.
   Events take_events();
-  /// A start at this moment is an event of the next tick.
+  /// Moves a start at this moment to the events of the next tick.
   void leave_start_to_next_tick();
-  /// The pulses of the tick, signed as they come out. Axis::events are all of it.
+  /// Ends the tick. Returns its pulses, signed as they come out; Axis::events then holds all its events.
   std::int64_t finish();
 
  private:
-  /// What is to happen next, in the order in which it is looked for.
+  /// What happens next, in the order in which it is looked for.
   enum class What : std::uint8_t { unknown, again, edge, backlash_ends, drive_ends, carried_edge, nothing };
 
   bool drives() const;
@@ -72,16 +72,16 @@ class AxisTick {
   Tick tick_;
   Instant at_;
   Instant until_;
-  Instant moment_{};  // of what is next
+  Instant moment_{};  // when next_ happens
   What next_ = What::unknown;
   bool is_over_ = false;
   Task carried_by_ = Task::none;
-  std::int64_t carried_ = 0;  // in this tick, and how many of them have come
+  std::int64_t carried_ = 0;  // pulses of this tick that come from elsewhere, and how many of them have come
   std::int64_t come_ = 0;
   std::int64_t travel_before_;
   std::int64_t backlash_before_;
-  Events at_end_ = 0;     // events of the tick's end
-  Events next_tick_ = 0;  // and of the next tick
+  Events at_end_ = 0;     // events at the tick's end
+  Events next_tick_ = 0;  // events of the next tick
   Events taken_ = 0;
 };
 

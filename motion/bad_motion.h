@@ -1,4 +1,4 @@
-// What motion refuses, by name: the one error that planning throws.
+// The reasons for which motion refuses a request, and the one error that planning throws.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ enum class Refusal : std::uint8_t {
   no_room,       // a queue or a table of fixed size is full
 };
 
-/// A motion that cannot be. what() is one line: "<law>: <quantity> must be ..., is <value>".
+/// An impossible motion. what() is one line: "<law>: <quantity> must be ..., is <value>".
 class BadMotion : public std::invalid_argument {
  public:
   BadMotion(Refusal refusal, std::string_view law, std::string_view demand)
@@ -29,7 +29,7 @@ class BadMotion : public std::invalid_argument {
   Refusal refusal_;
 };
 
-/// The checks every law begins with. `law` and `quantity` are words of the message.
+/// Check a value at the beginning of a law. `law` and `quantity` are words of the message.
 void demand_finite(double value, std::string_view law, std::string_view quantity);
 void demand_positive(double value, std::string_view law, std::string_view quantity);      // finite and > 0
 void demand_not_negative(double value, std::string_view law, std::string_view quantity);  // finite and >= 0

@@ -1,4 +1,4 @@
-// Where along a coordinate something becomes true: to the last bit, in a bounded number of steps.
+// Finds where along a coordinate a condition becomes true: to the last bit, in a bounded number of steps.
 #pragma once
 
 #include <bit>
@@ -6,15 +6,15 @@
 
 namespace understudy::motion {
 
-/// Two doubles with none between them: `over` is false at `before` and true at `after`.
+/// Two adjacent doubles: the condition is false at `before` and true at `after`.
 struct Turnover {
   double before = 0;
   double after = 0;
 };
 
-/// Halves [from, to], 0 <= from <= to, where `over` turns from false to true; `over` must be false at `from`
-/// and true at `to`. Halves the doubles between the two, not their difference: 64 steps are enough, however
-/// far apart they are.
+/// Halves [from, to], 0 <= from <= to, down to where `over` turns from false to true. `over` must be false at
+/// `from` and true at `to`. It halves the set of doubles between the two, not their difference, so 64 steps
+/// are enough however far apart they are.
 template <class Over>
 Turnover turnover(double from, double to, const Over& over) {
   auto low = std::bit_cast<std::uint64_t>(from > 0 ? from : 0.0);  // -0.0 has other bits

@@ -18,31 +18,32 @@ namespace understudy::motion {
 
 namespace {
 
-/// Half away from zero. Nobody counts beyond 1e18: it stays there.
+/// Rounds half away from zero, and saturates at 1e18.
 std::int64_t nearest(double value) {
   const double size = std::abs(value);
   const auto whole = size < 1e18 ? static_cast<std::int64_t>(size + 0.5) : 1'000'000'000'000'000'000;
   return value < 0 ? -whole : whole;
 }
 
-/// Towards zero; what is short of a pulse by rounding errors alone is one.
+/// Rounds towards zero, except that a value short of a pulse by rounding errors only is that pulse.
 std::int64_t whole(double value) {
   constexpr double kAlmost = 1e-6;
   const double size = std::min(std::abs(value) + kAlmost, 1e18);
   return static_cast<std::int64_t>(value < 0 ? -size : size);
 }
 
-/// Nothing for kNone, and for an axis that the span does not have.
+/// Returns null for kNone, and for an axis that is not in the span.
 template <class AnyAxis>
 AnyAxis* axis_at(std::int8_t number, std::span<AnyAxis> axes) {
   const bool there = number >= 0 && static_cast<std::size_t>(number) < axes.size();
   return there ? &axes[static_cast<std::size_t>(number)] : nullptr;
 }
 
-/// No path turns round farther off than this within a tick.
+/// No path turns round farther away than this within a tick.
 constexpr double kFarthestTurn_pulses = 1'000'000;
 
-/// Whether an axis may go beyond what it watches and come back within the tick, at the turn of an arc.
+/// Returns true if an axis may go beyond its watch window and come back within the tick, at the turn of an
+/// arc.
 bool may_turn_beyond(const Axis& axis, std::int64_t travel, double reach_pulses) {
   const auto reach = static_cast<std::int64_t>(std::min(reach_pulses, 1e15));
   return travel > axis.watch_high - reach || travel < axis.watch_low + reach;
@@ -52,7 +53,7 @@ bool may_turn_beyond(const Axis& axis, std::int64_t travel, double reach_pulses)
 
 std::int64_t Coordinated::travel_at(std::size_t i, double place_u) const {
   const UnitScale& by = scale[i];
-  // A unit is a pulse for most, and dividing by 1 takes its time all the same.
+  // Most units are one pulse, and a division by 1 takes time as well.
   if (by.multiplier == 1 && by.divider == 1) return zero_pulses[i] + nearest(place_u);
   const double pulses = place_u * static_cast<double>(by.multiplier) / static_cast<double>(by.divider);
   return zero_pulses[i] + (by.truncates ? whole(pulses) : nearest(pulses));
@@ -91,7 +92,7 @@ Cause Coordinated::begin(const Point& from, std::span<Axis> axes, Tick now) {
     if (const Cause why_not = axis->forbidden_anywhere(); why_not != Cause::none) return why_not;
   }
   for (const UnitScale& factors : scale) (void)UnitScale::of(factors.multiplier, factors.divider);
-  run.stand_at(from);  // these two may throw
+  run.stand_at(from);  // this and the next may throw
   run.start(now);
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     Axis* axis = axis_at(axis_of[i], axes);
@@ -123,7 +124,7 @@ Coordinated::Ahead Coordinated::look_ahead(Tick tick, std::span<const Axis> axes
   }
   if (!ahead.is_quiet || !has_edges_near) [[likely]]
     return ahead;
-  // By its longest axis it is up to 1.8 times as long.
+  // By the longest axis it is up to 1.8 times as long.
   const double length_u = 2 * std::max(0.0, ahead.gone.to_u - run.began_at(ahead.gone, tick));
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     const Axis* axis = axis_at(axis_of[i], axes);

@@ -7,7 +7,7 @@ namespace understudy::motion {
 
 namespace {
 
-/// How many counts there are before they come round; 0 for never.
+/// Returns the number of counts before they wrap; 0: they never do.
 std::int64_t size_of(const Counter& counter) {
   switch (counter.range) {
     case Counter::Range::linear: break;
@@ -31,7 +31,7 @@ std::int64_t modulo(std::int64_t value, std::int64_t size) {
   return rest < 0 ? rest + size : rest;
 }
 
-/// a + b or a - b, reduced first, so that a ring's size need not divide 2^64.
+/// Returns a + b or a - b, reduced first, because a ring's size need not divide 2^64.
 std::int64_t sum_modulo(std::int64_t a, std::int64_t b, std::int64_t size) {
   const std::int64_t room = size - modulo(b, size);
   const std::int64_t reduced = modulo(a, size);
@@ -43,7 +43,7 @@ std::int64_t difference_modulo(std::int64_t a, std::int64_t b, std::int64_t size
   return rest < 0 ? rest + size : rest;
 }
 
-/// A count of 0 .. size - 1 as the range's own number.
+/// Converts a count of 0 .. size - 1 to a number of the range.
 std::int64_t of_range(const Counter& counter, std::int64_t count) {
   const std::int64_t greatest = *counter.greatest();
   return count > greatest ? count - size_of(counter) : count;

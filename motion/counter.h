@@ -1,4 +1,4 @@
-// Position counters: what a controller shows of an axis's travel.
+// Position counters: the values that a controller shows for an axis's travel.
 //
 // An axis counts its travel once, in 64 bits, from power-up; every counter of the device (logical position,
 // absolute position, RCUN1, a coordinate in a register) is that travel plus an offset, wrapped as the device
@@ -24,16 +24,16 @@ struct Counter {
 
   bool operator==(const Counter&) const = default;
 
-  /// The count at `travel`.
+  /// Returns the count at `travel`.
   std::int64_t at(std::int64_t travel) const;
-  /// Makes the count `value` (wrapped into the range) at `travel`.
+  /// Sets the count at `travel` to `value`, wrapped into the range.
   void set(std::int64_t value, std::int64_t travel);
 
-  /// How many steps (1 ...) in `direction` (+1 or -1) until the count is `value`; nothing if it never will
-  /// be.
+  /// Returns how many steps (1 ...) in `direction` (+1 or -1) it takes until the count is `value`, or nothing
+  /// if it never will be.
   std::optional<std::int64_t> steps_until(std::int64_t value, std::int64_t travel, int direction) const;
 
-  /// The least and greatest count; nothing for linear.
+  /// Return the least and the greatest count, or nothing for linear.
   std::optional<std::int64_t> least() const;
   std::optional<std::int64_t> greatest() const;
 };

@@ -42,7 +42,7 @@ constexpr double kQuarter4 = 0x1.b839a252049c1p-104;
 constexpr double kQuartersPerRadian = 0x1.45f306dc9c883p-1;
 static_assert(kFarthestAngle_rad * kQuartersPerRadian < (1 << 20));
 
-// Added and taken away again it rounds to a whole number, which the last bits of the sum then hold.
+// Adding and subtracting it rounds to a whole number, which the last bits of the sum then hold.
 constexpr double kRounder = 0x1.8p52;
 
 /// Taylor, for |r| <= pi/4; the first term left out is below 1e-19. `low` is the angle's part below r's last
@@ -81,7 +81,7 @@ constexpr std::array<Parts, 9> kArctangentOfEighths{{{0, 0},
 constexpr Parts kHalfPi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr Parts kWholePi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 
-/// For 0 <= y <= x, x > 0: the arctangent of an eighth near y/x, and by Taylor that of what is left.
+/// For 0 <= y <= x, x > 0: the arctangent of an eighth near y/x, plus that of the rest by Taylor.
 Parts angle_in_first_octant(double y, double x) {
   const int eighths = static_cast<int>(8 * (y / x) + 0.5);
   const double slope = eighths * 0.125;
@@ -133,7 +133,7 @@ double angle_of(double y, double x) {
   const bool steep = across > along;
   if (steep) std::swap(across, along);
   if (along == 0) return 0;
-  // Far from overflow and from subnormal numbers the quotients below keep all their bits.
+  // Far from overflow and from subnormal numbers, the quotients below keep all their bits.
   if (along > 0x1p1000 || along < 0x1p-900) {
     const double scale = along > 1 ? 0x1p-100 : 0x1p170;
     across *= scale;

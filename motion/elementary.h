@@ -1,5 +1,5 @@
-// Sine, cosine, arctangent and logarithm of our own. The maths library's differ in their last bits from
-// processor to processor; these use only + - * / and rounding, so a path is the same bytes everywhere.
+// Our own sine, cosine, arctangent and logarithm. Those of the maths library differ in their last bits from
+// processor to processor; these use only + - * / and rounding, so a path has the same bytes everywhere.
 // Outside its domain each returns NaN; none of them throws.
 #pragma once
 
@@ -12,7 +12,7 @@ struct SineCosine {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// The farthest angle that sine_cosine takes: about 160,000 turns.
+/// The largest angle that sine_cosine accepts: about 160,000 turns.
 inline constexpr double kFarthestAngle_rad = 1e6;
 
 /// Both at once, for |angle_rad| <= kFarthestAngle_rad; NaN for both beyond, and for NaN and infinities. The

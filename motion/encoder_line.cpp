@@ -11,7 +11,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// Farther no axis goes, and no count is looked for.
+/// No axis goes farther, and no count is searched beyond.
 constexpr std::int64_t kFarthestCount = std::int64_t{1} << 56;
 
 Wide floor_quotient(Wide value, std::int64_t by) {
@@ -35,7 +35,7 @@ std::int64_t EncoderLine::at(std::int64_t travel) const {
 
 std::optional<std::int64_t> EncoderLine::steps_until(std::int64_t travel, int direction,
                                                      std::int64_t count_steps) const {
-  // Behind one of the machine's stops nothing moves before it is at the stop again.
+  // Behind one of the machine's stops nothing moves until the axis is at the stop again.
   if (direction > 0 ? travel < first : travel > last) {
     const std::int64_t stop = direction > 0 ? first : last;
     const auto steps = steps_until(stop, direction, count_steps);
@@ -45,7 +45,7 @@ std::optional<std::int64_t> EncoderLine::steps_until(std::int64_t travel, int di
   const auto is_there = [&](std::int64_t steps) {
     return std::abs(at(travel + direction * steps) - before) >= count_steps;
   };
-  // By the slope alone it is there within a few pulses.
+  // By the slope alone, the count is reached within a few pulses.
   const std::int64_t about =
       bounded(Wide{std::min(count_steps, kFarthestCount)} * divider * pulses / (Wide{counts} * factor));
   const std::int64_t leeway = pulses / counts + bounded(Wide{divider} * pulses / (Wide{counts} * factor)) + 2;

@@ -17,7 +17,7 @@ struct ExternalDrive {
 
   Mode mode = Mode::off;
   std::int64_t pulses = 0;
-  // State: the levels last seen, and the way in which a continuous run was begun (0: none).
+  // State: the levels last seen, and the direction of the continuous run under way (0: none).
   bool plus_high = true;
   bool minus_high = true;
   std::int8_t running = 0;
@@ -25,7 +25,7 @@ struct ExternalDrive {
   bool operator==(const ExternalDrive&) const = default;
 };
 
-/// What an input asks of its axis.
+/// What an input requests of its axis.
 struct DriveOrder {
   enum class What : std::uint8_t { nothing, move, run, slow_down };
   What what = What::nothing;
@@ -35,7 +35,7 @@ struct DriveOrder {
   bool operator==(const DriveOrder&) const = default;
 };
 
-/// The order that follows from the inputs as they are now; to be asked once a tick.
+/// Returns the order that follows from the inputs as they are now. Call it once a tick.
 DriveOrder watch_inputs(ExternalDrive& drive, bool plus_high, bool minus_high, bool axis_moving);
 
 }  // namespace understudy::motion

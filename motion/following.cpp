@@ -21,8 +21,8 @@ std::int64_t saturated(Wide value) {
   return static_cast<std::int64_t>(std::clamp<Wide>(value, INT64_MIN / 4, INT64_MAX / 4));
 }
 
-/// The most that may be made up for in a period, so that in the periods behind it, by `change` less each, no
-/// more comes out than is missing.
+/// Returns the most that may be made up for in a period, to send no more than what is missing in the
+/// following periods, each by `change` less.
 std::int64_t stoppable(std::int64_t missing, std::int64_t change) {
   const Wide size = missing < 0 ? -Wide{missing} : Wide{missing};
   const auto sum_of = [&](Wide steps) { return change * steps * (steps + 1) / 2; };
@@ -48,7 +48,7 @@ void Follower::check() const {
 
 std::int64_t Follower::step() {
   if (phase == 0) {
-    // The pulses of what was gathered, with what the last divisions left.
+    // The pulses of the gathered counts, with the remainder of earlier divisions.
     const Wide scaled = Wide{gathered} * numerator + left_over;
     Wide whole = scaled / denominator;
     if (scaled % denominator < 0) --whole;
@@ -63,7 +63,7 @@ std::int64_t Follower::step() {
       wanted = std::clamp(wanted, period_pulses - change, period_pulses + change);
     }
     if (top_speed_pps > 0) {
-      // The bound is met on the average: what a thousandth of it leaves over counts for the next period.
+      // The bound is met on average: its remainder in thousandths counts for the next period.
       const std::int64_t milli = top_speed_pps * period_ticks + speed_left_over;
       const std::int64_t bound = milli / 1000;
       speed_left_over = milli % 1000;

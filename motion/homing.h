@@ -1,12 +1,12 @@
-// Homing as a table of phases: what the axis looks for, in which direction and how fast, and what it does
-// then.
+// Homing as a table of phases: each phase says what the axis looks for, in which direction, how fast, and
+// what it does when it has found it.
 //
 //   phase 0  search +, fast, until home on, slow down      ──────────╮ home
 //   phase 1  search -, creep, until home off, stop            ╭──────╯
 //   phase 2  search +, creep, until home on, stop             ╰─────● the reference
 //
-// The tables of the four controllers are in motion/homing_tables.h; the code that runs them, homing_run.cpp,
-// knows none of them. Every edge is met at its pulse (motion/surroundings.h).
+// The tables of the four controllers are in motion/homing_tables.h. The code that runs them, homing_run.cpp,
+// is independent of the controllers. Every edge is handled at its pulse (motion/surroundings.h).
 #pragma once
 
 #include <array>
@@ -43,24 +43,26 @@ struct HomingPhase {
 
   Does does = Does::search;
   std::int8_t way = +1;   // +1 or -1; of go and go_back the sign of the distance
-  std::int8_t speed = 0;  // which of the program's laws
+  std::int8_t speed = 0;  // index into HomingProgram::speeds
   Signal until = Signal::home;
   bool until_on = true;
   Then then = Then::slow_down;
-  bool marks = false;     // the travel of the edge becomes the reference
-  std::uint8_t code = 0;  // what the controller shows meanwhile; nothing to the engine
+  bool marks = false;     // true: the travel at the edge becomes the reference
+  std::uint8_t code = 0;  // what the controller shows during this phase; the engine does not use it
   std::int32_t count = 1;
   Signals again_while = 0;
   std::int64_t distance_pulses = 0;
-  std::int64_t within_pulses = 0;  // of a search: after this many it stops at once; 0: never
-  Signals ignores = 0;             // the axis does not react to these meanwhile
+  std::int64_t within_pulses = 0;  // distance after which a search stops at once; 0: no bound
+  Signals ignores = 0;             // signals that the axis does not react to during this phase
 
-  std::int8_t next = kRowBelow;    // when met and, unless it runs on, standing
-  std::int8_t if_already = kNext;  // `until` is as sought when the phase begins; kNext: that counts as met
-  std::int8_t if_gone = kNext;     // standing, and `until` is not as sought any more: overrun, or it moved
-  std::int8_t if_limit = kFail;    // stopped by a limit ahead, or kept from starting, before it is met; once
-                                   // met, the stop does no harm where this is not kFail
-  std::int8_t if_far = kFail;      // stopped after `within_pulses`
+  // The row that follows:
+  std::int8_t next = kRowBelow;    // after the signal is met and, unless the phase runs on, the axis stands
+  std::int8_t if_already = kNext;  // if `until` is as sought at the phase's beginning; kNext: that is met
+  std::int8_t if_gone = kNext;     // if the axis stands and `until` is no longer as sought
+  // If a limit ahead stops the phase, or keeps it from starting, before the signal is met. Unless this is
+  // kFail, a limit after the signal is met does no harm.
+  std::int8_t if_limit = kFail;
+  std::int8_t if_far = kFail;  // if the phase stopped after `within_pulses`
 
   bool operator==(const HomingPhase&) const = default;
 };
@@ -72,26 +74,27 @@ struct HomingProgram {
   std::array<HomingPhase, kMaxPhases> phases{};
   std::int8_t phase_count = 0;  // 0: home is where the axis is
   std::array<SpeedLaw, kMaxSpeeds> speeds{};
-  bool soft_limits_lead_on = false;  // where `if_limit` says; else homing fails at them
+  bool soft_limits_lead_on = false;  // true: soft limits lead to `if_limit`; false: homing fails at them
 
   bool operator==(const HomingProgram&) const = default;
 
-  /// A row below the others. Throws BadMotion(no_room) beyond kMaxPhases.
+  /// Adds a row below the others. Throws BadMotion(no_room) beyond kMaxPhases.
   void add(const HomingPhase& phase);
 };
 
-/// Throws BadMotion for a table that cannot be run: a missing row or speed, a count below 1, a speed law that
-/// a row uses and motion/move.h refuses.
+/// Throws BadMotion for a table that cannot run: a missing row or speed, a count below 1, or a used speed law
+/// that motion/move.h refuses.
 void check(const HomingProgram& program);
 
-/// A homing under way, and afterwards its result.
+/// The state of a homing while it runs, and its result afterwards.
 struct Homing {
   HomingProgram program;
-  std::int8_t phase = -1;         // the row that runs; -1: not homing
-  std::int8_t ended_in = -1;      // the row that ran when the last homing ended
-  Cause ended_by{};               // arrived: home is found. Set before the end when it slows down to give up
-  bool met = false;               // the row has what it looked for, and comes to a stop
-  std::int32_t counted = 0;       // edges of the row's signal, so far
+  std::int8_t phase = -1;     // the row that runs; -1: not homing
+  std::int8_t ended_in = -1;  // the row that ran when the last homing ended
+  Cause
+      ended_by{};  // arrived: home is found. If the axis slows down to give up, this is set before it stands
+  bool met = false;               // true: the row has met its signal and comes to a stop
+  std::int32_t counted = 0;       // edges of the row's signal so far
   std::int64_t began_pulses = 0;  // travel where the row began
   bool reference_known = false;
   std::int64_t reference_pulses = 0;  // travel at the marked edge; without a mark, where the axis stood
@@ -100,9 +103,10 @@ struct Homing {
 
   bool active() const { return phase >= 0; }
   const HomingPhase& row() const { return program.phases[static_cast<std::size_t>(phase)]; }
-  /// The law of the next row, where the one that runs is a distance and goes over into it in motion.
+  /// Returns the speed law of the next row if the current row is a distance that passes into it without
+  /// stopping; else null.
   const SpeedLaw* runs_on_by() const;
-  /// The profile of such a row.
+  /// Returns the profile of such a row.
   Profile plan_to_run_on() const;
 };
 

@@ -16,14 +16,14 @@ namespace understudy::motion {
 
 namespace {
 
-/// As motion/axis.h bounds a move.
+/// The limit of a move, as in motion/axis.h.
 constexpr std::int64_t kFarthestPlace_pulses = std::int64_t{1} << 53;
 
 void demand(bool holds, const char* what) {
   if (!holds) throw BadMotion(Refusal::out_of_range, "homing table", what);
 }
 
-/// The number `where` stands for, seen from row `phase`.
+/// Returns the row number that `where` means in row `phase`.
 std::int8_t row_number(const Homing& homing, std::int8_t where) {
   if (where == HomingPhase::kNext) where = homing.row().next;
   return where == HomingPhase::kRowBelow ? static_cast<std::int8_t>(homing.phase + 1) : where;
@@ -33,7 +33,7 @@ bool as_sought(const HomingPhase& row, Signals signals) {
   return ((signals & bit(row.until)) != 0) == row.until_on;
 }
 
-/// Whether it is a limit that a row may lead on from.
+/// Returns true if a row may continue after this limit.
 bool is_limit(const HomingProgram& program, Cause why) {
   if (why == Cause::soft_limit_plus || why == Cause::soft_limit_minus) return program.soft_limits_lead_on;
   return why == Cause::limit_plus || why == Cause::limit_minus;
@@ -53,7 +53,7 @@ void check(const HomingProgram& program) {
       program.phase_count >= 0 && static_cast<std::size_t>(program.phase_count) <= HomingProgram::kMaxPhases,
       "phases must be 0 to 8");
   const auto is_row = [&](std::int8_t where) {
-    return where <= program.phase_count && where >= HomingPhase::kFail;  // just below: home is found
+    return where <= program.phase_count && where >= HomingPhase::kFail;  // one past the end: home is found
   };
   for (std::int8_t i = 0; i < program.phase_count; ++i) {
     const HomingPhase& row = program.phases[static_cast<std::size_t>(i)];
@@ -166,7 +166,7 @@ void Axis::mark_reference() {
   homing.reference_pulses = travel_pulses;
 }
 
-/// What a stop under way is for may get worse: a limit or a stop command while it slows down for home.
+/// A stop under way may get a worse cause: a limit, or a stop command while it slows down for home.
 void Axis::homing_slows(Cause why) {
   const bool goes_on =
       why == Cause::arrived || (is_limit(homing.program, why) && homing.row().if_limit != HomingPhase::kFail);
@@ -196,15 +196,15 @@ void Axis::go_to_phase(std::int8_t number, Instant at, bool running) {
   try {
     failed = enter_phase(number, at, running);
   } catch (const BadMotion&) {
-    // A way back that the speed law cannot plan: known only here, and a tick does not throw.
+    // The speed law cannot plan the way back: that is known only here, and a tick does not throw.
   }
   if (failed != Cause::none) end_homing(failed, at);
 }
 
-/// Begins phase `number`, or the first one after it that has anything to do; none when that runs or home is
-/// found. `running`: the axis is to go on in motion.
+/// Begins phase `number`, or the first one after it that has anything to do. Returns none if it runs or home
+/// is found. `running`: the axis continues in motion.
 Cause Axis::enter_phase(std::int8_t number, Instant at, bool running) {
-  // A table may lead in a circle of phases that have nothing to do; each is entered once at most.
+  // A table may contain a circle of phases with nothing to do; each is entered at most once.
   for (std::size_t entered = 0; entered <= HomingProgram::kMaxPhases; ++entered) {
     if (number < 0) return Cause::homing_failed;  // kFail
     if (number >= homing.program.phase_count) {

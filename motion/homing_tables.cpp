@@ -23,7 +23,7 @@ constexpr std::int8_t kFail = HomingPhase::kFail;
 constexpr std::int8_t kNext = HomingPhase::kNext;
 constexpr std::int8_t kAwait = HomingPhase::kAwait;
 
-// Which of a program's laws.
+// Indices of a program's speed laws.
 constexpr std::int8_t kFast = 0;
 constexpr std::int8_t kCreep = 1;
 
@@ -41,19 +41,19 @@ HomingProgram hanging(int way) {
 
 enum class At : std::uint8_t { dog, limit };
 
-/// What follows the DOG or the limit.
+/// What follows after the DOG or the limit.
 enum class After : std::uint8_t { nothing, edge_again, off_again, index };
 enum class Direction : std::uint8_t { on, back };
 enum class Law : std::uint8_t { fast, creep };
 
 struct Mode {
-  At at;      // what is sought at Vh
-  Then then;  // and done there
+  At at;      // searched at Vh
+  Then then;  // what it does there
   After after;
   Direction direction;
   Law law;
   Then then_2;
-  bool zero;  // at last a move to COUNTER2 = 0, the reference
+  bool zero;  // ends with a move to COUNTER2 = 0, the reference
 };
 
 constexpr Then kStop = Then::stop_at_once;
@@ -104,7 +104,8 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   }
   const std::int8_t search = program.phase_count;
   const bool at_once = mode.at == At::limit && how.limit_stops_at_once;
-  // Behind the switch it would look for the index from a wrong place (《X32.》 note). Modes 0 and 9 do not.
+  // Behind the switch it would look for the index from a wrong place (《X32.》 note). This does not concern
+  // modes 0 and 9.
   const bool must_stay = mode.then == kSlowDown && mode.after != After::nothing;
   program.add({.way = on,
                .speed = kFast,
@@ -142,7 +143,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   if (mode.zero) program.add({.does = Does::go_back, .speed = last});
   program.add({.does = Does::go, .speed = last, .distance_pulses = how.offset_pulses});
   if (mode.at != At::dog || !how.turns_at_limit) return program;
-  // Behind the last row: past the DOG, and look again. Home is found below it.
+  // A row below the last: go past the DOG and search again. Home is found below it.
   const std::int8_t past = program.phase_count;
   program.phases[static_cast<std::size_t>(search)].if_limit = past;
   program.phases[static_cast<std::size_t>(past - 1)].next = static_cast<std::int8_t>(past + 1);
@@ -164,7 +165,7 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
   HomingProgram program{.speeds = {how.fast, how.creep}};
   const std::int64_t search = std::abs(how.search_pulses);
   const bool goes_on = how.distance_pulses * way > 0;
-  std::int64_t behind = 0;  // that it takes to slow down there
+  std::int64_t behind = 0;  // the distance in which it slows down there
   if (how.slows_behind && goes_on && how.fast.top_speed_u_s > how.creep.top_speed_u_s) {
     const double braking = ramp_distance(how.fast.down, how.creep.top_speed_u_s, how.fast.top_speed_u_s);
     behind = std::min(static_cast<std::int64_t>(std::ceil(braking)), search - 1);
@@ -246,13 +247,13 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
 
 HomingProgram simple2_homing(const Simple2Homing& how) {
   if (how.speed.top_speed_u_s == 0) {
-    // It would turn back at the limit as well, as slowly.
+    // It would turn back at the limit as well, at the same low speed.
     HomingProgram both_ways;
     both_ways.add({.does = Does::hang, .way = sign(how.way), .if_limit = 1});
     both_ways.add({.does = Does::hang, .way = opposite(how.way)});
     return both_ways;
   }
-  // Rows that others go to.
+  // Rows that other rows lead to.
   constexpr std::int8_t kLeave = 1;
   constexpr std::int8_t kOtherWay = 2;
   constexpr std::int8_t kBeyond = 3;

@@ -1,5 +1,5 @@
-// How the four controllers go home, as tables for motion/homing.h, made from their parameters in pulses and
-// pulses per second. The devices say what their counters show afterwards.
+// The homing sequences of the four controllers, as tables for motion/homing.h, made from their parameters in
+// pulses and pulses per second. The devices set their counters afterwards.
 #pragma once
 
 #include <array>
@@ -18,51 +18,53 @@ struct Super40ncHoming {
   SpeedLaw creep;                    // X22, Vc
   std::int32_t index_count = 1;      // X31 + 1
   std::int64_t leave_pulses = 5;     // X25, away from a DOG that is on at the start; 0 acts as 1
-  std::int64_t offset_pulses = 0;    // X30, signed, whatever `way`
+  std::int64_t offset_pulses = 0;    // X30, signed, independent of `way`
   bool limit_stops_at_once = false;  // modes 6 to 8 and 12: as the chip would with D9x01 = 0
-  bool leaves_fast = false;          // the DOG that is on at the start
-  bool offset_creeps = false;        // the way back to the reference, and the offset
-  bool plate_may_be_short = false;   // a DOG that is off behind the stop does not matter
-  bool turns_at_limit = false;       // ahead of the DOG: back past it, and again; else it fails
+  bool leaves_fast = false;          // true: leaves a DOG that is on at the start at `fast`
+  bool offset_creeps = false;        // true: returns to the reference and goes the offset at `creep`
+  bool plate_may_be_short = false;   // true: a DOG that is off behind the stop is ignored
+  bool turns_at_limit = false;  // true: at a limit ahead of the DOG, turns back past the DOG and searches
+                                // again; false: homing fails
 };
-/// The reference is the DOG's edge (0, 1, 9), the limit's (6), else the last EZ counted.
-/// Throws BadMotion(out_of_range) for a mode that does not exist.
+/// Returns the table of a mode. The reference is the DOG's edge (modes 0, 1, 9), the limit's edge (6), else
+/// the last EZ counted. Throws BadMotion(out_of_range) for a mode that does not exist.
 HomingProgram super40nc_homing(const Super40ncHoming& how);
-/// Modes that look for the limit on the side of `way`, and cannot find home where that is not in use.
+/// Returns true for modes that look for the limit on the side of `way`, and so cannot find home if that limit
+/// is not in use.
 bool super40nc_homes_by_limit(int mode);
 
-/// SUPER-40NC, instruction MRK: a move that is past its target at the creep speed, and creeps on to a mark on
-/// one of the limit inputs. The reference is the mark; where none was met, it is not known. Home is found
-/// either way.
+/// SUPER-40NC, instruction MRK: the axis passes its target at the creep speed and creeps on to a mark on one
+/// of the limit inputs. The reference is the mark; if no mark was met, the reference is not known. Home
+/// counts as found in both cases.
 struct Super40ncMark {
   std::int64_t distance_pulses = 0;
-  std::int64_t search_pulses = 0;  // X16: how far it looks; above 0 for +EL, below for -EL
-  SpeedLaw fast;                   // by RPM
+  std::int64_t search_pulses = 0;  // X16: how far to look for the mark; above 0 for +EL, below 0 for -EL
+  SpeedLaw fast;                   // the speed set by RPM
   SpeedLaw creep;                  // X22
-  bool slows_behind = false;       // the target, and looks once it creeps
-  bool looks_all_the_way = false;  // a mark before the target ends it as well
-  bool mark_slows = false;         // it stops by its ramp
-  bool needs_edge = false;         // one that is on when it begins to look does not count
+  bool slows_behind = false;  // true: slows down behind the target, and looks for the mark once it creeps
+  bool looks_all_the_way = false;  // true: a mark before the target ends the move as well
+  bool mark_slows = false;         // true: the mark stops the axis by its ramp
+  bool needs_edge = false;         // true: a mark that is on when the search begins does not count
 };
-/// Throws BadMotion(out_of_range) for a search of 0.
+/// Throws BadMotion(out_of_range) for a search distance of 0.
 HomingProgram super40nc_mark(const Super40ncMark& how);
 
-/// RS-M8194H, SET_HV, HOME_LIMIT, SET_HOME_MODE (manual, 6 and 4.8): four steps of the MCX314 chip, each in
-/// its own direction, or left out. Signals: near_home is IN0, home IN1, index IN2. A phase's code is what
-/// input 92 + a shows meanwhile.
+/// RS-M8194H, SET_HV, HOME_LIMIT, SET_HOME_MODE (manual, 6 and 4.8): four steps of the MCX314 chip, each with
+/// its own direction or left out. Signals: near_home is IN0, home IN1, index IN2. A phase's code is the value
+/// that input 92 + a shows during it.
 struct Rsm8194hHoming {
   std::array<int, 4> ways{};         // of steps 1 to 4: +1, -1, or 0: skipped
   SpeedLaw drive;                    // V: steps 1 and 4
   SpeedLaw home;                     // HV: steps 2 and 3
   std::int64_t offset_pulses = 0;    // of step 4, >= 0
-  bool limit_is_home = false;        // HOME_LIMIT 1: the limit in step 2's direction instead of HOME,
-  bool limit_is_near_home = false;   // and that in step 1's instead of NHOME
-  bool soft_limits_lead_on = false;  // as hard ones do
+  bool limit_is_home = false;        // HOME_LIMIT 1: the limit in step 2's direction is used instead of HOME,
+  bool limit_is_near_home = false;   // and the limit in step 1's direction instead of NHOME
+  bool soft_limits_lead_on = false;  // true: soft limits act as hard ones do
 };
 HomingProgram rsm8194h_homing(const Rsm8194hHoming& how);
 
-/// Simple2-R3, *_Home_Speed, *_Home_AccTime, *_GoHome_DIR. The manual gives no sequence; this one always
-/// ends on the home switch's edge that is met in the direction `way`, wherever it began.
+/// Simple2-R3, *_Home_Speed, *_Home_AccTime, *_GoHome_DIR. The manual gives no sequence. This one always ends
+/// on the edge of the home switch that is met in direction `way`, wherever it began.
 struct Simple2Homing {
   int way = -1;    // GoHome_DIR: 0 -1, 1 +1
   SpeedLaw speed;  // a top speed of 0 hangs, as every Simple2-R3 move does

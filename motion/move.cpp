@@ -24,7 +24,7 @@ const RampLaw& reckoned(const SpeedLaw& law) {
 
 double start_speed(const SpeedLaw& law) { return std::min(law.start_speed_u_s, law.top_speed_u_s); }
 
-/// How much remains when slowing down from `speed_u_s` begins.
+/// Returns the remaining distance at which slowing down from `speed_u_s` begins.
 double slow_down_distance(const SpeedLaw& law, double speed_u_s) {
   const double start = start_speed(law);
   const double reckoned_u = law.slow_down_at_u  ? *law.slow_down_at_u
@@ -33,14 +33,14 @@ double slow_down_distance(const SpeedLaw& law, double speed_u_s) {
   return reckoned_u + law.slow_down_offset_u;
 }
 
-/// Less than this is what roundings leave of a distance, not a distance to be covered.
+/// A distance below this is a rounding error, not a distance to be covered.
 double rounding_of(double target_u) { return 1e-9 + 1e-14 * std::abs(target_u); }
 
 bool slows_down_by_chip_rules(const SpeedLaw& law) {
   return law.slow_down_at_u || law.slow_down_reckoned_by || law.slow_down_offset_u != 0;
 }
 
-/// Slows down from `speed_u_s` and ends on `target_u`: creeps what is left, or is cut off.
+/// Slows down from `speed_u_s` and ends on `target_u`: it creeps the rest, or is cut off.
 void finish(Profile& profile, const SpeedLaw& law, double speed_u_s, double target_u) {
   const double start = start_speed(law);
   if (speed_u_s > start) append_ramp(profile, law.down, speed_u_s, start);
@@ -59,7 +59,7 @@ void finish(Profile& profile, const SpeedLaw& law, double speed_u_s, double targ
   profile.end_exactly_at(target_u);
 }
 
-/// Adds a whole move, forwards or back.
+/// Appends a whole move, forwards or backwards.
 void append_move(Profile& profile, const Profile& move, double sign) {
   for (std::int32_t i = 0; i < move.segment_count; ++i) {
     const Segment& s = move.segments[static_cast<std::size_t>(i)];
@@ -69,7 +69,7 @@ void append_move(Profile& profile, const Profile& move, double sign) {
   }
 }
 
-/// Up as far as slowing down allows, with the ramp broken off there.
+/// Rises as far as slowing down allows, with the ramp broken off there.
 Profile rise_and_break_off(const SpeedLaw& law, double target_u) {
   Profile profile;
   append_ramp(profile, law.up, start_speed(law), law.top_speed_u_s);
@@ -84,7 +84,7 @@ Profile rise_and_break_off(const SpeedLaw& law, double target_u) {
   return profile;
 }
 
-/// Quantities may each be sound, and yet make a ramp of 1e400 s.
+/// Each quantity may be sound, and the ramp still last 1e400 s.
 void demand_doubles_hold(const Profile& profile, bool endless = false) {
   bool held = endless || (std::isfinite(profile.duration_s) && std::isfinite(profile.end_position_u));
   for (std::int32_t i = 0; i < profile.segment_count; ++i) {
@@ -127,7 +127,7 @@ Profile plan(double distance_u, const SpeedLaw& law) {
     const double rise = rise_within(room, start, law.up, reckoned(law), whole_rise);
     if (rise < whole_rise) {
       top = start + rise;
-      // Beside a great start speed a small rise might be rounded up to more than there is room for.
+      // Next to a large start speed, a small rise might be rounded up to more than there is room for.
       if (top - start > rise) top = std::nextafter(top, start);
     }
     if (top > start) append_ramp(profile, law.up, start, top);
@@ -235,7 +235,7 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
   check_state(state);
   demand_finite(target_u, "change of target", "target");
   if (state.speed_u_s == 0) {
-    // At rest: a move of its own, forwards or back.
+    // At rest: a separate move, forwards or backwards.
     Profile profile = Profile::from(state.position_u);
     const double distance = std::abs(target_u - state.position_u);
     if (distance > rounding_of(target_u)) {
@@ -249,21 +249,21 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
   const double start = start_speed(law);
   const double top = std::max(start, law.top_speed_u_s);
 
-  // The distance of going to `peak`, and from there to the stop where slowing down begins.
+  // Returns the distance up to `peak` and from there to the point where slowing down begins.
   const auto needed = [&](double peak) {
     Profile change;
     append_change(change, now, peak, law);
     return change.end_position_u + slow_down_distance(law, peak);
   };
   const double room = target_u - now.position_u;
-  // What acceleration there is brings the speed here whatever is done.
+  // The present acceleration brings the speed at least here.
   const double faded = speed_without_acceleration(now, law);
   Profile stop = slow_to_stop(now, law);
   if (std::abs(stop.end_position_u - target_u) <= rounding_of(target_u)) {
     stop.end_exactly_at(target_u);
     return stop;
   }
-  // A law that reckons with too short a ramp passes no target ahead: it is cut off there.
+  // A law that assumes too short a ramp passes no target ahead: the move is cut off there.
   if (stop.end_position_u > target_u && (room < 0 || needed(faded) > room)) {
     append_move(stop, plan(stop.end_position_u - target_u, law), -1);
     stop.end_exactly_at(target_u);
@@ -272,7 +272,7 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
   }
   double peak = top;
   if (needed(top) > room) {
-    // Slowing down on the way to slowing down takes longer than doing it at once; so where it goes on from
+    // Slowing down after reaching `faded` takes longer than slowing down at once; so if it continues from
     // `faded`, the peak is above that.
     const double low = faded < top && needed(faded) <= room ? faded : start;
     peak = turnover(low, top, [&](double middle) { return needed(middle) > room; }).before;
@@ -280,7 +280,7 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
   Profile profile = Profile::from(now.position_u);
   append_change(profile, now, peak, law);
   const double cruise = target_u - profile.end_position_u - slow_down_distance(law, peak);
-  // What roundings leave would take long at a crawl.
+  // A rounding error would take long to creep.
   if (cruise > rounding_of(target_u) && peak > 0) profile.append(cruise / peak, peak, 0, 0);
   finish(profile, law, peak, target_u);
   demand_doubles_hold(profile);

@@ -1,4 +1,4 @@
-// A move from rest to rest, and what can be done to it on the way: another speed, another target, a stop.
+// A move from rest to rest, and the changes possible while it runs: another speed, another target, a stop.
 //
 //   speed    top ______
 //           /          \            start: the speed a stepper is pulled to at once, and stopped from
@@ -27,7 +27,7 @@ enum class Short : std::uint8_t {
               // then jumps (PCL6045 without FH correction)
 };
 
-/// How fast a coordinate moves: everything about a move but its distance.
+/// How fast a coordinate moves: everything that defines a move except its distance.
 struct SpeedLaw {
   double start_speed_u_s = 0;  // >= 0; not above top_speed_u_s: the move then keeps the top speed throughout
   double top_speed_u_s = 0;    // > 0
@@ -45,33 +45,36 @@ struct SpeedLaw {
   bool operator==(const SpeedLaw&) const = default;
 };
 
-/// Throws BadMotion, naming the quantity, for what is outside the domains above or not finite.
+/// Throws BadMotion, naming the quantity, for values that are not finite or outside the domains above.
 void check(const SpeedLaw& law);
 
-/// The move over `distance_u` >= 0, from 0; a distance of 0 gives the empty profile. Ends on `distance_u`
-/// exactly. Throws as check(), and BadMotion(not_positive) when it would have to creep at a start speed of 0.
+/// Plans the move over `distance_u` >= 0, from 0, that ends exactly on `distance_u`; a distance of 0 gives
+/// the empty profile. Throws as check() does, and BadMotion(not_positive) when the move would have to creep
+/// at a start speed of 0.
 Profile plan(double distance_u, const SpeedLaw& law);
 
-/// From rest up to the top speed, which is then kept for ever.
+/// Plans a run from rest up to the top speed, which is then kept for ever.
 Profile plan_endless(const SpeedLaw& law);
 
-/// From rest so as to be past `distance_u` at `passing_speed_u_s` > 0, by `law.down`; that speed is then kept
-/// for ever. Where the distance is too short to slow down in, or the top speed is not above it, the passing
-/// speed is that of the whole way.
+/// Plans a run from rest that passes `distance_u` at `passing_speed_u_s` > 0, by `law.down`, and then keeps
+/// that speed for ever. If the distance is too short to slow down in, or the top speed is not above the
+/// passing speed, the whole run is at the passing speed.
 Profile plan_passing(double distance_u, double passing_speed_u_s, const SpeedLaw& law);
 
-/// From any state (speed >= 0; position counted from the move's beginning) to another speed >= 0, then kept
-/// for ever; speed 0 is a stop. Speeds between 0 and the start speed are jumped to. Throws as check().
+/// Plans a change from any state (speed >= 0; position counted from the move's beginning) to another speed >=
+/// 0, which is then kept for ever; speed 0 is a stop. Speeds between 0 and the start speed are jumped to.
+/// Throws as check() does.
 Profile change_speed(const Sample& now, double speed_u_s, const SpeedLaw& law);
 
-/// From any state to a stop: down to the start speed, and there it ends. From below that, at once.
+/// Plans a stop from any state: the speed falls to the start speed and the motion ends there. From below the
+/// start speed it ends at once.
 Profile slow_to_stop(const Sample& now, const SpeedLaw& law);
 
-/// From any state (speed >= 0) to a target further on, or to one that is already passed or too near to stop
-/// at: then it stops, and comes back. `law` may differ from the one that the move began with; its when_short
-/// is for moves from rest. With the same law and target as before a move goes on unchanged, except for ramps
-/// by time, which begin again, and for moves that are cut off, which come back once they slow down. Less than
-/// about 1e-9 is not a distance.
+/// Plans a change from any state (speed >= 0) to a target further on, or to one that is already passed or too
+/// near to stop at; the motion then stops and comes back. `law` may differ from the one that the move began
+/// with; its when_short is for moves from rest. With the same law and target as before, the move goes on
+/// unchanged, with two exceptions: ramps by time begin again, and moves that are cut off come back once they
+/// slow down. Less than about 1e-9 is not a distance.
 Profile change_target(const Sample& state, double target_u, const SpeedLaw& law);
 
 }  // namespace understudy::motion

@@ -10,7 +10,8 @@ namespace understudy::motion {
 
 namespace {
 
-/// A vector's direction; zero for the zero vector. Scaled first: the square of 1e-200 would be 0.
+/// Returns a vector's direction, or zero for the zero vector. It is scaled first: the square of 1e-200 would
+/// be 0.
 Point direction_of(const Point& way) {
   const double largest = way.cwiseAbs().maxCoeff();
   if (largest == 0) return Point::Zero();
@@ -24,8 +25,8 @@ Point Path::at(double along_u) const {
   if (!(along_u > 0)) return begin;
   if (along_u >= length_u) return end;
   if (kind == Kind::arc) return place_on_arc(*this, turned_at(*this, along_u));
-  // Multiplied before it is divided: at a whole pulse of the longest axis that axis is at a whole pulse. The
-  // bounds keep the last bits of a very uneven sum from passing the end.
+  // Multiply before dividing: at a whole pulse of the longest axis, that axis is at a whole pulse. The bounds
+  // keep the last bits of a very uneven sum from passing the end.
   const Point place = begin + (end - begin) * along_u / length_u;
   return place.cwiseMax(begin.cwiseMin(end)).cwiseMin(begin.cwiseMax(end));
 }

@@ -18,8 +18,8 @@ namespace understudy::motion {
 
 inline constexpr int kPathAxes = 4;
 
-/// A place, in axis order (X, Y, Z, U or W); axes that take no part are 0 or simply stand.
-/// Unaligned on purpose: a state is copied, compared and hashed as plain bytes.
+/// A place, in axis order (X, Y, Z, U or W); axes that take no part are 0 or stand still. It is unaligned on
+/// purpose: a state is copied, compared and hashed as plain bytes.
 using Point = Eigen::Matrix<double, kPathAxes, 1, Eigen::DontAlign>;
 
 /// Two axes of a plane, by number 0..3 and different: first is the abscissa, second the ordinate.
@@ -31,7 +31,7 @@ struct Plane {
 
 enum class Turn : std::uint8_t { counter_clockwise, clockwise };
 
-/// What is done with an arc whose end point is not on the circle about its centre.
+/// What to do with an arc whose end point is not on the circle about its centre.
 enum class OffCircle : std::uint8_t {
   refuse,    // BadMotion(no_such_arc) when the radii differ by more than the tolerance, else as blend
   blend,     // the radius goes evenly from the one to the other: the end point is met exactly
@@ -49,7 +49,7 @@ enum class Measure : std::uint8_t {
                  // that changes by more than the tolerance is BadMotion(out_of_range).
 };
 
-/// One piece of a path, as a value. Made only by the functions below.
+/// One piece of a path, as a value. Only the functions below make one.
 struct Path {
   enum class Kind : std::uint8_t { line, arc };  // an arc with `radius_slope` != 0 is a spiral
 
@@ -57,7 +57,7 @@ struct Path {
   Measure measure = Measure::vector;
   Point begin = Point::Zero();
   Point end = Point::Zero();
-  double length_u = 0;  // by `measure`; >= 0
+  double length_u = 0;  // length by `measure`; >= 0
 
   // An arc: centre + radius(angle) * (cos(angle) * abscissa + sin(angle) * ordinate) + share * rise, where
   // angle goes from begin_angle to begin_angle + sweep and share, the part of |sweep| done, from 0 to 1.
@@ -72,65 +72,67 @@ struct Path {
 
   bool operator==(const Path&) const = default;
 
-  /// The place after `along_u` (clamped to 0..length_u; NaN is 0). Exactly `begin` at 0 and `end` at
-  /// length_u, in between exact but for rounding: within 2e-15 of the largest coordinate, the radius and the
-  /// length (by the longest axis also of the rise for each radian). A line by its longest axis has that axis
-  /// at a whole unit at each whole unit, if it began at one.
+  /// Returns the place after `along_u` (clamped to 0..length_u; NaN is 0). It is exactly `begin` at 0 and
+  /// `end` at length_u. In between it is exact but for rounding: within 2e-15 of the largest coordinate, the
+  /// radius and the length (by the longest axis also of the rise for each radian). On a line measured by its
+  /// longest axis, that axis is at a whole unit at each whole unit of length, if it began at one.
   Point at(double along_u) const;
-  /// The unit vector of movement there (true geometry, whatever the measure); zero for a path of no length.
+  /// Returns the unit vector of movement there (true geometry, independent of the measure), or zero for a
+  /// path of no length.
   Point direction_at(double along_u) const;
 };
 
-/// Straight from `begin` to `end`, in as many axes as differ. All lines and arcs throw BadMotion(not_finite)
-/// for coordinates that are not finite, and (out_of_range) for coordinates beyond +-1e12.
+/// Makes a straight path from `begin` to `end`, in as many axes as differ. All lines and arcs throw
+/// BadMotion(not_finite) for coordinates that are not finite, and BadMotion(out_of_range) for coordinates
+/// beyond +-1e12.
 Path line(const Point& begin, const Point& end, Measure measure = Measure::vector);
 
-/// What the arcs have in common.
+/// Options common to all arcs.
 struct ArcOptions {
   Plane plane = {};
   Measure measure = Measure::vector;
   OffCircle off_circle = OffCircle::refuse;
-  double radius_tolerance_u = 1e-6;  // refuse: how much the two radii may differ
+  double radius_tolerance_u = 1e-6;  // for `refuse`: how much the two radii may differ
 };
 
-/// An arc about `centre` (its coordinates in the plane count) from `begin` to `end`, in the direction of
-/// `turn`. In the plane `end` == `begin` is a full circle, and so is an end that the centre sees within 1e-9
-/// rad of `begin`, on either side: rounding never decides between a whole turn and none. `more_turns` >= 0
-/// adds whole turns, up to 1e6 rad in all. The difference between `end` and `begin` outside the plane is the
-/// rise: a helix. A centre on `begin` or `end`: BadMotion(no_such_arc).
+/// Makes an arc about `centre` (its coordinates in the plane count) from `begin` to `end`, in the direction
+/// of `turn`. If `end` == `begin` in the plane, the arc is a full circle; so is an end that the centre sees
+/// within 1e-9 rad of `begin`, on either side, so rounding never decides between a whole turn and none.
+/// `more_turns` >= 0 adds whole turns, up to 1e6 rad in all. The difference between `end` and `begin` outside
+/// the plane is the rise, which makes a helix. A centre on `begin` or `end` throws BadMotion(no_such_arc).
 Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Turn turn,
                    const ArcOptions& options = {}, std::int64_t more_turns = 0);
 
-/// An arc about `centre` through `sweep_rad` (> 0 counter-clockwise, any number of turns up to 1e6 rad),
-/// while the other axes go by `rise` (its part in the plane must be 0). A sweep of 0 is the line of `rise`
-/// alone. Whole quarters of a turn (a sweep as near to them as a double can be) end exactly there.
+/// Makes an arc about `centre` through `sweep_rad` (> 0 counter-clockwise, any number of turns up to 1e6
+/// rad), while the other axes go by `rise` (its part in the plane must be 0). A sweep of 0 is the line of
+/// `rise` alone. Whole quarters of a turn (a sweep as near to them as a double can be) end exactly there.
 Path arc_by_sweep(const Point& begin, const Point& centre, double sweep_rad,
                   const Point& rise = Point::Zero(), const ArcOptions& options = {});
 
-/// An arc of `radius_u` to `end`: > 0 takes the way of at most half a turn, < 0 the longer one; where both
-/// are half a turn they are the same arc, and `turn` decides its side. The chord may exceed twice the radius
-/// by radius_tolerance_u (a half circle then); beyond that, or with `end` == `begin` in the plane, or a
-/// radius of 0: BadMotion(no_such_arc). A rise as in arc_by_centre.
+/// Makes an arc of `radius_u` to `end`. A radius > 0 takes the way of at most half a turn, < 0 the longer
+/// one; if both are half a turn they are the same arc, and `turn` decides its side. The chord may exceed
+/// twice the radius by radius_tolerance_u, which gives a half circle. A longer chord, `end` == `begin` in the
+/// plane, or a radius of 0 throws BadMotion(no_such_arc). The rise is as in arc_by_centre.
 Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn turn,
                    const ArcOptions& options = {});
 
-/// The arc from `begin` through `middle` to `end`, in the plane of the options; the turn follows from the
-/// points. Points on one line (a triangle lower than 1e-12 of its longest side), or two the same:
-/// BadMotion(no_such_arc). A rise as in arc_by_centre.
+/// Makes the arc from `begin` through `middle` to `end`, in the plane of the options; the turn follows from
+/// the points. Points on one line (a triangle lower than 1e-12 of its longest side) and equal points throw
+/// BadMotion(no_such_arc). The rise is as in arc_by_centre.
 Path arc_by_three_points(const Point& begin, const Point& middle, const Point& end,
                          const ArcOptions& options = {});
 
-/// Like the above, in whatever plane the three points span, even an oblique one (all four axes count).
+/// Like the above, in the plane that the three points span, even an oblique one (all four axes count).
 Path arc_in_space(const Point& begin, const Point& middle, const Point& end);
 
-/// A spiral about `centre` through `sweep_rad`, its radius changing by `growth_u_turn` for each whole turn. A
-/// radius that would pass below 0: BadMotion(no_such_arc). It may begin at its centre, and then leaves along
-/// the first axis, or end there. A sweep of 0 as in arc_by_sweep.
+/// Makes a spiral about `centre` through `sweep_rad`, whose radius changes by `growth_u_turn` for each whole
+/// turn. A radius that would pass below 0 throws BadMotion(no_such_arc). The spiral may begin at its centre,
+/// and then leaves along the first axis, or end there. A sweep of 0 is as in arc_by_sweep.
 Path spiral(const Point& begin, const Point& centre, double sweep_rad, double growth_u_turn,
             const Point& rise = Point::Zero(), const ArcOptions& options = {});
 
-/// The deflection between the end of one path and the beginning of the next, in degrees 0..180: 0 is
-/// straight on. A path of no length has no direction: 0.
+/// Returns the deflection between the end of one path and the beginning of the next, in degrees 0..180; 0 is
+/// straight on. A path of no length has no direction and gives 0.
 double corner_deg(const Path& first, const Path& next);
 
 }  // namespace understudy::motion

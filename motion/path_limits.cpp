@@ -12,7 +12,7 @@ namespace understudy::motion {
 
 namespace {
 
-/// Whether an angle that repeats every half turn lies within the sweep.
+/// Returns true if an angle that repeats every half turn lies within the sweep.
 bool passes(const Path& arc, double angle_rad) {
   const double first = std::min(arc.begin_angle_rad, arc.begin_angle_rad + arc.sweep_rad);
   const double last = std::max(arc.begin_angle_rad, arc.begin_angle_rad + arc.sweep_rad);
@@ -31,7 +31,8 @@ Point of_circle(const Path& path) {
     const double a = path.abscissa[i];
     const double o = path.ordinate[i];
     if (!passes(path, angle_of(-a, o))) continue;
-    // Across the plane the rise adds up along the same axis only where the plane is oblique: then a bound.
+    // Across the plane, the rise adds up along the same axis only if the plane is oblique: then this is a
+    // bound.
     greatest[i] = std::min(1.0, (std::sqrt(a * a + o * o) * turn + std::abs(path.rise[i])) / whole);
   }
   return greatest;

@@ -30,13 +30,13 @@ bool is_smooth(const Path& first, const Path& next, Joint joint) {
   return false;
 }
 
-/// The same place but for roundings.
+/// Returns true for the same place, except for roundings.
 bool meets(const Point& end, const Point& begin) {
   const double size = 1 + end.cwiseAbs().maxCoeff();
   return (end - begin).cwiseAbs().maxCoeff() <= 1e-6 * size;
 }
 
-/// What a law cannot plan must come out when it is given, not in the tick in which a chain begins.
+/// A law that cannot be planned must be refused when it is given, not in the tick in which a chain begins.
 void demand_plans(SpeedLaw law, double override_factor) {
   if (override_factor > 0) law.top_speed_u_s *= override_factor;
   bool may_creep = law.slow_down_at_u || law.slow_down_offset_u > 0;
@@ -59,8 +59,8 @@ void demand_plans(SpeedLaw law, double override_factor) {
 
 }  // namespace
 
-/// The path whose end counts for the joint with the next: paths of no length have no direction, and so hide
-/// no corner.
+/// Returns the path whose end counts for the joint with the next one. Paths of no length have no direction,
+/// and so hide no corner.
 const Path& PathRun::path_before(std::size_t number) {
   std::size_t before = number - 1;
   while (before > 0 && piece(before).path.length_u == 0 && piece(before).joined) --before;
@@ -85,8 +85,8 @@ void PathRun::append(const Path& path, Joint joint, Tick now) {
   } else if (running_ && chain_count_ == 0) {
     lay_out_chain(now + 1);
   } else if (chain_count_ + 1 == count_) {
-    added.joined = false;                // the chain before it will have ended
-    if (open_ && running_) replan(now);  // at rest, as it now has to
+    added.joined = false;                // the previous chain will have ended
+    if (open_ && running_) replan(now);  // at rest, as required now
   }
 }
 
@@ -180,7 +180,7 @@ double PathRun::elapsed_s(Tick now) const { return seconds(now - begin_tick_) - 
 
 Sample PathRun::sample(Tick now) const {
   if (chain_count_ == 0) return {.position_u = chain_end_u_};
-  // Not begun yet: a start speed is not yet there.
+  // It has not begun yet: the start speed is not there yet.
   if (elapsed_s(now) < 0) return {.position_u = profile_.sample(0).position_u};
   Sample here = profile_.sample(elapsed_s(now));
   // A path has no way back, but the last digits of an S-curve's end may go below 0.
@@ -200,7 +200,7 @@ Point PathRun::velocity(Tick now) const {
   const Path& path = piece->path;
   const Point direction = path.direction_at(here.position_u - piece->begin_u);
   if (path.measure == Measure::vector) return here.speed_u_s * direction;
-  // The axis that moves most has the speed; what rises on an arc does not count.
+  // The axis that moves most has the speed; the rise of an arc does not count.
   double most = 0;
   for (Eigen::Index i = 0; i < kPathAxes; ++i) {
     const bool counts = path.kind == Path::Kind::line || path.abscissa[i] != 0 || path.ordinate[i] != 0;
@@ -218,7 +218,7 @@ bool PathRun::slowing_for_the_end(Tick now) const {
   return stop.end_position_u >= chain_end_u_ - 1e-9 * (1 + chain_end_u_);
 }
 
-/// Makes the chain of what is joined at the queue's front, and sets out on it.
+/// Makes a chain of the joined paths at the queue's front, and begins it.
 void PathRun::lay_out_chain(Tick begin_at) {
   chain_count_ = 0;
   chain_end_u_ = 0;
@@ -241,21 +241,21 @@ void PathRun::lay_out_chain(Tick begin_at) {
   }
 }
 
-/// Of a run that keeps its speed to the end.
+/// Cuts the profile of a run that keeps its speed to the end.
 Profile PathRun::cut_at_end(Profile profile) const {
   profile.cut_at(chain_end_u_);
   profile.end_exactly_at(chain_end_u_);
   return profile;
 }
 
-/// The profile from where the chain is at `now` on.
+/// Plans the profile again, from the place at `now` on.
 void PathRun::replan(Tick now) {
   if (chain_count_ == 0) return;
   Tick from = std::max(now, begin_tick_);
   const Sample here = sample(from);
   if (here.position_u >= chain_end_u_) return;
-  // From standstill a motion is at its beginning in the next tick, as everywhere; one that is at its
-  // beginning already stays there, or commands in every tick would keep it from ever setting out.
+  // From standstill, a motion has its beginning in the next tick, as everywhere. A motion that is at its
+  // beginning already stays there; else commands in every tick would keep it from ever starting.
   const bool stands = elapsed_s(from) >= profile_.duration_s;
   if (here.speed_u_s == 0 && stands) from = std::max(from, now + 1);
   if (held()) {
@@ -267,7 +267,7 @@ void PathRun::replan(Tick now) {
   } else {
     const SpeedLaw law = effective();
     const Profile stop = slow_to_stop(here, law);
-    // A path has no way back: what cannot stop in time any more ends on the end.
+    // A path cannot go back: if it can no longer stop in time, it ends at the end.
     if (stop.end_position_u > chain_end_u_) {
       profile_ = stop;
       profile_.cut_at(chain_end_u_);
@@ -284,7 +284,7 @@ bool PathRun::pause_within(Tick tick, double along_u, const SpeedLaw& by, Stretc
   const Instant at = moment_at(gone, tick, along_u);
   Sample here = profile_.sample(elapsed_s(tick - 1) + at.after_s + (at.tick == tick ? kTick_s : 0));
   here.speed_u_s = std::max(0.0, here.speed_u_s);
-  // It may have come into other paths since: those are before it again.
+  // The run may have entered further paths since; it is before them again.
   while (along_u < piece(0).begin_u && completed_ > 0) {
     head_ = (head_ + kMaxPaths - 1) % kMaxPaths;
     ++count_;
@@ -357,7 +357,7 @@ Instant PathRun::moment_at(const Stretch& gone, Tick tick, double along_u) const
 }
 
 const PathRun::Piece& PathRun::piece_on(const Stretch& gone, double along_u) const {
-  // Paths that are done stay in the ring until others are appended.
+  // Completed paths stay in the ring until others are appended.
   std::size_t number = gone.last_piece;
   for (std::size_t i = 0; i < kMaxPaths && pieces_[number].begin_u > along_u; ++i) {
     number = (number + kMaxPaths - 1) % kMaxPaths;

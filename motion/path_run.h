@@ -5,8 +5,7 @@
 //                     ╰────────────────────╯   stop
 //
 // Paths that are joined make a chain, and a chain is one coordinate: its length so far. Speed, override,
-// pause and resume are all changes of the profile along it, so whatever happens in time, the place stays on
-// the path.
+// pause and resume all change the profile along it, so the place stays on the path whatever happens in time.
 #pragma once
 
 #include <array>
@@ -23,9 +22,9 @@ namespace understudy::motion {
 /// How a path follows the one before it.
 struct Joint {
   enum class Rule : std::uint8_t {
-    stop,        // from rest
-    join,        // without slowing down, whatever the corner: at a sharp one the velocity jumps
-    join_below,  // as join where the deflection is at most `corner_deg`, else as stop
+    stop,        // begins from rest
+    join,        // continues without slowing down, whatever the corner: at a sharp one the velocity jumps
+    join_below,  // acts as join if the deflection is at most `corner_deg`, else as stop
   };
   Rule rule = Rule::stop;
   double corner_deg = 0;
@@ -40,8 +39,8 @@ class PathRun {
  public:
   static constexpr std::size_t kMaxPaths = 32;
 
-  /// A joined path that comes when slowing down for the end has begun: picked up (speeding up again), or
-  /// begun from rest as SLIM does.
+  /// What a joined path does that arrives after the run has begun to slow down for its end: the run speeds up
+  /// again, or the path begins from rest, as SLIM does.
   enum class LateJoint : std::uint8_t { speed_up_again, from_rest };
 
   bool operator==(const PathRun&) const = default;
@@ -53,92 +52,97 @@ class PathRun {
   void append(const Path& path, Joint joint, Tick now);
   bool full() const { return count_ == kMaxPaths; }
   std::size_t queued() const { return count_; }
-  /// How many will be left after `tick`, if nothing is changed until then.
+  /// Returns how many paths will be left after `tick`, if nothing is changed until then.
   std::size_t queued_after(Tick tick) const;
 
-  /// The speed of what runs and what comes. Before a run begins, and at any time after, from `now` on. Throws
-  /// as motion/move.h's plan(), for a law that a chain of some length could not be planned with. Acceleration
-  /// may be changed only at rest: else throws BadMotion(out_of_range).
+  /// Sets the speed of the current path and of those to come. It may be called before a run begins and at any
+  /// time after; it acts from `now` on. Throws as motion/move.h's plan() does, for a law that a chain of some
+  /// length could not be planned with. Acceleration may be changed only at rest; else it throws
+  /// BadMotion(out_of_range).
   void set_speed(const SpeedLaw& speed, Tick now);
   const SpeedLaw& speed() const { return law_; }
-  /// Another top speed with the same ramps: at any time.
+  /// Sets another top speed with the same ramps. It may be called at any time.
   void set_top_speed(double speed_u_s, Tick now);
-  /// An open run is a stream of which more is to come: it does not slow down for the end of what is queued.
-  /// Where that comes, the run ends there at the speed it has, and has run dry; what is appended then begins
-  /// from rest. Closed (so it begins) before its end it slows down for it as far as it still can.
+  /// An open run is a stream: more paths are to come, so it does not slow down for the end of the queue. If
+  /// it reaches that end, it ends there at full speed and has run dry; a path appended later begins from
+  /// rest. A run is closed at first. If it is closed before its end, it slows down for the end as far as it
+  /// still can.
   void set_open(bool open, Tick now);
   bool open() const { return open_; }
-  /// The last path ended at speed, because no other had come.
+  /// Returns true if the last path ended at speed because no other path had arrived.
   bool ran_dry() const { return ran_dry_; }
-  /// Scales the top speed by a factor from 0 (holds, on the path) to 10. Throws BadMotion(out_of_range)
-  /// beyond that, and for a top speed that would be too small to plan with.
+  /// Scales the top speed by a factor from 0 (holds on the path) to 10. Throws BadMotion(out_of_range) beyond
+  /// that, and for a top speed that would be too small to plan with.
   void set_override(double factor, Tick now);
 
-  /// Begins what is queued, from rest, in the next tick. Further chains follow by themselves, and what is
-  /// appended later begins by itself, until abandon().
+  /// Begins the queued paths, from rest, in the next tick. Further chains and paths appended later begin
+  /// automatically, until abandon().
   void start(Tick now);
-  /// Where it is while nothing has run yet: what step() gives until a path begins. Throws
-  /// BadMotion(not_finite), and (out_of_range) for a place that is not where the first path begins.
+  /// Sets the place that step() returns until a path begins. Throws BadMotion(not_finite), and
+  /// BadMotion(out_of_range) for a place that is not where the first path begins.
   void stand_at(const Point& place);
 
-  /// Slows down on the path to a standstill, and stays.
+  /// Slows down on the path to a standstill and stays there.
   void pause(Tick now);
-  /// Goes on exactly where it was; while still slowing down, speeds up again.
+  /// Continues exactly where the run stopped; if it is still slowing down, speeds up again.
   void resume(Tick now);
-  /// Forgets the paths behind the first one at whose end it can still stop, and stops there. Returns how many
-  /// are left; what has not begun is forgotten altogether.
+  /// Drops the paths after the first one at whose end the run can still stop, and stops there. Returns how
+  /// many are left. If the run has not begun, drops all paths.
   std::size_t shorten(Tick now);
-  /// Forgets what is left at once, including the velocity. Call it at rest, unless that is intended.
+  /// Drops the remaining paths at once, and with them the velocity. Call it at rest, unless that is intended.
   void abandon();
 
-  bool running() const { return running_ && count_ > 0; }  // something is not done, paused or not
+  bool running() const { return running_ && count_ > 0; }  // true while paths remain, paused or not
   bool paused() const { return paused_; }                  // pause() is in force
-  bool at_rest(Tick now) const;                            // no speed after tick `now`
-  /// Length along the present chain, speed and acceleration after tick `now`.
+  bool at_rest(Tick now) const;                            // true if the speed after tick `now` is 0
+  /// Returns length along the current chain, speed and acceleration after tick `now`.
   Sample sample(Tick now) const;
-  /// How fast each coordinate changes there, u/s. On a corner, of the path behind it.
+  /// Returns how fast each coordinate changes there, u/s. On a corner it is the velocity of the path after
+  /// it.
   Point velocity(Tick now) const;
   double chain_length_u() const { return chain_end_u_; }
 
-  /// How the chain's place goes by in time.
+  /// The place along a chain as a function of time.
   struct Course {
     Profile profile;
     Tick begin_tick = 0;
     double begin_after_s = 0;
   };
-  /// What a tick has gone along: of a chain, from its place before the tick to its place after it.
+  /// The part of a chain covered in one tick, from its place before the tick to its place after it.
   struct Stretch {
     double to_u = 0;
-    std::size_t last_piece = 0;  // where in the ring the path is on which it ends
-    // Of a chain that is over in it: how it went. Else the run still knows.
+    std::size_t last_piece = 0;  // index in the ring of the path on which the stretch ends
+    // The course of a chain that ended in this tick; otherwise the run still has it.
     std::optional<Course> course{};
   };
-  /// One tick, in order. The place after it, until the next one; where nothing runs, where the last path
-  /// ended.
+  /// Runs one tick; ticks come in order. Returns the place after it, valid until the next call; if nothing
+  /// runs, the place where the last path ended.
   const Point& step(Tick tick, Stretch* gone = nullptr);
-  // Of the tick just stepped, until something else is asked of the run:
-  /// Where it began, and its place along the chain at a moment.
+  // The functions below are about the tick just stepped. They are valid until another call changes the run.
+  /// Return the length along the chain where the tick began, and at a moment.
   double began_at(const Stretch& gone, Tick tick) const { return along_at(gone, {.tick = tick - 1}); }
   double along_at(const Stretch& gone, Instant at) const;
-  /// The moment at which it comes to a length along the chain between there and `to_u`.
+  /// Returns the moment at which the run reaches a length along the chain between the tick's beginning and
+  /// `to_u`.
   Instant moment_at(const Stretch& gone, Tick tick, double along_u) const;
-  /// The place there.
+  /// Returns the place at that length.
   Point place_on(const Stretch& gone, double along_u) const;
-  /// Whether it may have turned round in a coordinate: on an arc.
+  /// Returns true if a coordinate may have reversed, as it can on an arc.
   bool bends(const Stretch& gone) const { return pieces_[gone.last_piece].path.kind != Path::Kind::line; }
-  /// How far behind that each coordinate keeps its way, but for one turn; at most `to_u`.
+  /// Returns the end of the span after `along_u` in which each coordinate keeps its direction, but for one
+  /// reversal; at most `to_u`.
   double end_of_span(const Stretch& gone, double along_u) const;
-  /// Which way coordinate `i` goes there; on a corner, of the path behind it.
+  /// Returns in which direction coordinate `i` moves there; on a corner, that of the path after it.
   double way_on(const Stretch& gone, double along_u, Eigen::Index i) const;
-  /// Slows down, by the ramps of `by`, from that length on, which the tick has passed: it ends accordingly.
-  /// False, and nothing has changed, where it is paused already or the chain is over.
+  /// Slows down by the ramps of `by` from that length on, which the tick has passed; the tick then ends
+  /// accordingly. Returns false and changes nothing if the run is paused already or the chain is over.
   bool pause_within(Tick tick, double along_u, const SpeedLaw& by, Stretch& gone);
-  /// Paths that were completed in the last tick.
+  /// Returns the number of paths completed in the last tick.
   int completed() const { return completed_; }
-  /// The path being run; of the queue's front.
+  /// Returns the current path, the front of the queue.
   const Path& path() const { return pieces_[head_].path; }
 
-  /// Throws BadMotion(out_of_range) if the numbers contradict each other: for states from outside.
+  /// Throws BadMotion(out_of_range) if the numbers contradict each other. For states from outside.
   void check_queue() const;
 
  private:
@@ -146,8 +150,8 @@ class PathRun {
 
   struct Piece {
     Path path;
-    double begin_u = 0;   // along its chain
-    bool joined = false;  // to the one before
+    double begin_u = 0;   // position along its chain
+    bool joined = false;  // true if joined to the one before
     bool operator==(const Piece&) const = default;
   };
   friend struct StateOf<Piece>;
@@ -169,11 +173,11 @@ class PathRun {
   std::array<Piece, kMaxPaths> pieces_{};
   std::size_t head_ = 0;
   std::size_t count_ = 0;
-  std::size_t chain_count_ = 0;  // of the front ones, that make the chain being run
+  std::size_t chain_count_ = 0;  // how many paths at the front make the current chain
   double chain_end_u_ = 0;
   Profile profile_;
   Tick begin_tick_ = 0;
-  double begin_after_s_ = 0;  // of the profile, after that tick
+  double begin_after_s_ = 0;  // the profile begins this long after `begin_tick_`
   SpeedLaw law_;
   double override_ = 1;
   LateJoint late_joint_ = LateJoint::speed_up_again;

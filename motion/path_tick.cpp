@@ -51,14 +51,14 @@ void PathTick::find_next() {
   moment_ = is_before(found, at_) ? at_ : found;
 }
 
-/// Where on the rest of its way an axis first is beyond what it watches.
+/// Returns the place on the rest of the path at which an axis first leaves its watch window.
 std::optional<double> PathTick::first_beyond(std::size_t i) const {
   const Axis* const mine = axis(i);
   if (mine == nullptr || mine->task != Task::coordinated || mine->settling) return std::nullopt;
   parts_[i]->watch();
   for (double from_u = along_u_; from_u < gone_.to_u;) {
     const double to_u = path_.run.end_of_span(gone_, from_u);
-    // Within a span a coordinate may turn round once.
+    // Within a span a coordinate may reverse once.
     const auto axis_number = static_cast<Eigen::Index>(i);
     const double way = path_.run.way_on(gone_, from_u, axis_number);
     const double before_u = std::nextafter(to_u, 0.0);
@@ -76,11 +76,11 @@ std::optional<double> PathTick::first_beyond(std::size_t i) const {
   return std::nullopt;
 }
 
-/// On a stretch on which it keeps its way.
+/// Like the above, on a stretch on which the coordinate keeps its direction.
 std::optional<double> PathTick::first_beyond(std::size_t i, double from_u, double to_u) const {
   const Axis& mine = *axis(i);
   const auto travel = [&](double along_u) {
-    // At the tick's end it is where the run has said.
+    // At the tick's end the axis is where the run says.
     if (along_u >= gone_.to_u) return target_[i];
     return path_.travel_at(i, path_.run.place_on(gone_, along_u)[static_cast<Eigen::Index>(i)]);
   };
@@ -92,7 +92,7 @@ std::optional<double> PathTick::first_beyond(std::size_t i, double from_u, doubl
   return is_beyond(from_u) ? from_u : turnover(from_u, to_u, is_beyond).after;
 }
 
-/// All of them to their places there; they meet what lies between.
+/// Moves all axes to their places there; they handle what lies between.
 void PathTick::carry_to(double along_u, Instant at) {
   along_u_ = along_u;
   at_ = at;
@@ -107,8 +107,8 @@ void PathTick::carry_to(double along_u, Instant at) {
   is_found_ = false;
 }
 
-/// What has become of the axes by now. One that is stopped stops all of them here; one that is to slow down
-/// slows the path.
+/// Handles what has happened to the axes. An axis that is stopped stops all of them here; an axis that is to
+/// slow down slows the path.
 void PathTick::heed_axes() {
   if (!path_.engaged) return;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -138,7 +138,7 @@ void PathTick::look() {
 void PathTick::go_to(Instant at) {
   if (!path_.engaged || is_over_) return;
   const double along_u = std::clamp(path_.run.along_at(gone_, at), along_u_, std::max(gone_.to_u, along_u_));
-  // Rounding must not bring an axis over the edge that is next.
+  // A rounding must not carry an axis over the next edge.
   carry_to(edge_u_ ? std::min(along_u, *edge_u_) : along_u, at);
   heed_axes();
 }

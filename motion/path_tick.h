@@ -1,5 +1,5 @@
-// A path and the axes that it carries, in a tick in which something can happen to one of them: from edge to
-// edge along the path, like motion/axis_tick.h for one axis.
+// A path and the axes that it carries, in a tick in which something can happen to one of them. It goes from
+// edge to edge along the path, as motion/axis_tick.h does for one axis.
 #pragma once
 
 #include <array>
@@ -18,22 +18,23 @@ namespace understudy::motion {
 
 class PathTick {
  public:
-  using Parts = std::array<AxisTick*, kPathAxes>;  // of each coordinate's axis, begun; null where it has none
+  // the tick of each coordinate's axis, already begun; null if it has no axis
+  using Parts = std::array<AxisTick*, kPathAxes>;
 
-  /// Begins it: where one of the axes has ended since the last tick all of them end.
+  /// Begins the tick. If one of the axes has ended since the last tick, all of them end.
   PathTick(Coordinated& path, const Coordinated::Ahead& ahead, Tick tick, std::span<Axis> axes,
            const Parts& parts, bool stays_engaged);
 
-  /// The next moment in the tick at which something can happen; its end where nothing can.
+  /// Returns the next moment at which something can happen, or the tick's end if nothing can.
   const Instant& next();
-  /// On to next(), and through what is to happen there.
+  /// Goes to next() and handles what happens there.
   void look();
   bool is_over() const { return is_over_; }
-  /// On to a moment that is not beyond next().
+  /// Goes to a moment that is not after next().
   void go_to(Instant at);
-  /// Slows down from the moment on to which it has been brought, by the ramps of `by`.
+  /// Slows the path down from the present moment on, by the ramps of `by`.
   void slow_down(Cause why, const SpeedLaw& by);
-  /// Somebody else has changed its axes.
+  /// Checks the axes again, after another object has changed them.
   void look_again() {
     heed_axes();
     is_found_ = false;
@@ -57,10 +58,10 @@ class PathTick {
   Parts parts_;
   Instant at_;
   double along_u_;
-  bool ends_in_it_;  // its last path
+  bool ends_in_it_;  // the last path ends in this tick
   bool is_over_ = false;
   bool is_found_ = false;
-  Instant moment_{};  // of what is next, and where it is
+  Instant moment_{};  // when the next edge happens; edge_u_ is where
   std::optional<double> edge_u_{};
 };
 

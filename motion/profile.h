@@ -8,7 +8,7 @@
 // The coordinate's unit u is pulses for an axis, a unit of length for a path. Profiles are counted in the
 // direction of the motion: from where it began upwards; only a return after an overshoot goes down.
 //
-// Pure and in closed form: any moment can be asked for, in any order, at the same cost.
+// A profile is pure and in closed form: you can ask for any moment, in any order, at the same cost.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace understudy::motion {
 
-/// Motion at constant jerk. Quantities are those at the segment's beginning.
+/// A piece of motion at constant jerk. The quantities are those at its beginning.
 struct Segment {
   double begin_s = 0;  // from the beginning of the profile
   double position_u = 0;
@@ -31,7 +31,7 @@ struct Segment {
   bool operator==(const Segment&) const = default;
 };
 
-/// Where a profile is at one moment.
+/// The state of a profile at one moment.
 struct Sample {
   double position_u = 0;
   double speed_u_s = 0;
@@ -39,14 +39,14 @@ struct Sample {
   double jerk_u_s3 = 0;
 };
 
-/// Within this much of a whole pulse the pulse counts as reached: a few roundings of a position as large as
-/// the distance. More would send the last pulses of a slow, long ramp too early.
+/// Returns how near to a whole pulse a position counts as having reached it: a few roundings of a position as
+/// large as the distance. A larger tolerance would send the last pulses of a slow, long ramp too early.
 constexpr double pulse_tolerance(double distance_u) {
   const double tolerance = 1e-12 + distance_u * 5e-16;
   return tolerance < 0.25 ? tolerance : 0.25;
 }
 
-/// Where `segment` is `t_s` after its own beginning.
+/// Returns the state of `segment` `t_s` after its beginning.
 inline Sample sample_segment(const Segment& segment, double t_s) {
   const double half_jerk = 0.5 * segment.jerk_u_s3;
   return {
@@ -61,32 +61,33 @@ inline Sample sample_segment(const Segment& segment, double t_s) {
 
 /// A default-made profile is a move of no distance and no duration.
 struct Profile {
-  // A change of target that overshoots: up to four segments to stop, and to come back seven and one to creep.
+  // Twelve suffice for a change of target that overshoots: up to four segments to stop, seven to come back
+  // and one to creep.
   static constexpr std::size_t kMaxSegments = 12;
 
   std::array<Segment, kMaxSegments> segments{};
   std::int32_t segment_count = 0;
   double duration_s = 0;      // infinite: the last segment goes on for ever
-  double end_position_u = 0;  // exactly what the move was to reach
-  double end_speed_u_s = 0;   // of the last segment's end: not 0 where the motion ends abruptly
+  double end_position_u = 0;  // the exact target of the move
+  double end_speed_u_s = 0;   // speed at the end of the last segment; not 0 if the motion ends abruptly
 
   bool operator==(const Profile&) const = default;
 
-  /// A profile that begins at `position_u`, so far of no duration.
+  /// Makes a profile that begins at `position_u` and has no duration yet.
   static Profile from(double position_u);
 
-  /// Adds a segment that begins where the last one ended. `segment_duration_s` >= 0 or infinite; one of 0 is
-  /// left out. end_position_u, end_speed_u_s and duration_s follow.
+  /// Adds a segment that begins where the last one ended, and updates end_position_u, end_speed_u_s and
+  /// duration_s. `segment_duration_s` must be >= 0 or infinite; a segment of duration 0 is left out.
   void append(double segment_duration_s, double speed_u_s, double acceleration_u_s2, double jerk_u_s3);
 
-  /// Ends the profile where it first reaches `position_u`, abruptly if it must; a profile that ends before
-  /// that stays as it is. For profiles that never go back.
+  /// Ends the profile where it first reaches `position_u`, abruptly if necessary. A profile that ends before
+  /// that stays as it is. The profile must never go back.
   void cut_at(double position_u);
 
-  /// Declares the end to be exactly `position_u`, which the sum of the segments meets but for rounding.
+  /// Declares the end to be exactly `position_u`, which the sum of the segments meets except for rounding.
   void end_exactly_at(double position_u) { end_position_u = position_u; }
 
-  /// t_s < 0 gives the beginning, t_s >= duration_s exactly the end, at rest.
+  /// Returns the state at `t_s`: < 0 gives the beginning, >= duration_s exactly the end, at rest.
   Sample sample(double t_s) const;
 
   bool endless() const;
@@ -114,7 +115,7 @@ inline void Profile::append(double segment_duration_s, double speed_u_s, double 
   end_speed_u_s = end.speed_u_s;
 }
 
-// Here, so that whoever needs the place alone, as each tick of a path does, does not pay for the rest.
+// Defined in the header, to let callers that need only the place, as each tick of a path does, skip the rest.
 inline Sample Profile::sample(double t_s) const {
   if (segment_count == 0 || t_s >= duration_s) return {.position_u = end_position_u};
   if (t_s <= 0) return sample_segment(segments[0], 0);
@@ -123,9 +124,9 @@ inline Sample Profile::sample(double t_s) const {
   return sample_segment(segments[i], t_s - segments[i].begin_s);
 }
 
-/// The moment in [from_s, to_s] at which the profile first is at or beyond `position_u`, to the last bit;
-/// to_s where it is not reached. Moments before 0 count as 0. The profile must not turn round between the
-/// two. Bounded: at most 67 samples.
+/// Returns the moment in [from_s, to_s] at which the profile first is at or beyond `position_u`, to the last
+/// bit, or to_s if it does not reach it. Moments before 0 count as 0. The profile must not turn round between
+/// the two. It takes at most 67 samples.
 double time_of(const Profile& profile, double position_u, double from_s, double to_s);
 
 }  // namespace understudy::motion

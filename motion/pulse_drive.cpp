@@ -32,7 +32,7 @@ void PulseDrive::start(const Profile& move, int move_direction, Instant begin) {
 void PulseDrive::go_on(const Profile& rest, Instant begin) {
   drive = Drive::running;
   profile = rest;
-  tolerance = std::max(tolerance, tolerance_for(rest));  // a pulse once sent stays sent
+  tolerance = std::max(tolerance, tolerance_for(rest));  // a pulse already sent stays sent
   begin_tick = begin.tick;
   begin_after_s = begin.after_s;
   look_up_segment(begin.tick);
@@ -45,7 +45,7 @@ void PulseDrive::hang(int move_direction) {
 }
 
 void PulseDrive::stop() {
-  // The direction stays: it is what a reversal is told by.
+  // The direction stays: a reversal is detected by it.
   const std::int64_t last = direction;
   *this = PulseDrive{};
   direction = last;
@@ -54,7 +54,7 @@ void PulseDrive::stop() {
 void PulseDrive::look_up_segment(Tick tick) {
   const double t_s = elapsed_s(tick);
   if (profile.segment_count == 0 || over_at(tick)) {
-    // Over: exactly on its end, and so it stays.
+    // The drive is over: it is exactly at its end, and stays there.
     now = TickSegment{.place = profile.end_position_u + tolerance};
     next_look = kNoTick;
     return;
@@ -90,7 +90,7 @@ Instant PulseDrive::time_of_pulse(std::int64_t pulse, Instant from, Instant unti
   const double base_s = elapsed_s(from);
   const double reached_s = time_of(profile, static_cast<double>(pulse) - tolerance, base_s, elapsed_s(until));
   Instant at{.tick = from.tick, .after_s = from.after_s + (reached_s - base_s)};
-  // Whole seconds at once: a state from elsewhere may have begun long ago.
+  // Whole seconds at once, because a state from elsewhere may have begun long ago.
   const double whole_s = std::floor(at.after_s);
   at.after_s -= whole_s;
   at.tick += static_cast<Tick>(whole_s * kTicksPerSecond);

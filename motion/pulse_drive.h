@@ -1,7 +1,7 @@
-// A pulse generator, as a value: a profile running on the clock, in whole pulses.
+// A pulse generator, as a value: a profile that runs on the clock, in whole pulses.
 //
-// It knows one direction and pulses. Its owner says what a pulse means (a coordinate, a direction pin) and
-// when a move is allowed (servo, alarm, limit): motion/axis.h, or some other device.
+// It knows one direction and pulses. Its owner decides what a pulse means (a coordinate, a direction pin) and
+// when a move is allowed (servo, alarm, limit): motion/axis.h, or another device.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +20,15 @@ struct Instant {
 
 enum class Drive : std::uint8_t {
   idle,
-  running,  // a profile
+  running,  // runs a profile
   hanging,  // a move at speed 0: it counts as moving, sends nothing, and ends only by stop()
 };
 
 /// A segment in ticks: position = place + k (first + k (second + k third)), k ticks after its beginning.
-/// Counting in ticks keeps k exact where it is whole, and costs no division.
+/// Counting in ticks keeps k exact where it is whole, and needs no division.
 struct TickSegment {
   double begin_ticks = 0;  // after the drive's begin_tick
-  double place = 0;        // with the tolerance added: what is left to do is to drop the fraction
+  double place = 0;        // includes the tolerance, so only the fraction remains to be dropped
   double first = 0;
   double second = 0;
   double third = 0;
@@ -37,37 +37,37 @@ struct TickSegment {
 };
 
 struct PulseDrive {
-  // What every tick needs, first: the segment that runs now.
+  // The members that every tick needs come first: the current segment.
   TickSegment now{};
   Tick begin_tick = 0;           // the tick at which the profile is at its beginning
-  Tick next_look = kNoTick;      // from this tick on `now` is not the segment that runs
+  Tick next_look = kNoTick;      // from this tick on, `now` is no longer the current segment
   std::int64_t sent_pulses = 0;  // counted from the beginning of the profile's coordinate
-  std::int64_t direction = +1;   // +1 or -1: the sense of a rising position; an owner may say 0 at rest
+  std::int64_t direction = +1;   // +1 or -1: the direction of a rising position; an owner may set 0 at rest
   Drive drive = Drive::idle;
-  double begin_after_s = 0;  // of the profile, after `begin_tick`
+  double begin_after_s = 0;  // the profile begins this long after `begin_tick`
   double tolerance = 0;      // pulse_tolerance of the distance
 
   Profile profile;
 
   bool operator==(const PulseDrive&) const = default;
 
-  /// Begins `move` in `move_direction` (+1 or -1) from standstill, at `first_tick`, which is the first tick
-  /// to be stepped, or between ticks; what runs is dropped where it is. An empty profile ends the motion at
-  /// once.
+  /// Begins `move` in `move_direction` (+1 or -1) from standstill, at `first_tick` (the first tick to be
+  /// stepped) or at a moment between ticks. A running profile is dropped where it is. An empty profile ends
+  /// the motion at once.
   void start(const Profile& move, int move_direction, Tick first_tick);
   void start(const Profile& move, int move_direction, Instant begin);
-  /// Goes on by another profile, of the same coordinate and direction, that begins at `begin`.
+  /// Continues with another profile, of the same coordinate and direction, that begins at `begin`.
   void go_on(const Profile& rest, Instant begin);
   /// Begins a move that never sends a pulse.
   void hang(int move_direction);
-  /// No pulse after this.
+  /// Stops the drive: no pulse comes out after this.
   void stop();
 
   bool moving() const { return drive != Drive::idle; }
   Instant beginning() const { return {.tick = begin_tick, .after_s = begin_after_s}; }
 
-  /// The tick's pulses, signed. Ticks must come in order, but may be skipped: the pulses of what was
-  /// skipped then come together. When the profile is over, the drive is idle again.
+  /// Returns the tick's pulses, signed. Ticks must come in order but may be skipped; the pulses of skipped
+  /// ticks then come together. When the profile is over, the drive is idle again.
   std::int64_t step(Tick tick) {
     const std::int64_t total = pulses_at(tick);
     const std::int64_t now_pulses = (total - sent_pulses) * direction;
@@ -76,13 +76,14 @@ struct PulseDrive {
     return now_pulses;
   }
 
-  /// Whole pulses sent by `tick`, from the beginning of the coordinate. Looks up the segment when it is time.
+  /// Returns the whole pulses sent by `tick`, from the beginning of the coordinate. Looks up the segment when
+  /// necessary.
   std::int64_t pulses_at(Tick tick) {
     if (tick >= next_look) look_up_segment(tick);
     return pulses_of_segment(tick);
   }
 
-  /// Likewise, within a segment, that is before `next_look`: a cubic and a rounding.
+  /// Like pulses_at(), but only within a segment, before `next_look`: one cubic and one rounding.
   std::int64_t pulses_of_segment(Tick tick) const {
     const double k = static_cast<double>(tick - begin_tick) - now.begin_ticks;
     return whole(now.place + k * (now.first + k * (now.second + k * now.third)));
@@ -93,16 +94,16 @@ struct PulseDrive {
            elapsed_s(tick) * kTicksPerSecond >= profile.duration_s * kTicksPerSecond - kTickTolerance;
   }
 
-  /// Position (not rounded), speed and acceleration at a moment; at rest when nothing runs.
+  /// Returns position (not rounded), speed and acceleration at a moment; at rest when nothing runs.
   Sample sample(Instant at) const;
-  /// The whole pulses at a moment.
+  /// Returns the whole pulses at a moment.
   std::int64_t pulses_at_moment(Instant at) const;
-  /// The moment after `from` and until `until` (less than two ticks apart) at which pulse number `pulse` is
-  /// sent.
+  /// Returns the moment at which pulse number `pulse` is sent, after `from` and until `until` (less than two
+  /// ticks apart).
   Instant time_of_pulse(std::int64_t pulse, Instant from, Instant until) const;
 
-  /// The next tick whose step can send a pulse or end the move, when `done` is the last one stepped;
-  /// kNoTick when nothing runs.
+  /// Returns the next tick whose step can send a pulse or end the move, when `done` is the last one stepped,
+  /// or kNoTick when nothing runs.
   Tick next_active_tick(Tick done) const { return drive == Drive::running ? done + 1 : kNoTick; }
 
   double elapsed_s(Tick tick) const {

@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// The part of its acceleration that a law can have: more than it could have built up from standstill, as
-/// after a change to a softer law, is not its own and drops at once. So fading at most doubles the speed.
+/// Returns the part of the acceleration that the law can have. More than it could have built up from
+/// standstill, as after a change to a softer law, is not its own and drops at once. So fading at most doubles
+/// the speed.
 double own_acceleration(const Sample& now, const RampLaw& up) {
   if (now.acceleration_u_s2 <= 0 || up.kind != RampLaw::Kind::jerk) return now.acceleration_u_s2;
   return std::min(now.acceleration_u_s2, std::sqrt(2 * up.jerk_u_s3 * now.speed_u_s) * (1 + 1e-12));
@@ -26,7 +27,7 @@ double usual_jerk(const RampLaw& law, const Sample& now) {
     case RampLaw::Kind::jerk: return law.jerk_u_s3;
     case RampLaw::Kind::sections:
       if (law.section_u_s <= 0) return 0;
-      // A small change has smaller sections than S, and so a greater jerk. It has no straight part, where
+      // A small change has sections smaller than S, and so a greater jerk. It has no straight part, where the
       // jerk would not tell.
       if (now.jerk_u_s3 != 0) return std::abs(now.jerk_u_s3);
       return law.acceleration_u_s2 * law.acceleration_u_s2 / (2 * law.section_u_s);
@@ -36,7 +37,7 @@ double usual_jerk(const RampLaw& law, const Sample& now) {
   return 0;
 }
 
-/// The same, or more where that would leave the range of speeds.
+/// Returns the usual jerk, or more if that would leave the range of speeds.
 double jerk_within(const SpeedRange& range, const Sample& now, double acceleration_u_s2, const RampLaw& up,
                    const RampLaw& down) {
   if (acceleration_u_s2 == 0) return 0;
@@ -48,7 +49,7 @@ double jerk_within(const SpeedRange& range, const Sample& now, double accelerati
   return room > 0 ? std::max(usual, acceleration_u_s2 * acceleration_u_s2 / (2 * room)) : 0;
 }
 
-/// Less than this is what roundings leave of a change of speed, not a change to be made by a ramp.
+/// A change below this is a rounding error, not a change to be made by a ramp.
 double rounding_of_change(double from_u_s, double to_u_s) { return 1e-12 * std::max(from_u_s, to_u_s); }
 
 }  // namespace
@@ -163,7 +164,7 @@ void append_ramp(Profile& profile, const RampLaw& law, double from_u_s, double t
   const double sign = to_u_s < from_u_s ? -1 : 1;
   const double a = sign * shape.acceleration_u_s2;
   const double j = sign * shape.jerk_u_s3;
-  const double at_ends = 0.5 * a * shape.ends_s;  // the change of speed of each end
+  const double at_ends = 0.5 * a * shape.ends_s;  // the change of speed in each end
   profile.append(shape.ends_s, from_u_s, 0, j);
   profile.append(shape.middle_s, from_u_s + at_ends, a, 0);
   profile.append(shape.ends_s, to_u_s - at_ends, a, -j);

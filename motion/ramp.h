@@ -1,4 +1,4 @@
-// How speed changes: the law of one ramp, from one speed to another, at rest of acceleration at both ends.
+// How speed changes: the law of one ramp, from one speed to another. The acceleration is 0 at both ends.
 //
 //   speed      ╭───      Every ramp here is the same forwards and backwards, so it covers the mean of its two
 //            ╱            speeds times its duration. A law is therefore one function, duration of a change of
@@ -32,7 +32,7 @@ struct RampLaw {
 
   bool operator==(const RampLaw&) const = default;
 
-  /// All throw BadMotion for what is not finite or not above 0 (section: not below 0).
+  /// All throw BadMotion for values that are not finite or not above 0 (section: not below 0).
   static RampLaw by_slope(double acceleration_u_s2);
   static RampLaw by_time(double duration_s);
   static RampLaw by_jerk(double jerk_u_s3);
@@ -44,49 +44,49 @@ struct RampLaw {
 void check(const RampLaw& law);
 
 /// The duration of a change of speed dv >= 0 is per_speed * dv + constant + per_root * sqrt(dv), in the form
-/// that holds at the dv asked for: what a planner solves.
+/// that holds at the given dv. Planners solve this.
 struct RampTime {
   double per_speed = 0;
   double constant = 0;
   double per_root = 0;
 };
 RampTime time_law(const RampLaw& law, double dv_u_s);
-/// Where the law changes from one form to the other; infinite if it has only one.
+/// Returns the dv at which the law changes from one form to the other, or infinity if it has only one.
 double form_changes_at(const RampLaw& law);
 
 /// The shape of one change of speed.
 struct Ramp {
-  double ends_s = 0;             // each of the two ends, where acceleration grows and fades
-  double middle_s = 0;           // at constant acceleration
-  double acceleration_u_s2 = 0;  // the greatest, >= 0
-  double jerk_u_s3 = 0;          // of the ends, >= 0
+  double ends_s = 0;             // duration of each of the two ends, where acceleration grows and fades
+  double middle_s = 0;           // duration at constant acceleration
+  double acceleration_u_s2 = 0;  // the greatest acceleration, >= 0
+  double jerk_u_s3 = 0;          // jerk in the ends, >= 0
 
   double duration_s() const { return 2 * ends_s + middle_s; }
 };
 Ramp ramp(const RampLaw& law, double dv_u_s);
 
-/// The distance from one speed (>= 0) to another.
+/// Returns the distance from one speed (>= 0) to another.
 double ramp_distance(const RampLaw& law, double from_u_s, double to_u_s);
 
-/// Adds the ramp from one speed (>= 0) to another.
+/// Appends the ramp from one speed (>= 0) to another.
 void append_ramp(Profile& profile, const RampLaw& law, double from_u_s, double to_u_s);
 
-/// The speeds between which a change of speed stays: 0 <= least <= most.
+/// The range in which the speed stays during a change: 0 <= least <= most.
 struct SpeedRange {
   double least_u_s = 0;
   double most_u_s = 0;
 };
 
-/// Adds the change from `now` (its speed in `range`, its acceleration not necessarily 0; its position does
-/// not matter) to `to_u_s`, at rest of acceleration there. What acceleration there is is brought to 0 by the
-/// jerk of the law it belongs to (`up` for above 0, `down` for below), so speed may pass `to_u_s` on the way;
-/// laws without jerk drop it at once. A section law goes on with the jerk there is, as that depends on the
-/// change that is under way. If a jerk is too small to keep within `range` a greater one is taken, except for
-/// a jerk law going up: that passes range.most_u_s, up to at most speed_without_acceleration(), which is no
-/// more than twice the speed.
+/// Appends the change from `now` (its speed in `range`, its acceleration not necessarily 0; its position does
+/// not matter) to `to_u_s`, with no acceleration there. The present acceleration is brought to 0 by the jerk
+/// of the law it belongs to (`up` for above 0, `down` for below), so the speed may pass `to_u_s` on the way;
+/// laws without jerk drop it at once. A section law continues with the present jerk, as that depends on the
+/// change under way. If a jerk is too small to keep the speed within `range`, a greater one is taken, except
+/// for a jerk law going up: that passes range.most_u_s, up to at most speed_without_acceleration(), which is
+/// no more than twice the speed.
 void append_change(Profile& profile, const Sample& now, double to_u_s, const RampLaw& up, const RampLaw& down,
                    const SpeedRange& range);
-/// The speed at which the acceleration of such a change first is 0, if it fades at once.
+/// Returns the speed at which the acceleration of such a change first is 0, if it fades at once.
 double speed_without_acceleration(const Sample& now, const RampLaw& up, const RampLaw& down,
                                   const SpeedRange& range);
 

@@ -1,14 +1,13 @@
-// The one place where a tick is divided: the axes of a device, and the path that carries some of them, go
-// from edge to edge, and whatever an edge reads, sets or stops, of its own axis or of others, is of that
-// moment.
+// The one place where a tick is divided. The axes of a device, and the path that carries some of them, go
+// from edge to edge. What an edge reads, sets or stops, on its own axis or on others, is of that moment.
 //
 //   X  ├────────────●─────────────────────┤     ● an edge; its owner is told, and acts
 //   Y  ├────────────┊──────────●──────────┤     ┊ and brings there whom it acts on
 //   path ├───────────────────┊────────────┤
 //
-// The order is that of the moments (kMoments in motion/axis.h); of equal ones that of the axes, the path
-// last; what an action brings about at its moment comes next. Where nothing can happen in the tick it is
-// that of each axis alone, and costs as little.
+// Edges are handled in the order of their moments (kMoments in motion/axis.h); at equal moments in the order
+// of the axes, the path last. Edges that an action causes at its own moment come next. If nothing can happen
+// in the tick, each axis is stepped alone, at no extra cost.
 #pragma once
 
 #include <array>
@@ -27,17 +26,17 @@ namespace understudy::motion {
 
 class SharedTick;
 
-/// Who acts when something happens to an axis.
+/// The owner of the axes, which acts when something happens to one of them.
 class EdgeOwner {
  public:
-  /// At tick.now(), where `axis` has come to; others are there when they have been brought.
+  /// Called at tick.now(), where `axis` is. Other axes are there after they have been brought.
   virtual void at_edge(SharedTick& tick, std::size_t axis, Events events) = 0;
 
  protected:
   ~EdgeOwner() = default;
 };
 
-/// A tick of some axes; the spans go together, and pulses are added to, signed as they come out.
+/// A tick of some axes. The spans have one element an axis; pulses are added to, signed as they come out.
 struct TickOfAxes {
   Tick tick = 0;
   std::span<Axis> axes;
@@ -45,13 +44,13 @@ struct TickOfAxes {
   std::span<std::int64_t> pulses;
 };
 
-/// Steps the axes of the mask `singles`, which no path carries, and those that `path` carries (null: none):
-/// at most SharedTick::kMost. `owner` may be null.
+/// Steps the axes of the mask `singles`, which no path carries, and those that `path` carries (null: none),
+/// at most SharedTick::kMost in all. `owner` may be null.
 void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* path, EdgeOwner* owner,
                    bool stays_engaged = false);
 
-/// What the owner may ask while it acts. It changes an axis only after it has brought it here, and then at
-/// this moment.
+/// What the owner may call while it acts. Bring an axis to this moment before you change it, and change it
+/// for this moment only.
 class SharedTick {
  public:
   static constexpr std::size_t kMost = 4;
@@ -59,9 +58,9 @@ class SharedTick {
   Instant now() const { return now_; }
   Tick tick() const { return all_.tick; }
   std::span<Axis> axes() const { return all_.axes; }
-  /// Of the whole tick, where the event is of its end.
+  /// Returns the axis's pulses of the whole tick; valid for events at the tick's end.
   std::int64_t pulses(std::size_t axis) const { return all_.pulses[axis]; }
-  /// On to the present moment; all of a path's axes come along.
+  /// Brings an axis to the present moment; all axes of a path come along.
   void bring(std::size_t axis);
   /// Brings the path here and slows it down, by the ramps of `by`.
   void slow_path(Cause why, const SpeedLaw& by);

@@ -11,9 +11,9 @@ namespace understudy::motion {
 
 namespace {
 
-// Both ramps cover (2 start + x) / 2 each time its duration; so x solves
+// Both ramps cover (2 start + x) / 2 times their duration; so x solves
 //   (2 start + x) * (a x + b + c sqrt x) = 2 distance,
-// with the sums of the two laws' coefficients, in the form that holds there.
+// with the sums of the two laws' coefficients, in the form that holds at x.
 struct Sum {
   double a = 0;
   double b = 0;
@@ -32,7 +32,8 @@ Sum sum_at(const RampLaw& up, const RampLaw& down, double x) {
           .c = first.per_root + second.per_root};
 }
 
-/// Cube root of a value > 0, a little too large rather than too small: where Newton's method may begin.
+/// Returns the cube root of a value > 0, rather a little too large than too small, as a start for Newton's
+/// method.
 double above_cube_root(double value) {
   // A third of the exponent, then two steps of Newton, which come down from above.
   const auto bits = std::bit_cast<std::uint64_t>(value);
@@ -83,14 +84,14 @@ double rise_within(double distance_u, double start_u_s, const RampLaw& up, const
   if (!(distance_u > 0) || !(limit_u_s > 0)) return 0;
   const double limit_needs = sum_at(up, down, limit_u_s).distance(start_u_s, limit_u_s);
   if (limit_needs <= distance_u) return limit_u_s;
-  // Which form of each law holds at the solution: try the places where they change.
+  // Find the form of each law that holds at the solution: try the points at which they change.
   double low = 0;
   double high = limit_u_s;
   for (const double change : {form_changes_at(up), form_changes_at(down)}) {
     if (change <= low || change >= high) continue;
     (sum_at(up, down, change).distance(start_u_s, change) <= distance_u ? low : high) = change;
   }
-  // Forms hold up to and with their change, so the one that holds inside holds at `high`, too.
+  // A form holds up to and including its change, so the form inside also holds at `high`.
   const Sum sum = sum_at(up, down, high);
   const double x = sum.c > 0 ? solve_with_root(sum, start_u_s, 2 * distance_u)
                              : solve_quadratic(sum, start_u_s, 2 * distance_u);

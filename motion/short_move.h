@@ -1,13 +1,13 @@
-// How far up the speed of a short move can go, for move.cpp.
+// How far the speed of a short move can rise. For move.cpp.
 #pragma once
 
 #include "motion/ramp.h"
 
 namespace understudy::motion {
 
-/// The change of speed x >= 0 above `start_u_s` after which a ramp up by `up` and one down by `down` together
-/// cover `distance_u`; at most `limit_u_s`, 0 where even no ramp fits. In closed form for slopes, times and
-/// sections; for jerk laws a few monotone Newton steps on a convex function, to the last bits.
+/// Returns the change of speed x >= 0 above `start_u_s` after which a ramp up by `up` and one down by `down`
+/// together cover `distance_u`; at most `limit_u_s`, and 0 if even no ramp fits. Slopes, times and sections
+/// have a closed form; jerk laws take a few monotone Newton steps on a convex function, to the last bits.
 double rise_within(double distance_u, double start_u_s, const RampLaw& up, const RampLaw& down,
                    double limit_u_s);
 

@@ -1,7 +1,7 @@
 // The state of motion as bytes: saved, restored, hashed.
 //
-// Every value of this room can be. The bytes are the same on every machine: numbers in little endian, doubles
-// by their bits, no padding. What a value consists of is written down once, in state_fields.h.
+// Every value of this folder can be saved. The bytes are the same on every machine: numbers in little endian,
+// doubles by their bits, no padding. state_fields.h defines once what a value consists of.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct Surroundings;
 struct SyncTable;
 struct UnitScale;
 
-/// T is one of the types above; others do not link.
+/// Saves `value` as bytes. T is one of the types above; others do not link.
 template <class T>
 std::vector<std::byte> save(const T& value);
 
@@ -35,7 +35,7 @@ std::vector<std::byte> save(const T& value);
 template <class T>
 std::size_t restore(T& value, std::span<const std::byte> bytes);
 
-/// FNV-1a of the saved bytes, without saving them.
+/// Returns the FNV-1a hash of the saved bytes, without saving them.
 template <class T>
 std::uint64_t hash(const T& value);
 

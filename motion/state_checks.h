@@ -1,5 +1,5 @@
-// Demands on a restored value, so that its ticks can neither leave a table nor run away, for state.cpp: any
-// bytes may come in, and a few numbers have more bit patterns than states.
+// Checks of a restored value, for state.cpp: any bytes may come in, and a few numbers have more bit patterns
+// than states. They make sure that later ticks neither leave a table nor run away.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace understudy::motion {
 
-/// Pulses and ticks: sums with what a drive can send still fit 64 bits.
+/// Checks pulses and ticks: sums with what a drive can send must still fit 64 bits.
 inline void demand_reach(std::int64_t value) {
   constexpr std::int64_t kFarthest = std::int64_t{1} << 56;
   demand_within(value, -kFarthest, kFarthest);
@@ -28,7 +28,7 @@ void demand_all_finite(Doubles... values) {
   demand_state((std::isfinite(values) && ...), "a quantity must be finite");
 }
 
-/// What the types refuse by themselves, as a BadMotion.
+/// Turns a BadMotion of the types' own checks into a refusal of the state.
 void demand_accepted(auto check) {
   try {
     check();
@@ -37,7 +37,7 @@ void demand_accepted(auto check) {
   }
 }
 
-/// Types that may hold any bits.
+/// Types without checks: any bits are valid.
 template <class T>
 void check_restored(const T&) {}
 
@@ -95,7 +95,7 @@ inline void check_restored(const Surroundings& here) {
 
 inline void check_restored(const Follower& follower) {
   demand_accepted([&] { follower.check(); });
-  constexpr std::int64_t kMost = INT64_MAX / 2;  // Follower bounds its own numbers to half of it
+  constexpr std::int64_t kMost = INT64_MAX / 2;  // Follower limits its own numbers to half of this
   for (const std::int64_t value : {follower.gathered, follower.behind_pulses, follower.period_pulses}) {
     demand_within(value, -kMost, kMost);
   }
@@ -127,7 +127,7 @@ inline void check_restored(const Axis& axis) {
        {axis.travel_pulses, axis.base_pulses, axis.backlash_sent, axis.target_pulses}) {
     demand_reach(pulses);
   }
-  // What a tick will plan by its law is what a command would not have been refused.
+  // Plan by the law now, as a later tick will: it must not be one that a command would have refused.
   const bool has_law = axis.task == Task::move || axis.task == Task::endless;
   if (has_law) {
     demand_accepted([&] {

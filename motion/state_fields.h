@@ -261,7 +261,7 @@ struct StateOf<motion::AxisSettings> {
 
 template <>
 struct StateOf<motion::Axis> {
-  // As the bytes have them; in memory those that a tick needs come first.
+  // In the order of the bytes; in memory the members that a tick needs come first.
   static constexpr auto fields = FieldList{field("travel_pulses", &motion::Axis::travel_pulses),
                                            field("watch_low", &motion::Axis::watch_low),
                                            field("watch_high", &motion::Axis::watch_high),
@@ -401,7 +401,7 @@ struct StateOf<motion::Coordinated> {
   static void check(const motion::Coordinated& value) { motion::check_restored(value); }
 };
 
-// Those that other rooms hold are made once, in state.cpp.
+// The functions for values that other folders hold are instantiated once, in state.cpp.
 #define UNDERSTUDY_STATE_ELSEWHERE(Type)                        \
   extern template void StateWriter::write(const motion::Type&); \
   extern template void StateReader::read(motion::Type&);        \

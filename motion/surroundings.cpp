@@ -11,8 +11,8 @@ namespace understudy::motion {
 
 namespace {
 
-/// 0 .. index_period - 1. Both rests lie between -period and period, so their difference is brought back
-/// without a third division.
+/// Returns 0 .. index_period - 1. Both remainders lie between -period and period, so their difference is
+/// corrected without a third division.
 std::int64_t index_phase(const Surroundings& here, std::int64_t travel) {
   const std::int64_t period = here.index_period;
   const std::int64_t phase = travel % period - here.index_at % period;
@@ -20,7 +20,7 @@ std::int64_t index_phase(const Surroundings& here, std::int64_t travel) {
   return phase < period ? phase : phase - period;
 }
 
-/// a - b, or the last number there is: a zone may well end at INT64_MAX.
+/// Returns a - b, or the last number: a zone may end at INT64_MAX.
 std::int64_t bounded_difference(std::int64_t a, std::int64_t b) {
   std::int64_t difference = 0;
   if (!__builtin_sub_overflow(a, b, &difference)) return difference;
@@ -73,7 +73,7 @@ std::optional<std::int64_t> Surroundings::steps_until_change(std::int64_t travel
   const auto consider_beyond = [&](std::int64_t last_steps) {
     if (last_steps >= 0 && last_steps < INT64_MAX) consider(last_steps + 1);
   };
-  // The first pulse inside and the first one beyond, seen from either side.
+  // The first pulse inside, and the first one beyond, seen from either side.
   const auto consider_ends = [&](std::int64_t from, std::int64_t to) {
     if (direction > 0) {
       consider(bounded_difference(from, travel));
@@ -91,7 +91,7 @@ std::optional<std::int64_t> Surroundings::steps_until_change(std::int64_t travel
     consider_ends(bounded_difference(zone.from, zone.slack), bounded_difference(zone.to, -zone.slack));
   }
   if (index_period > 0 && index_width > 0 && index_width < index_period) {
-    // Up to where it begins to change with the place nothing does, and nothing beyond the other end.
+    // Nothing changes until the index begins to depend on the position, nor beyond the other end.
     const std::int64_t begin = std::clamp(travel, index_from, index_to);
     const std::int64_t phase = index_phase(*this, begin);
     const bool is_on = phase < index_width;

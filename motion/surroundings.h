@@ -1,4 +1,4 @@
-// What an axis meets on its way: its input signals, and where along its travel they change.
+// What an axis encounters along its travel: its input signals, and where they change.
 //
 // The plant fills this in. Signals that depend on the position are given as zones and an index mark, so that
 // an axis can react at the exact pulse of an edge, as a chip does, not at the end of the tick.
@@ -35,41 +35,43 @@ struct Surroundings {
   struct Zone {
     Signal signal = Signal::home;
     std::int64_t from = 0;
-    std::int64_t to = -1;    // below `from`: nowhere
-    std::int64_t slack = 0;  // >= 0; once on, it stays on so far beyond either end
+    std::int64_t to = -1;    // below `from`: the zone is empty
+    std::int64_t slack = 0;  // >= 0; once on, the signal stays on this far beyond either end
     bool operator==(const Zone&) const = default;
   };
 
   static constexpr std::size_t kMaxZones = 12;
 
-  /// Raise it after changing anything below: axes look again only then.
+  /// Raise this after changing anything below; axes check again only then.
   std::uint32_t version = 0;
-  Signals steady = 0;  // on wherever the axis is
+  Signals steady = 0;  // signals that are on wherever the axis is
   std::uint8_t zone_count = 0;
   std::array<Zone, kMaxZones> zones{};
-  // The index is on for `index_width` pulses from every `index_at + k * index_period`; no period, no index.
+  // The index is on for `index_width` pulses from every `index_at + k * index_period`; period 0: no index.
   std::int64_t index_period = 0;
   std::int64_t index_at = 0;
   std::int64_t index_width = 1;
-  // Beyond these two it stays as it is at them: the machine goes no farther, however many pulses are made.
+  // Beyond these two the index stays as it is at them: the machine goes no farther, however many pulses come.
   std::int64_t index_from = INT64_MIN;
   std::int64_t index_to = INT64_MAX;
-  EncoderLine encoder{};  // what the axis's encoder counts on the way
+  EncoderLine encoder{};  // what the axis's encoder counts along the travel
 
   bool operator==(const Surroundings&) const = default;
 
   /// Throws BadMotion(no_room) beyond kMaxZones. Raises the version.
   void add(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack = 0);
-  /// Like the above, of a signal that is on everywhere else: it goes off between `from` and `to`, and comes
-  /// on again `slack` beyond them.
+  /// Adds a signal that is on everywhere else: it goes off between `from` and `to`, and comes on again
+  /// `slack` beyond them. Throws as add() does.
   void add_outside(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack = 0);
   void set_steady(Signal signal, bool on);
 
-  /// `before`: those that were on until then, which slack keeps on.
+  /// Returns the signals at `travel`. `before` holds the signals that were on until then, which slack keeps
+  /// on.
   Signals at(std::int64_t travel, Signals before = 0) const;
   bool depends_on_place() const { return zone_count > 0 || index_period > 0; }
 
-  /// How many pulses (1 ...) in `direction` (+1 or -1) until some signal may change; nothing if none will.
+  /// Returns how many pulses (1 ...) in `direction` (+1 or -1) it takes until some signal may change, or
+  /// nothing if none will.
   std::optional<std::int64_t> steps_until_change(std::int64_t travel, int direction) const;
 };
 

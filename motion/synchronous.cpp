@@ -37,7 +37,7 @@ void preset(SyncTable& table, std::size_t number, SyncOutcome& outcome) {
     case SyncAction::Preset::encoder: outcome.presets_encoder |= mine; break;
     case SyncAction::Preset::distance: table.distance_pulses[number] = action.preset_value; break;
     case SyncAction::Preset::speed:
-      // An endless run of the same action uses the speed there was (RS-M8194H 7.3.1).
+      // An endless run of the same action uses the previous speed (RS-M8194H 7.3.1).
       if (action.preset_value > 0 && !is_endless(action.drive)) {
         table.speeds[number].top_speed_u_s = static_cast<double>(action.preset_value);
       }

@@ -1,8 +1,7 @@
 // Synchronous actions between axes: events on one axis make others start, stop or latch their positions.
 //
-// As the MCX314 has it: a trigger axis has factors (a mask of its events) and a mask of the axes it
-// activates; each axis has the one action it does when activated, by whichever trigger. Source: RS-M8194H
-// manual 7.3.
+// As on the MCX314, a trigger axis has factors (a mask of its events) and a mask of the axes it activates.
+// Each axis has one action, which it does when any trigger activates it. Source: RS-M8194H manual 7.3.
 #pragma once
 
 #include <array>
@@ -31,53 +30,53 @@ struct SyncAction {
   bool latch_encoder = false;
   Preset preset = Preset::none;
   std::int64_t preset_value = 0;  // a count, pulses, or pulses a second
-  bool output = false;            // reported to the owner, who has the pin
-  bool interrupt = false;         // reported likewise
+  bool output = false;            // reported to the owner, which has the pin
+  bool interrupt = false;         // reported to the owner
 
   bool operator==(const SyncAction&) const = default;
 };
 
-/// What up to four axes do for each other. Numbers of axes are 0 .. 3, masks one bit an axis.
+/// The actions that up to four axes do for each other. Axes are numbered 0 .. 3; masks have one bit an axis.
 struct SyncTable {
   static constexpr std::size_t kAxes = 4;
 
   struct Trigger {
-    Events factors = 0;          // those of motion/axis.h; an MCX314 knows the first eight
-    std::uint8_t activates = 0;  // axes
+    Events factors = 0;          // events of motion/axis.h; an MCX314 knows the first eight
+    std::uint8_t activates = 0;  // mask of axes
     bool operator==(const Trigger&) const = default;
   };
   struct Latch {
     bool taken = false;
-    std::int64_t travel_pulses = 0;   // of the axis, when latch_command
-    std::int64_t encoder_pulses = 0;  // when latch_encoder
+    std::int64_t travel_pulses = 0;   // travel of the axis, if latch_command
+    std::int64_t encoder_pulses = 0;  // if latch_encoder
     bool operator==(const Latch&) const = default;
   };
 
   std::array<Trigger, kAxes> triggers{};
   std::array<SyncAction, kAxes> actions{};
   std::array<Latch, kAxes> latches{};
-  // What a drive action moves by, and how: set by the owner, and by presets.
+  // Distance and speed of a drive action: set by the owner, and by presets.
   std::array<std::int64_t, kAxes> distance_pulses{};
   std::array<SpeedLaw, kAxes> speeds{};
 
   bool operator==(const SyncTable&) const = default;
 };
 
-/// What the owner has to do itself.
+/// The part of the actions that the owner has to do.
 struct SyncOutcome {
-  Events fired = 0;                  // factors of the trigger
+  Events fired = 0;                  // factors of the trigger that fired
   std::uint8_t outputs = 0;          // axes whose action has an output
-  std::uint8_t interrupts = 0;       // axes whose action calls an interrupt
-  std::uint8_t presets_command = 0;  // axes whose command count is to be preset_value
+  std::uint8_t interrupts = 0;       // axes whose action raises an interrupt
+  std::uint8_t presets_command = 0;  // axes whose command count is to be set to preset_value
   std::uint8_t presets_encoder = 0;
 
   bool operator==(const SyncOutcome&) const = default;
 };
 
-/// Acts on what has happened to the axis `trigger` at this moment: the activated axes are brought here, in
-/// order. Latches, stops and speeds are of this moment; a drive is at its beginning in the next tick, as one
-/// that is commanded between ticks, and throws for speeds and distances that Axis::move() does not take. Axes
-/// that do not exist are left out. Counters are the owner's: latches give travel.
+/// Acts on events of the axis `trigger` at this moment; the activated axes are brought here, in order.
+/// Latches, stops and speeds are of this moment. A drive has its beginning in the next tick, like one
+/// commanded between ticks, and throws for speeds and distances that Axis::move() does not accept. Axes that
+/// do not exist are left out. Counters belong to the owner: latches give travel.
 SyncOutcome act(SyncTable& table, std::size_t trigger, Events events, SharedTick& tick);
 
 }  // namespace understudy::motion

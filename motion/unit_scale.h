@@ -1,4 +1,4 @@
-// Lengths in a user's unit to pulses and back, by a multiplier and a divider, in whole numbers throughout.
+// Converts lengths in a user's unit to pulses and back by a multiplier and a divider, in whole numbers only.
 #pragma once
 
 #include <cstdint>
@@ -7,19 +7,19 @@
 namespace understudy::motion {
 
 /// pulses = units * multiplier / divider, both 1 .. 2^31 - 1 (SUPER-40NC CMX/CDV, SLIM PN45/PN46). Rounds
-/// half away from zero, or pulses towards zero; always convert absolute positions, so that roundings do not
-/// pile up.
+/// half away from zero, or pulses towards zero. Always convert absolute positions, to keep roundings from
+/// adding up.
 struct UnitScale {
   std::int64_t multiplier = 1;
   std::int64_t divider = 1;
-  bool truncates = false;  // pulses, towards zero
+  bool truncates = false;  // rounds pulses towards zero
 
   bool operator==(const UnitScale&) const = default;
 
   /// Throws BadMotion for a multiplier or divider outside its range.
   static UnitScale of(std::int64_t multiplier, std::int64_t divider);
 
-  /// Nothing where the result does not fit 64 bits.
+  /// Return nothing if the result does not fit 64 bits.
   std::optional<std::int64_t> to_pulses(std::int64_t units) const;
   std::optional<std::int64_t> to_units(std::int64_t pulses) const;
   double pulses_per_unit() const { return static_cast<double>(multiplier) / static_cast<double>(divider); }

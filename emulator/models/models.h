@@ -1,11 +1,11 @@
-// All controllers. The rooms that run them do not know this list: it is handed to them.
+// The list of all controllers. The folders that run them do not know this list: they receive it.
 #pragma once
 
 #include "emulator/device/model.h"
 
 namespace understudy::emulator::models {
 
-/// In the order of `understudy models`.
+/// Returns the models in the order of `understudy models`.
 ModelList all_models();
 
 }  // namespace understudy::emulator::models

@@ -1,4 +1,4 @@
-// Whether the parameters of a command are what its row allows.
+// Checks of a command's parameters against its row.
 #pragma once
 
 #include <cstddef>
@@ -11,64 +11,66 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// What the manual leaves open about commands.
+/// Options about commands that the manual leaves open.
 struct CommandOptions {
-  /// A rectangle whose corners do not fit its sides is refused, or left to whoever carries it out.
+  /// True: a rectangle whose corners do not fit its sides is refused here; false: the machine that executes
+  /// it decides.
   bool rectangle_corners_must_fit = true;
-  /// Speeds, slopes and their rates beyond the ends that are printed as numbers are refused; else whoever
-  /// moves clamps them.
+  /// True: speeds, slopes and their rates beyond their printed limits are refused; false: the machine clamps
+  /// them.
   bool speeds_have_ends = false;
-  /// A variable is set within the range of positions only.
+  /// True: a variable can be set only within the range of positions.
   bool variables_have_ends = false;
-  /// A move of no distance, and a helix that turns back, are refused.
+  /// True: a move of no distance is refused. The next two: a helix that turns back, or that has no turn, is
+  /// refused.
   bool zero_moves_are_refused = false;
   bool helix_turns_forward_only = false;
   bool helix_has_turns = false;
-  /// LINE_SCAN_START takes the types that are not available yet.
+  /// True: LINE_SCAN_START accepts the types that are not available yet.
   bool uneven_scans_start = false;
-  /// SYNC_ACTION has one trigger axis; SET_OUT knows X and Y.
+  /// True: SYNC_ACTION has one trigger axis. The next one: SET_OUT accepts X and Y only.
   bool one_trigger_axis = false;
   bool outputs_are_of_x_and_y = false;
-  /// Which order of the letters of `<=` a message may have.
+  /// The order of the letters of `<=` that a message may have.
   enum class Letters : std::uint8_t { either, as_in_the_frame, as_in_the_table };
   Letters letters = Letters::either;
-  /// IF: one letter, = or !, is no operator.
+  /// True: in IF, a single letter, = or !, is not an operator.
   bool single_signs_are_refused = false;
-  /// FRNET_OUT: a number that is a variable's address stands for it.
+  /// True: in FRNET_OUT, a number that is a variable's address means the variable.
   bool addresses_are_variables = false;
-  /// The six codes that 12.3 gives otherwise than chapter 7.
+  /// True: the six codes that differ between 12.3 and chapter 7 are those of 12.3.
   bool codes_of_12_3 = false;
-  /// FRNET_WAIT also as 12.3 counts its registers: its time is one of them.
+  /// True: FRNET_WAIT may also have the register count of 12.3, which includes its time.
   bool frnet_wait_may_have_7 = false;
-  /// A code that only a frame of 7.4.8 has is that of MIX_2D_INITIAL.
+  /// True: a code that occurs only in a frame of 7.4.8 means MIX_2D_INITIAL.
   bool knows_0cb2 = false;
-  /// A variable may stand for a constant only where the command's section says so.
+  /// True: a variable may replace a constant only where the command's section says so.
   bool few_take_references = false;
-  /// Sides and radii of a rectangle end at 200,000,000.
+  /// True: sides and radii of a rectangle end at 200,000,000.
   bool rectangles_end_earlier = false;
-  /// The Initial Table is stored in by macros as well.
+  /// True: macros also store into the Initial Table.
   bool macros_store_initial = false;
-  /// Which of two faults answers.
+  /// True: of two faults, that of the state is answered, not that of the code.
   bool state_before_code = false;
 
   bool operator==(const CommandOptions&) const = default;
 };
 
-/// Takes what any choice takes: of what is read that somebody else has checked.
+/// Options that accept everything that any choice accepts, for commands that have been checked before.
 inline constexpr CommandOptions kAnyChoice{
     .rectangle_corners_must_fit = false, .uneven_scans_start = true, .macros_store_initial = true};
 
-/// The first parameter that is not in its range or list; nothing: all are good. References are good; what
-/// they stand for is checked when the line runs. Operators, and all of VAR_CALCULATE, are a matter of
-/// bad_operand().
+/// Returns the first parameter that is not in its range or list, or nothing if all are good. References are
+/// good; their values are checked when the line runs. bad_operand() checks operators, and all of
+/// VAR_CALCULATE.
 std::optional<std::size_t> bad_parameter(const Command& command, const CommandOptions& options = {});
 
-/// The first operator of IF, or operand or operator of VAR_CALCULATE, that is wrong.
+/// Returns the first wrong operator of IF, or the first wrong operand or operator of VAR_CALCULATE.
 std::optional<std::size_t> bad_operand(const Command& command);
-/// The same as Fault::comparison or Fault::operand, for which the download has codes of their own.
+/// Like bad_operand(), as Fault::comparison or Fault::operand, for which the download has codes of their own.
 Fault operand_fault(const Command& command);
 
-/// "1 to 7", "an axis mask (X to XYZU)", "VAR0 to VAR511": what is expected of a parameter.
+/// Returns what is expected of a parameter: "1 to 7", "an axis mask (X to XYZU)", "VAR0 to VAR511".
 std::string expected_of(const Command& command, std::size_t parameter);
 
 }  // namespace understudy::interpreter::rs_m8194h

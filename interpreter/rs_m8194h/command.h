@@ -9,8 +9,8 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// What is not a parameter is 0. A number with a sign is in two's complement, a real number is its bits.
-/// Operators of comparison are the codes of operators.h, whatever order the host wrote their letters in.
+/// Values that are not parameters are 0. A signed number is in two's complement, a real number is its bits.
+/// Comparison operators have the codes of operators.h, in whatever order the host wrote their letters.
 struct Command {
   std::uint16_t code = 0;
   std::array<std::uint32_t, kMostParameters> values = {};
@@ -21,7 +21,7 @@ struct Command {
   constexpr std::int32_t signed_value(std::size_t parameter) const {
     return static_cast<std::int32_t>(values[parameter]);
   }
-  /// By the parameter's width.
+  /// Returns a parameter with the sign of its width.
   constexpr std::int64_t number(std::size_t parameter) const {
     const bool has_sign = row().parameters[parameter].width == Width::signed_long;
     return has_sign ? std::int64_t{signed_value(parameter)} : std::int64_t{values[parameter]};
@@ -30,11 +30,11 @@ struct Command {
   bool operator==(const Command&) const = default;
 };
 
-/// Whether a value stands for VARn.
+/// Returns true if a value stands for VARn.
 constexpr bool is_variable(std::uint32_t value) {
   return value >= kVariable0 && value < kVariable0 + kVariableCount;
 }
-/// Whether a byte stands for bVARn.
+/// Returns true if a byte stands for bVARn.
 constexpr bool is_byte_variable(std::uint32_t value) {
   return value >= kByteVariable0 && value < kByteVariable0 + kByteVariableCount;
 }
@@ -45,8 +45,8 @@ constexpr std::size_t byte_variable_number(std::uint32_t value) {
   return static_cast<std::size_t>(value - kByteVariable0);
 }
 
-/// Whether a parameter of a macro line is read from a variable when the line runs. Operands of program flow
-/// are, too.
+/// Returns true if a parameter of a macro line is read from a variable when the line runs. Operands of
+/// program flow are read then, too.
 constexpr bool is_reference(const Command& command, std::size_t parameter) {
   if (!command.is_macro_line()) return false;
   const Parameter& row = command.row().parameters[parameter];

@@ -1,5 +1,5 @@
-// What a row of RS-M8194H's command table consists of. A row is a function of the manual: its low byte makes
-// a real-time code, 0x0Axx, a macro code, 0x0Cxx, or both, with the same parameters.
+// The parts of a row of RS-M8194H's command table. A row is a function of the manual. Its low byte makes a
+// real-time code, 0x0Axx, a macro code, 0x0Cxx, or both, with the same parameters.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// How many registers a parameter takes, and how they are read.
+/// How many registers a parameter has, and their format.
 enum class Width : std::uint8_t {
   byte,           // one register
   unsigned_long,  // two
@@ -19,15 +19,15 @@ enum class Width : std::uint8_t {
   real,           // two, IEEE 754
 };
 
-/// What a parameter is: how it is checked and how it is written.
+/// The kind of a parameter, which determines its checks and its text.
 enum class Kind : std::uint8_t {
   number,         // within its range, or one of its list
-  speed,          // also accelerations and their rates: any value, clamped by who moves
+  speed,          // also accelerations and their rates: any value; the machine clamps it
   as_it_comes,    // any value
   axes,           // a mask of X Y Z U, not empty
-  setting_axes,   // the same; bit 4 of a real-time command: into the Initial Table
-  axis,           // one of X Y Z U, and none of them twice
-  axis_or_none,   // the same, or 0
+  setting_axes,   // like axes; bit 4 in a real-time command: into the Initial Table
+  axis,           // one of X Y Z U; no axis twice
+  axis_or_none,   // like axis, or 0
   variable,       // VARn, as a destination
   byte_variable,  // bVARn, as a destination
   memory,         // MDn
@@ -38,18 +38,18 @@ enum class Kind : std::uint8_t {
   point_if_used,  // a position; any value if the command's nType does not use it
 };
 
-/// What may stand in a macro line instead of a constant: it is read when the line runs.
+/// The kind of variable that may replace a constant in a macro line. It is read when the line runs.
 enum class Reference : std::uint8_t { none, byte_variable, variable };
 
 struct Parameter {
-  std::string_view name;  // the manual's
+  std::string_view name;  // as in the manual
   Kind kind = Kind::number;
   Width width = Width::byte;
   std::int64_t least = 0;
   std::int64_t most = 0;
-  std::uint32_t only = 0;  // not 0: bit n: n is one of the list
+  std::uint32_t only = 0;  // if not 0: bit n is set if n is one of the list
   Reference reference = Reference::none;
-  std::string_view values = {};  // what the numbers mean
+  std::string_view values = {};  // the meanings of the numbers
 
   constexpr int registers() const { return width == Width::byte ? 1 : 2; }
   constexpr bool lists(std::int64_t value) const {
@@ -57,20 +57,20 @@ struct Parameter {
   }
 };
 
-/// What becomes of the real-time code.
+/// What happens to the real-time code.
 enum class RealTime : std::uint8_t {
-  none,       // there is not one
+  none,       // there is no real-time code
   queued,     // into the FIFO
-  immediate,  // acts on receipt, occupies no block
-  stop,       // the same, or queued, by choice
+  immediate,  // acts on receipt and takes no block
+  stop,       // like immediate, or by choice queued
 };
 
-/// Where a function may stand, and how the FIFO and macros treat it.
+/// Where a function is allowed, and how the FIFO and macros treat it.
 struct Use {
   RealTime real_time = RealTime::none;
   bool in_mp = false;          // its macro code
   bool in_isr = false;         // its macro code
-  bool initial = false;        // its real-time code stores in the Initial Table, too
+  bool initial = false;        // its real-time code also stores into the Initial Table
   bool starts_motion = false;  // locks, holds and waits apply
   bool refused_while_mp_runs = false;
 };
@@ -80,11 +80,11 @@ using Parameters = std::array<Parameter, kMostParameters>;
 
 struct CommandRow {
   Verb verb;
-  std::string_view real_time_name;  // the manual's; empty: there is not one
+  std::string_view real_time_name;  // as in the manual; empty: none
   std::string_view macro_name;
   Use use;
-  int cost;  // blocks of the FIFO or lines of a macro; what acts on receipt and the two CLOSE take none
-  Parameters parameters;  // those with a name
+  int cost;  // blocks of the FIFO or lines of a macro; immediate commands and the two CLOSE take none
+  Parameters parameters;  // parameters with a name
   std::string_view section;
   std::string_view meaning;
 
@@ -93,7 +93,7 @@ struct CommandRow {
     while (count < kMostParameters && !parameters[count].name.empty()) ++count;
     return count;
   }
-  /// With the code.
+  /// Returns the number of registers, including the code.
   constexpr int registers() const {
     int count = 1;
     for (const Parameter& parameter : parameters) count += parameter.name.empty() ? 0 : parameter.registers();
@@ -112,16 +112,16 @@ inline constexpr int kMemoryCount = 2048;       // MD0 to MD2047
 inline constexpr int kFirstRealMemory = 1024;
 inline constexpr int kLabelCount = 4;
 inline constexpr int kDeepest = 7;  // open IF, open FOR, levels of calls
-/// By choice, the macro that was started is not one of the levels of its calls.
+/// By choice, the started macro is not one of the levels of its calls.
 inline constexpr int kDeepestCall = kDeepest + 1;
 
-/// What stands for VAR0 and bVAR0 in a parameter.
+/// The values that stand for VAR0 and bVAR0 in a parameter.
 inline constexpr std::int64_t kVariable0 = 0x7FFF0000;
 inline constexpr std::int64_t kByteVariable0 = 0x80;
 /// The range of positions, distances, times and constants.
 inline constexpr std::int64_t kMost = 2'000'000'000;
 inline constexpr std::int64_t kLeast = -kMost;
-/// Of an axis mask: the value is for the Initial Table.
+/// The bit of an axis mask that selects the Initial Table.
 inline constexpr std::int64_t kInitial = 0x10;
 inline constexpr std::int64_t kAllAxes = 0xF;
 

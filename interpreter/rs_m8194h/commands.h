@@ -1,4 +1,4 @@
-// RS-M8194H's 229 command codes as data: window, macros, their text and `describe` read these rows.
+// RS-M8194H's 229 command codes as data. The window, macros, their text and `describe` read these rows.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline constexpr std::size_t kFunctionCount = rows::kSettings.size() + rows::kCo
                                               rows::kAxes.size() + rows::kPaths.size() +
                                               rows::kEvents.size() + rows::kMacros.size();
 
-/// In the manual's order.
+/// All functions, in the manual's order.
 inline constexpr std::array<CommandRow, kFunctionCount> kCommands = [] {
   std::array<CommandRow, kFunctionCount> all{};
   auto end = all.begin();
@@ -36,7 +36,7 @@ inline constexpr std::array<CommandRow, kFunctionCount> kCommands = [] {
   return all;
 }();
 
-/// The two halves of the code space: commands that are carried out, and lines of a macro.
+/// The two halves of the code space: real-time commands, and lines of a macro.
 inline constexpr std::uint16_t kRealTime = 0x0A00;
 inline constexpr std::uint16_t kMacroLine = 0x0C00;
 
@@ -50,7 +50,7 @@ constexpr bool is_macro_code(std::uint16_t code) { return (code & 0xFF00U) == kM
 constexpr Verb verb_of(std::uint16_t code) { return static_cast<Verb>(code & 0xFFU); }
 
 namespace commands_detail {
-/// By low byte; -1: no function has it.
+/// Index of the function by low byte; -1: none.
 inline constexpr std::array<std::int16_t, 256> kPlaces = [] {
   std::array<std::int16_t, 256> places{};
   places.fill(-1);
@@ -67,7 +67,7 @@ constexpr const CommandRow& row_of(Verb verb) {
   return kCommands[static_cast<std::size_t>(commands_detail::kPlaces[static_cast<std::size_t>(verb)])];
 }
 
-/// The function that a code means; null: undefined.
+/// Returns the function of a code; null if the code is undefined.
 constexpr const CommandRow* find_code(std::uint16_t code) {
   const std::int16_t place = commands_detail::kPlaces[code & 0xFFU];
   if (place < 0) return nullptr;
@@ -83,11 +83,11 @@ constexpr std::string_view name_of(std::uint16_t code) {
   return is_macro_code(code) ? row.macro_name : row.real_time_name;
 }
 
-/// Opens and closes a download.
+/// The verbs that open or close a download.
 inline constexpr std::array kDownloadVerbs = {Verb::mp_create, Verb::mp_close, Verb::isr_create,
                                               Verb::isr_close};
 
-/// Macro lines that a macro carries out by itself. Some have a real-time code, too.
+/// Macro lines that the interpreter executes itself. Some have a real-time code, too.
 inline constexpr std::array kFlowVerbs = {
     Verb::set_var, Verb::set_rvar,  Verb::var_calculate, Verb::for_,       Verb::next,        Verb::exit_for,
     Verb::if_,     Verb::else_,     Verb::end_if,        Verb::goto_,      Verb::label,       Verb::timer,
@@ -105,7 +105,7 @@ constexpr bool is_one_of(Verb verb, const auto& verbs) {
 }
 
 namespace commands_detail {
-/// A real-time command, or a macro line that neither reads nor is program flow.
+/// Returns true for a real-time command, or a macro line that neither reads nor is program flow.
 constexpr bool is_of_device(const CommandRow& row) {
   if (is_one_of(row.verb, kDownloadVerbs)) return false;
   return !row.real_time_name.empty() ||
@@ -113,7 +113,7 @@ constexpr bool is_of_device(const CommandRow& row) {
 }
 }  // namespace commands_detail
 
-/// What a device carries out: the keys of its table of handlers.
+/// The verbs that a device executes: the keys of its handler table.
 inline constexpr auto kDeviceVerbs = [] {
   std::array<Verb, std::ranges::count_if(kCommands, commands_detail::is_of_device)> verbs{};
   std::size_t count = 0;

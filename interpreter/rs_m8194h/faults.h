@@ -1,5 +1,5 @@
-// Why a request or a macro line is refused: reasons in either numbering of input 102, the exception that
-// goes with them, and the download's error codes of input 114.
+// The reasons for which a request or a macro line is refused, in both numberings of input 102, with their
+// exceptions and with the download's error codes of input 114.
 #pragma once
 
 #include <algorithm>
@@ -44,10 +44,10 @@ enum class Fault : std::uint8_t {
 
 struct FaultRow {
   Fault fault;
-  std::uint8_t reason_4_16_2;   // of input 102; where that list ends, the other goes on
-  std::uint8_t reason_12_1_12;  // the same, in the other numbering
+  std::uint8_t reason_4_16_2;   // shown in input 102; beyond the end of that list, the other one continues
+  std::uint8_t reason_12_1_12;  // the same in the other numbering
   std::uint8_t exception;       // Modbus
-  std::uint8_t download_error;  // of input 114; 0: not one
+  std::uint8_t download_error;  // shown in input 114; 0: not a download error
   std::string_view meaning;
 };
 inline constexpr auto kFaults = std::to_array<FaultRow>({

@@ -1,4 +1,4 @@
-// One line of a macro at work.
+// Execution of one line of a macro.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@ MacroName name_of_level(const Run& run, const Level& level);
 
 void hold(Run& run, Hold what, std::int64_t until_ms = 0, std::uint32_t awaited = 0);
 
-/// Whether what a run waits for has come. A drive that waits is asked for anew by its line.
+/// Returns true if what the run waits for has come. A waiting drive is tried again by its line.
 bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, Machine& machine);
 
-/// Whether `awaited` can be what FRNET_WAIT waits for.
+/// Returns true if `awaited` can be an input for FRNET_WAIT.
 bool is_frnet_input(std::uint32_t awaited);
 
-/// What a line did to its run.
+/// The effect of a line on its run.
 enum class Ran : std::uint8_t {
   on,
   waits,
-  all_ended,  // the run is gone
+  all_ended,  // the run has ended
 };
 
-/// Of a run that is alive and waits for nothing else.
+/// Runs the next line of a run that is alive and waits for nothing else.
 Ran run_next_line(Execution& execution, Run& run, std::int64_t now_ms, const RunOptions& options,
                   Machine& machine);
 

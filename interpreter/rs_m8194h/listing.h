@@ -47,7 +47,7 @@ struct ListedTrigger {
   bool operator==(const ListedTrigger&) const = default;
 };
 
-/// In the order of the text.
+/// The macros and triggers of a text, in its order.
 struct Listing {
   std::vector<ListedMacro> macros = {};
   std::vector<ListedTrigger> triggers = {};
@@ -58,7 +58,7 @@ struct Listing {
 struct ParsedListing {
   Listing listing = {};                     // only if there is no error
   std::vector<TextError> errors = {};       // the first kMostMistakes, in the order of the text
-  std::optional<Token> first_trigger = {};  // its first word, in the text
+  std::optional<Token> first_trigger = {};  // first word of the first trigger in the text
 };
 ParsedListing parse_listing(std::string_view text, const CommandOptions& command_options = {},
                             const DownloadOptions& download_options = {});

@@ -1,4 +1,4 @@
-// What a running macro acts on: the controller, as an abstract machine.
+// The controller on which a running macro acts, as an abstract machine.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// What became of a line. One that waits has changed nothing, and is given again at the next tick.
+/// The result of a line. A line that waits has changed nothing, and is given again at the next tick.
 enum class Took : std::uint8_t { done, waits };
 
-/// Inputs 115 to 119. The line is passed over.
+/// A fault during execution, for inputs 115 to 119. The line is skipped.
 struct ExecutionFault {
   MacroName macro = {};
   std::uint16_t code = 0;  // of its line
@@ -23,33 +23,34 @@ struct ExecutionFault {
   bool operator==(const ExecutionFault&) const = default;
 };
 
-/// Commands come with numbers in place of references, within the ranges of their rows.
+/// The interface to the controller. Commands have numbers in place of references, within the ranges of their
+/// rows.
 class Machine {
  public:
   virtual ~Machine() = default;
 
-  /// Null: never downloaded.
+  /// Returns null for a macro that was never downloaded.
   virtual const Macro* macro(const MacroName& name) const = 0;
 
-  /// VAR0 to VAR511, bVAR0 to bVAR127.
+  /// Access VAR0 to VAR511 and bVAR0 to bVAR127.
   virtual std::int32_t variable(std::size_t number) const = 0;
   virtual void set_variable(std::size_t number, std::int32_t value) = 0;
   virtual std::uint8_t byte_variable(std::size_t number) const = 0;
 
-  /// One of kReadVerbs.
+  /// Executes one of kReadVerbs.
   virtual std::int32_t read(const Command& command) const = 0;
-  /// For STOP_WAIT: whether all axes of a mask have stopped.
+  /// For STOP_WAIT: returns true if all axes of a mask have stopped.
   virtual bool stand(std::uint32_t axes) const = 0;
-  /// For FRNET_WAIT: group 8 to 15, channel 0 to 15.
+  /// For FRNET_WAIT: returns the input of group 8 to 15, channel 0 to 15.
   virtual bool frnet_input(std::uint32_t group, std::uint32_t channel) const = 0;
-  /// All other lines. A drive that is void is done.
+  /// Executes all other lines. A drive without effect is done.
   virtual Took carry_out(const Command& command) = 0;
 
-  /// The ISR whose turn it is, 0 if none. It is then running.
+  /// Returns the number of the ISR whose turn it is, or 0. The ISR is then running.
   virtual int take_isr() = 0;
-  /// The outermost MP has ended, but not by MP_TERMINATE.
+  /// Called when the outermost MP has ended, except by MP_TERMINATE.
   virtual void mp_ended() = 0;
-  /// MP_TERMINATE, as a line of a macro: all macros have ended already.
+  /// Called for MP_TERMINATE as a line of a macro, after all macros have ended.
   virtual void terminated() = 0;
   virtual void report(const ExecutionFault& fault) = 0;
 };

@@ -1,4 +1,4 @@
-// A stored macro: its lines, and where those of program flow lead.
+// A stored macro: its lines, and the targets of program flow.
 #pragma once
 
 #include <array>
@@ -23,10 +23,10 @@ constexpr int count_of(bool is_isr) { return is_isr ? kIsrCount : kMpCount; }
 constexpr bool exists(const MacroName& name) {
   return name.number >= 1 && name.number <= count_of(name.is_isr);
 }
-/// "MP21", "ISR3".
+/// Returns "MP21" or "ISR3".
 std::string to_string(const MacroName& name);
 
-/// How many lines a macro has room for.
+/// The capacities of macros, in lines.
 struct CapacityRow {
   bool is_isr;
   int first;
@@ -55,18 +55,18 @@ inline constexpr int kMostLines = 512;
 
 struct Macro {
   std::vector<Command> lines = {};
-  /// Of each line: IF: behind its ELSE or END_IF. ELSE: behind END_IF. FOR, EXIT_FOR: behind NEXT. NEXT:
-  /// behind its FOR. GOTO: its label. Of all others: the next line.
+  /// Target of each line. IF: after its ELSE or END_IF. ELSE: after END_IF. FOR, EXIT_FOR: after NEXT. NEXT:
+  /// after its FOR. GOTO: its label. All others: the next line.
   std::vector<std::uint16_t> leads_to = {};
 
   std::size_t size() const { return lines.size(); }
   bool operator==(const Macro&) const = default;
 };
 
-/// With each command's cost.
+/// Returns the sum of the commands' costs.
 int lines_used(const std::vector<Command>& lines);
 
-/// The blocks that are open behind some lines, the innermost last.
+/// A block that is open after some lines; in Blocks the innermost is last.
 struct Block {
   Verb opener = Verb::if_;  // or for_
   std::uint16_t line = 0;
@@ -76,7 +76,7 @@ using Blocks = std::vector<Block>;
 Blocks blocks_behind(const std::vector<Command>& lines);
 int count_open(const Blocks& blocks, Verb opener);
 
-/// Lines that a download has checked.
+/// Links lines that a download has checked.
 Macro linked(std::vector<Command> lines);
 
 }  // namespace understudy::interpreter::rs_m8194h

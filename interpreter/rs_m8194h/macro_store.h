@@ -1,4 +1,5 @@
-// The macros that a memory holds as texts, ready to run: none is read again while its text stays the same.
+// The macros that a memory holds as texts, compiled. A macro is not compiled again while its text stays the
+// same.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// The macro that a text is the listing of, with nothing beside it; nothing if it is not that.
+/// Compiles the text of exactly one macro; returns nothing if it is not that.
 std::optional<Macro> macro_of(const MacroName& name, std::string_view text);
 
 class MacroStore {
@@ -22,11 +23,11 @@ class MacroStore {
     SharedText text;
   };
 
-  /// From now on these, each at most once, and no others. A text that is not its macro's listing counts as
+  /// Replaces the stored macros by these, each at most once. A text that is not its macro's listing counts as
   /// none.
   void update(std::span<const Stored> stored);
 
-  /// Null: there is not one. Valid until the next update().
+  /// Returns null if there is no such macro. The pointer is valid until the next update().
   const Macro* find(const MacroName& name) const;
 
  private:

@@ -10,12 +10,13 @@ namespace understudy::interpreter::rs_m8194h {
 
 enum class Comparison : std::uint8_t { less, less_or_equal, greater, greater_or_equal, equal, not_equal };
 
-/// The manual's list and its frame write the two letters in different orders, and the list has two
-/// operators that are not: every form is taken, the first one is given.
+/// The codes of each operator. The manual's list and its frame write the two letters in different orders
+/// and the list has two operators that are not in the frame. Every form is accepted; the first one is
+/// written.
 struct ComparisonRow {
   Comparison comparison;
   std::string_view text;
-  std::array<std::uint16_t, 4> codes;  // 0: no more
+  std::array<std::uint16_t, 4> codes;  // 0: no further code
 };
 inline constexpr auto kComparisons = std::to_array<ComparisonRow>({
     {Comparison::less, "<", {0x003C, 0x3C00}},
@@ -26,7 +27,7 @@ inline constexpr auto kComparisons = std::to_array<ComparisonRow>({
     {Comparison::not_equal, "!=", {0x213D, 0x3D21, 0x0021, 0x2100}},
 });
 
-/// Null: not an operator.
+/// Returns null if the code is not an operator.
 constexpr const ComparisonRow* find_comparison(std::uint32_t code) {
   for (const ComparisonRow& row : kComparisons) {
     for (const std::uint16_t one : row.codes) {
@@ -48,14 +49,15 @@ constexpr bool holds(Comparison comparison, std::int64_t left, std::int64_t righ
   return false;
 }
 
-/// ASCII.
+/// Operators of VAR_CALCULATE, in ASCII.
 inline constexpr std::string_view kArithmetic = "+-*/&|";
 
 constexpr bool is_arithmetic(std::uint32_t code) {
   return code < 0x80 && code != 0 && kArithmetic.find(static_cast<char>(code)) != std::string_view::npos;
 }
 
-/// Of two numbers of 32 bits; nothing may be divided by 0. Whoever stores it wraps it to 32 bits, or not.
+/// Calculates with two 32-bit numbers; a division by 0 is not allowed. The caller wraps the result to 32
+/// bits, if it must.
 constexpr std::int64_t calculate_exactly(char arithmetic, std::int32_t left, std::int32_t right) {
   const auto a = std::int64_t{left};
   const auto b = std::int64_t{right};

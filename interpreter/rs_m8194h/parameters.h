@@ -1,4 +1,4 @@
-// How the rows of the command table write their parameters.
+// Functions with which the rows of the command table write their parameters.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ constexpr Parameter axis_or_none(std::string_view name) {
   return {.name = name, .kind = Kind::axis_or_none, .least = 0, .most = 8};
 }
 
-/// Constants end below 0x80, so that bVARn may stand in a macro instead.
+/// A byte constant ends below 0x80, to let bVARn replace it in a macro.
 constexpr Parameter byte(std::string_view name, std::int64_t least, std::int64_t most,
                          std::string_view values = {}) {
   return {
@@ -37,7 +37,7 @@ constexpr Parameter byte_of(std::string_view name, std::uint32_t only, std::stri
           .reference = Reference::byte_variable,
           .values = values};
 }
-/// What a macro is checked by when it is stored.
+/// A byte that is checked when a macro is stored, and that no variable may replace.
 constexpr Parameter constant_byte(std::string_view name, std::int64_t least, std::int64_t most) {
   return {.name = name, .least = least, .most = most};
 }
@@ -130,7 +130,7 @@ constexpr Parameter comparison(std::string_view name) {
   return {.name = name, .kind = Kind::comparison, .least = 0, .most = 0xFFFF, .values = "< <= > >= == !="};
 }
 
-/// Where a function may stand.
+/// The uses of a function.
 inline constexpr Use kAtOnce = {.real_time = RealTime::immediate};
 inline constexpr Use kDownload = {.real_time = RealTime::immediate, .refused_while_mp_runs = true};
 inline constexpr Use kStop = {.real_time = RealTime::stop, .in_mp = true};

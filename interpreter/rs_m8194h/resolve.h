@@ -1,4 +1,4 @@
-// References of a macro line, replaced by what they stand for.
+// Replaces the references of a macro line by their values.
 #pragma once
 
 #include "interpreter/rs_m8194h/check.h"
@@ -8,10 +8,10 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// Fault::parameter if one of them is then out of its range. Speeds below 0 become 0.
+/// Returns Fault::parameter if a value is out of its range. Speeds below 0 become 0.
 Fault resolve(Command& command, const Machine& machine, const CommandOptions& options = {});
 
-/// The value of an operand: a constant or a variable.
+/// Returns the value of an operand, a constant or a variable.
 std::int32_t value_of(std::uint32_t operand, const Machine& machine);
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -1,5 +1,5 @@
-// What of commands, downloads and running macros a state consists of (base/state/fields.h), in the order of
-// the bytes.
+// The state fields of commands, downloads and running macros (base/state/fields.h), in the order of the
+// bytes.
 #pragma once
 
 #include "base/state/fields.h"
@@ -34,12 +34,12 @@ struct StateOf<interpreter::rs_m8194h::TriggerEvent> {
   static constexpr auto last = interpreter::rs_m8194h::TriggerEvent::clear_stop;
 };
 
-/// As the registers that it came in.
+/// Saved as the registers in which it was sent.
 template <>
 struct StateOf<interpreter::rs_m8194h::Command> {
   static void write(const interpreter::rs_m8194h::Command& command, StateWriter& writer);
   static void read(interpreter::rs_m8194h::Command& command, StateReader& reader);
-  /// By which two are told apart.
+  /// Describes the command, for differences between two states.
   static std::string told(const interpreter::rs_m8194h::Command& command);
 };
 
@@ -111,7 +111,7 @@ struct StateOf<interpreter::rs_m8194h::ReturnRegister> {
   static constexpr auto fields = FieldList{field("value", &Value::value), field("is_full", &Value::is_full)};
 };
 
-/// Restored, it still has to be sound with the macros of its machine: is_sound().
+/// After a restore, the execution must also pass is_sound() with the macros of its machine.
 template <>
 struct StateOf<interpreter::rs_m8194h::Execution> {
   using Value = interpreter::rs_m8194h::Execution;

@@ -25,12 +25,12 @@ std::string text_of(const Command& command);
 
 struct ParsedCommand {
   std::optional<Command> command;
-  std::optional<TextError> error;  // if there is not a command
+  std::optional<TextError> error;  // if there is no command
 };
 
-/// One line: what decode() takes in some state of the device. Operators are checked, too.
+/// Parses one line that decode() accepts in some state of the device. Operators are checked, too.
 ParsedCommand parse_command(std::string_view text, const CommandOptions& options = {});
-/// The same, of tokens; at least one.
+/// Like the above, for at least one token.
 ParsedCommand parse_command(std::span<const Token> tokens, const CommandOptions& options = {});
 
 }  // namespace understudy::interpreter::rs_m8194h

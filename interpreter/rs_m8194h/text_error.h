@@ -1,4 +1,4 @@
-// What is wrong with a text, and where.
+// A mistake in a text: what and where.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The trigger table: what each FRnet input starts without a host.
+// The trigger table: what each FRnet input starts without a request of the host.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ enum class TriggerEvent : std::uint8_t {
   clear_stop,
 };
 
-/// By their text.
+/// The conditions by their text.
 struct ConditionRow {
   TriggerCondition condition;
   std::string_view text;
@@ -33,7 +33,7 @@ inline constexpr auto kTriggerConditions = std::to_array<ConditionRow>({
 });
 struct EventRow {
   TriggerEvent event;
-  std::string_view text;  // of a call: before the number
+  std::string_view text;  // of a call: the text before the number
 };
 inline constexpr auto kTriggerEvents = std::to_array<EventRow>({
     {TriggerEvent::call_mp, "MP"},
@@ -56,7 +56,7 @@ inline constexpr int kFirstTriggerGroup = 8;
 inline constexpr int kTriggerGroups = 8;
 inline constexpr int kChannelsPerGroup = 16;
 inline constexpr int kTriggerCount = kTriggerGroups * kChannelsPerGroup;
-/// By channel: those of group 8 first.
+/// The triggers by channel; those of group 8 come first.
 using TriggerTable = std::array<Trigger, kTriggerCount>;
 
 }  // namespace understudy::interpreter::rs_m8194h

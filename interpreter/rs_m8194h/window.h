@@ -1,4 +1,4 @@
-// The registers from 8000 on: a code and its parameters, as a value, and back.
+// Converts the registers from 8000 on to a command, a code and its parameters, and back.
 #pragma once
 
 #include <cstddef>
@@ -13,29 +13,30 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// Input 100.
+/// The state in input 100.
 enum class State : std::uint8_t { ready, mp_download, isr_download };
 
-/// Of 32-bit parameters; holding 14.
+/// The word order of 32-bit parameters, as in holding 14.
 enum class WordOrder : std::uint8_t { high_first, low_first };
 
 struct Decoded {
-  Command command = {};  // its code at least
+  Command command = {};  // at least its code is set
   Fault fault = Fault::none;
-  std::optional<std::size_t> parameter = {};  // the one that is refused
+  std::optional<std::size_t> parameter = {};  // the refused parameter
 };
 
-/// A message that begins at 8000, in the order of checks of [1.3]: an undefined code, a class that the state
-/// refuses, the count of registers, parameters. A macro line may then still be refused by its download.
+/// Decodes a message that begins at 8000, with the checks in the order of [1.3]: undefined code, class
+/// refused in this state, count of registers, parameters. The download may still refuse a macro line
+/// afterwards.
 Decoded decode(std::span<const std::uint16_t> registers, State state, WordOrder order = WordOrder::high_first,
                const CommandOptions& options = {});
 
-/// The steps of decode(), for other orders of checks.
+/// The steps of decode(), for other orders of the checks.
 Fault why_not_now(std::uint16_t code, State state);
 Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, Command& command,
                      const CommandOptions& options = {});
 
-/// As decode() takes it, with the same options.
+/// Encodes a command as decode() accepts it with the same options.
 std::vector<std::uint16_t> encode(const Command& command, WordOrder order = WordOrder::high_first,
                                   const CommandOptions& options = {});
 

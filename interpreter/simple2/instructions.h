@@ -1,4 +1,4 @@
-// Simple2-R3's program language as data: every opcode with its mnemonic and what its two operands are.
+// Simple2-R3's program language as data: every opcode with its mnemonic and the kinds of its two operands.
 // (Manual, list of program instructions.)
 #pragma once
 
@@ -10,7 +10,7 @@ namespace understudy::interpreter::simple2 {
 
 enum class Operand : std::uint8_t {
   none,
-  flag,         // 1 to 64: the line that carries it in its JMP cell
+  flag,         // 1 to 64: the line with this flag in its JMP cell
   parameter,    // a parameter number
   immediate,    // -128 to 127
   input,        // DIN 0 to 10
@@ -32,10 +32,10 @@ struct Instruction {
   std::string_view mnemonic;
   Operand data1;
   Operand data2;
-  std::string_view meaning;  // for people
+  std::string_view meaning;  // description in the documentation
 };
 
-/// In the order of opcodes. What is not in the table is not an instruction.
+/// In the order of opcodes. An opcode that is not in the table is not an instruction.
 inline constexpr std::array<Instruction, 115> kInstructions{{
     {0x00, "NOP", Operand::none, Operand::none, "Does nothing"},
     {0x01, "Wait_IO", Operand::input, Operand::logic, "Waits here until the input is ON, or OFF"},
@@ -228,7 +228,7 @@ inline constexpr std::array<Instruction, 115> kInstructions{{
     {0xFF, "END", Operand::none, Operand::none, "Ends the program"},
 }};
 
-/// Nothing where the manual lists no instruction.
+/// Returns null if the manual lists no such instruction.
 constexpr const Instruction* find_instruction(std::uint8_t opcode) {
   for (const Instruction& instruction : kInstructions) {
     if (instruction.opcode == opcode) return &instruction;
@@ -236,7 +236,7 @@ constexpr const Instruction* find_instruction(std::uint8_t opcode) {
   return nullptr;
 }
 
-/// In the manual's spelling; a compile error if there is no such instruction.
+/// Finds an opcode by its mnemonic in the manual's spelling; an unknown mnemonic is a compile error.
 consteval std::uint8_t opcode_of(std::string_view mnemonic) {
   for (const Instruction& instruction : kInstructions) {
     if (instruction.mnemonic == mnemonic) return instruction.opcode;
@@ -248,7 +248,7 @@ inline constexpr int kInputCount = 11;
 inline constexpr int kOutputCount = 7;
 inline constexpr int kStatusBitCount = 16;
 
-/// Whether there is such an input, output, STATUS bit, counter or timer. Other operands can be anything.
+/// Returns true if this input, output, STATUS bit, counter or timer exists. Other operands can be anything.
 constexpr bool is_defined(Operand operand, std::uint8_t value) {
   switch (operand) {
     case Operand::input: return value < kInputCount;
@@ -288,7 +288,7 @@ constexpr Written written_by(std::uint8_t opcode) {
   }
 }
 
-/// What an operand is, for people: "DIN number (0-10)".
+/// Describes an operand: "DIN number (0-10)".
 std::string_view describe(Operand operand);
 
 }  // namespace understudy::interpreter::simple2

@@ -42,8 +42,7 @@ struct Assembly {
 
 Assembly assemble(std::string_view text);
 
-/// Lines of nothing but zeros at the end are left out, longer runs of them elsewhere are stepped over by
-/// `.at`.
+/// Writes lines as text. Lines of zeros at the end are left out; longer runs of them elsewhere become `.at`.
 std::string disassemble(const Lines& lines);
 
 }  // namespace understudy::interpreter::simple2

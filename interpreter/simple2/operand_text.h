@@ -1,4 +1,4 @@
-// Operands as a listing writes them.
+// Operands as text in a listing.
 #pragma once
 
 #include <cstdint>
@@ -18,33 +18,33 @@ struct OperandField {
   bool is_data1;
 };
 
-/// What a listing writes after the mnemonic. A 16-bit amount is the field of its low half.
+/// Returns the fields that a listing writes after the mnemonic. A 16-bit amount is the field of its low half.
 std::vector<OperandField> operand_fields(const Instruction& instruction);
 
-/// Signed where the manual gives -32768 to 32767.
+/// Returns true if the manual gives the amount as -32768 to 32767.
 bool amount_is_signed(const Instruction& instruction);
 
 struct ParsedOperand {
   int value = 0;
-  std::string problem;  // empty if there is none
+  std::string problem;  // empty: none
 };
 
-/// Every kind but flags, which depend on labels, and amounts.
+/// Parses every kind except flags, which depend on labels, and amounts.
 ParsedOperand parse_operand(Operand kind, std::string_view text);
 ParsedOperand parse_amount(bool is_signed, std::string_view text);
-/// A whole number, decimal or 0x or 0b, within limits.
+/// Parses a whole number, decimal, 0x or 0b, within limits.
 ParsedOperand parse_number(std::string_view text, int min, int max);
 
-/// A word of a listing as messages have it.
+/// Quotes a word of a listing for messages.
 inline std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-/// What an operand may be, for people: "ON or OFF".
+/// Describes what an operand may be: "ON or OFF".
 std::string expected_operand(Operand kind);
 std::string expected_amount(bool is_signed);
 
-/// Nothing if the cell holds what this kind cannot be.
+/// Returns nothing if the cell holds a value that this kind cannot have.
 std::optional<std::string> operand_text(Operand kind, std::uint8_t cell);
-/// "JMP7", or "@200" for what is not a flag.
+/// Returns "JMP7", or "@200" if the cell is not a flag.
 std::string flag_text(std::uint8_t cell);
 
 }  // namespace understudy::interpreter::simple2

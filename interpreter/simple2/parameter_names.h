@@ -1,5 +1,5 @@
 // The names of parameters, by which a program reaches registers: MEM0 to MEM31, VAR32 to VAR63, DAT64 to
-// DAT143, and for 144 to 182 those of their registers.
+// DAT143, and for 144 to 182 the names of their registers.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct RegisterName {
   std::string_view other_spelling = {};  // in another table of the manual, or where it misprints the axis
 };
 
-/// As the table of registers spells them. The device makes its table of parameters from these.
+/// The names as in the register table. The device makes its parameter table from these.
 inline constexpr RegisterName kRegisterNames[] = {
     {144, "Aaxis_Home_Speed", "Axis_Home_Speed"},
     {145, "Baxis_Home_Speed"},
@@ -48,20 +48,20 @@ inline constexpr RegisterName kRegisterNames[] = {
     {179, "Axis_SyncSlope", "Aaxis_SyncSlope"},
     {180, "Baxis_SyncSlope"},
     {181, "Axis_SyncRPM", "Aaxis_SyncRPM"},
-    {182, "Baxis_SyncRPM"},  // printed Axis_SyncRPM once more
+    {182, "Baxis_SyncRPM"},  // printed as Axis_SyncRPM a second time
 };
 
-/// Those that show what is measured take no value.
+/// Returns true for parameters that show a measured value; they cannot be written.
 constexpr bool is_read_only(std::uint8_t number) {
   return number == 156 || number == 157 || number == 169 ||
          number == 170;  // Analog_A, _B, ENCA_RPM, ENCB_RPM
 }
 
-/// The name in a listing. Nothing for a number that the manual does not define.
+/// Returns the name in a listing, or nothing for a number that the manual does not define.
 std::optional<std::string> parameter_name(std::uint8_t number);
 
-/// By any of its names, in upper or lower case: as above, DAT144 to DAT182, or the other spelling of its
-/// register.
+/// Finds a parameter by any of its names, in upper or lower case: as above, DAT144 to DAT182, or the other
+/// spelling of its register.
 std::optional<std::uint8_t> parameter_number(std::string_view name);
 
 }  // namespace understudy::interpreter::simple2

@@ -1,4 +1,4 @@
-// A Simple2-R3 program: 256 lines of four cells, and which line each flag stands for.
+// A Simple2-R3 program: 256 lines of four cells, and the line of each flag.
 #pragma once
 
 #include <array>
@@ -15,26 +15,27 @@ struct Line {
   std::uint8_t command = 0;
   std::uint8_t data1 = 0;
   std::uint8_t data2 = 0;
-  std::uint8_t flag = 0;  // the manual's JMP: the flag that marks this line; none but 1 to 64
+  // the manual's JMP: the flag that marks this line, 1 to 64; other values are no flag
+  std::uint8_t flag = 0;
 
   bool operator==(const Line&) const = default;
 };
 
 using Lines = std::array<Line, kLineCount>;
 
-/// Which line a flag stands for, where the manual leaves it open; the first of each is ours.
+/// Options about the line of a flag that the manual leaves open; our option is first.
 struct FlagRules {
-  /// Of several lines with one flag the last one set counts: the last of them, or the one written last.
+  /// Which of several lines with the same flag counts: the last of them, or the one written last.
   enum class Several : std::uint8_t { last_line, last_written } several = Several::last_line;
-  /// Whether a line behind the first END can carry a flag.
+  /// Whether a line after the first END can have a flag.
   enum class AfterEnd : std::uint8_t { count, do_not_count } after_end = AfterEnd::count;
-  /// When the lines are looked through: with every write, or by find_flags() alone.
+  /// When the lines are searched for flags: at every write, or only in find_flags().
   enum class Found : std::uint8_t { at_every_write, when_told } found = Found::at_every_write;
 
   bool operator==(const FlagRules&) const = default;
 };
 
-/// By flag: the line that it stands for, -1 for none.
+/// The line of each flag, -1 for none.
 using FlagLines = std::array<std::int16_t, kFlagCount + 1>;
 
 class Program {
@@ -43,20 +44,20 @@ class Program {
   explicit Program(const Lines& lines, const FlagRules& rules = {}) : lines_(lines), rules_(rules) {
     find_flags();
   }
-  /// As it was: by some rules the lines alone do not tell which of them a flag stands for.
+  /// Restores a program: under some rules, the lines alone do not determine the line of a flag.
   Program(const Lines& lines, const FlagRules& rules, const FlagLines& flag_lines)
       : lines_(lines), rules_(rules), line_of_flag_(flag_lines) {}
 
   const Lines& lines() const { return lines_; }
   const Line& line(int number) const { return lines_[static_cast<std::size_t>(number)]; }
 
-  /// Cell 0 to 1023: 4 * line + CMD, DATA1, DATA2 or JMP, as the registers from 0x4000 on.
+  /// Returns cell 0 to 1023: 4 * line + CMD, DATA1, DATA2 or JMP, as in the registers from 0x4000 on.
   std::uint8_t cell(int number) const;
   void set_cell(int number, std::uint8_t value);
 
-  /// Nothing for a flag that no line has, or that is not one.
+  /// Returns nothing for a flag that no line has, or for a value that is not a flag.
   std::optional<std::uint8_t> line_with_flag(std::uint8_t flag) const;
-  /// Looks through the lines as they are now, whatever the rules say of when.
+  /// Searches the lines now, regardless of the rules.
   void find_flags();
   const FlagRules& flag_rules() const { return rules_; }
   const FlagLines& flag_lines() const { return line_of_flag_; }

@@ -1,5 +1,5 @@
-// Which commands may be given where: stored in a program, typed while none runs, or from outside while one
-// runs. The manual prints three columns without explaining them, for its second list only.
+// Which commands are allowed where: stored in a program, typed while no program runs, or from outside while
+// one runs. The manual prints three columns without an explanation, and only for its second list.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ enum class Place : std::uint8_t {
   external,   // 外部: typed while a program runs
 };
 
-/// What the manual leaves open about the columns.
+/// Options about the columns that the manual leaves open.
 struct Columns {
-  /// While a program runs: also queries and what a host needs to end a pause, or only what is printed; or
-  /// also RESET.
+  /// What is allowed while a program runs: also queries and what a host needs to end a pause; or only what is
+  /// printed; or also RESET.
   enum class External : std::uint8_t { lenient, strict, with_reset } external = External::lenient;
-  /// Moves from variables that the column 立即 does not allow.
+  /// Whether moves from variables may be typed, which the column 立即 does not allow.
   enum class VariableForms : std::uint8_t {
     as_printed,
     typed_too
   } variable_forms = VariableForms::as_printed;
 
-  /// SAVE C, SAVE D, SAVE P and DF, of the list without columns.
+  /// Whether SAVE C, SAVE D, SAVE P and DF may be stored; their list has no columns.
   enum class Saves : std::uint8_t { typed_only, stored_too } saves = Saves::typed_only;
 
   bool operator==(const Columns&) const = default;

@@ -1,4 +1,4 @@
-// What a line says, as values.
+// The contents of a line, as values.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct Operand {
     integer_variable,  // N#: index
     real_variable,     // R#: index
     integer_array,     // NS(i): index, or the index of the N variable that holds it
-    real_array,        // RS(i): the same
+    real_array,        // RS(i): like integer_array
     port,              // index 1 to 4
     label,             // text, in capitals, without the $
     text,              // text
@@ -28,7 +28,7 @@ struct Operand {
     get_real,          // GETR
     event,             // index 1 to 8
     condition,         // index: a Condition
-    quantity,          // what the query ?text answers, as a function
+    quantity,          // the value that the query ?text shows, as a function
   };
   Kind kind = Kind::integer;
   double number = 0;
@@ -41,15 +41,15 @@ struct Operand {
 
 struct Command {
   Verb verb = Verb::home;
-  int row = 0;      // in kCommands; a query with a module has the row of `?Tp`
-  int module = -1;  // of the prefix; -1 without one (then T0 is meant)
+  int row = 0;      // index in kCommands; a query with a module has the row of `?Tp`
+  int module = -1;  // module of the prefix; -1: no prefix, which means T0
   std::vector<Operand> operands = {};
-  std::string name = {};  // of a parameter, or of what is queried, in capitals
+  std::string name = {};  // of a parameter, or of a queried item, in capitals
 
   bool operator==(const Command&) const = default;
 };
 
-/// A line may be empty, and a label may stand alone.
+/// A parsed line. A line may be empty, and a label may stand alone.
 struct ParsedLine {
   std::string label = {};  // in capitals, without the $
   std::optional<Command> command = {};
@@ -57,11 +57,11 @@ struct ParsedLine {
   bool operator==(const ParsedLine&) const = default;
 };
 
-/// GETI and GETR.
+/// Returns true for GETI and GETR.
 constexpr bool asks_host(Operand::Kind kind) {
   return kind == Operand::Kind::get_integer || kind == Operand::Kind::get_real;
 }
-/// Whether it waits for a number from the host.
+/// Returns true if the command waits for a number from the host.
 inline bool asks_host(const Command& command) {
   return command.verb == Verb::get_integer || command.verb == Verb::get_real ||
          std::ranges::any_of(command.operands,

@@ -1,4 +1,4 @@
-// What a row of SLIM's command table consists of.
+// The parts of a row of SLIM's command table.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace understudy::interpreter::slim {
 
-/// What a command does. A number in a row's `variant` distinguishes related commands, as the comments say.
+/// The functions of commands. A row's `variant` distinguishes related commands, as the comments say.
 enum class Verb : std::uint8_t {
   // one motor
   move_absolute,
@@ -21,7 +21,7 @@ enum class Verb : std::uint8_t {
   servo_on,
   servo_off,
   reset,
-  servo_off_now,  // IHOFF, IHON pass by the buffer
+  servo_off_now,  // IHOFF and IHON bypass the buffer
   servo_on_now,
   analog_speed,
   // outputs
@@ -64,8 +64,8 @@ enum class Verb : std::uint8_t {
   get_integer,
   get_real,
   print,
-  set_variable,   // operands: the variable, what it receives; also AIN=N0 and DATA
-  set_parameter,  // name; operand: what it receives
+  set_variable,   // operands: the variable and its new value; also AIN=N0 and DATA
+  set_parameter,  // name; operand: the new value
   list_parameters,
   default_parameters,
   save_data,
@@ -73,7 +73,7 @@ enum class Verb : std::uint8_t {
   save_program,
   reboot,
   // queries
-  query_input,  // without an operand: all of them
+  query_input,  // without an operand: all inputs
   query_analog,
   query_switch,
   query_status,
@@ -126,8 +126,8 @@ enum class Slot : std::uint8_t {
   integer_variable,  // N# or NS(i)
   variable,          // N#, R#, NS(i) or RS(i)
   stored_variable,   // N# or R#
-  comparand,         // a constant, variable or function of the type of the variable behind it
-  data,              // a constant, variable or function that fits the variable before it
+  comparand,         // a constant, variable or function of the type of the next variable
+  data,              // a constant, variable or function that fits the previous variable
   milliseconds,
   pulse_width,  // in 4 ms
   frequency,    // in Hz
@@ -139,12 +139,13 @@ enum class Slot : std::uint8_t {
   whole,         // a whole number
   variant,       // exactly the number in the row's `variant`
   event,         // EV1 to EV8
-  condition,     // of an event, with all that follows
+  condition,     // of an event, with everything that follows
   word,          // the second word of the command's name
   text,          // in quotes
 };
 
-/// What a jump or an event looks at. The operands are: an input; a variable; or a comparand and a variable.
+/// The condition of a jump or an event. The operands are: an input; a variable; or a comparand and a
+/// variable.
 enum class Condition : std::uint8_t {
   input_on,
   input_off,
@@ -156,7 +157,7 @@ enum class Condition : std::uint8_t {
   not_greater,
 };
 
-/// What the manual's columns print; its first list has no columns.
+/// The contents of the manual's columns; its first list has no columns.
 enum class Printed : std::uint8_t { no, yes, nothing };
 
 struct CommandRow {
@@ -168,7 +169,7 @@ struct CommandRow {
   Printed immediate;  // 立即
   Printed external;   // 外部
   Verb verb;
-  std::array<Slot, 4> slots = {};  // of an assignment: what is behind the "="
+  std::array<Slot, 4> slots = {};  // of an assignment: the slots after the "="
   int variant = -1;
 
   constexpr bool takes_module() const { return command.starts_with("Tp") || command.starts_with("?Tp"); }
@@ -183,7 +184,7 @@ inline constexpr int kSwitchCount = 6;
 inline constexpr int kEventCount = 8;
 inline constexpr int kVariableCount = 65;  // N0 to N64, R0 to R64
 inline constexpr int kArrayCount = 2001;   // NS(0) to NS(2000), RS(0) to RS(2000)
-/// "MAX N0=32766".
+/// The limits of integers: "MAX N0=32766".
 inline constexpr int kIntegerLeast = -32768;
 inline constexpr int kIntegerMost = 32766;
 

@@ -1,5 +1,5 @@
 // SLIM's commands as data: every syntax form that the manual prints, in its order. Parsing, help and
-// `describe` read these rows; a command is added by adding a row.
+// `describe` read these rows. To add a command, add a row.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ inline constexpr std::array<CommandRow, rows::kOneMotor.size() + rows::kSeveralM
   return all;
 }();
 
-/// The number of a row; a compile error if the manual has no such form.
+/// Returns the index of a row; a form that the manual does not have is a compile error.
 consteval int row_of(std::string_view syntax) {
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     if (kCommands[i].syntax == syntax) return static_cast<int>(i);

@@ -1,4 +1,4 @@
-// Entering a program line by line: PG, PA, PE, PI, PD and DLP.
+// Entry of a program line by line: PG, PA, PE, PI, PD and DLP.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace understudy::interpreter::slim {
 
-/// Which lines from the host are program lines now.
+/// The use of lines from the host as program lines.
 struct Editor {
   enum class Mode : std::uint8_t {
     none,
-    lines,     // PG, PA: all, until an empty line (unless those are ignored), EXIT or ESC
-    replace,   // PE: the next good one, in place of `line`
-    insert,    // PI: the next good one, before `line`
-    download,  // DLP: all, until END, EXIT or ESC
+    lines,     // PG, PA: all lines, until an empty line (unless those are ignored), EXIT or ESC
+    replace,   // PE: the next good line replaces `line`
+    insert,    // PI: the next good line is inserted before `line`
+    download,  // DLP: all lines, until END, EXIT or ESC
   } mode = Mode::none;
   int line = 0;  // from 0
 
@@ -25,15 +25,16 @@ struct Editor {
 
 constexpr bool is_editing(const Editor& editor) { return editor.mode != Editor::Mode::none; }
 
-/// Carries out one of the six commands. An error changes nothing.
+/// Executes one of the six commands. If it returns an error, nothing has changed.
 Error begin_edit(Editor& editor, Program& program, const Command& command,
                  const ProgramOptions& options = {});
 
-/// A line that arrives while editing. With an error the line is not stored, and editing goes on: what comes
-/// next is meant for the program, too. A line that contains ESC (0x1B) ends the editing and is not stored.
+/// Takes a line that arrives during editing. A line with an error is not stored, and editing continues,
+/// because the next line is meant for the program, too. A line that contains ESC (0x1B) ends the editing and
+/// is not stored.
 Error enter_line(Editor& editor, Program& program, std::string_view text, const ProgramOptions& options = {});
 
-/// The number that the next line gets, for a prompt.
+/// Returns the number of the next line, for a prompt.
 std::optional<int> next_line_number(const Editor& editor, const Program& program,
                                     const ProgramOptions& options = {});
 

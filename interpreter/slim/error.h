@@ -1,4 +1,5 @@
-// The numbers of SLIM's error replies (`ERR n`, `?ERR`, `?ERC`). The manual lists none; these are ours.
+// The numbers of SLIM's error replies (`ERR n`, `?ERR`, `?ERC`). The manual lists none; these numbers are
+// ours.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +8,14 @@ namespace understudy::interpreter::slim {
 
 enum class Error : std::uint8_t {
   none = 0,
-  syntax = 1,          // or an unknown command
+  syntax = 1,          // not in this mode: typed, stored, or from outside while a program runs
   range = 2,           // a value or index out of range
   not_allowed = 3,     // not in this mode: typed, stored, or from outside while a program runs
   axis = 4,            // not assigned, or its module is reserved for an axis
   not_linked = 5,      // a module that PN50 does not name
-  paused = 6,          // refused in Pause
+  paused = 6,          // refused during a pause
   unequal_speeds = 7,  // PR2 or PR3 differ between the axes of one command
-  buffer_full = 8,     // commands, or lines of program
+  buffer_full = 8,     // the FIFO, or the program
   servo_off = 9,       // HOFF
   following_error = 10,
   overload = 11,

@@ -1,4 +1,4 @@
-// Conditions, and the events that wait for them: SET EV, ON EV.
+// Conditions, and the events that use them: SET EV, ON EV.
 #pragma once
 
 #include <array>
@@ -11,15 +11,15 @@
 
 namespace understudy::interpreter::slim {
 
-/// What the manual leaves open about events.
+/// Options about events that the manual leaves open.
 struct EventOptions {
-  /// An event whose condition is true already when it becomes complete (SET EV and ON EV), or when the
-  /// program starts: it fires, or waits until the condition has been false.
+  /// Whether an event fires whose condition is already true when it becomes complete (SET EV and ON EV) or
+  /// when the program starts, or waits until the condition has been false.
   enum class AtArming : std::uint8_t { fires, waits_for_change } at_arming = AtArming::fires;
-  /// An event that came while another one's routine ran, and whose condition is false again at its RET.
+  /// Whether an event fires that came during another event's routine, and whose condition is false again at
+  /// its RET.
   enum class Held : std::uint8_t { fires, is_dropped } held = Held::fires;
-  /// Conditions are looked at in the milliseconds that this divides; what comes and goes in between is not
-  /// seen.
+  /// Conditions are checked in the milliseconds that this divides; changes in between are not seen.
   int look_every_ms = 1;
 
   bool operator==(const EventOptions&) const = default;
@@ -37,26 +37,26 @@ struct Event {
   bool operator==(const Event&) const = default;
 };
 
-/// By number, from 1; the lowest has priority.
+/// The events by number, from 1; the lowest number has priority.
 using Events = std::array<Event, kEventCount>;
 
-/// `SET EV` or `ON EV`, in a program or typed.
+/// Executes `SET EV` or `ON EV`, in a program or typed.
 void define_event(Events& events, const Command& command, const EventOptions& options);
-/// As a program starts: what came before is forgotten, the definitions stay.
+/// Arms the events at the start of a program: earlier occurrences are dropped, the definitions stay.
 void arm_events(Events& events, const EventOptions& options);
 
-/// Looks at all conditions. The error is that of a condition that cannot be tested (it is taken
-/// out of use).
+/// Checks all conditions. Returns the error of a condition that cannot be tested; that event is disabled.
 Error look_at_events(Events& events, const EventOptions& options, const Machine& machine);
-/// Takes the event whose turn it is, which is then no longer pending.
+/// Takes the event whose turn it is; it is then no longer pending.
 std::optional<Operand> take_event(Events& events);
-/// Whether the next look would change anything, if the machine stays as it is but its clock goes on.
+/// Returns true if the next check would change anything, if only the machine's clock advances.
 bool would_change(const Events& events, const Machine& machine);
 
-/// The index of an element of an array read from its variable: Error::range if there is no such element.
+/// Resolves the index of an array element from its variable. Returns Error::range if there is no such
+/// element.
 Error resolve_index(Operand& operand, const Machine& machine);
 Error resolve_indices(Command& command, const Machine& machine);
-/// Operands as Condition says.
+/// Tests a condition; the operands are as described at Condition.
 Error test_condition(Condition condition, std::span<const Operand> operands, const Machine& machine,
                      bool& holds);
 

@@ -1,4 +1,4 @@
-// What a running SLIM program acts on: the chain of motors, as an abstract machine.
+// The chain of motors on which a running SLIM program acts, as an abstract machine.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace understudy::interpreter::slim {
 
-/// What became of a command.
+/// The result of a command.
 struct Outcome {
   bool waits =
       false;  // not carried out yet: nothing has changed, and the program asks again at the next tick
   Error error = Error::none;
-  /// What it means for the program that gave it, besides going on with the next line.
+  /// What happens to the program that gave the command.
   enum class Program : std::uint8_t {
     goes_on,
-    forgets_what_it_interrupted,  // behind the RET of an event's routine there is nothing more
+    forgets_what_it_interrupted,  // the program ends at the RET of the event's routine
     ends,
   } program = Program::goes_on;
 
@@ -30,12 +30,14 @@ class Machine {
  public:
   virtual ~Machine() = default;
 
-  /// 1 to 8.
+  /// Returns input 1 to 8.
   virtual bool input(int number) const = 0;
-  /// Of a variable, an element of an array (its index is a constant, within its range), AIN or TM.
+  /// Returns the value of a variable, an array element (its index is a constant, within its range), AIN or
+  /// TM.
   virtual double value(const Operand& operand) const = 0;
-  /// All commands but those of program flow, program editing and GETI and GETR alone; DN, TpDN and XDN too,
-  /// which wait. Indices are constants, and GETI and GETR are the numbers that the host has given.
+  /// Executes all commands except program flow, program editing, and GETI and GETR alone. DN, TpDN and XDN
+  /// are included, which wait. Indices are constants, and GETI and GETR are replaced by the numbers that the
+  /// host has sent.
   virtual Outcome carry_out(const Command& command) = 0;
 };
 

@@ -1,4 +1,4 @@
-// One line of text into a command. Whether a command may be given now is another question: availability.h.
+// Parses one line of text into a command. availability.h decides whether the command is allowed.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,22 @@
 namespace understudy::interpreter::slim {
 
 inline constexpr std::size_t kLineLength = 127;
-/// The longest that any dialect has.
+/// The longest line of any dialect.
 inline constexpr std::size_t kLongestLine = 255;
 
-/// What the manual leaves open about the language.
+/// Options about the language that the manual leaves open.
 struct Dialect {
-  /// `T1MA R0`: the manual prints variables for MA and XMA, and "the same function" for TpMA, without a form.
+  /// Whether `T1MA R0` is accepted: the manual prints variables for MA and XMA, and "the same function" for
+  /// TpMA, without a form.
   enum class ModuleMoveFromVariable : std::uint8_t {
     refused,
     accepted
   } module_move_from_variable = ModuleMoveFromVariable::refused;
   std::size_t longest_line = kLineLength;  // longer ones are refused
-  int integer_least = kIntegerLeast;       // of integer variables
-  int event_count = kEventCount;           // EV1 to this one; 1 .. kEventCount
-  bool helix_constants = true;             // SAA R0,R1,90,5 as its form is printed, besides four variables
-  bool quantities = false;                 // what a query shows is a function: N0=PE, JG VM,R0,$A
+  int integer_least = kIntegerLeast;       // the least value of integer variables
+  int event_count = kEventCount;           // EV1 to EVn; 1 .. kEventCount
+  bool helix_constants = true;  // SAA R0,R1,90,5 is accepted, as its form is printed, besides four variables
+  bool quantities = false;      // the value of a query is also a function: N0=PE, JG VM,R0,$A
 
   bool operator==(const Dialect&) const = default;
 };
@@ -38,13 +39,14 @@ struct ParseResult {
   bool operator==(const ParseResult&) const = default;
 };
 
-/// The union of all dialects: for what a dialect has accepted already.
+/// The union of all dialects, for text that a dialect has accepted already.
 inline constexpr Dialect kWidestDialect{.longest_line = kLongestLine, .quantities = true};
 
-/// Everything that needs no state is checked. An empty line is not an error.
+/// Parses a line and checks everything that needs no state. An empty line is not an error.
 ParseResult parse_line(std::string_view text, const Dialect& dialect = {});
 
-/// A decimal number as a host writes it: sign, digits, point, exponent; nothing for anything else.
+/// Parses a decimal number as a host writes it: sign, digits, point, exponent. Returns nothing for anything
+/// else.
 std::optional<Operand> parse_number(std::string_view text);
 
 }  // namespace understudy::interpreter::slim

@@ -1,5 +1,5 @@
-// The stored program: lines of text, each parsed when it is entered. Operands that name a line or a label
-// are looked up when the program runs. Lines are counted from 0 here, whatever numbers they have for a host.
+// The stored program: lines of text, each parsed when it is entered. Operands that name a line or a label are
+// looked up when the program runs. Lines are counted from 0 here, whatever numbers a host uses.
 #pragma once
 
 #include <cstddef>
@@ -16,33 +16,34 @@
 
 namespace understudy::interpreter::slim {
 
-/// What the manual leaves open about stored programs.
+/// Options about stored programs that the manual leaves open.
 struct ProgramOptions {
   Dialect dialect = {};
   Columns columns = {};
   int capacity = 1000;   // lines
-  int first_number = 0;  // of the first line: in addresses, in PE, PI, PD and PL
-  /// A line that no program can carry out is refused as it is entered, or stored and refused as it runs.
+  int first_number = 0;  // number of the first line, in addresses and in PE, PI, PD and PL
+  /// When a line is refused that no program can execute: as it is entered, or as it runs.
   enum class Check : std::uint8_t { as_entered, as_run } check = Check::as_entered;
-  /// What the machine knows about a command without its state, such as which parameters exist; null: nothing.
+  /// Checks a command as far as the machine can without its state, such as whether a parameter exists; null:
+  /// no check.
   Error (*check_command)(const Command& command) = nullptr;
-  /// An empty line while a program is entered.
+  /// What an empty line does during entry.
   enum class EmptyLine : std::uint8_t { ends_editing, is_ignored } empty_line = EmptyLine::ends_editing;
-  /// A line that is refused after PE or PI: they wait for another one, or end.
+  /// What a refused line does after PE or PI: they wait for another line, or end.
   enum class RefusedLine : std::uint8_t {
     is_asked_for_again,
     ends_pe_and_pi
   } refused_line = RefusedLine::is_asked_for_again;
-  /// A line with a label that another line has already: refused, or only the first one is ever found.
+  /// What happens to a line with the label of another line: it is refused, or only the first one is found.
   enum class SameLabel : std::uint8_t { refused, first_counts } same_label = SameLabel::refused;
-  /// What PL shows: "0: MA 100", or the line as it is.
+  /// What PL shows: "0: MA 100", or the line alone.
   enum class Listing : std::uint8_t { numbered, bare } listing = Listing::numbered;
 
   bool operator==(const ProgramOptions&) const = default;
 };
 
 struct StoredLine {
-  std::string text;  // as entered, without the blanks around it
+  std::string text;  // as entered, without surrounding blanks
   ParsedLine parsed;
   Error error =
       Error::none;  // of Check::as_run: what the line fails with when it is reached; it may have a label
@@ -55,32 +56,34 @@ class Program {
   int size() const { return static_cast<int>(lines_.size()); }
   const StoredLine& line(int number) const { return lines_[static_cast<std::size_t>(number)]; }
 
-  /// Behind the last line: what insert() takes as a number. Refuses (and changes nothing): a line that does
-  /// not parse, or is empty; a command that no program may hold (not_allowed); a label that another line has
-  /// (address); a number that does not exist (range); more lines than fit (buffer_full). With Check::as_run
-  /// only empty lines, those too long, and what ends a transfer are refused for what they say; of lines with
-  /// one label the first is good, and the others fail with `address`, whichever was entered first.
+  /// `number` may be size(), to insert after the last line. insert() and replace() refuse, and change
+  /// nothing: a line that does not parse, or is empty; a command that is not allowed in a program
+  /// (not_allowed); a label of another line (address); a number that does not exist (range); more lines than
+  /// fit (buffer_full). With Check::as_run they refuse only empty lines, lines that are too long, and lines
+  /// that end a transfer; of lines with the same label the first is good, and the others fail with `address`,
+  /// whichever was entered first.
   Error insert(int number, std::string_view text, const ProgramOptions& options = {});
   Error replace(int number, std::string_view text, const ProgramOptions& options = {});
   Error remove(int number, const ProgramOptions& options = {});
   void clear() { lines_.clear(); }
 
-  /// The line that an address (a label or a number) means. Of two equal labels the first counts.
+  /// Returns the line that an address (a label or a number) means. Of two equal labels the first counts.
   std::optional<int> find(const Operand& address, const ProgramOptions& options = {}) const;
 
-  /// For `PL`.
+  /// Returns the lines for `PL`.
   std::vector<std::string> listing(const ProgramOptions& options = {}) const;
-  /// For `ULP`: the lines, then END.
+  /// Returns the lines for `ULP`: all lines, then END.
   std::vector<std::string> upload() const;
 
-  /// For saving and restoring. False for texts that no program can hold; the program is then unchanged.
+  /// Save and restore the program. set_texts() returns false for texts that no program can hold; the program
+  /// is then unchanged.
   std::vector<std::string> texts() const;
   bool set_texts(const std::vector<std::string>& texts, const ProgramOptions& options = {});
 
   bool operator==(const Program&) const = default;
 
  private:
-  /// The line that `text` makes in place of line `replaced`; -1: in none's.
+  /// The line that `text` makes in place of line `replaced`; -1: it replaces none.
   struct Checked {
     Error error = Error::none;
     StoredLine line = {};

@@ -1,4 +1,4 @@
-// Whether an operand may stand at a place behind a command's name.
+// Matches operands with the slots after a command's name.
 #pragma once
 
 #include <span>
@@ -16,12 +16,12 @@ struct Operands {
   std::vector<Operand> operands = {};
 };
 
-/// The items behind a command's name against a row's slots. `target` is what an assignment gives a value to,
-/// null for a parameter.
+/// Matches the items after a command's name with a row's slots. `target` is the target of an assignment, null
+/// for a parameter.
 Operands match_slots(const CommandRow& row, std::span<const std::string_view> items, const Operand* target,
                      const Dialect& dialect);
 
-/// How an event's condition is written: "NZ".
+/// Returns the word for an event's condition: "NZ".
 std::string_view condition_word(Condition condition);
 
 }  // namespace understudy::interpreter::slim

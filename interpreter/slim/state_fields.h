@@ -1,4 +1,4 @@
-// What the state of a program and its run consists of (base/state/fields.h), in the order of the bytes.
+// The state fields of a program and its run (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include <string>
@@ -93,13 +93,13 @@ struct StateOf<interpreter::slim::Editor> {
   static constexpr auto fields = FieldList{field("mode", &Value::mode), field("line", &Value::line)};
 };
 
-/// Its lines as they were entered. Read, it holds whatever any dialect knows: set_texts() again makes of it
-/// what the device's own options do.
+/// A program is saved as its lines, as they were entered. After reading, the program is that of the widest
+/// dialect; set_texts() applies the device's own options.
 template <>
 struct StateOf<interpreter::slim::Program> {
   static void write(const interpreter::slim::Program& program, StateWriter& writer);
   static void read(interpreter::slim::Program& program, StateReader& reader);
-  /// By which two are told apart.
+  /// Describes a program, for differences between two states.
   static std::vector<std::string> told(const interpreter::slim::Program& program) { return program.texts(); }
 };
 

@@ -1,4 +1,4 @@
-// A command as text: what parse_line() reads back to the same value.
+// Writes a command as text that parse_line() reads back to the same value.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace understudy::interpreter::slim {
 
-/// The shortest text that reads back to the same number.
+/// Returns the shortest text that reads back to the same number.
 std::string text_of(double number);
 std::string text_of(const Operand& operand);
 std::string text_of(const Command& command);

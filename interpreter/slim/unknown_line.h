@@ -1,4 +1,4 @@
-// What to say about a line that is none, to somebody who wrote it: its word may be known, and its form not.
+// Explains a line that is not a command to its author: its word may be known, but not its form.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Verbs by who carries them out. What is in none of these lists is the machine's (machine.h).
+// Verbs by the part that executes them. The machine (machine.h) executes those in none of these lists.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 
 namespace understudy::interpreter::slim {
 
-/// By flow.h, in a program.
+/// Verbs that flow.h executes, in a program.
 inline constexpr Verb kFlowVerbs[] = {
     Verb::jump,     Verb::jump_if,     Verb::jump_if_within, Verb::call,
     Verb::return_,  Verb::wait_input,  Verb::wait_time,      Verb::set_event,
     Verb::on_event, Verb::get_integer, Verb::get_real,
 };
 
-/// By begin_edit() of editor.h, when typed.
+/// Verbs that begin_edit() of editor.h executes, when typed.
 inline constexpr Verb kEditingVerbs[] = {
     Verb::program_new,    Verb::program_append, Verb::program_edit,
     Verb::program_insert, Verb::program_delete, Verb::download,

@@ -1,4 +1,4 @@
-// The words of a line: blanks, capitals, names, items between commas, and what one item is by itself.
+// The words of a line: blanks, capitals, names, items between commas, and single items.
 #pragma once
 
 #include <string>
@@ -17,25 +17,27 @@ constexpr bool is_letter(char c) { return capital(c) >= 'A' && capital(c) <= 'Z'
 
 std::string_view without_blanks(std::string_view text);  // in front and behind
 std::string in_capitals(std::string_view text);
-/// Takes the letters and digits that the text begins with, in capitals. This is what makes JG0 another word
-/// than JG, and HON another than H.
+/// Takes the leading letters and digits of the text, in capitals. So JG0 is another word than JG, and HON
+/// another than H.
 std::string take_word(std::string_view& text);
-/// Items between commas, without blanks around them; none for an empty text.
+/// Splits a text into its items between commas, without surrounding blanks; none for an empty text.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 
-/// Whether the text is `letters` and a number behind it: "EV12", "N0".
+/// Returns true if the text is `letters` followed by a number: "EV12", "N0".
 bool is_numbered(std::string_view word, std::string_view letters);
 
-/// The largest 32-bit real is written with fewer digits than it has, and then a little larger: that is meant.
+/// Returns `number`, limited to the largest 32-bit real if it exceeds that by rounding only: that real is
+/// written with fewer digits than it has, which makes it a little larger.
 double rounded_real(double number);
 
 struct Item {
   Error error = Error::none;
   Operand operand = {};
 };
-/// Any operand but a text or a condition. A variable or an element that does not exist is a range error.
+/// Parses any operand except a text or a condition. A variable or an element that does not exist is a range
+/// error.
 Item parse_item(std::string_view text);
-/// A text in quotes, which may be the full-width ones of a Chinese keyboard.
+/// Recognise and parse a text in quotes, including the full-width quotes of a Chinese keyboard.
 bool begins_with_quote(std::string_view text);
 Item parse_text(std::string_view text);
 

@@ -1,4 +1,4 @@
-// Contacts and registers by their operands, for both languages.
+// Access to contacts and registers by their operands, for both languages.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// The cell of a plain contact, of a timer's or counter's too.
+/// Returns the cell of a plain contact, or of the contact of a timer or counter.
 constexpr std::uint32_t contact_cell(const CellLayout& layout, Operand contact) {
   const auto number = static_cast<std::uint32_t>(contact.number);
   switch (contact.letter) {
@@ -25,7 +25,7 @@ constexpr std::uint32_t contact_cell(const CellLayout& layout, Operand contact) 
   }
   return 0;
 }
-/// The cell of a plain register, or of a timer's or counter's value.
+/// Returns the cell of a plain register, or of the value of a timer or counter.
 constexpr std::uint32_t value_cell(const CellLayout& layout, Operand value) {
   const auto number = static_cast<std::uint32_t>(value.number);
   if (value.letter == Letter::t) return layout.t_value + number;
@@ -52,7 +52,7 @@ class Access {
     return static_cast<std::int32_t>(cells_[value_cell(layout_, operand)]);
   }
 
-  // Each returns whether anything has changed.
+  // Each of the following returns true if anything has changed.
   bool switch_contact(Operand operand, bool on) {
     if (is_special(operand)) return machine_.set_special_contact(operand.number, on);
     return put(contact_cell(layout_, operand), on ? 1 : 0, is_kept(operand));
@@ -61,7 +61,7 @@ class Access {
     if (is_special(operand)) return machine_.set_special_register(operand.number, value);
     return put(value_cell(layout_, operand), static_cast<std::uint32_t>(value), is_kept(operand));
   }
-  /// RST: a timer or counter loses its value as well.
+  /// RST: switches off a contact; a timer or counter also loses its value.
   bool reset(Operand operand) {
     const bool counts = operand.letter == Letter::t || operand.letter == Letter::c;
     const bool has_lost_value = counts && write(operand, 0);

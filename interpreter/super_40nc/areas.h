@@ -1,5 +1,4 @@
-// Where a SUPER-40NC's programs are: five step programs and the PLC, an area of the program memory each.
-// (Manual, 軟體架構.)
+// The areas of a SUPER-40NC's program memory: five step programs and the PLC, one area each.
 #pragma once
 
 #include <array>
@@ -11,7 +10,7 @@ namespace understudy::interpreter::super_40nc {
 
 inline constexpr int kAxisCount = 4;  // X, Y, Z, U: axes 0 to 3
 
-/// In the order in which they have their slices of a tick.
+/// The areas, in the order of their slices of a tick.
 enum class Area : std::uint8_t { c, x, y, z, u, plc };
 inline constexpr int kAreaCount = 6;
 inline constexpr int kStepProgramCount = 5;  // all but the PLC
@@ -19,9 +18,9 @@ inline constexpr int kStepProgramCount = 5;  // all but the PLC
 struct AreaRow {
   Area area;
   std::string_view name;
-  int steps;          // that it has room for
+  int steps;          // its capacity
   int base;           // number of its first step
-  int older_base;     // as the Logic chapter, MOV, ZRST and FMV count, with 500 steps for C
+  int older_base;     // by the Logic chapter, MOV, ZRST and FMV, with 500 steps for C
   char letter;        // in the manual's lists of areas
   int run_contact;    // M: 1 runs, 0 pauses; 0 for the PLC
   int step_register;  // D: the step about to be executed; 0 for the PLC
@@ -39,7 +38,7 @@ inline constexpr std::array<AreaRow, kAreaCount> kAreas{{
 constexpr const AreaRow& row_of(Area area) { return kAreas[static_cast<std::size_t>(area)]; }
 constexpr std::size_t index_of(Area area) { return static_cast<std::size_t>(area); }
 
-/// The program of an axis, and the axis of a program; -1 for C and the PLC.
+/// Convert an axis to its program and back; -1 for C and the PLC.
 constexpr Area area_of_axis(int axis) { return static_cast<Area>(axis + 1); }
 constexpr int axis_of(Area area) {
   return area == Area::c || area == Area::plc ? -1 : static_cast<int>(area) - 1;

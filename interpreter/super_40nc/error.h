@@ -1,4 +1,4 @@
-// The numbers of D8094. The manual prints none; these are ours.
+// The numbers of D8094. The manual prints none; these numbers are ours.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@ namespace understudy::interpreter::super_40nc {
 
 enum class Code : std::uint8_t {
   none = 0,
-  unknown = 1,     // instruction or operand; a pointer that no instruction begins at
+  unknown = 1,     // instruction or operand; a pointer to a step at which no instruction begins
   wrong_area = 2,  // not allowed, or void, in this area
   label_missing = 3,
-  label_twice = 4,  // D8096 has the other one
-  pairing = 5,      // CAL and RET, IF, ELSE and ENDI; a stack that is full
+  label_twice = 4,  // D8096 has the other label's step
+  pairing = 5,      // of CAL and RET, or IF, ELSE and ENDI; or a stack is full
   no_end = 6,
   logic = 7,  // blocks, branches, groups without a jump
   division_by_zero = 8,
@@ -30,12 +30,12 @@ enum class Code : std::uint8_t {
   alarm = 18,
   emergency_stop = 19,   // M8002
   no_such_file = 20,     // or recipe
-  axis_taken = 21,       // or moves
+  axis_taken = 21,       // or it moves
   emergency_input = 22,  // CEMG
   comparator = 23,
 };
 
-/// In words, by their numbers.
+/// The meanings of the numbers.
 inline constexpr std::array<std::string_view, 24> kCodeWords{
     "no error",
     "an instruction, operand or step that does not exist",
@@ -64,7 +64,7 @@ inline constexpr std::array<std::string_view, 24> kCodeWords{
 };
 constexpr std::string_view words_of(Code code) { return kCodeWords[static_cast<std::size_t>(code)]; }
 
-/// The program goes on behind a line with such an error.
+/// Returns true if the program continues after a line with such an error.
 constexpr bool leaves_program_running(Code code) {
   return code == Code::wrong_area || code == Code::division_by_zero || code == Code::out_of_range ||
          code == Code::axis_not_owned || code == Code::arc_impossible || code == Code::axis_taken ||

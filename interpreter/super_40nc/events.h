@@ -1,5 +1,5 @@
-// What happens to a step program, against what it is doing: the whole table, as data. (Manual, STP 指令,
-// M8000, M8006, M8x02, 主畫面操作說明, MAN(手動)頁操作說明; cells that the manual does not name are ours.)
+// The transition table of step programs: each event in each phase, as data. (Manual, STP 指令, M8000, M8006,
+// M8x02, 主畫面操作說明, MAN(手動)頁操作說明; cells that the manual does not name are ours.)
 #pragma once
 
 #include <array>
@@ -9,57 +9,58 @@
 namespace understudy::interpreter::super_40nc {
 
 enum class Phase : std::uint8_t {
-  idle,       // its contact OFF, its pointer 0
-  executing,  // lines
+  idle,       // its contact is OFF and its pointer 0
+  executing,  // executes lines
   moving,     // waits for its LIN, arc, DRV, MRK or VDRV 0
   homing,     // waits for its HOM
-  waiting,    // WAT, WTN, TMR, an axis that is taken, or M8004
-  paused,     // between lines, or in a wait that stands
+  waiting,    // waits in WAT, WTN or TMR, for an axis that is taken, or because of M8004
+  paused,     // between lines, or with its wait suspended
   held,       // its motion or wait is frozen
 };
 inline constexpr std::size_t kPhaseCount = 7;
 
 enum class Event : std::uint8_t {
-  start,           // its contact 0 to 1, STR, a START key
-  contact_off,     // M8000, M8x00 written 0
+  start,           // its contact turns from 0 to 1, STR, a START key
+  contact_off,     // M8000 or M8x00 is written 0
   hold,            // M8006 rising, a PAUSE key
-  motion_ended,    // its motion line is over
-  single_step,     // the same with M8001 or M8x01 ON
+  motion_ended,    // the motion of its line has ended
+  single_step,     // likewise, with M8001 or M8x01 ON
   end,             // END
   end_continuous,  // END of C with M8007 or M8600 ON
   stop,            // STP, a STOP key
   reset,           // M8x02 is ON
   emergency,       // M8002 or CEMG is ON
   inhibit,         // M8004 is ON
-  broken,  // a limit, a soft limit, a comparator, an alarm, or a home that failed, of an axis of its line
+  // an axis of its line has met a limit, a soft limit, a comparator or an alarm, or its homing has failed
+  broken,
   file_changed,  // D9001
   plc_stop,
   plc_run,       // STOP to RUN, power-up
-  limit_pauses,  // as broken, by a limit, where that only pauses a program
+  limit_pauses,  // like broken, by a limit, if that only pauses a program
 };
 inline constexpr std::size_t kEventCount = 16;
 
 enum class Reaction : std::uint8_t {
   nothing,
   fresh_start,  // from line 0, with the parameters' modes and speeds
-  go_on,        // with the next line, or the wait that stood
-  resume,       // with what was frozen
-  pause,        // between lines; a wait stands
-  pause_later,  // when its motion is over
-  hold,         // pause, and what runs beside the lines is held
-  freeze,       // its motion or wait, and what runs beside the lines
+  go_on,        // continues with the next line, or with the suspended wait
+  resume,       // continues what was frozen
+  pause,        // pauses between lines; a wait is suspended
+  pause_later,  // pauses when its motion has ended
+  hold,         // like pause, and holds the motions beside the lines
+  freeze,       // freezes its motion or wait, and the motions beside the lines
   next_line,
-  forget,        // idle: pointer, calls, waits, what was held; motors go on
-  restart,       // END's signal, and a fresh start
-  stop_motors,   // idle as before
-  stop,          // its motors at once, and forget
-  broken,        // forget; the machine has stopped what has to
+  forget,        // becomes idle: drops its pointer, calls, waits and held motions; motors continue
+  restart,       // gives END's signal, and makes a fresh start
+  stop_motors,   // stops its motors, and stays idle
+  stop,          // stops its motors at once, and forgets
+  broken,        // forgets; the machine has stopped the motors
   motions_wait,  // the next motion line waits
-  rest_waits,    // what was frozen goes on only afterwards
-  same_step,     // of the new file
+  rest_waits,    // what was frozen continues only afterwards
+  same_step,     // continues at the same step of the new file
 };
 
-/// By event and phase.
+/// The reactions by event and phase.
 inline constexpr auto kReactions = [] {
   using enum Reaction;
   return std::array<std::array<Reaction, kPhaseCount>, kEventCount>{{
@@ -87,8 +88,8 @@ constexpr Reaction reaction_of(Event event, Phase phase) {
   return kReactions[static_cast<std::size_t>(event)][static_cast<std::size_t>(phase)];
 }
 
-/// What becomes of motions that run beside the lines (a DRV with CHK 0, VDRV), and of axes that follow the
-/// wheel by MPG. The machine is told by the same calls as of its line.
+/// What happens to motions beside the lines (a DRV with CHK 0, VDRV), and to axes that follow the wheel by
+/// MPG. The machine receives the same calls as for its line.
 enum class Beside : std::uint8_t { goes_on, is_held, is_stopped, machine_knows };
 struct BesideRow {
   Event event;

@@ -1,5 +1,5 @@
-// What a listing says that is no word of it: instructions and operands of other PLCs that people bring along,
-// and what is written here instead. The nearest word by its letters would often be another instruction.
+// Explains words of a listing that are not in the language: instructions and operands of other PLCs, with
+// what to write instead. The nearest word by spelling would often be a different instruction.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 namespace understudy::interpreter::super_40nc {
 
 constexpr bool is_decimal_digit(char letter) { return letter >= '0' && letter <= '9'; }
-/// Digits with a sign perhaps; nothing if 64 bits do not hold it.
+/// Parses digits with an optional sign; returns nothing if they do not fit 64 bits.
 std::optional<std::int64_t> decimal(std::string_view text);
 
-/// In capitals; null if there is none.
+/// Finds a mnemonic in capitals; null if there is none.
 const InstructionRow* find_mnemonic(std::string_view word);
-/// The end of a complaint about one that does not exist: "; expected AD=".
+/// Returns the end of the message about an unknown instruction: "; expected AD=".
 std::string nearest_instruction(std::string_view written);
 
 struct Unknown {

@@ -1,4 +1,4 @@
-// What a row of the table of instructions consists of.
+// The parts of a row of the instruction table.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// One for each mnemonic, in the order of the table.
+/// The instructions, one for each mnemonic, in the order of the table.
 enum class Op : std::uint8_t {
   // Logic
   ld,
@@ -120,24 +120,24 @@ inline constexpr int kOpCount = static_cast<int>(Op::pnt) + 1;
 
 enum class Group : std::uint8_t { logic, data, sequence, motion, undocumented };
 
-/// What a field is to its instruction.
+/// The role of a field in its instruction.
 enum class Slot : std::uint8_t {
   none,        // the field has to be unset
   contact,     // read
   bit,         // switched
-  resettable,  // RST: as bit; timers and counters where that is chosen
-  timer,       // or counter: its coil
+  resettable,  // for RST: like bit; timers and counters if that is chosen
+  timer,       // the coil of a timer or counter
   preset,
   source,  // a value
   target,  // a register that is written
   range,   // an end of ZRST's range
   label,   // K 0 to 9999999
-  times,   // unset: once
-  amount,  // unset has a meaning: the row's `unset`
+  times,   // unset means once
+  amount,  // unset has a meaning, the row's `unset`
   needed,  // must be set
 };
 
-/// Which letters may stand in a slot.
+/// Returns the letters that are allowed in a slot.
 constexpr Letters letters_of(Slot slot) {
   switch (slot) {
     case Slot::none: return 0;
@@ -156,7 +156,7 @@ constexpr Letters letters_of(Slot slot) {
   }
   return 0;
 }
-/// The same for people.
+/// Describes the allowed operands.
 constexpr std::string_view describe(Slot slot) {
   switch (slot) {
     case Slot::none: return "";
@@ -179,7 +179,7 @@ constexpr bool may_be_unset(Slot slot) {
   return slot == Slot::none || slot == Slot::times || slot == Slot::amount;
 }
 
-/// Of F, TMR, CWR and CCWR the field without which the line means nothing; of all others none.
+/// Returns the field without which F, TMR, CWR and CCWR mean nothing, or none for other instructions.
 constexpr std::size_t place_of_needed(Op op) {
   constexpr std::size_t kNone = 4;
   if (op == Op::f || op == Op::tmr) return 0;
@@ -188,7 +188,7 @@ constexpr std::size_t place_of_needed(Op op) {
 
 /// How the condition of an instruction counts in the PLC.
 enum class InPlc : std::uint8_t {
-  nothing,  // not there, or without a condition
+  nothing,  // not in the PLC, or without a condition
   contact,  // it makes the condition
   every_scan,
   every_scan_on_or_off,
@@ -197,7 +197,7 @@ enum class InPlc : std::uint8_t {
   level,
 };
 
-/// What a step program waits for at the line.
+/// What a step program waits for at this line.
 enum class Waits : std::uint8_t { no, for_on, for_off, for_time, for_arrival, for_home, for_standstill };
 
 using Slots = std::array<Slot, 4>;
@@ -206,15 +206,15 @@ struct InstructionRow {
   Op op;
   std::string_view mnemonic;
   Group group;
-  Areas areas;  // where it may stand
+  Areas areas;  // areas in which it is allowed
   int steps;
   Slots slots;
   InPlc in_plc;
-  std::string_view meaning;  // for people
+  std::string_view meaning;  // description in the documentation
   std::string_view section;  // of the manual
   Waits waits = Waits::no;
   bool ends_single_step = false;
-  Areas void_in = 0;            // where it may stand, does nothing, and says so in D8094
+  Areas void_in = 0;            // areas in which it is allowed, has no effect, and reports that in D8094
   std::string_view unset = {};  // what an unset field means
 
   constexpr int fields() const {
@@ -223,7 +223,7 @@ struct InstructionRow {
     return count;
   }
 
-  // How a row says what few rows have.
+  // Properties that few rows have.
   constexpr InstructionRow waits_for(Waits what) const {
     InstructionRow row = *this;
     row.waits = what;
@@ -246,7 +246,7 @@ struct InstructionRow {
   }
 };
 
-// How rows are written, by the manual's groups.
+// Functions that make rows, by the manual's groups.
 constexpr InstructionRow logic(Op op, std::string_view mnemonic, Areas areas, int steps, const Slots& slots,
                                InPlc in_plc, std::string_view meaning, std::string_view section) {
   return {op, mnemonic, Group::logic, areas, steps, slots, in_plc, meaning, section};
@@ -265,7 +265,7 @@ constexpr InstructionRow motion(Op op, std::string_view mnemonic, Areas areas, i
                                 InPlc in_plc, std::string_view meaning, std::string_view section) {
   return {op, mnemonic, Group::motion, areas, steps, slots, in_plc, meaning, section};
 }
-/// It has no description: refused when it is loaded.
+/// Makes the row of an instruction without a description, which is refused when it is loaded.
 constexpr InstructionRow undescribed(Op op, std::string_view mnemonic, std::string_view section) {
   return {op, mnemonic, Group::undocumented, 0, 1, {}, InPlc::nothing, "Named only; refused", section};
 }

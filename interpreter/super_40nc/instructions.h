@@ -1,5 +1,5 @@
-// A SUPER-40NC's program languages as data: every mnemonic with where it may stand, what its fields are, how
-// many steps it has and what it does. (Manual, 指令使用說明一覽表 and the chapter of each.)
+// A SUPER-40NC's program languages as data: every mnemonic with its areas, fields, steps and meaning.
+// (Manual, 指令使用說明一覽表 and the chapter of each.)
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ inline constexpr Slots kRadius{Slot::amount, Slot::amount, Slot::needed};
 
 }  // namespace instruction_words
 
-/// In the order of Op. OUTtc is written OUT: its first field tells them apart.
+/// The instructions in the order of Op. OUTtc is written OUT: the first field distinguishes them.
 inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
   using namespace instruction_words;
   return std::array<InstructionRow, kOpCount>{
@@ -287,7 +287,7 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
 
 constexpr const InstructionRow& row_of(Op op) { return kInstructions[static_cast<std::size_t>(op)]; }
 
-/// Steps follow from the fields, but where the target of a jump has a step of its own.
+/// Checks that steps follow from the fields, except that the target of a jump has a step of its own.
 consteval bool table_makes_sense() {
   for (std::size_t i = 0; i < kInstructions.size(); ++i) {
     const InstructionRow& row = kInstructions[i];

@@ -1,4 +1,4 @@
-// A PLC program made ready to run: its lines decoded once into small steps that name cells.
+// A compiled PLC program: its lines, decoded once into small steps that name cells.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,12 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// What a step does.
+/// The action of a step.
 enum class Act : std::uint8_t {
-  load,  // contacts: into a block of its own, in series, in parallel
+  load,  // contacts: into a block of their own, in series, in parallel
   series,
   parallel,
-  load_edge,  // the same, with a memory: ON for the scan of an edge
+  load_edge,  // likewise with a memory: ON for the scan of an edge
   series_edge,
   parallel_edge,
   load_comparison,
@@ -37,7 +37,7 @@ enum class Act : std::uint8_t {
   move,
   add,
   subtract,
-  general,  // all others: by the line
+  general,  // any other instruction, executed from its line
   end,
 };
 
@@ -48,17 +48,17 @@ struct LadderStep {
   Act act = Act::end;
   Bank bank_a = Bank::cells;
   Bank bank_b = Bank::cells;
-  std::uint8_t flags = 0;  // kInverted, kFalling, kKept; of a comparison: its Relations
+  std::uint8_t flags = 0;  // kInverted, kFalling, kKept; for a comparison its Relations
   std::uint16_t line = 0;
-  std::uint16_t memory = 0;  // of an edge
-  std::uint32_t a = 0;       // cell, index into the constants, or number of a special one
+  std::uint16_t memory = 0;  // for edges
+  std::uint32_t a = 0;       // cell, index into the constants, or number of a special contact or register
   std::uint32_t b = 0;
-  std::uint32_t c = 0;  // cell that is written
+  std::uint32_t c = 0;  // the cell to write
 };
 inline constexpr std::uint8_t kInverted = 1;
 inline constexpr std::uint8_t kFalling = 2;
-inline constexpr std::uint8_t kKept = 4;         // what is written survives power-off
-inline constexpr std::uint8_t kValueIsRead = 8;  // of a timer: something else depends on its value
+inline constexpr std::uint8_t kKept = 4;         // the written cell is retentive
+inline constexpr std::uint8_t kValueIsRead = 8;  // for timers: another instruction depends on the value
 
 class Ladder {
  public:
@@ -69,14 +69,15 @@ class Ladder {
   const std::vector<LadderStep>& steps() const { return steps_; }
   const std::vector<std::uint32_t>& constants() const { return constants_; }
   const Instruction& line(std::size_t number) const { return program_.lines[number]; }
-  /// The step of a line as D8095 counts.
+  /// Returns the step of a line, counted as by D8095.
   int step_of(std::size_t line) const { return step_numbers_[line]; }
-  /// Of edges, timers and counters.
+  /// Returns the number of memories of edges, timers and counters.
   std::size_t memory_count() const { return memory_count_; }
   const std::vector<std::uint32_t>& timers() const { return timers_; }  // indices of steps
 
-  /// Everything that a scan may look at, each once: when none of it has changed since a scan that changed
-  /// nothing, a scan would change nothing. Special ones may be computed, so the device has to know them.
+  /// Returns everything that a scan may read, each once. If none of it has changed since a scan that changed
+  /// nothing, another scan would change nothing. Special contacts and registers may be computed, so the
+  /// device must know about them.
   const std::vector<Operand>& reads() const { return reads_; }
 
  private:

@@ -1,11 +1,11 @@
 // Programs as text and back, without loss: list() and check() again give the same program.
 //
-//   AREA X BASE 500          ; C, X, Y, Z, U or PLC; BASE: the number of its first step, if it is not the
-//   area's 500 LD X0                ; an instruction a line, upper or lower case alike; its step, checked if
-//   it is given 501 CJ K10               ; K: constants and labels
+//   AREA X BASE 500          ; C, X, Y, Z, U or PLC; BASE: its first step, if not the area's
+//   500 LD X0                ; an instruction a line, in upper or lower case; its step is checked if given
+//   501 CJ K10               ; K: constants and labels
 //       END
 //       LAB K10
-//       DRV K1000, *, K-50   ; *: an unset field; those at the end may be left out; commas may stand between
+//       DRV K1000, *, K-50   ; *: an unset field, optional at the end; commas may separate
 //       OUT T0 K1000
 //       END
 //   FILE 3                   ; the C program of path file 3
@@ -42,17 +42,17 @@ std::string to_string(const Complaint& complaint);
 struct Checked {
   std::optional<Program> program;   // only if nothing is wrong
   std::vector<Complaint> errors;    // the first kMostMistakes, in the order of the text
-  std::vector<Complaint> warnings;  // what loads all the same, and is reported: a label twice
-  std::vector<Complaint> notes;     // what loads and is not reported: a jump that will find no label
+  std::vector<Complaint> warnings;  // loads, but is reported: a duplicate label
+  std::vector<Complaint> notes;     // loads, and is not reported: a jump whose label is missing
 };
 
 inline constexpr int kGreatestFile = 29999;
 
 Checked check(std::string_view text, const Options& options = {});
 
-/// Steps are numbered.
+/// Writes a program as text, with numbered steps.
 std::string list(const Program& program);
-/// "DRV K1000 * K-50".
+/// Returns the text of an instruction: "DRV K1000 * K-50".
 std::string text_of(const Instruction& instruction);
 std::string text_of(Operand operand);
 

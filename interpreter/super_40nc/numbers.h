@@ -1,5 +1,4 @@
-// The data instructions, for both languages: numbers of 32 bits with a sign that wrap. (Manual, Data
-// 指令一覽表.)
+// The data instructions, for both languages: signed 32-bit numbers that wrap. (Manual, Data 指令一覽表.)
 #pragma once
 
 #include "interpreter/super_40nc/access.h"
@@ -14,26 +13,26 @@ struct Calculated {
   Code code = Code::none;
 };
 
-/// One of MOV to DIV, INC, DEC, ABS.
+/// Executes one of MOV to DIV, INC, DEC, ABS.
 Calculated calculate(const Instruction& instruction, Access& access, const Options& options);
 constexpr bool is_calculation(Op op) {
   return (op >= Op::mov && op <= Op::div) || (op >= Op::inc && op <= Op::abs);
 }
 
-/// How two values may stand to each other: bit 0 less, bit 1 equal, bit 2 greater.
+/// The possible relations of two values: bit 0 less, bit 1 equal, bit 2 greater.
 using Relations = std::uint8_t;
 constexpr Relations relation_of(std::int32_t first, std::int32_t second) {
   return static_cast<Relations>((first < second ? 1U : 0U) | (first == second ? 2U : 0U) |
                                 (first > second ? 4U : 0U));
 }
-/// Those of a contact that compares; of other instructions none.
+/// Returns the relations of a comparing contact; 0 for other instructions.
 constexpr Relations relations_of(Op op) {
   if (op < Op::ld_equal || op > Op::or_ge) return 0;
   constexpr Relations kInOrder[] = {2, 4, 1, 1 | 4, 1 | 2, 2 | 4};  // = > < <> <= >=
   return kInOrder[(static_cast<int>(op) - static_cast<int>(Op::ld_equal)) % 6];
 }
 
-/// Where a contact stands.
+/// The place of a contact in its block.
 enum class Place : std::uint8_t { begins, in_series, in_parallel };
 constexpr Place place_of(Op op) {
   const bool is_series = (op >= Op::and_ && op <= Op::anf) || (op >= Op::ad_equal && op <= Op::ad_ge);

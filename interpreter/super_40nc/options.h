@@ -1,4 +1,4 @@
-// What the manual leaves open about the languages; the first of each is ours.
+// Options about the languages that the manual leaves open; our option is first.
 #pragma once
 
 #include <cstdint>
@@ -10,83 +10,84 @@ namespace understudy::interpreter::super_40nc {
 
 struct Options {
   // --- when a listing is checked ------------------------------------------------------------------
-  /// Of the program memory, which D8095 and D8096 count in.
+  /// The numbers of the areas' first steps, as D8095 and D8096 count.
   enum class Bases : std::uint8_t { newer, older, each_from_0 } bases = Bases::newer;
   enum class Capacity : std::uint8_t { steps, lines } capacity = Capacity::steps;
   int c_capacity = 1500;  // D9042
-  int stack_depth = 16;   // of blocks and branches
+  int stack_depth = 16;   // depth of blocks and branches
   int if_depth = 8;
-  /// CJ, CJN or IF without contacts before it, contacts without one of them behind.
+  /// What happens to CJ, CJN or IF without contacts before it, and to contacts without one of them after.
   enum class LooseGroups : std::uint8_t {
     are_refused,
     take_last_result
   } loose_groups = LooseGroups::are_refused;
-  /// Two OUTs of one coil.
+  /// What happens to two OUTs of one coil.
   enum class DoubleCoils : std::uint8_t { last_wins, are_refused } double_coils = DoubleCoils::last_wins;
-  /// A label twice in one area: the first is taken, and reported.
+  /// What happens to a duplicate label in one area: the first is used and the duplicate is reported, or it is
+  /// refused.
   enum class DoubleLabels : std::uint8_t { load, are_refused } double_labels = DoubleLabels::load;
-  /// An output leaves its result alone of all blocks, or leaves them all.
+  /// True: after an output only its result remains of all blocks; false: all blocks remain.
   bool outputs_clear_blocks = false;
-  /// A label that two areas have is the first one's alone, or each area has its own.
+  /// True: a label in two areas belongs to the first one; false: each area has its own.
   bool labels_are_common = false;
-  /// RST and ZRST of T and C.
+  /// True: RST and ZRST accept T and C.
   bool timers_can_be_reset = true;
-  /// Lines that the manual calls void in their area.
+  /// What happens to lines that the manual calls void in their area.
   enum class VoidLines : std::uint8_t { do_nothing, are_refused } void_lines = VoidLines::do_nothing;
   bool knows_mset = true;
   bool end_may_be_missing = false;
   bool presets_may_be_registers = true;
-  /// F, TMR and a radius without a value: the line is skipped, or refused.
+  /// True: F, TMR and a radius without a value skip their line; false: they are refused.
   bool unset_lines_are_skipped = false;
-  bool c3p_may_lack_fields = true;  // such a coordinate does not change
-  bool labels_must_exist = false;   // those that are jumped to; else the program stops there
+  bool c3p_may_lack_fields = true;  // a missing coordinate does not change
+  bool labels_must_exist = false;   // true: targets of jumps must exist; false: the program stops at the jump
 
   // --- numbers --------------------------------------------------------------------------------------
-  /// FMV beyond the end of its block.
+  /// What FMV does beyond the end of its block.
   enum class FillBeyond : std::uint8_t { is_clipped, does_nothing } fill_beyond = FillBeyond::is_clipped;
   enum class DivisionByZero : std::uint8_t {
     changes_nothing,
     gives_zero
   } division_by_zero = DivisionByZero::changes_nothing;
   enum class Product : std::uint8_t { wraps, saturates } product = Product::wraps;
-  bool sums_saturate = false;  // of ADD and SUB; else they wrap
-  /// ZRST with the higher end first.
+  bool sums_saturate = false;  // for ADD and SUB; false: they wrap
+  /// What ZRST does with the higher end first.
   enum class Swapped : std::uint8_t { is_refused, clears_first, clears_all } swapped = Swapped::is_refused;
-  /// DIV where the remainder has no room: the quotient alone, or nothing.
+  /// True: DIV does nothing if the remainder has no room; false: it stores the quotient alone.
   bool remainder_needs_room = false;
-  /// A quotient that is not whole, and the remainder with it.
+  /// In which direction a quotient is rounded; the remainder follows from it.
   enum class Quotient : std::uint8_t { towards_0, downwards } quotient = Quotient::towards_0;
-  /// RPM of 0 or less leaves an axis its speed; else it is the least there is.
+  /// True: RPM of 0 or less keeps an axis's speed; false: it means the least speed.
   bool rpm_0_keeps_speed = false;
 
   // --- the PLC --------------------------------------------------------------------------------------
-  int scan_ms = 1;  // how often the machine calls
+  int scan_ms = 1;  // milliseconds between calls by the machine
   int timer_unit_ms = 1;
-  /// The value of a timer that runs cannot be written.
+  /// True: the value of a running timer cannot be written.
   bool timers_ignore_writes = false;
-  /// A counter stops at its preset, or counts on.
+  /// True: a counter counts beyond its preset; false: it stops there.
   bool counts_beyond_preset = false;
-  /// Its contact is what value and preset say at each scan, or is closed by the last count and opened by RST
-  /// alone.
+  /// Whether a counter's contact compares value and preset at each scan, or is closed by the last count and
+  /// opened only by RST.
   enum class CounterContact : std::uint8_t {
     compares,
     is_latched
   } counter_contact = CounterContact::compares;
-  /// DRV, HOM, STR: at the rising edge of their condition, or in every scan.
+  /// True: DRV, HOM and STR act at the rising edge of their condition; false: in every scan.
   bool motions_need_edge = true;
-  bool modes_need_edge = false;  // ABSC, INCC, RPM, PSET, MSET and STP as well
-  /// One memory for all LDP and the like of a bit, or one for each.
+  bool modes_need_edge = false;  // likewise for ABSC, INCC, RPM, PSET, MSET and STP
+  /// True: all LDP and the like of one bit share one memory; false: each has its own.
   bool bits_remember_edges = false;
-  bool modes_stay_at_run = false;  // ABSC or INCC, and RPM
-  /// At RUN: PLS, ALT and the like fire once if their condition is ON, or see no edge.
+  bool modes_stay_at_run = false;  // ABSC or INCC, and RPM, survive RUN
+  /// True: at RUN, PLS, ALT and the like fire once if their condition is ON; false: they see no edge.
   bool outputs_fire_at_run = true;
-  bool contacts_rise_at_run = false;  // those of edges whose bit is ON
-  bool timers_count_at_once = false;  // in the scan that turns them ON
-  bool kept_timers_hold = false;      // the latched ones, their value while OFF; else it is 0
+  bool contacts_rise_at_run = false;  // at RUN, edge contacts whose bit is ON see an edge
+  bool timers_count_at_once = false;  // timers count in the scan that turns them ON
+  bool kept_timers_hold = false;      // latched timers keep their value while OFF; false: it becomes 0
   bool all_timers_hold = false;
-  bool timers_count_on = false;     // beyond the preset
-  bool empty_presets_close = true;  // of 0 or less
-  /// Axes of C (C21): while M8000 is OFF, whenever they are free, or never.
+  bool timers_count_on = false;     // timers count beyond the preset
+  bool empty_presets_close = true;  // a preset of 0 or less closes the contact at once
+  /// When the PLC may move axes of C (C21): while M8000 is OFF, whenever they are free, or never.
   enum class PlcMoves : std::uint8_t {
     while_c_rests,
     any_axis,
@@ -95,47 +96,48 @@ struct Options {
 
   // --- step programs ----------------------------------------------------------------------------------
   int slice = 64;                      // instructions of a program in a tick
-  bool jumps_end_slice = true;         // those that are taken, CAL and RET
-  bool pointer_moves_running = false;  // D8000 and D8x00 written while the program runs
+  bool jumps_end_slice = true;         // taken jumps, CAL and RET end the slice
+  bool pointer_moves_running = false;  // a write to D8000 or D8x00 moves the pointer of a running program
   int call_depth = 16;
   enum class LooseReturn : std::uint8_t {
     stops_program,
     is_ignored
   } loose_return = LooseReturn::stops_program;
-  /// CAL with a count below 1.
+  /// What CAL does with a count below 1.
   enum class NoPasses : std::uint8_t { are_skipped, mean_endless } no_passes = NoPasses::are_skipped;
-  /// Motion of an axis that the program does not own (C21).
+  /// What motion does of an axis that the program does not own (C21).
   enum class NotOwned : std::uint8_t { is_void, stops_program } not_owned = NotOwned::is_void;
-  /// START of an empty area.
+  /// What START of an empty area does.
   enum class EmptyProgram : std::uint8_t {
     ends_silently,
     is_an_error
   } empty_program = EmptyProgram::ends_silently;
-  /// What loads F, plane, speeds and modes anew.
+  /// What loads F, plane, speeds and modes again.
   enum class FreshStart : std::uint8_t { pointer_at_0, every_start } fresh_start = FreshStart::pointer_at_0;
-  bool mark_is_by_own_field = false;    // of an axis program; else by the first one
-  bool wheel_ends_single_step = false;  // MPG
-  bool waits_follow_registers = false;  // TMR D, while it waits
-  bool waits_stand_inhibited = false;   // TMR under M8004
-  /// A start in the midst of a line goes on behind it, or stops the program.
+  // true: MRK of an axis program uses the axis's own field; false: the first one
+  bool mark_is_by_own_field = false;
+  bool wheel_ends_single_step = false;  // MPG ends a single step
+  bool waits_follow_registers = false;  // TMR D reads its register while it waits
+  bool waits_stand_inhibited = false;   // TMR is suspended under M8004
+  /// True: a start in the middle of a line continues after that line; false: it stops the program.
   bool starts_inside_lines = false;
-  bool marks_by_rpm = true;        // MRK, to its target; else by X14 alone
-  bool contact_off_stops = false;  // M8x00 OFF, of an axis program; else it pauses
-  bool start_begins_anew = false;  // STR, of a program that runs
-  bool c3p_is_in_xy = false;       // whatever plane is set
-  bool joins_paths = false;        // with D9005 ON, LIN and arcs that follow each other
-  bool rotation_0_waits = true;    // VDRV 0 until its axes stand
-  bool continuous_by_key = true;   // M8600 as M8007
+  bool marks_by_rpm = true;        // true: MRK goes to its target by RPM; false: by X14 alone
+  bool contact_off_stops = false;  // true: M8x00 OFF stops an axis program; false: it pauses it
+  bool start_begins_anew = false;  // true: STR restarts a running program
+  bool c3p_is_in_xy = false;       // true: C3P is in XY, whatever plane is set
+  bool joins_paths = false;        // LIN and arcs that follow each other are joined while D9005 is ON
+  bool rotation_0_waits = true;    // VDRV 0 waits until its axes stand
+  bool continuous_by_key = true;   // M8600 acts as M8007
 
   bool operator==(const Options&) const = default;
 };
 
-/// Whether a field of RPM changes the speed of its axis.
+/// Returns true if a field of RPM changes the speed of its axis.
 constexpr bool sets_speed(const std::optional<std::int32_t>& rpm, const Options& options) {
   return rpm && (*rpm > 0 || !options.rpm_0_keeps_speed);
 }
 
-/// The number of an area's first step, as D8095 and D8096 count.
+/// Returns the number of an area's first step, as D8095 and D8096 count.
 constexpr int base_of(Area area, const Options& options) {
   if (options.bases == Options::Bases::each_from_0) return 0;
   return options.bases == Options::Bases::newer ? row_of(area).base : row_of(area).older_base;

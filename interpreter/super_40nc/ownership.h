@@ -1,4 +1,4 @@
-// Which axes a program may move: C21 (D9003) gives the first of them to C. (Manual, C21, 故障排除.)
+// The axes that a program may move: C21 (D9003) gives the first ones to C. (Manual, C21, 故障排除.)
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// The first so many axes are C's.
+/// Returns how many axes, from the first on, belong to C.
 inline int axes_of_c(const Machine& machine) {
   return std::clamp(machine.parameter_in_force(named::kOwnedAxes), 0, kAxisCount);
 }
 
-/// C moves its own ones, an axis program its own one if it is not C's, and the PLC C's only while C does not
-/// run.
+/// Returns true if a program may move an axis: C its own axes, an axis program its own axis unless that is
+/// C's, and the PLC those of C only while C does not run.
 inline bool may_move(const Machine& machine, const Options& options, Area by, int axis) {
   const bool is_of_c = axis < axes_of_c(machine);
   if (by == Area::c) return is_of_c;

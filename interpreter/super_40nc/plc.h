@@ -1,5 +1,5 @@
-// The PLC of a SUPER-40NC: one scan a tick over a ladder (ladder.h). What it remembers between scans is a
-// plain value. (Manual, 軟體架構, END 指令.)
+// The PLC of a SUPER-40NC: one scan in a tick over a ladder (ladder.h). Its state between scans is a plain
+// value. (Manual, 軟體架構, END 指令.)
 #pragma once
 
 #include <array>
@@ -15,19 +15,19 @@ namespace understudy::interpreter::super_40nc {
 
 struct PlcState {
   bool runs = false;
-  bool is_first_scan = false;          // since RUN
-  std::vector<std::uint8_t> memories;  // of edges: what each has seen last
+  bool is_first_scan = false;          // the first scan since RUN
+  std::vector<std::uint8_t> memories;  // what each edge contact has last seen
   Targets targets = Targets::absolute;
   std::array<std::int32_t, kAxisCount> rpm{};
-  bool has_modes = false;                // of a RUN before, where they stay
-  Jogs jogs;                             // of the last scan
-  std::int32_t unit_ms = 0;              // of the present unit, while timers run that count in larger ones
-  std::vector<std::int32_t> timed = {};  // by memory: values of timers, where writes to them are ignored
+  bool has_modes = false;    // the modes are those of an earlier RUN, if they stay
+  Jogs jogs;                 // jogs of the last scan
+  std::int32_t unit_ms = 0;  // milliseconds of the current unit, while timers with a larger unit run
+  std::vector<std::int32_t> timed = {};  // by memory: values of timers, if writes to them are ignored
 
   bool operator==(const PlcState&) const = default;
 };
 
-/// What the PLC does to step programs.
+/// The PLC's control of step programs.
 class StepControl {
  public:
   virtual ~StepControl() = default;
@@ -36,22 +36,22 @@ class StepControl {
 };
 
 struct Scanned {
-  /// Whether anything has changed by it, but for timers that run unseen. If not, all further scans would do
-  /// the same until something in Ladder::reads() changes, or `quiet_scans` of them are over.
+  /// True if the scan has changed anything except timers whose value is not read. If false, all further scans
+  /// would do the same until something in Ladder::reads() changes, or `quiet_scans` scans are over.
   bool has_changed = false;
   std::int64_t quiet_scans = INT64_MAX;
 };
 
-/// To RUN, also at power-up and when another program is loaded meanwhile; X is up to date.
+/// Goes to RUN, also at power-up and after another program is loaded; X must be up to date.
 void run(PlcState& plc, const Ladder& ladder, Machine& machine, const Options& options = {});
-/// To STOP: what it jogs stops by a ramp; all else goes on, and stays as it is.
+/// Goes to STOP: jogs of the PLC stop by a ramp; everything else continues, and stays as it is.
 void stop(PlcState& plc, Machine& machine);
 
-/// One scan, of 1 ms. Nothing in STOP.
+/// Runs one scan, of 1 ms. Does nothing in STOP.
 Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl& programs,
              const Options& options);
 
-/// As many quiet scans at once, at most Scanned::quiet_scans.
+/// Runs several quiet scans at once, at most Scanned::quiet_scans.
 void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t scans, const Options& options);
 
 }  // namespace understudy::interpreter::super_40nc

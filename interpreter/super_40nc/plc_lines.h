@@ -1,4 +1,4 @@
-// The instructions of the PLC that are not decoded into small steps: rarer outputs, numbers that act on the
+// The instructions of the PLC that are not decoded into small steps: rare outputs, numbers that act on the
 // device, and motion by level or by edge.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// Whether it acts at the edge of its condition only because that is chosen.
+/// Returns true if an instruction acts at the edge of its condition only because of a choice.
 constexpr bool needs_edge(Op op, const Options& options) {
   const bool is_mode = op == Op::absc || op == Op::incc || op == Op::rpm || op == Op::pset || op == Op::mset;
   return options.modes_need_edge && (is_mode || op == Op::stp);
@@ -19,7 +19,7 @@ class PlcLines {
            const Options& options)
       : plc_(plc), ladder_(ladder), access_(machine), programs_(programs), options_(options) {}
 
-  /// Returns whether anything has changed.
+  /// Returns true if anything has changed.
   bool carry_out(const LadderStep& step, bool is_on);
   bool end_scan();
 

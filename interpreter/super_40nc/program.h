@@ -1,4 +1,4 @@
-// Programs as values: what the program memory of a SUPER-40NC holds.
+// Programs as values: the contents of a SUPER-40NC's program memory.
 #pragma once
 
 #include <array>
@@ -22,17 +22,18 @@ struct Instruction {
 
 constexpr int steps_of(const Instruction& instruction) { return row_of(instruction.op).steps; }
 
-/// Of one area, or of one path file.
+/// The program of one area, or of one path file.
 struct AreaProgram {
-  int base = 0;  // from which its listing numbers the steps
+  int base = 0;  // number of its first step in the listing
   std::vector<Instruction> lines = {};
 
   bool operator==(const AreaProgram&) const = default;
 };
 
 struct Program {
-  std::array<std::optional<AreaProgram>, kAreaCount> areas = {};  // what a listing does not name is nothing
-  std::map<int, AreaProgram> files = {};                          // of C, by number
+  // areas that a listing does not name are empty
+  std::array<std::optional<AreaProgram>, kAreaCount> areas = {};
+  std::map<int, AreaProgram> files = {};  // programs of C, by number
 
   const std::optional<AreaProgram>& area(Area which) const { return areas[index_of(which)]; }
   bool operator==(const Program&) const = default;

@@ -1,6 +1,5 @@
-// What programs ask of the machine, by value: a struct for each kind of motion instruction. Fields that a
-// line leaves unset, axes that its area does not read, and axes that its program does not own (C21) are not
-// in them.
+// The motion requests of programs, by value: a struct for each kind of motion instruction. They omit unset
+// fields, axes that the area does not read, and axes that the program does not own (C21).
 #pragma once
 
 #include <array>
@@ -12,17 +11,18 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// Of each axis a value, or none.
+/// A value for each axis, or none.
 using AxisValues = std::array<std::optional<std::int32_t>, kAxisCount>;
 /// Bit n: axis n.
 using AxisSet = std::uint8_t;
 
-/// ABSC: to the work zero. INCC: to the last commanded place, or to the present one (ABSC , INCC 指令).
+/// ABSC: relative to the work zero. INCC: relative to the last commanded place, or to the present one (ABSC ,
+/// INCC 指令).
 enum class Targets : std::uint8_t { absolute, relative };
 enum class Plane : std::uint8_t { xy, xz, yz };
 enum class Turn : std::uint8_t { clockwise, counter_clockwise };
 
-/// The two axes of a plane, in the order of an arc's fields.
+/// Returns the two axes of a plane, in the order of an arc's fields.
 constexpr std::array<int, 2> axes_of(Plane plane) {
   switch (plane) {
     case Plane::xy: return {0, 1};
@@ -31,29 +31,29 @@ constexpr std::array<int, 2> axes_of(Plane plane) {
   }
   return {0, 1};
 }
-/// Two coordinates of a plane; one that is unset does not change.
+/// Two coordinates of a plane; an unset one does not change.
 using PlanePoint = std::array<std::optional<std::int32_t>, 2>;
 
 /// LIN. All axes start and arrive together.
 struct LinearMove {
   AxisValues target_lu;
   Targets targets = Targets::absolute;
-  std::int32_t feed_lu_per_s = 0;  // as F or D8006 has it; 0 or less too
+  std::int32_t feed_lu_per_s = 0;  // as set by F or D8006; may be 0 or less
   bool operator==(const LinearMove&) const = default;
 };
 
-/// CW, CCW. The centre is relative to the start in both modes. C24 to C26 swap the sense.
+/// CW, CCW. The centre is relative to the start in both modes. C24 to C26 swap the direction.
 struct CentreArc {
   Plane plane = Plane::xy;
   Turn turn = Turn::clockwise;
-  PlanePoint end_lu;                        // both unset, or the start: a full circle
+  PlanePoint end_lu;                        // both unset, or equal to the start: a full circle
   std::array<std::int32_t, 2> centre_lu{};  // unset: 0
   Targets targets = Targets::absolute;
   std::int32_t feed_lu_per_s = 0;
   bool operator==(const CentreArc&) const = default;
 };
 
-/// C3P. Ignored if the points are on a line.
+/// C3P. It is ignored if the points are on a line.
 struct PointArc {
   Plane plane = Plane::xy;
   PlanePoint through_lu;
@@ -63,7 +63,7 @@ struct PointArc {
   bool operator==(const PointArc&) const = default;
 };
 
-/// CWR, CCWR. A negative radius: more than half a circle. Ignored if the end is the start.
+/// CWR, CCWR. A negative radius means more than half a circle. The arc is ignored if the end is the start.
 struct RadiusArc {
   Plane plane = Plane::xy;
   Turn turn = Turn::clockwise;
@@ -74,7 +74,7 @@ struct RadiusArc {
   bool operator==(const RadiusArc&) const = default;
 };
 
-/// DRV. Each axis by itself.
+/// DRV. Each axis moves independently.
 struct Drive {
   AxisValues target_lu;
   Targets targets = Targets::absolute;
@@ -97,29 +97,29 @@ struct HomeSearch {
   bool operator==(const HomeSearch&) const = default;
 };
 
-/// VDRV. 0 stops whatever moves the axis.
+/// VDRV. A speed of 0 stops any motion of the axis.
 struct Rotation {
   AxisValues rpm;
   bool operator==(const Rotation&) const = default;
 };
 
-/// MPG. 0 ends following.
+/// MPG. A ratio of 0 ends following.
 struct WheelRatios {
   AxisValues lu_per_count;
   bool operator==(const WheelRatios&) const = default;
 };
 
-/// PJG, MJG: what all lines of one scan ask for.
+/// PJG, MJG: the requests of all lines of one scan.
 struct Jogs {
   AxisSet positive = 0;
   AxisSet negative = 0;
   bool operator==(const Jogs&) const = default;
 };
 
-/// The line that has asked for it, for each axis.
+/// For each axis the step of the line that requests the jog.
 using JogSteps = std::array<int, kAxisCount>;
 
-/// PSET: in the work system. MSET: in the machine's.
+/// PSET: in the work coordinate. MSET: in the machine coordinate.
 struct SetPositions {
   AxisValues position_lu;
   bool of_machine = false;

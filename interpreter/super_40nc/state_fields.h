@@ -1,4 +1,4 @@
-// What of programs at work a state consists of (base/state/fields.h), in the order of the bytes.
+// The state fields of running programs (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include <cstddef>
@@ -65,7 +65,7 @@ struct StateOf<interpreter::super_40nc::StepState> {
                                            field("rpm", &Value::rpm),
                                            field("waits_for_drive", &Value::waits_for_drive)};
   static constexpr std::size_t apart = 1;  // owns_pointer: false between lines
-  /// Steps may be anything: a program stops at one that no instruction begins at.
+  /// Accepts any step: a program stops at a step at which no instruction begins.
   static void check(const Value& state);
 };
 

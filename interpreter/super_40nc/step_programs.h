@@ -1,5 +1,6 @@
-// The five step programs of a SUPER-40NC at work. What each is doing is a plain value; events change it by
-// the table of events.h, and a slice a tick advances it over its lines. (Manual, 軟體架構, STR 指令, M8000.)
+// The five step programs of a SUPER-40NC at run time. The state of each is a plain value; events change it by
+// the table of events.h, and one slice in each tick advances it over its lines. (Manual, 軟體架構, STR 指令,
+// M8000.)
 #pragma once
 
 #include <array>
@@ -18,26 +19,26 @@ namespace understudy::interpreter::super_40nc {
 struct Call {
   int back = 0;             // step behind CAL
   int label = 0;            // step
-  std::int64_t passes = 0;  // left, with the one that runs
+  std::int64_t passes = 0;  // passes left, including the running one
 
   bool operator==(const Call&) const = default;
 };
 
 struct StepState {
   Phase phase = Phase::idle;
-  Phase resumes = Phase::executing;  // what a paused or held one goes on with
+  Phase resumes = Phase::executing;  // phase in which a paused or held program continues
   bool is_paused_by_key = false;     // by M8006 or PAUSE
-  bool machine_holds = false;        // motions, until go_on()
+  bool machine_holds = false;        // the machine holds motions, until go_on()
   bool waits_to_resume = false;      // M8004
-  int step = 0;                      // about to be executed, or at work; from the begin of its area
-  int next_step = 0;                 // behind a motion
-  std::int64_t left_ms = 0;          // of TMR; 0: it has not begun
-  std::int32_t wait_ms = 0;          // what TMR has read last, where it goes on reading
+  int step = 0;                      // the next or current step, counted from the beginning of its area
+  int next_step = 0;                 // step after a motion
+  std::int64_t left_ms = 0;          // time left of TMR; 0: it has not begun
+  std::int32_t wait_ms = 0;          // the last time that TMR has read, if it keeps reading
   std::vector<Call> calls = {};
-  std::uint64_t blocks = 0;  // the result of the last contacts
+  std::uint64_t blocks = 0;  // result of the last contacts
   bool owns_pointer =
       false;  // not state: a line is at work, and nothing else has moved its program's pointer
-  // Modal: loaded at a fresh start, kept by any other. F and the plane are D8006 and D8007.
+  // Modal values: loaded at a fresh start, kept at any other start. F and the plane are D8006 and D8007.
   bool has_modes = false;
   Targets targets = Targets::absolute;
   std::array<std::int32_t, kAxisCount> rpm{};
@@ -53,42 +54,43 @@ struct StepStates {
 
 using StepCodes = std::array<StepCode, kStepProgramCount>;
 
-/// To be made for a tick, or for an event: it only refers to what it is given.
+/// Make one for a tick, or for an event: it only refers to its arguments.
 class StepPrograms : public StepControl {
  public:
   StepPrograms(StepStates& states, const StepCodes& codes, Machine& machine, const Options& options)
       : states_(states), codes_(codes), access_(machine), machine_(machine), options_(options) {}
 
-  /// From outside: start, contact_off, hold, stop, broken, file_changed (C), plc_stop, plc_run; reset and
-  /// emergency in each tick in which they hold, before the slices.
+  /// Takes an event from outside: start, contact_off, hold, stop, broken, file_changed (C), plc_stop,
+  /// plc_run; and reset and emergency in each tick in which they are ON, before the slices.
   void take(Event event, Area area);
   void start(Area area) override;
   void stop(Area area) override { take(Event::stop, area); }
-  /// Another one is to take its place; the machine has stopped what it moves.
+  /// Unloads a program before another one replaces it; the machine has stopped its motions.
   void unload(Area area) { forget(area); }
 
-  /// The slice of a tick of one program; of all, in the order of the areas. Their contacts (M8000, M8x00) are
-  /// looked at first: one that is ON starts what does not run, one that is OFF pauses it.
+  /// Run the slice of a tick of one program, or of all in the order of the areas. Their contacts (M8000,
+  /// M8x00) are checked first: a contact that is ON starts a program that does not run; one that is OFF
+  /// pauses it.
   void run_slice(Area area);
   void run_slices();
 
-  /// D8000, D8x00.
+  /// Returns D8000 or D8x00.
   int step(Area area) const { return state(area).step; }
-  /// A write of it: ignored while the program runs, else what was held is forgotten.
+  /// Writes D8000 or D8x00: ignored while the program runs; otherwise held motion is dropped.
   void set_step(Area area, int step);
-  /// M8022.
+  /// Returns M8022.
   bool shows_pausing() const;
 
-  /// How many ticks a slice of it would do nothing but count, if no contact, register or axis changes.
+  /// Returns how many ticks a slice would only count, if no contact, register or axis changes.
   std::int64_t quiet_ms(Area area) const;
-  /// So many of them at once.
+  /// Runs that many ticks at once.
   void cross(Area area, std::int64_t ticks);
-  /// What WAT or WTN waits for; unset otherwise.
+  /// Returns the contact that WAT or WTN waits for, or unset.
   Operand awaited(Area area) const;
 
  private:
   static void move_pointer(StepState& program, int step);
-  struct Stepping;  // what one instruction does to its slice
+  struct Stepping;  // executes one instruction in its slice
   enum class Slice : std::uint8_t { goes_on, is_over };
 
   StepState& state(Area area) { return states_.programs[index_of(area)]; }
@@ -99,7 +101,8 @@ class StepPrograms : public StepControl {
   bool is_single_step(Area area) const {
     return machine_.special_contact(row_of(area).run_contact - 8000 + named::kSingleStep);
   }
-  /// M8002, or M8x02 of the axis: what stands behind the line that switched it ON is not run.
+  /// Returns true under M8002, or under M8x02 of the axis: lines after the one that switched it ON do not
+  /// run.
   bool is_stopped_short(Area area) const {
     const int axis = axis_of(area);
     return machine_.special_contact(named::kEmergencyStop) ||
@@ -123,7 +126,7 @@ class StepPrograms : public StepControl {
   bool finds_line(Area area);
 
   // step_flow.cpp
-  /// Not by reference: what the line stores may put another program in place of its own (D9001).
+  /// `line` is a copy: the line may replace its own program by another one (D9001).
   Slice execute(Area area, Instruction line);
   Slice carry_out(Area area, const Instruction& line);
   Slice advance(Area area, const Instruction& line);

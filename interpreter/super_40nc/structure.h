@@ -1,5 +1,4 @@
-// What is wrong with an area's lines taken together: blocks and branches, IF and its partners, labels, END,
-// room.
+// Checks an area's lines as a whole: blocks and branches, IF and its partners, labels, END, room.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +16,15 @@ struct Fault {
   Code code = Code::none;
   std::string what;
   std::string expected;
-  int other_line = -1;  // of a label that appears twice
+  int other_line = -1;  // of a duplicate label
   enum class Weight : std::uint8_t { error, warning, note };
   Weight weight = Weight::error;
 };
 
-/// In the order of the lines.
+/// Returns the faults in the order of the lines.
 std::vector<Fault> faults_of(const AreaProgram& program, Area area, const Options& options);
 
-/// A block begins; contacts in series and in parallel; any of them; the joins of blocks.
+/// Classify instructions: those that begin a block, contacts of any kind, and joins of blocks.
 constexpr bool begins_block(Op op) {
   return (op >= Op::ld && op <= Op::ldf) || (op >= Op::ld_equal && op <= Op::ld_ge);
 }

@@ -1,7 +1,7 @@
-// One axis of a described controller: what it does when hosts tell it something, and what it shows.
+// One axis of a described controller: how it obeys hosts, and what it shows.
 //
-// What comes of a command depends on what the axis is doing: kAnswers in axis_drive.cpp has a row for each
-// command and a column for each doing. docs/import.md shows it to users.
+// The effect of a command depends on the axis's activity: kAnswers in axis_drive.cpp has a row for each
+// command and a column for each activity. docs/import.md shows this table to users.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@ struct AxisState {
   motion::Axis motor{};
   motion::Surroundings here{};
   motion::Counter counter{};     // the position, in pulses
-  std::int64_t sent_pulses = 0;  // in the last tick, in the motor's sense
+  std::int64_t sent_pulses = 0;  // pulses of the last tick, in the motor's direction
   std::int64_t encoder_counts = 0;
-  double run_pps = 0;          // that it runs forward or backward with
-  std::int8_t wanted_way = 0;  // that hosts hold: +1 forward, -1 backward, 0 neither or both
-  bool way_is_spent = false;   // something else came since: it runs again when it is told anew
+  double run_pps = 0;          // speed at which it runs forward or backward
+  std::int8_t wanted_way = 0;  // direction that hosts request: +1 forward, -1 backward, 0 neither or both
+  bool way_is_spent = false;   // another command has come since: it runs again only on a new request
   bool arrived = false;        // the last move has reached its target
   bool homed = false;
 
@@ -36,30 +36,30 @@ enum class Doing : std::uint8_t { rests, moves, runs, homes, stops };
 inline constexpr std::size_t kDoings = 5;
 enum class Answer : std::uint8_t {
   nothing,
-  begin,  // from standstill
-  join,   // go on to the new target from the speed that there is
+  begin,  // begins from standstill
+  join,   // continues to the new target from the present speed
   slow_down,
-  halt,  // at once
+  halt,  // stops at once
 };
 Doing doing_of(const AxisState& axis);
-/// Of a command that comes at a moment, and of `enable` when it no longer holds.
+/// Returns the answer to a command that acts at one moment, and to the loss of `enable`.
 Answer answer_to(Command command, Doing doing, WhileBusy while_busy);
 
-/// Gives the number that a quantity stands for at this moment, in counts.
+/// Returns the present number of a quantity, in counts.
 using CountsOf = std::function<double(const Quantity& quantity)>;
-/// Gives the present number of an axis's quantity, in its unit (seconds, pulses a second); nothing where none
-/// is given.
+/// Gives the present numbers of an axis, in their units (seconds, pulses a second); nothing for a number that
+/// is not bound.
 class AxisNumbers {
  public:
   AxisNumbers(const AxisBinding& binding, const CountsOf& counts_of)
       : binding_(binding), counts_of_(counts_of) {}
   std::optional<double> counts(Number which) const;
-  /// Pulses a second, for speeds and accelerations.
+  /// Returns speeds and accelerations in pulses a second.
   std::optional<double> pps(Number which) const;
   double speed_pps() const { return pps(Number::speed).value_or(0); }
-  /// The pulses that a count of positions stands for, rounded.
+  /// Returns the pulses of a count of positions, rounded.
   std::int64_t pulses(double counts) const;
-  /// The ramps are steep where no time is given: within a millionth of a second.
+  /// Returns the law of a move. Without a time, its ramps take a millionth of a second.
   motion::SpeedLaw law(double top_pps) const;
 
  private:
@@ -68,19 +68,19 @@ class AxisNumbers {
   const CountsOf& counts_of_;
 };
 
-/// A command at a moment. `now` is the last tick that is over. Throws motion::BadMotion for numbers that no
-/// motion can have; then nothing has changed.
+/// Obeys a command at one moment. `now` is the last completed tick. Throws motion::BadMotion for numbers that
+/// no motion can have; then nothing has changed.
 void obey(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers, Tick now);
-/// Brings the axis to run as hosts hold it now: +1, -1 or 0. Throws like obey().
+/// Runs the axis in the direction that hosts request now: +1, -1 or 0. Throws as obey() does.
 void steer(AxisState& axis, int way, const AxisNumbers& numbers, Tick now);
-/// It is enabled, or no longer; always where it has no such command.
+/// Enables or disables the axis. An axis without that command is always enabled.
 void enable(AxisState& axis, const AxisBinding& binding, bool on);
-/// What has come of the tick that was stepped. Whether it has ended something.
+/// Handles the events of the tick just stepped. Returns true if a motion has ended.
 bool note_events(AxisState& axis, const AxisBinding& binding);
 
-/// The signed speed, in the motor's sense.
+/// Returns the signed speed, in the motor's direction.
 double speed_pps(const AxisState& axis, Tick now);
-/// Counts of position where the axis is.
+/// Returns the axis's position in counts.
 std::int64_t position_counts(const AxisState& axis, const AxisBinding& binding);
 void set_position(AxisState& axis, const AxisBinding& binding, Value counts);
 

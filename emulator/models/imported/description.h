@@ -1,5 +1,5 @@
-// A controller that a user describes: a list of registers, and what some of them are for. All of it is data
-// with names of its own; whoever reads files makes it (emulator/model_file/), model.h makes a Model of it.
+// A controller that a user describes: a list of registers, and the purpose of some of them. All of it is data
+// that owns its names. emulator/model_file/ reads it from files, and model.h makes a Model of it.
 #pragma once
 
 #include <array>
@@ -44,20 +44,20 @@ struct ListedRegister {
 /// A register, by its number in the list, or bits of it.
 struct Spot {
   std::size_t number = 0;
-  int bit = -1;  // the lowest of them; -1: the whole register
+  int bit = -1;  // the lowest of the bits; -1: the whole register
   int width = 1;
   bool is_whole() const { return bit < 0; }
   bool operator==(const Spot&) const = default;
 };
 
-/// What a register holds, or a number in its place.
+/// The value of a register, or a fixed number instead.
 struct Quantity {
   std::optional<Spot> spot{};
-  double number = 0;  // where there is no register
-  double unit = 1;    // what a count stands for
+  double number = 0;  // if there is no register
+  double unit = 1;    // what one count stands for
 };
 
-/// Holds where the spot has `value`, or without one anything but 0.
+/// A condition on a spot: it has `value`, or, without a value, anything but 0.
 struct Condition {
   Spot spot;
   std::optional<Value> value{};
@@ -66,7 +66,7 @@ struct Condition {
 
 // --- axes ------------------------------------------------------------------------------------------
 
-/// What an axis asks registers for. Distances are counts of position, speeds counts of speed.
+/// The numbers that an axis takes from registers. Distances are counts of position, speeds counts of speed.
 enum class Number : std::uint8_t {
   target,
   distance,
@@ -81,7 +81,7 @@ enum class Number : std::uint8_t {
 };
 inline constexpr std::size_t kNumbers = 10;
 
-/// What hosts tell an axis. The order is that in which those of one request act.
+/// The commands of hosts to an axis, in the order in which those of one request act.
 enum class Command : std::uint8_t {
   stop_at_once,
   stop,
@@ -93,12 +93,12 @@ enum class Command : std::uint8_t {
   backward,        // while it holds
 };
 inline constexpr std::size_t kCommands = 8;
-/// Whether it counts as long as it holds, or at the moment when it is given.
+/// Returns true if a command applies as long as it holds, false if it acts at the moment when it is given.
 constexpr bool is_level(Command command) {
   return command == Command::enable || command == Command::forward || command == Command::backward;
 }
 
-/// What registers show of an axis.
+/// The values of an axis that registers show.
 enum class View : std::uint8_t {
   position,
   actual_speed,
@@ -113,7 +113,7 @@ enum class View : std::uint8_t {
   at_lower_limit,
 };
 inline constexpr std::size_t kViews = 11;
-/// When each of them changes although no host writes it.
+/// When each view changes without a write by a host.
 inline constexpr HandlerRow<View, Varies> kChangesOfViews[] = {
     {View::position, Varies::while_moving},   {View::actual_speed, Varies::while_moving},
     {View::encoder, Varies::while_moving},    {View::busy, Varies::in_ticks},
@@ -132,12 +132,13 @@ constexpr Varies changes_of(View view) {
   constexpr CompleteTable<View, Varies> kTable(kAll, kChangesOfViews);
   return kTable[view];
 }
-/// Whether it is 0 or 1.
+/// Returns true if the view is 0 or 1.
 constexpr bool is_flag(View view) { return view >= View::busy; }
 
-/// What a start does while the axis moves: goes on to the new target, nothing, or it is answered by busy.
+/// What a start does while the axis moves: it goes on to the new target, has no effect, or is answered with
+/// busy.
 enum class WhileBusy : std::uint8_t { replace, ignore, refuse };
-/// And while it is not enabled: nothing, or it is answered by failure.
+/// What a start does while the axis is not enabled: it has no effect, or is answered with failure.
 enum class WhileDisabled : std::uint8_t { ignore, refuse };
 
 struct AxisBinding {
@@ -147,14 +148,14 @@ struct AxisBinding {
   std::array<std::optional<Spot>, kViews> views{};
   motion::UnitScale pulses_per_count{};  // of position
   double pps_per_count = 1;              // of speed
-  // Numbers of inputs; -1: there is none.
+  // Numbers of inputs; -1: none.
   int upper_limit_input = -1;
   int lower_limit_input = -1;
   int home_input = -1;
   int alarm_input = -1;
-  int home_way = -1;              // where the home switch is looked for
-  Value home_position = 0;        // counts, once it is found
-  int pulses_per_revolution = 0;  // 0: it is not known
+  int home_way = -1;              // direction in which to look for the home switch
+  Value home_position = 0;        // position in counts once home is found
+  int pulses_per_revolution = 0;  // 0: unknown
   WhileBusy while_busy = WhileBusy::replace;
   WhileDisabled while_disabled = WhileDisabled::ignore;
 
@@ -168,15 +169,15 @@ struct AxisBinding {
 
 // --- what has no axis --------------------------------------------------------------------------------
 
-/// A register that comes after another value, as a temperature comes after its setpoint.
+/// A register that follows another value, as a temperature follows its setpoint.
 struct Following {
   Spot spot;                              // a whole register
-  Quantity of;                            // where it goes
-  std::optional<Condition> as_long_as{};  // none: always
-  Quantity rest;                          // where it goes otherwise
-  double time_constant_s = 0;             // 0: at once, but for `most_per_s`
-  double most_per_s = 0;                  // counts a second; 0: any
-  Tick every = 100;                       // how often it is renewed
+  Quantity of;                            // the value that it follows
+  std::optional<Condition> as_long_as{};  // condition for following; none: always
+  Quantity rest;                          // the value that it goes to otherwise
+  double time_constant_s = 0;             // 0: at once, limited only by `most_per_s`
+  double most_per_s = 0;                  // counts a second; 0: no limit
+  Tick every = 100;                       // period of its updates
 };
 
 /// A bit or a register that is 1 while a relation holds.
@@ -191,7 +192,7 @@ struct Comparison {
 struct Terminal {
   std::string name;
   bool is_input = true;
-  std::optional<Spot> spot{};  // an input that is shown nowhere has none
+  std::optional<Spot> spot{};  // none for an input that no register shows
 };
 
 // --- the line ----------------------------------------------------------------------------------------
@@ -200,16 +201,16 @@ struct Line {
   std::vector<int> bauds{19200, 9600};
   pty::Parity parity = pty::Parity::none;
   int stop_bits = 1;
-  std::optional<pty::SimTime> silence{};  // that ends a frame; none: 3.5 characters
+  std::optional<pty::SimTime> silence{};  // silence that ends a frame; none: 3.5 characters
   int lowest_station = 1;
   int highest_station = 247;
-  std::string station_in{};  // the register that holds the number; empty: none does
+  std::string station_in{};  // name of the register that holds the station number; empty: none
   std::vector<std::uint8_t> functions{1, 2, 3, 4, 5, 6, 15, 16};
   std::vector<FunctionLimit> limits{};
   bool obeys_broadcasts = true;
 };
 
-/// 3.5 characters, and above 19200 baud always 1.75 ms: as Modbus has it.
+/// Returns Modbus's silence: 3.5 characters, and 1.75 ms above 19200 baud.
 inline pty::SimTime standard_silence(const pty::LineSettings& settings) {
   if (settings.baud > 19200) return std::chrono::microseconds(1750);
   return settings.duration_of(7) / 2;
@@ -218,7 +219,7 @@ inline pty::SimTime standard_silence(const pty::LineSettings& settings) {
 struct Description {
   std::string name{};
   std::string title{};
-  std::string text{};  // of the whole (Model::description)
+  std::string text{};  // of the whole controller (Model::description)
   std::vector<ListedRegister> registers{};
   MapPolicy policy{.low_word_first = false};
   Line line{};
@@ -226,7 +227,7 @@ struct Description {
   std::vector<AxisBinding> axes{};
   std::vector<Following> followings{};
   std::vector<Comparison> comparisons{};
-  std::vector<std::size_t> momentary{};  // registers that are 0 again once what they start has been started
+  std::vector<std::size_t> momentary{};  // registers that return to 0 once their command has started
 };
 
 }  // namespace understudy::emulator::models::imported

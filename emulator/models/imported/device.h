@@ -1,5 +1,5 @@
-// A described controller: registers, axes that are bound to them, values that follow others. Its state is one
-// value; what it is bound to is its model's (model.h).
+// A described controller: registers, axes that are bound to them, and values that follow others. Its state is
+// one value; the bindings belong to its model (model.h).
 #pragma once
 
 #include <array>
@@ -28,10 +28,9 @@ class ImportedModel;
 struct ShownPart;
 
 struct State {
-  bool touched = true;  // what hosts hold, or an input, may have changed since motion looked
+  bool touched = true;  // requests of hosts, or inputs, may have changed since motion checked them
   std::vector<std::uint32_t> image{};
-  std::vector<std::uint8_t>
-      held{};  // by axis and command: whether its condition held when it was last looked at
+  std::vector<std::uint8_t> held{};  // by axis and command: whether its condition held at the last check
   std::vector<AxisState> axes{};
   std::vector<double> followed{};  // by following: its value, in counts
   Eeprom eeprom{};
@@ -46,7 +45,7 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
                              public Terminals,
                              public Axes {
  public:
-  /// The model must outlive it.
+  /// The model must outlive the device.
   ImportedDevice(const ImportedModel& model, const DeviceSettings& settings);
 
   // --- registers -----------------------------------------------------------------------------
@@ -58,7 +57,7 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   void mention_unmodelled(const RegisterRow& row) const override {
     Device::mention_unmodelled(row.name, row.unmodelled);
   }
-  /// What a register holds at this moment, as its type has it.
+  /// Returns what a register holds now, by its type.
   Value value_of_register(std::size_t number) const;
   Value value_at(const Spot& spot) const;
   void write_view(std::size_t number, Value value);
@@ -130,13 +129,14 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   const ImportedModel& model_;
   const CountsOf counts_of_ = [this](const Quantity& quantity) { return counts_of(quantity); };
   State state_;
-  std::vector<MachineEdges> edges_;        // not state: they are told again
-  std::vector<std::uint8_t> is_restored_;  // by axis: nor this
-  std::vector<std::size_t> written_;       // by the request that is being served: registers' slots
-  std::vector<double> shares_;             // by following: of the way, in one period
+  std::vector<MachineEdges> edges_;        // not state: set again after a restore
+  std::vector<std::uint8_t> is_restored_;  // by axis; not state
+  std::vector<std::size_t> written_;       // slots of the registers written by the current request
+  std::vector<double> shares_;             // by following: the share of the distance covered in one period
 };
 
-/// The reader and the effect of every row that shows something (Cell::argument: its number in the list).
+/// The reader and the effect of all rows that show something (Cell::argument: the register's number in the
+/// list).
 Value read_shown(const ImportedDevice& device, Cell cell);
 void write_shown(ImportedDevice& device, Cell cell, Value value);
 

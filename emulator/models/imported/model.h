@@ -1,4 +1,4 @@
-// A model made of a description: what the other models have as constants, it owns.
+// A model made of a description. It owns the tables that are constants in the other models.
 #pragma once
 
 #include <cstddef>
@@ -14,27 +14,27 @@
 
 namespace understudy::emulator::models::imported {
 
-/// The rows of a list as a map takes them; they refer to it. `fields` gets the bits with names.
+/// Makes the rows of a list for a register map; they refer to the list. `fields` gets the named bits.
 std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers,
                                     std::vector<std::vector<BitField>>& fields);
 
 class ImportedModel {
  public:
-  /// Of a description in which everything is where it belongs (emulator/model_file/ sees to that).
+  /// The description must be consistent (emulator/model_file/ checks this).
   explicit ImportedModel(Description description);
-  ImportedModel(const ImportedModel&) = delete;  // what it owns is referred to
+  ImportedModel(const ImportedModel&) = delete;  // its tables are referred to
   ImportedModel& operator=(const ImportedModel&) = delete;
 
   const Model& model() const { return model_; }
   const Description& description() const { return description_; }
-  /// Of each register of the list: where it stands in a device's image (Place::kNoSlot: nowhere), its type,
-  /// and what it shows.
+  /// Return for each register of the list its slot in a device's image (Place::kNoSlot: none), its type, and
+  /// what it shows.
   int slot_of(std::size_t number) const { return slots_[number]; }
   Type type_of(std::size_t number) const { return description_.registers[number].type; }
   std::span<const ShownPart> shown(std::size_t number) const { return shown_[number]; }
-  /// Whether an output may change with each pulse of an axis, by what it shows.
+  /// Returns true if an output may change with each pulse of an axis, because of what it shows.
   bool output_moves(std::size_t terminal) const { return moving_outputs_[terminal]; }
-  /// Whether a number that an axis runs by does: then it is asked for in each tick.
+  /// Returns true if a number that an axis uses may change with each pulse; it is then read in each tick.
   bool numbers_move() const { return numbers_move_; }
 
  private:

@@ -1,4 +1,4 @@
-// What the state of a described controller consists of (base/state/fields.h), in the order of the bytes.
+// The fields of a described controller's state (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include "base/state/fields.h"

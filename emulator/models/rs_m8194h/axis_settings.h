@@ -1,5 +1,5 @@
-// RS-M8194H: what can be set of an axis. The basic settings are those that the Initial Table holds; the
-// others are as at power-up until somebody sets them.
+// RS-M8194H: the settings of an axis. The Initial Table holds the basic settings; all others have their
+// power-up values until a command sets them.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ inline constexpr AxisMask kAllAxes = 0xF;
 constexpr bool has(AxisMask mask, std::size_t axis) { return (mask >> axis & 1) != 0; }
 constexpr AxisMask mask_of(std::size_t axis) { return static_cast<AxisMask>(1U << axis); }
 
-/// Sections 3.3 to 3.16, with the factory's values of 8.
+/// Settings of sections 3.3 to 3.16, with the factory values of section 8.
 struct BasicSettings {
   std::uint8_t pulse_mode = 0;
   std::uint32_t max_v = 200'000;  // as sent
@@ -51,15 +51,15 @@ struct BasicSettings {
   bool operator==(const BasicSettings&) const = default;
 };
 
-/// What the manual leaves open about speeds (choices.h).
+/// The rules for speeds that the manual leaves open (choices.h).
 struct SpeedRules {
   bool rounds_to_nearest = false;
   bool has_offset = true;              // AO
-  bool mode_3_is_symmetric = false;    // of NORMAL_SPEED, as it is printed
-  double least_jerk_part = 0.0119211;  // of MAX_V
+  bool mode_3_is_symmetric = false;    // for NORMAL_SPEED, as printed
+  double least_jerk_part = 0.0119211;  // the least jerk, as a part of MAX_V
 };
 
-/// One count of a speed, and the least of what else has a range, by a MAX_V (3.4, 7.1).
+/// The size of one speed count and the least and most of other quantities, for a MAX_V (3.4, 7.1).
 struct SpeedRange {
   SpeedRules rules = {};
   std::uint32_t max_v = 0;
@@ -81,10 +81,10 @@ inline SpeedRange speed_range(std::uint32_t max_v_as_sent, const SpeedRules& rul
           .least_jerk = max_v * rules.least_jerk_part};
 }
 
-/// How fast an axis, or the path, goes (7.1.1 to 7.1.8, 7.2.3 to 7.2.9), as it was sent. 0 of an axis that
-/// never was told: the least there is.
+/// The speed of an axis, or of the path (7.1.1 to 7.1.8, 7.2.3 to 7.2.9), as it was sent. 0 means that it was
+/// never set; the axis then uses the least value.
 struct SpeedSettings {
-  std::uint8_t mode = 0;  // NORMAL_SPEED; of the path VECTOR_SPEED
+  std::uint8_t mode = 0;  // NORMAL_SPEED; for the path VECTOR_SPEED
   std::uint32_t start_pps = 0;
   std::uint32_t drive_pps = 0;
   std::uint32_t acceleration = 0;
@@ -96,21 +96,21 @@ struct SpeedSettings {
   bool operator==(const SpeedSettings&) const = default;
 };
 
-/// What shape a drive has.
+/// The shape of a drive's speed profile.
 struct Shape {
   bool constant = false;  // no ramps
   bool s_curve = false;
   bool unlike_ramps = false;
 };
-/// NORMAL_SPEED 0 to 3.
+/// The shapes of NORMAL_SPEED 0 to 3.
 inline constexpr std::array<Shape, 4> kNormalShapes{
     {{}, {.s_curve = true}, {.unlike_ramps = true}, {.s_curve = true, .unlike_ramps = true}}};
 
-/// The law by which a drive at `drive_pps` runs, ranges applied and speeds in whole counts.
+/// Returns the law of a drive at `drive_pps`, with ranges applied and speeds in whole counts.
 motion::SpeedLaw law_of(const SpeedSettings& speed, std::uint32_t drive_pps, const SpeedRange& range,
                         const Shape& shape, bool avoids_triangles);
 
-/// 6.1 to 6.3.
+/// Settings of sections 6.1 to 6.3.
 struct HomeSettings {
   std::uint32_t home_pps = 0;  // HV
   bool limit_is_home = false;

@@ -1,4 +1,5 @@
-// RS-M8194H: what the firmware keeps about an axis, beside the motor that sends its pulses (motion/axis.h).
+// RS-M8194H: what the firmware stores for an axis, in addition to the motor that sends its pulses
+// (motion/axis.h).
 //
 //   commands ──> motor ──> travel ──> LP, EP, ABS: three counters of the same pulses
 #pragma once
@@ -38,7 +39,7 @@ constexpr std::uint16_t bit_of(ErrorBit bit) {
   return static_cast<std::uint16_t>(1U << static_cast<unsigned>(bit));
 }
 
-/// The factors that call an ISR, nINT 0 to 7 (7.3.12), and the two that inputs 138 and 139 add.
+/// The factors that call an ISR, nINT 0 to 7 (7.3.12), and the two more that inputs 138 and 139 show.
 enum class Factor : std::uint8_t {
   pulse,
   at_least_minus,  // P >= C-
@@ -54,19 +55,19 @@ enum class Factor : std::uint8_t {
 inline constexpr std::size_t kIsrFactors = 8;
 inline constexpr std::size_t kFactors = 10;
 
-/// The bit of what a motion ends by, or is kept from beginning by (drives.cpp).
+/// Returns the error bit of a cause that ends a motion or keeps it from beginning (drives.cpp).
 std::uint16_t error_of(motion::Cause cause);
 
-/// A drive of one axis that a command asks for.
+/// A drive of one axis, as a command requests it.
 struct Drive {
   enum class What : std::uint8_t { none, fixed, absolute, endless, home, scan };
   What what = What::none;
-  std::int32_t value = 0;  // pulses, a place, or pulses a second
+  std::int32_t value = 0;  // pulses, a position, or pulses a second
 
   bool operator==(const Drive&) const = default;
 };
 
-/// C+ or C-: where, and of which counter (7.3.6).
+/// C+ or C-: a value and the counter that it is compared with (7.3.6).
 struct Compare {
   std::int32_t value = 0;
   std::uint8_t source = 0;  // 0 LP, 1 EP
@@ -74,27 +75,27 @@ struct Compare {
   bool operator==(const Compare&) const = default;
 };
 
-/// What an activated axis does beyond motion/synchronous.h (7.3.5).
+/// The output of an activated axis, which motion/synchronous.h does not cover (7.3.5).
 struct OutSettings {
   std::uint8_t level = 0;       // outEdge
   std::uint8_t width_code = 0;  // PulseWidth
-  std::int64_t pulses = 0;      // given so far
-  Tick pulse_until = 0;         // of the last one, where it is a millisecond long or more
+  std::int64_t pulses = 0;      // pulses given so far
+  Tick pulse_until = 0;         // end of the last pulse, if it is a millisecond long or more
 
   bool operator==(const OutSettings&) const = default;
 };
 
-/// The time `takes_s` later.
+/// Returns the time `takes_s` after `at_ns`.
 constexpr std::int64_t after(std::int64_t at_ns, double takes_s) {
   constexpr double kMost_s = 1e9;
   const double whole_ns = std::clamp(takes_s, 0.0, kMost_s) * 1e9;
   return at_ns + static_cast<std::int64_t>(whole_ns);
 }
 
-/// A level that the input filter lets through only after a while (3.14).
+/// Input levels behind the input filter, which passes a level only after some time (3.14).
 struct FilteredPins {
   std::uint16_t raw = 0;                  // as at the terminals; a bit is 1 while conducting
-  std::uint16_t passed = 0;               // as the chip sees them
+  std::uint16_t passed = 0;               // as the chip sees them, after the filter
   std::array<Tick, kPinsOfAxis> since{};  // when a raw bit last changed
 
   bool operator==(const FilteredPins&) const = default;
@@ -106,31 +107,31 @@ struct AxisUnit {
   HomeSettings homing{};
   motion::Counter logic{};
   motion::Counter absolute{};
-  motion::Counter encoder{};  // of the travel, or of the bench's encoder where there is one
+  motion::Counter encoder{};  // of the travel, or of the bench's encoder if there is one
   bool has_encoder = false;
-  std::int64_t encoder_raw = 0;   // as the bench tells it: edges
-  std::int64_t encoder_zero = 0;  // raw count where the divided one was 0
-  std::int64_t sent_pulses = 0;   // in the last tick
+  std::int64_t encoder_raw = 0;   // as the bench sets it, in edges
+  std::int64_t encoder_zero = 0;  // raw count at which the divided count was 0
+  std::int64_t sent_pulses = 0;   // pulses of the last tick
   std::uint16_t error_code = 0;
-  std::uint16_t met = 0;              // bits of what it has met on a path, which slows down for it
-  bool locked = false;                // by STOP_*
-  bool path_locked = false;           // by VSTOP_*
-  bool held = false;                  // DRV_HOLD
+  std::uint16_t met = 0;              // error bits of what it has met on a path that slows down for it
+  bool locked = false;                // locked by STOP_*
+  bool path_locked = false;           // locked by VSTOP_*
+  bool held = false;                  // held by DRV_HOLD
   Drive held_drive{};                 // waits for DRV_START
-  Drive paused_drive{};               // goes on when a trigger's pause is over,
-  std::int64_t paused_to_pulses = 0;  // to this travel, where it has an end
+  Drive paused_drive{};               // continues after a trigger's pause,
+  std::int64_t paused_to_pulses = 0;  // up to this travel, if it has an end
   FilteredPins pins{};
-  bool emergency = false;  // the EMG input, as its filter lets it through
+  bool emergency = false;  // the EMG input, after its filter
   motion::ExternalDrive external{};
-  std::int64_t began_pulses = 0;                 // travel where its last drive began
-  std::uint32_t external_pps = 0;                // of EXD_CP
-  std::array<std::uint32_t, 2> external_seen{};  // edges of EXP+ and EXP-
-  std::int64_t external_waiting = 0;             // pulses of edges that came when the last drive's were out,
-  std::int64_t external_free_ns = 0;             // which is at that time; 0: none was begun so
+  std::int64_t began_pulses = 0;                 // travel at the beginning of the last drive
+  std::uint32_t external_pps = 0;                // speed of EXD_CP
+  std::array<std::uint32_t, 2> external_seen{};  // edges of EXP+ and EXP- seen so far
+  std::int64_t external_waiting = 0;             // pulses of edges after the last drive's were out
+  std::int64_t external_free_ns = 0;             // when these are out; 0: the last drive is another
   std::array<Compare, 2> compare{};              // C+, C-
   std::uint8_t factors = 0;                      // INTFACTOR_ENABLE, a bit for each nINT
   std::array<std::uint8_t, kIsrFactors> isr_of{};
-  std::uint8_t action_isr = 0;  // of its action set
+  std::uint8_t action_isr = 0;  // ISR of its action set
   OutSettings out{};
   std::int32_t latched = 0;
 
@@ -138,32 +139,33 @@ struct AxisUnit {
 };
 
 SpeedRange range_of(const AxisUnit& axis, const SpeedRules& rules);
-/// The law of a drive at another speed than V.
+/// Returns the law of a drive at a speed other than V.
 motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps, const SpeedRules& rules);
 motion::SpeedLaw law_of(const AxisUnit& axis, const SpeedRules& rules);
 
-/// What EP counts: the bench's encoder, or the pulses themselves.
+/// Returns the travel that EP counts: that of the bench's encoder, or the pulses themselves.
 std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor);
-/// The three counters.
+/// Return the three counters.
 std::int32_t logic_count(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t absolute_count(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t encoder_count(const AxisUnit& axis, const motion::Axis& motor);
-/// Of LP or EP. A count beyond the ring comes round; or stays so, in 32 bits, until it is in the ring.
+/// Sets LP or EP. A count beyond the ring wraps into it if `ring_folds`; else it stays, in 32 bits, until it
+/// enters the ring.
 void set_count(motion::Counter& counter, const BasicSettings& settings, std::int64_t count,
                std::int64_t travel, bool ring_folds);
 void set_logic_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds);
 void set_absolute_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds);
 void set_encoder_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds);
-/// By choice, a count may be beyond its ring, until it comes into it.
+/// Returns true if a count is beyond its ring, as one choice allows until it enters the ring.
 bool is_beyond_ring(const AxisUnit& axis);
 void enter_ring(AxisUnit& axis, const motion::Axis& motor);
-/// The bench's encoder has come to this count of edges.
+/// Sets the bench's encoder to this count of edges.
 void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
 
-/// What the manual leaves open about an axis (choices.h).
+/// The rules for an axis that the manual leaves open (choices.h).
 struct AxisOptions {
   motion::Reaction at_soft_limit = motion::Reaction::slow_down;
-  motion::Reaction at_alarm = motion::Reaction::stop_at_once;  // and at the EMG input
+  motion::Reaction at_alarm = motion::Reaction::stop_at_once;  // also for the EMG input
   bool drives_wait_for_in_position = true;
   bool in_position_waits_beside_limits = false;
   bool ring_folds = true;
@@ -172,21 +174,21 @@ struct AxisOptions {
   bool comparisons_fire_when_armed = false;
 };
 
-/// Puts the basic settings in force, beside what runs.
+/// Applies the basic settings, also to a running motion.
 void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings,
                  const AxisOptions& options);
-/// Limits and comparators as the motor watches them: again whenever a counter or one of them is set. `asked`:
-/// the events that somebody waits for.
+/// Arms the motor's limits and comparators. Call it again whenever a counter or one of them is set. `asked`
+/// are the events that have a consumer.
 void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const AxisOptions& options);
-/// What EP counts on the way, as its settings have it; of a machine whose line is that.
+/// Returns EP as a function of the travel, by the axis's settings, for a machine with the given line.
 motion::EncoderLine encoder_line(const AxisUnit& axis, motion::EncoderLine machine);
 
-/// Bits 5 to 9 of DI_ALL: the levels of the lines, or whether they are active by their settings.
+/// What bits 5 to 9 of DI_ALL show: the levels of the lines, or whether they are active by their settings.
 enum class UpperBits : std::uint8_t { line_levels, active };
-/// DI_ALL (4.6.2) and DI_SIGNAL (4.7.2).
+/// Return DI_ALL (4.6.2) and DI_SIGNAL (4.7.2).
 std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving, UpperBits upper);
 std::uint16_t di_signal_word(const AxisUnit& axis);
-/// Whether a pin is at the level that a setting calls active: 0 is low, and on is low.
+/// Returns true if a pin is at the level that a setting calls active: 0 is low, and "on" is low.
 constexpr bool is_active(bool is_on, std::uint8_t level_setting) { return is_on == (level_setting == 0); }
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -1,4 +1,4 @@
-// How sure RS-M8194H's choices are, in short.
+// Short names of the confidence levels of a choice, for the rows of RS-M8194H.
 #pragma once
 
 #include "emulator/device/choices.h"

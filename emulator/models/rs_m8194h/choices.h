@@ -1,4 +1,5 @@
-// RS-M8194H: what its manual leaves open, and what we do. docs/fidelity/rs-m8194h.md is made from these rows.
+// RS-M8194H: what its manual leaves open, and what we chose. docs/fidelity/rs-m8194h.md is generated from
+// these rows.
 #pragma once
 
 #include <array>

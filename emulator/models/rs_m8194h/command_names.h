@@ -1,12 +1,12 @@
-// The commands of the window by the manual's names, for people: `RSM_FIXED_MOVE XYZU 10000`.
+// The commands of the window as text, by the manual's names: `RSM_FIXED_MOVE XYZU 10000`.
 #pragma once
 
 #include "emulator/device/command_window.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// Real-time commands and macro lines. Parameters are checked as the manual gives them; what a device's
-/// choices and state say to a command, it says itself.
+/// Returns the real-time commands and macro lines as text. Parameters are checked against the manual; a
+/// device checks a command against its choices and state.
 const CommandWindow& command_names();
 
 }  // namespace understudy::emulator::models::rs_m8194h

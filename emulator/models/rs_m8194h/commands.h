@@ -1,5 +1,5 @@
-// RS-M8194H: what each command does, a function each. The table of them (command_table.cpp) has one for every
-// verb that a device carries out.
+// RS-M8194H: the effects of commands, one function each. Their table (command_table.cpp) has one for every
+// verb that a device executes.
 #pragma once
 
 #include "emulator/models/rs_m8194h/device.h"
@@ -9,7 +9,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 using CommandAction = Took (*)(RsM8194h& it, const lang::Command& command);
 
-/// What a command of the device does.
+/// Returns the function of a verb that the device executes.
 CommandAction action_of(lang::Verb verb);
 
 }  // namespace understudy::emulator::models::rs_m8194h

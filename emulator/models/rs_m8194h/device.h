@@ -1,7 +1,7 @@
 // RS-M8194H: four axes on a motion chip, behind a window of registers. The RS-M8194H itself speaks Modbus and
-// checks; the i-8094H beside it has the FIFO, the chip and the macros.
+// checks requests; the i-8094H module has the FIFO, the chip and the macros.
 //
-//   a request ──> window.cpp ──> the FIFO, or at once ──> commands.h: what each command does
+//   a request ──> window.cpp ──> the FIFO, or at once ──> commands.h: the effects of commands
 //   a tick: inputs.cpp ──> motion (motion_step.cpp) and its edges (edges.cpp) ──> the FIFO (pace.cpp)
 #pragma once
 
@@ -108,7 +108,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   State& state() { return state_; }
   const State& state() const { return state_; }
   bool module_is_absent() const { return input(kNoModuleSwitch) != 0; }
-  /// Booted at the switch's position Init.
+  /// Returns true if it was booted with the switch at Init.
   bool is_deaf() const { return state_.at_init && !chose(option("init_switch", "runs_all_the_same")); }
   bool is_resetting() const { return state_.resetting_until > now(); }
   pty::SimTime end_silence(pty::SimTime usual) const override;
@@ -116,58 +116,58 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   pty::LineSettings line_settings(std::size_t port) const override;
   bool keeps_its_speed() const override { return chose(option("line_speeds", "115200_alone")); }
 
-  /// A register's new value, kept where it is one that is.
+  /// Sets a register, and stores it if it is retentive.
   void put(std::size_t slot, std::uint32_t bits) {
     state_.image[slot] = bits;
     state_.eeprom.write(slot, bits, 0, now());
   }
   bool are_calls_refused() const;
-  /// A checked command from the window: at once, or into the FIFO.
+  /// Takes a checked command from the window: executes it at once, or queues it.
   DeviceAnswer take(const lang::Command& command);
-  /// Why a request is refused, with the number that input 102 then shows.
+  /// Returns the refusal of a request for this fault; reason_of() is the number that input 102 then shows.
   DeviceAnswer answer_of(lang::Fault fault) const;
   std::uint8_t reason_of(lang::Fault fault) const;
-  /// The fault of a command that there is no room for, in the FIFO or in the macro that is downloaded.
+  /// Returns the fault of a command for which there is no room in the FIFO or in the macro being downloaded.
   lang::Fault why_no_room(const lang::Command& command) const;
-  /// Blocks of the FIFO that a command takes, and that are free.
+  /// Return the FIFO blocks that a command needs, and those that are free.
   int fifo_blocks_of(const lang::Command& command) const;
   int free_blocks() const;
-  /// Into the FIFO; the room has been found.
+  /// Adds a command to the FIFO. The caller has checked that there is room.
   void queue(const lang::Command& command);
-  /// Carries it out now, or says that it has to wait.
+  /// Executes a command now, or returns that it has to wait.
   Took carry_out(const lang::Command& command) override;
 
   Going going(std::size_t axis) const;
   bool is_driving(std::size_t axis) const;
   std::uint16_t error_code(std::size_t axis) const;
   AxisMask driving() const;
-  /// A drive of single axes (drives.cpp).
+  /// Starts a drive of single axes (drives.cpp).
   Took drive(AxisMask axes, const Drive& what);
   bool takes_place_of_endless(std::size_t axis, const Drive& what);
-  /// One axis begins, without asking for locks and waits: what it meets at its start becomes its error.
+  /// Starts one axis without a check for locks and waits; what it meets at its start becomes its error.
   void start(std::size_t axis, const Drive& what, bool without_ramps = false);
   motion::SpeedLaw law_of(std::size_t axis) const;
-  /// A path; it may have to wait, be held, or be void (path_commands.cpp).
+  /// Starts a path, which may have to wait, be held, or have no effect (path_commands.cpp).
   Took follow_path(const lang::Command& command);
   Took begin_path(const HeldPath& path);
   bool joins_stream(const HeldPath& path) const;
-  /// Of what is held, if anything is.
+  /// Returns the axes of the held path, or none.
   AxisMask axes_of_held_path() const;
-  /// What is held will not run.
+  /// Discards the held path: it will not run.
   void drop_held_path();
-  /// Streams that end otherwise than by their last segment (streams.cpp).
+  /// The next four handle streams that end before their last segment (streams.cpp).
   void break_off_stream();
   void refuse_segment(const HeldPath& path);
   bool is_left_over(const HeldPath& segment);
   void forget_break(Stream stream);
-  /// Whether a stream that runs takes one more segment.
+  /// Returns true if the running stream accepts one more segment.
   bool has_room_for_segment() const;
-  /// Whether a path may begin on these axes now, given that none is running.
+  /// Returns whether a path may begin on these axes now, provided that no path is running.
   Start may_start(AxisMask axes, Starter who) const;
   Start may_start(std::size_t axis, Starter who, bool on_path = false) const;
-  /// Sets the error bits of what keeps axes from starting.
+  /// Sets the error bits for what keeps axes from starting.
   void note_obstacles(AxisMask axes);
-  /// Of LINE_SCAN_START: the flag of done scans is off until all of them stand.
+  /// Begins the scans of LINE_SCAN_START; the flag of finished scans is off until all of them stand.
   void begin_scans(AxisMask axes);
   std::int64_t scan_travel(std::size_t axis) const;
   bool waits_behind_held(AxisMask axes) const;
@@ -175,7 +175,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   bool holds_a_drive(AxisMask axes) const;
 
   void halt(AxisMask axes, const StopRow& row);
-  /// The path slows down to its end.
+  /// Slows the path down to its end.
   void slow_path(Tick tick);
   void take_off(std::size_t axis, WayOut way);
   void clear_stop(AxisMask axes);
@@ -185,23 +185,23 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void release(AxisMask axes);
   void reset_card();
   void load_initial();
-  /// Of a new box.
+  /// Returns the settings of a new box.
   BasicSettings factory_settings() const;
   void module_error();
-  /// One of the states of input 101 that are passed.
+  /// Records a state of input 101 that has passed within the tick.
   void pass_state(std::uint8_t finished);
 
-  /// After a setting or a counter has changed: what the motor watches, and what it meets.
+  /// Updates what the motor watches and meets. Call it after a setting or a counter has changed.
   void look_again(std::size_t axis);
   bool is_active(std::size_t axis, motion::Signal signal) const;
-  /// An event of an axis that a factor may be waiting for, noted and marked.
+  /// Records an event of an axis for the factors.
   void note_factor(std::size_t axis, Factor factor);
   void mark_isr(std::size_t axis, std::uint8_t source, Tick tick);
-  /// Of what calls ISRs: which came last.
+  /// Records the order in which sources of ISRs were enabled.
   void note_enabled(std::size_t axis, std::uint8_t source, bool is_on);
   void give_pulse(std::size_t axis, Tick tick, std::int64_t pulses = 1);
   void change_speed(std::size_t axis, motion::Instant at);
-  /// EXD_MP, EXD_FP, EXD_CP with their data, or off.
+  /// Sets EXD_MP, EXD_FP or EXD_CP with their data, or turns them off.
   void set_external(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data);
 
   // --- macros (macros.cpp) -------------------------------------------------------------------------
@@ -213,10 +213,10 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void start_mp(int number);
   void start_isr(int number);
   void terminate();
-  /// A message while a macro is being downloaded, or one that opens a download.
+  /// Takes a message while a macro is being downloaded, or one that opens a download.
   lang::Fault take_download(const lang::Decoded& decoded);
   void run_fifo(int& steps);
-  /// Holding 9 was written.
+  /// Handles a write to holding 9.
   void enable_triggers(bool on);
 
  protected:
@@ -230,15 +230,15 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
 
  private:
   Eeprom factory_memory() const;
-  /// Everything but what is kept, as at power-up.
+  /// Resets everything that is not retentive to its power-up value.
   void blank();
   void blank_module();
   bool is_obstructed(std::size_t axis, Obstacle obstacle, bool on_path) const;
   void look_round(std::size_t axis);
   void pass_pins(Tick tick);
-  /// A level of one of its inputs is still held back.
+  /// Returns true while a filter holds back the level of an input.
   bool is_filtering(const AxisUnit& unit) const;
-  /// As they are now; those of the last scan are state.
+  /// Returns the FRnet inputs as they are now; those of the last scan are part of the state.
   std::array<std::uint16_t, kFrnetGroups> frnet_inputs() const;
   void scan_frnet();
   bool scans_frnet_at(Tick tick) const;
@@ -270,12 +270,12 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void end_scan(std::size_t axis);
   bool rests() const;
   void leave_path(std::size_t axis, Halt halt);
-  /// By choice, a drive at a speed that was never set.
   void forget_errors(std::size_t axis);
+  /// Returns true if, by choice, the drive is void because its speed was never set.
   bool lacks_speed(std::size_t axis, Drive::What what) const;
-  /// Of writes that become lines of the macro that is being downloaded.
+  /// Checks writes that become lines of the macro being downloaded.
   DeviceAnswer admits_lines(const RegisterRequest& request) const;
-  /// Of writes that are one message by choice (whole_writes.cpp).
+  /// Checks writes that are one message by choice (whole_writes.cpp).
   DeviceAnswer admits_whole(const RegisterRequest& request, Checked checked) const;
   void write_group(std::size_t group, std::uint32_t number);
   void start_held();
@@ -283,7 +283,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   bool streams_need_initial() const;
   void break_off(Stream stream, bool has_more);
   bool keeps_path_off(const std::array<std::uint8_t, 3>& codes, const motion::Point& way);
-  /// Of a command that may begin, or joins its stream; throws BadMotion for what cannot be drawn.
+  /// Draws a command that may begin, or that joins its stream. Throws BadMotion if it cannot be drawn.
   void draw(const HeldPath& path, bool joins);
 
   // lang::Machine
@@ -299,7 +299,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void terminated() override;
   void report(const lang::ExecutionFault& fault) override;
 
-  /// Triggers, after a scan (triggers.cpp).
+  /// Handles triggers after a scan (triggers.cpp).
   void heed_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start);
   void fire(int channel, const lang::Trigger& trigger);
   void start_queued_trigger();
@@ -312,7 +312,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   const lang::TriggerTable& triggers() const;
 
   State state_;
-  // Not state: made of the blocks, and again when they have changed.
+  // Not state: compiled from the text blocks, again whenever these have changed.
   mutable lang::MacroStore macros_;
   mutable lang::TriggerTable triggers_{};
   mutable std::uint64_t compiled_revision_ = UINT64_MAX;
@@ -322,7 +322,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   const MachineOptions machine_;
   const MapPolicy policy_;
 
-  std::array<MachineEdges, kAxes> edges_{};  // not state: they are told again
+  std::array<MachineEdges, kAxes> edges_{};  // not state: set again after a restore
 };
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -1,11 +1,12 @@
-// RS-M8194H: what the commands of synchronous actions, interrupts, stops and macros do (7.3, 7.5, 8, 9).
+// RS-M8194H: the commands of synchronous actions, interrupts, stops and macros (7.3, 7.5, 8, 9).
 #pragma once
 
 #include "emulator/models/rs_m8194h/setting_commands.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// nDRV, nLATCH, nPRESET, nOUT, nINT and the ISR of each axis, from a parameter on, for a mask of axes.
+/// Sets nDRV, nLATCH, nPRESET, nOUT, nINT and the ISR of each axis, from parameter `first` on, for a mask of
+/// axes.
 inline void set_actions(RsM8194h& it, AxisMask axes, const Command& command, std::size_t first) {
   for_each_axis(axes, [&](std::size_t a) {
     motion::SyncAction& action = it.state().sync.actions[a];
@@ -72,7 +73,7 @@ inline Took set_action(RsM8194h& it, const Command& command) {
   set_actions(it, axes_at(command, 0), command, 1);
   return Took::done;
 }
-/// C+ or C-; the soft limits end (7.3.6).
+/// Sets C+ or C-; the soft limits end (7.3.6).
 inline Took set_compare(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.state().units[a];
@@ -146,7 +147,7 @@ inline Took stop_axes(RsM8194h& it, const Command& command) {
   it.halt(axes_at(command, 0), stop_row(command.verb()));
   return Took::done;
 }
-/// The axes of what interpolates; if nothing does, those of AXIS_ASSIGN.
+/// Stops the axes of the running interpolation; if none runs, those of AXIS_ASSIGN.
 inline Took stop_path(RsM8194h& it, const Command& command) {
   const Paths& paths = it.state().paths;
   AxisMask axes = paths.together.engaged ? paths.axes : mask_of_codes(paths.assigned);

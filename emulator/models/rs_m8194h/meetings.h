@@ -1,5 +1,5 @@
-// RS-M8194H: where commands meet what an axis does, as data. The code asks these tables, and a test walks
-// their cells.
+// RS-M8194H: what a command does in each state of an axis, as data. The code looks up these tables, and a
+// test checks every cell.
 #pragma once
 
 #include <array>
@@ -13,20 +13,20 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace lang = interpreter::rs_m8194h;
 
-/// What an axis does.
+/// The activity of an axis.
 enum class Going : std::uint8_t { idle, single, path, homing };
 inline constexpr std::size_t kGoings = 4;
 
-// --- starting: rows in the order in which they are asked, the first that holds decides --------------------
+// --- starting: the rows are checked in order, and the first that applies decides ---------------------------
 
-/// What stands against a drive, beside its axis being in motion.
+/// What can prevent a drive, other than a motion of its axis.
 enum class Obstacle : std::uint8_t {
   emergency_state,
   lock,
   path_lock,
   emergency_input,
   alarm,
-  servo_off,  // where drives need it, which is a choice
+  servo_off,  // if drives need the servo on, which is a choice
   hold
 };
 inline constexpr std::size_t kObstacles = 7;
@@ -42,10 +42,10 @@ struct ObstacleRow {
   Obstacle obstacle;
   Start command;
   Start external;
-  bool sets_error;  // of the error code,
-  ErrorBit error;   // this bit
+  bool sets_error;  // whether it sets a bit of the error code,
+  ErrorBit error;   // and which bit
 };
-/// 7.5.1 to 7.5.10, 3.12. A lock is told of when it is set, not by what it voids.
+/// Obstacles (7.5.1 to 7.5.10, 3.12). A lock sets its error bit when it is set, not when it prevents a drive.
 inline constexpr std::array<ObstacleRow, kObstacles> kObstacleRows{{
     {Obstacle::emergency_state, Start::is_void, Start::is_void, false, ErrorBit::soft_emergency},
     {Obstacle::lock, Start::is_void, Start::is_void, false, ErrorBit::soft_stop},
@@ -56,7 +56,7 @@ inline constexpr std::array<ObstacleRow, kObstacles> kObstacleRows{{
     {Obstacle::hold, Start::is_held, Start::starts, false, ErrorBit::reserved},
 }};
 
-/// Without obstacles.
+/// What a start does without obstacles.
 struct GoingRow {
   Going going;
   Start command;
@@ -77,8 +77,8 @@ struct StopRow {
   lang::Verb verb;
   std::uint8_t type;                // stopType of EMERGENCY_STOP, else 0
   std::array<Halt, kGoings> halts;  // by Going; a path slows or stops with all its axes
-  bool locks;                       // L
-  bool locks_path;                  // V
+  bool locks;                       // sets lock L
+  bool locks_path;                  // sets lock V
   bool drops_held_drive;
   bool drops_hold;
   ErrorBit error;
@@ -141,13 +141,12 @@ constexpr const StopRow& stop_row(lang::Verb verb, std::uint32_t type = 0) {
   throw "not a stop";
 }
 
-// --- what a motion has left to be done, and what takes that away
-// ----------------------------------------------
+// --- what remains to be done of a motion, and what discards it ---------------------------------------------
 
 enum class Mark : std::uint8_t {
-  paused_drive,    // the rest of a drive that a trigger's pause holds
-  external_drive,  // what an EXD input has begun, and edges that wait behind it
-  trigger_hold,    // an axis that a trigger's level holds until it ends
+  paused_drive,    // the rest of a drive during a trigger's pause
+  external_drive,  // a drive that an EXD input has begun, and edges that wait for its end
+  trigger_hold,    // an axis that is held as long as a trigger's level lasts
 };
 inline constexpr std::size_t kMarks = 3;
 
@@ -162,7 +161,7 @@ enum class WayOut : std::uint8_t {
 };
 inline constexpr std::size_t kWaysOut = 7;
 
-/// RESET_CARD and power-off take all of them.
+/// Which event discards which mark. RESET_CARD and power-off discard all of them.
 inline constexpr std::array<std::array<bool, kWaysOut>, kMarks> kTakenOff{{
     // stop, VSTOP, emergency stop, cause, another drive, DRV_START, triggers off
     {true, false, true, true, true, false, false},
@@ -175,8 +174,8 @@ constexpr bool takes_off(WayOut way, Mark mark) {
 
 // --- clearing ----------------------------------------------------------------------------------------------
 
-/// What of an error code stays when CLEAR_STOP or CLEAR_VSTOP has taken its lock away (A-35, 6.2): of the
-/// other lock, of the emergency state, and of an input that is still active.
+/// What keeps bits of an error code when CLEAR_STOP or CLEAR_VSTOP removes its lock (A-35, 6.2): the other
+/// lock, the emergency state, and inputs that are still active.
 struct Cleared {
   bool other_lock = false;
   bool emergency_state = false;
@@ -192,7 +191,7 @@ constexpr std::uint16_t error_left(std::uint16_t code, const Cleared& still) {
   return code & left;
 }
 
-/// A drive that starts takes these away: what it has left behind it.
+/// Error bits of earlier motions that a starting drive clears.
 inline constexpr std::uint16_t kClearedByDrive =
     bit_of(ErrorBit::soft_limit_plus) | bit_of(ErrorBit::soft_limit_minus) | bit_of(ErrorBit::limit_plus) |
     bit_of(ErrorBit::limit_minus) | bit_of(ErrorBit::alarm) | bit_of(ErrorBit::emergency) |

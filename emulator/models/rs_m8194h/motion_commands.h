@@ -1,11 +1,11 @@
-// RS-M8194H: what the commands of counters, outputs, homing, single axes and paths do (4 to 7.2, 7.4).
+// RS-M8194H: the commands of counters, outputs, homing, single axes and paths (4 to 7.2, 7.4).
 #pragma once
 
 #include "emulator/models/rs_m8194h/setting_commands.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// A counter of the axes in the first parameter.
+/// Sets a counter of the axes in the first parameter.
 template <void (*set)(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds)>
 Took set_counter(RsM8194h& it, const Command& command) {
   const bool ring_folds = it.machine_options().axis.ring_folds;
@@ -32,9 +32,9 @@ inline Took frnet_write(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 
-/// What a number is of, for its range.
+/// The quantity of a number, which determines its range.
 enum class Speed : std::uint8_t { other, speed, slope, jerk };
-/// Values are stored as they are sent; or within the range that MAX_V gives them now.
+/// Returns the value to store: as sent, or limited to the range that MAX_V gives it now.
 template <Speed kind>
 std::uint32_t within_range(const RsM8194h& it, std::uint32_t given, std::uint32_t max_v) {
   if (kind == Speed::other || it.chose(option("reclamp", "when_a_drive_starts"))) return given;
@@ -44,7 +44,7 @@ std::uint32_t within_range(const RsM8194h& it, std::uint32_t given, std::uint32_
   return static_cast<std::uint32_t>(std::clamp<double>(given, least, most));
 }
 
-/// A number of the speed settings; it counts from the next drive on.
+/// Sets a number of the speed settings; it applies from the next drive on.
 template <auto member, Speed kind = Speed::other>
 Took set_speed(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
@@ -55,14 +55,14 @@ Took set_speed(RsM8194h& it, const Command& command) {
   });
   return Took::done;
 }
-/// Homing takes new speeds in its next phase.
+/// Gives homing the new speeds; it uses them from its next phase on.
 inline void tell_homing(RsM8194h& it, std::size_t axis) {
   motion::Homing& homing = it.state().motors[axis].homing;
   if (!homing.active()) return;
   const AxisUnit& unit = it.state().units[axis];
   homing.program.speeds = {it.law_of(axis), law_at(unit, unit.homing.home_pps, it.machine_options().speed)};
 }
-/// V, also of what runs.
+/// Sets V, also for the running drive.
 inline Took set_drive_speed(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.state().units[a];
@@ -72,7 +72,7 @@ inline Took set_drive_speed(RsM8194h& it, const Command& command) {
   });
   return Took::done;
 }
-/// The same of the path, which has no axes.
+/// Sets a number of the path's speed settings, which have no axes.
 template <auto member>
 Took set_vector(RsM8194h& it, const Command& command) {
   auto& number = it.state().paths.vector.*member;
@@ -108,7 +108,7 @@ Took drive(RsM8194h& it, const Command& command) {
   return it.drive(axes_at(command, 0), {.what = what, .value = value});
 }
 
-/// SET_PULSE: another total of the running move, counted in its own direction (7.1.10, A-53).
+/// SET_PULSE: changes the total of the running move, counted in its own direction (7.1.10, A-53).
 inline Took set_pulse(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     motion::Axis& motor = it.state().motors[a];
@@ -121,7 +121,7 @@ inline Took set_pulse(RsM8194h& it, const Command& command) {
     if (is_against && it.chose(option("set_pulse_sign", "is_ignored"))) return;
     const bool counts = !is_against || it.chose(option("set_pulse_sign", "counts_all_the_same"));
     motor.change_distance(counts ? std::abs(given) : 0, true, it.now());
-    it.take_off(a, WayOut::other_drive);  // it is this command's now
+    it.take_off(a, WayOut::other_drive);  // the rest belongs to this command now
   });
   return Took::done;
 }
@@ -133,7 +133,8 @@ inline Took axis_assign(RsM8194h& it, const Command& command) {
 
 inline Took path(RsM8194h& it, const Command& command) { return it.follow_path(command); }
 
-/// An INITIAL: for all CONTINUE of its kind; it waits while a stream runs (7.4.2, 7.4.5, 7.4.8).
+/// INITIAL of a stream: settings for all its CONTINUE commands. It waits while a stream runs (7.4.2, 7.4.5,
+/// 7.4.8).
 template <Stream stream>
 Took initial(RsM8194h& it, const Command& command) {
   Paths& paths = it.state().paths;
@@ -154,7 +155,7 @@ Took initial(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 
-/// 7.4.12: the setting is used up by the next scan. It takes C+, so the soft limits end.
+/// LINE_SCAN (7.4.12): the next scan uses the setting up. The scan uses C+, so the soft limits end.
 inline Took line_scan(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.state().units[a];
@@ -178,7 +179,7 @@ inline Took line_scan_start(RsM8194h& it, const Command& command) {
   if (it.drive(axes, {.what = Drive::What::scan, .value = command.signed_value(2)}) == Took::waits) {
     return Took::waits;
   }
-  // What is held begins later.
+  // A held scan begins later.
   AxisMask begun = 0;
   for_each_axis(axes, [&](std::size_t a) {
     if (it.state().units[a].held_drive.what != Drive::What::scan) begun |= mask_of(a);

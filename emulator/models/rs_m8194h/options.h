@@ -1,5 +1,5 @@
-// RS-M8194H: the options of choices.h as the code asks for them. What every tick and every line of a macro
-// asks for is asked once, when the device is made.
+// RS-M8194H: the code looks up the options of choices.h with this. Options that every tick or every line of a
+// macro needs are looked up once, when the device is made.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 consteval Option option(std::string_view id, std::string_view name) { return option_of(kChoices, id, name); }
 
-/// What of them commands, downloads and macros ask for.
+/// The options for commands, downloads and macros.
 struct LanguageOptions {
   interpreter::rs_m8194h::CommandOptions command = {};
   interpreter::rs_m8194h::DownloadOptions download = {};
@@ -32,10 +32,10 @@ struct LanguageOptions {
   bool isrs_are_bound_at_the_event = false;
 };
 LanguageOptions language_options(const DeviceSettings& settings);
-/// Of the numbers of options, by row.
+/// Returns the command options for option numbers, one a row.
 interpreter::rs_m8194h::CommandOptions command_options(std::span<const std::uint8_t> chosen);
 
-/// What of them inputs, axes and the FIFO ask for.
+/// The options for inputs, axes and the FIFO.
 struct MachineOptions {
   AxisOptions axis = {};
   SpeedRules speed = {};

@@ -1,4 +1,4 @@
-// RS-M8194H: which paths there are (7.2, 7.4), as rows: what each command draws.
+// RS-M8194H: the paths (7.2, 7.4), as rows: what each command draws.
 #pragma once
 
 #include <algorithm>
@@ -59,7 +59,7 @@ inline const PathRow& row_of_path(Verb verb) {
                        [&](const PathRow& row) { return row.verb == verb; });
 }
 
-/// VECTOR_SPEED (7.2.2).
+/// The shapes of VECTOR_SPEED 0 to 11 (7.2.2).
 inline constexpr std::array<Shape, 12> kVectorShapes{{
     {.constant = true},
     {},
@@ -74,11 +74,11 @@ inline constexpr std::array<Shape, 12> kVectorShapes{{
     {.unlike_ramps = true},
     {.s_curve = true, .unlike_ramps = true},
 }};
-/// MAX_V of interpolation (3.4), by the number of axes.
+/// Highest MAX_V of interpolation (3.4), by the number of axes.
 inline constexpr std::uint32_t kHighest[] = {2'828'854, 2'309'468};
 inline constexpr std::uint32_t kHighestOfOneAxis = 4'000'000;
 
-/// nType of MIX_2D_CONTINUE.
+/// The kinds of nType in MIX_2D_CONTINUE.
 struct MixRow {
   Draws draws;
   Turn turn;
@@ -86,7 +86,8 @@ struct MixRow {
 inline constexpr MixRow kMixRows[] = {
     {Draws::line, kCw}, {Draws::arc, kCw}, {Draws::arc, kCcw}, {Draws::circle, kCw}, {Draws::circle, kCcw}};
 
-/// What a mode is for: the number of axes, and whether lines or arcs; 0 and 7 are for all.
+/// Returns true if a mode fits the number of axes and the kind of path, lines or arcs; modes 0 and 7 fit both
+/// kinds.
 inline bool fits_mode(std::uint8_t mode, int dimensions, Draws draws) {
   if ((mode < 7) != (dimensions == 2)) return false;
   if (mode == 0 || mode == 7) return true;

@@ -1,4 +1,4 @@
-// RS-M8194H: what interpolates, as a value. One group of axes at a time follows a path (4.7, 4.8 of the
+// RS-M8194H: interpolation, as a value. One group of axes at a time follows a path (4.7, 4.8 of the
 // behaviour; manual 7.2 and 7.4).
 #pragma once
 
@@ -17,7 +17,7 @@ namespace understudy::emulator::models::rs_m8194h {
 enum class Stream : std::uint8_t { line_2d, line_3d, mix_2d };
 inline constexpr std::size_t kStreams = 3;
 
-/// What an INITIAL says, for all CONTINUE of its kind.
+/// The settings of an INITIAL, for all CONTINUE commands of its kind.
 struct StreamSettings {
   bool given = false;
   std::array<std::uint8_t, 3> axes{};  // axis codes; 0: none
@@ -34,31 +34,31 @@ struct Paths {
 
   motion::Coordinated together{};
   Runs runs = Runs::nothing;
-  Stream stream = Stream::line_2d;  // while `runs` or `open` is a stream's
-  bool open = false;                // a stream whose last segment has not come; it may have starved
-  std::uint8_t broken = 0;          // streams that were broken off: bits by Stream, until they are begun anew
-  AxisMask axes = 0;                // of what runs
+  Stream stream = Stream::line_2d;  // valid while `runs` or `open` says that a stream is active
+  bool open = false;        // the last segment of the stream has not arrived; the stream may have starved
+  std::uint8_t broken = 0;  // streams that were broken off, bits by Stream, until they are begun again
+  AxisMask axes = 0;        // axes of the running path
   std::array<std::uint8_t, 3> assigned{};  // AXIS_ASSIGN
-  SpeedSettings vector{};                  // of VECTOR_SPEED and VSV to VAO
+  SpeedSettings vector{};                  // set by VECTOR_SPEED and VSV to VAO
   std::array<StreamSettings, kStreams> streams{};
-  std::array<double, 4> end{};                             // of what is queued, in pulses from where it began
-  std::int8_t constant_axis = motion::Coordinated::kNone;  // axis1 of what goes at constant speed, by choice
+  std::array<double, 4> end{};  // end of the queued paths, in pulses from where they began
+  std::int8_t constant_axis = motion::Coordinated::kNone;  // by choice: axis1 of a path at constant speed
 
   bool operator==(const Paths&) const = default;
 
   bool is_driving(std::size_t axis) const { return together.takes(axis); }
 };
 
-/// Of a kind of stream, in Paths::broken.
+/// Returns the bit of a kind of stream in Paths::broken.
 constexpr std::uint8_t bit_of(Stream stream) {
   return static_cast<std::uint8_t>(1U << static_cast<unsigned>(stream));
 }
 
-/// The axes of a list of axis codes.
+/// Returns the axes of a list of axis codes.
 constexpr AxisMask mask_of_codes(const std::array<std::uint8_t, 3>& codes) {
   return static_cast<AxisMask>((codes[0] | codes[1] | codes[2]) & kAllAxes);
 }
-/// The number of an axis code: 1, 2, 4, 8.
+/// Returns the number of an axis code 1, 2, 4 or 8, or -1.
 constexpr std::int8_t axis_of_code(std::uint8_t code) {
   return static_cast<std::int8_t>(code == 1 ? 0 : code == 2 ? 1 : code == 4 ? 2 : code == 8 ? 3 : -1);
 }

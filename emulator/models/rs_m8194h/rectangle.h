@@ -7,12 +7,12 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The outline of a rectangle, counter-clockwise from the beginning of its lower side: the eight tangent
-/// points, Sp0 to Sp7, are even, the middles of sides and corners between them uneven (the drawing of 7.4.1
-/// is lost).
+/// The outline of a rectangle, counter-clockwise from the beginning of its lower side. Points with even
+/// numbers are the eight tangent points, Sp0 to Sp7; those with odd numbers are the middles of sides and
+/// corners (the drawing of 7.4.1 is lost).
 struct RectanglePlan {
   std::array<std::array<double, 2>, 16> points{};
-  std::array<std::array<double, 2>, 4> centres{};  // of the corners behind the points 2, 6, 10, 14
+  std::array<std::array<double, 2>, 4> centres{};  // of the corners that follow points 2, 6, 10 and 14
 };
 inline RectanglePlan rectangle_plan(double length, double width, double radius) {
   const double right = length - radius;

@@ -1,5 +1,6 @@
-// RS-M8194H: the four tables of registers, in the order of the manual's chapter 12 and with what that chapter
-// leaves out (inputs 87, 92 to 96, bVAR, MD, U's signals). Addresses are those of the wire, from 0.
+// RS-M8194H: the four tables of registers, in the order of the manual's chapter 12, with the registers that
+// the chapter leaves out (inputs 87, 92 to 96, bVAR, MD, U's signals). Addresses are those on the wire, from
+// 0.
 #pragma once
 
 #include <array>
@@ -28,7 +29,7 @@ inline constexpr Value kMostPosition = 2'000'000'000;
 inline constexpr int kWindowWords = 101;
 inline constexpr std::uint16_t kWindow = 8000;
 
-/// The rows of one section.
+/// Names the section of its rows.
 template <std::size_t N>
 consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
   std::array<RegisterRow, N> named{};
@@ -229,8 +230,8 @@ inline constexpr auto kDiscreteRows2 = section("12.5.2", {
     discrete(136, "{} INPOS").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(8),
     discrete(137, "{} INDEX (IN2)").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(9),
 });
-// The manual prints LIMIT+, LIMIT-, ALARM and EMERGENCY twice: these are those of the error code. Bit 9 of it
-// is not in the printed table of discrete inputs.
+// The manual prints LIMIT+, LIMIT-, ALARM and EMERGENCY twice: these are the bits of the error code. Bit 9 of
+// the error code is not in the printed table of discrete inputs.
 inline constexpr auto kDiscreteRows3 = section("12.5.3", {
     discrete(192, "{} SOFT LIMIT+").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(0),
     discrete(193, "{} SOFT LIMIT-").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(1),
@@ -243,7 +244,7 @@ inline constexpr auto kDiscreteRows3 = section("12.5.3", {
     discrete(200, "{} Stop Command").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(8),
     discrete(201, "{} SOFT EMG").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(9),
 });
-// U's are printed at 380; the pattern of the others gives 280, where they are as well. The
+// U's bits are printed at 380, while the pattern of the other axes gives 280; they are at both places. The
 // argument tells the places apart: 8 and more are at 280, 16 and more at 380.
 inline constexpr auto kDiscreteRows4 = section("12.5.4", {
     discrete(256, "{} Near Home (IN0)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(0),
@@ -280,7 +281,7 @@ inline constexpr auto kRegisters =
          kHoldingRows4, kHoldingRows5, kHoldingRows6, kHoldingRows7, kHoldingRows8, kCoilRows1, kCoilRows2,
          kDiscreteRows1, kDiscreteRows2, kDiscreteRows3, kDiscreteRows4);
 
-/// How many slots the image has, and where a row's first one is.
+/// Return the number of slots of the image, and the first slot of a row.
 consteval std::size_t slot_count() {
   std::size_t count = 0;
   for (const RegisterRow& row : kRegisters) count += row.is_view ? 0 : static_cast<std::size_t>(row.count);

@@ -1,5 +1,5 @@
-// RS-M8194H: what the commands of section 3 do. A setting is a row: what it changes of the basic settings, of
-// the axes in force or, with an INITIAL axis code, of the Initial Table.
+// RS-M8194H: the commands of section 3. A setting is a row: it says what the command changes in the basic
+// settings, of the axes themselves or, with an INITIAL axis code, of the Initial Table.
 #pragma once
 
 #include "base/complete_table.h"
@@ -23,7 +23,7 @@ void for_each_axis(AxisMask axes, auto visit) {
   }
 }
 
-/// As if the chip's counts had stayed, each of which is another speed now.
+/// Scales the speeds as if the chip's counts had stayed while the size of a count changed.
 inline void scale_speeds(AxisUnit& unit, std::uint32_t from_max_v, std::uint32_t to_max_v) {
   SpeedSettings& speed = unit.speed;
   for (std::uint32_t* const number :
@@ -34,13 +34,13 @@ inline void scale_speeds(AxisUnit& unit, std::uint32_t from_max_v, std::uint32_t
   }
 }
 
-/// By choice, a ring keeps soft limits off, and they a ring.
+/// Returns true if, by choice, an enabled ring keeps soft limits off, or soft limits keep a ring off.
 inline bool is_kept_off(const RsM8194h& it, const BasicSettings& present, Verb verb) {
   const bool meets =
       (verb == Verb::set_slmt && present.ring) || (verb == Verb::vring_enable && present.soft_limits);
   return meets && it.chose(option("ring_and_soft_limits", "the_earlier_keeps_the_other_off"));
 }
-/// By choice, soft limits are in the registers of the comparators.
+/// By choice, soft limits use the comparators' registers: copies them there.
 inline void take_comparators(const RsM8194h& it, AxisUnit& unit) {
   const BasicSettings& basic = unit.basic;
   if (!basic.soft_limits || !it.chose(option("soft_limits_and_comparators", "become_the_limits"))) return;
@@ -48,7 +48,8 @@ inline void take_comparators(const RsM8194h& it, AxisUnit& unit) {
                   Compare{.value = basic.reverse_soft_limit, .source = basic.soft_limit_source}};
 }
 
-/// A setting of section 3, with its axes in the first parameter: what it changes is a row (memory.h).
+/// Applies a setting of section 3, whose axes are in the first parameter. Its row (memory.h) says what it
+/// changes.
 inline Took set_basic(RsM8194h& it, const Command& command) {
   const bool is_initial = (command.values[0] & lang::kInitial) != 0;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
@@ -66,7 +67,8 @@ inline Took set_basic(RsM8194h& it, const Command& command) {
     const std::int64_t counted = it.scan_travel(a);
     apply_basic(it.state().units[a], it.state().motors[a], settings, it.machine_options().axis);
     LineScan& scan = it.state().scans[a];
-    if (scan.running) scan.begin += it.scan_travel(a) - counted;  // the encoder counts otherwise from here on
+    // the encoder counts differently from here on
+    if (scan.running) scan.begin += it.scan_travel(a) - counted;
     if (command.verb() == Verb::set_slmt) take_comparators(it, it.state().units[a]);
     it.look_again(a);
   });
@@ -102,7 +104,7 @@ inline Took reset_card(RsM8194h& it, const Command&) {
   return Took::done;
 }
 inline Took clear_buffer(RsM8194h& it, const Command&) {
-  // A STOP_WAIT that has begun is not in the buffer any more, and goes on.
+  // A STOP_WAIT that has begun is no longer in the buffer, and continues.
   it.state().fifo.waiting.clear();
   if (it.chose(option("clear_buffer_held_drives", "dropped"))) {
     for (AxisUnit& unit : it.state().units) unit.held_drive = {};

@@ -1,4 +1,4 @@
-// What the state of an RS-M8194H consists of (base/state/fields.h), in the order of the bytes.
+// The fields of an RS-M8194H's state (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
   static constexpr auto fields =
       FieldList{field("waiting", &Value::waiting), field("stop_wait", &Value::stop_wait)};
   static void check(const Value& fifo) {
-    // How many blocks they take is a choice: each takes one at least.
+    // How many blocks a command takes is a choice, but each takes at least one.
     demand_state(fifo.waiting.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
                  "the FIFO holds more than it can");
     for (const auto& command : fifo.waiting) {

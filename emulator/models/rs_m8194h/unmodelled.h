@@ -1,5 +1,5 @@
-// RS-M8194H: what commands mean that is not modelled. They are answered and carried out all the same; the log
-// says it once.
+// RS-M8194H: effects of commands that are not modelled. Such commands are answered and executed; the log
+// mentions each effect once.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 struct UnmodelledRow {
   interpreter::rs_m8194h::Verb verb;
-  std::size_t parameter;  // below `least` it is meant
+  std::size_t parameter;  // the row applies if this parameter is below `least`
   std::uint32_t least;
   std::string_view what;
   std::string_view why;
@@ -29,14 +29,14 @@ inline constexpr UnmodelledRow kUnmodelledRows[] = {
     {interpreter::rs_m8194h::Verb::set_out, 2, 4, kShortPulses, kWhyNoShortPulses},
     {interpreter::rs_m8194h::Verb::line_scan, 3, 4, kShortPulses, kWhyNoShortPulses},
 };
-/// What a path's kernel does not reach (motion/path.h).
+/// The limits of the path kernel (motion/path.h).
 inline constexpr std::string_view kLongHelix =
     "a helix of more than 159,154 turns, or that rises by more than 1,000,000,000,000 pulses";
 inline constexpr std::string_view kWhyNoLongHelix =
     "arcs end at 1,000,000 rad; it is void, with the module's error (RINT bit 7)";
 
 constexpr bool is_meant(const UnmodelledRow& row, const interpreter::rs_m8194h::Command& command) {
-  // A filter of no input delays none.
+  // A filter of no input does not delay any.
   const bool is_used = row.verb != interpreter::rs_m8194h::Verb::set_filter || command.values[1] != 0;
   return row.verb == command.verb() && is_used && command.values[row.parameter] < row.least;
 }

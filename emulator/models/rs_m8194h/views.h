@@ -1,4 +1,4 @@
-// RS-M8194H: what its registers show of the state, and what writing them does (registers.h names them).
+// RS-M8194H: readers and writers of its registers (registers.h names them).
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ Value di_bit(const RsM8194h& it, Cell cell);
 void write_do_word(RsM8194h& it, Cell cell, Value value);
 void write_do_bit(RsM8194h& it, Cell cell, Value value);
 
-// --- of each axis; single bits by the row's argument
+// --- of each axis; the row's argument selects a single bit
 Value di_all(const RsM8194h& it, Cell cell);
 Value di_all_bit(const RsM8194h& it, Cell cell);
 Value error_code(const RsM8194h& it, Cell cell);
@@ -39,7 +39,7 @@ void queue_logic_position(RsM8194h& it, Cell cell, Value value);
 void queue_encoder_position(RsM8194h& it, Cell cell, Value value);
 void queue_absolute_position(RsM8194h& it, Cell cell, Value value);
 
-// --- of the whole
+// --- of the whole controller
 Value running_mp(const RsM8194h& it, Cell cell);
 Value emergency_state(const RsM8194h& it, Cell cell);
 Value error_state(const RsM8194h& it, Cell cell);
@@ -54,9 +54,9 @@ Value driving_axes(const RsM8194h& it, Cell cell);
 Value rsm_state(const RsM8194h& it, Cell cell);
 Value module_state(const RsM8194h& it, Cell cell);
 Value illegal_reason(const RsM8194h& it, Cell cell);
-Value download_field(const RsM8194h& it, Cell cell);   // the row's argument: which of the five
-Value execution_field(const RsM8194h& it, Cell cell);  // likewise
-Value factor_axes(const RsM8194h& it, Cell cell);      // the row's argument: which factor
+Value download_field(const RsM8194h& it, Cell cell);   // argument of the row: which of the five fields
+Value execution_field(const RsM8194h& it, Cell cell);  // argument of the row: which of the five fields
+Value factor_axes(const RsM8194h& it, Cell cell);      // argument of the row: which factor
 Value call_register(const RsM8194h& it, Cell cell);
 void call_mp(RsM8194h& it, Cell cell, Value value);
 void enable_triggers(RsM8194h& it, Cell cell, Value value);

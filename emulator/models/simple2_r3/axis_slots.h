@@ -1,4 +1,4 @@
-// The registers that belong to each axis, so that the same code serves both.
+// The registers of each axis, which allow the same code to serve both.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// The registers that give pins their functions are consecutive, DOUT 0 to 3 first.
+/// The registers that assign functions to pins are consecutive, DOUT 0 to 3 first.
 inline constexpr std::size_t kFirstAssignment = slot("DOUT0_Aaxis_SVON");
 inline constexpr int kAssignmentCount = 14;
 

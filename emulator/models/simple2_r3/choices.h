@@ -1,6 +1,6 @@
-// Simple2-R3: what its manual leaves open, and what we chose. docs/fidelity/simple2-r3.md is made from
-// these rows; a bench overrides one with `choices: { ID: OPTION }`. The code asks for options by the names
-// that options.h gives them.
+// Simple2-R3: what its manual leaves open, and what we chose. docs/fidelity/simple2-r3.md is generated from
+// these rows; a bench overrides one with `choices: { ID: OPTION }`. The code looks up an option with option()
+// in options.h.
 #pragma once
 
 #include "emulator/device/choices.h"

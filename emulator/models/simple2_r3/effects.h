@@ -1,5 +1,5 @@
-// The side effects of Simple2-R3's registers, for its register table. A cell's argument is an axis, or
-// what is said there.
+// The side effects of Simple2-R3's registers, for its register table. A cell's argument is an axis, unless a
+// comment says otherwise.
 #pragma once
 
 #include "emulator/device/register_map/row.h"
@@ -34,12 +34,12 @@ Value read_timer(const Simple2R3& device, Cell cell);  // argument: 0 or 1
 Tick next_count_of_timer(const Simple2R3& device, Cell cell, Tick done);
 Tick every_tick(const Simple2R3& device, Cell cell, Tick done);
 Value read_adc(const Simple2R3& device, Cell cell);     // argument: 0 or 1
-Value read_analog(const Simple2R3& device, Cell cell);  // likewise; 200 a volt
+Value read_analog(const Simple2R3& device, Cell cell);  // argument: 0 or 1; 200 a volt
 Value read_eeprom_busy(const Simple2R3& device, Cell);
 Value read_cell(const Simple2R3& device, Cell cell);  // as write_cell
 Value read_unlocked(const Simple2R3& device, Cell);
 Value read_password(const Simple2R3& device, Cell);
-Value read_zero(const Simple2R3& device, Cell);  // triggers that are over at once
+Value read_zero(const Simple2R3& device, Cell);  // for triggers that are over at once
 
 // Effects.
 void write_output(Simple2R3& device, Cell cell, Value level);

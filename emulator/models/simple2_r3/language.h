@@ -1,4 +1,5 @@
-// Simple2-R3's program language: listings of instructions, and the 256 lines of four cells that they become.
+// Simple2-R3's program language: listings of instructions, and the 256 lines of four cells into which they
+// are assembled.
 #pragma once
 
 #include <vector>

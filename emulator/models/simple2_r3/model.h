@@ -1,4 +1,4 @@
-// Simple2-R3 as a model: its tables, and how it listens.
+// Simple2-R3 as a model: its tables and its line.
 #pragma once
 
 #include <string_view>

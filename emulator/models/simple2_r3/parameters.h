@@ -1,4 +1,4 @@
-// Simple2-R3: parameter numbers, by which the program reaches registers. 159 to 166 and 183 on are not
+// Simple2-R3: the parameter numbers by which a program reaches registers. 159 to 166 and 183 on are not
 // defined.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Simple2-R3 as its program sees it: the abstract machine of interpreter/simple2/ on the device.
+// Simple2-R3 as its program sees it: the abstract machine of interpreter/simple2/, implemented by the device.
 #pragma once
 
 #include "emulator/models/simple2_r3/device.h"
@@ -7,7 +7,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// What its program sees: `Seen` is all of the abstract machine, or the part of it that can be looked at.
+/// The part of the machine that a program reads. `Seen` is the whole abstract machine, or its read-only part.
 template <class Seen, class Of>
 class ProgramSight : public Seen {
  public:
@@ -50,7 +50,7 @@ class ProgramMachine final : public ProgramSight<interpreter::simple2::Machine, 
   void follow_encoder(Axis axis) override;
 };
 
-/// The language as the device's firmware speaks it, with the device's choices.
+/// Returns the language of the device's firmware, with the device's choices.
 interpreter::simple2::Dialect dialect_of(const Simple2R3& device);
 
 }  // namespace understudy::emulator::models::simple2_r3

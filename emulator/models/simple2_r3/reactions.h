@@ -1,9 +1,8 @@
-// What an axis of Simple2-R3 does about each event, in each mode and phase: mode x phase x event, as data.
-// Commands (commands.cpp) and signals (signals.cpp) read it; a test walks all its cells against the running
-// device.
+// The reaction of a Simple2-R3 axis to each event: mode x phase x event, as data. Commands (commands.cpp) and
+// signals (signals.cpp) read it; a test checks all cells against the running device.
 //
-// Ways are those of the axis: a limit is "ahead" on the side it goes to, and commands are "towards" or "away"
-// from the limit that is on; while none is on, either is free.
+// Directions are those of the axis: a limit is "ahead" on the side to which it moves, and commands are
+// "towards" or "away" from the limit that is on. While no limit is on, either may be used.
 #pragma once
 
 #include <array>
@@ -14,19 +13,19 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// Axis_Mode, with homing apart from the other motions of position mode.
+/// The modes of Axis_Mode; homing is separate from the other motions of position mode.
 enum class Doing : std::uint8_t { position, homing, velocity, pwm, sync };
 inline constexpr int kDoings = 5;
 
 enum class Phase : std::uint8_t {
   standing,   // no pulses; PWM: 0 percent
   moving,     // PWM: duty
-  slowing,    // down, in its direction
-  turning,    // slows down to go the other way
+  slowing,    // slows down in its direction
+  turning,    // slows down to reverse
   leaving,    // moves away from a limit that is on
-  at_limit,   // stands while a limit is on, or is stopped by it; PWM: with or without duty
-  in_alarm,   // nothing comes out while the alarm lasts
-  servo_off,  // likewise, for commands
+  at_limit,   // stands while a limit is on, or was stopped by it; PWM: with or without duty
+  in_alarm,   // no output while the alarm lasts
+  servo_off,  // no output while the servo is off; for commands
 };
 inline constexpr int kPhases = 8;
 
@@ -53,23 +52,23 @@ enum class Event : std::uint8_t {
 inline constexpr int kEvents = 17;
 
 enum class Outcome : std::uint8_t {
-  goes_on,          // as if nothing had happened
-  stops,            // no pulses and no duty from now on; what was wanted is over
-  leaves,           // the same, and the mode is position mode
-  waits,            // no pulses and no duty, until the cause is gone
-  turns,            // stops at once, and goes on the other way
-  slows,            // down to 0 by its ramp, and stands; what was wanted is over
-  slows_and_waits,  // the same until the cause is gone
-  blocked,          // follows only the other way
-  resumes,          // what has waited goes on
-  dropped,          // the command does nothing
+  goes_on,          // continues as if nothing had happened
+  stops,            // sends no pulses and no duty from now on; the target is dropped
+  leaves,           // like stops, and returns to position mode
+  waits,            // sends no pulses and no duty until the cause is gone
+  turns,            // stops at once and reverses
+  slows,            // slows down by its ramp and stands; the target is dropped
+  slows_and_waits,  // like slows, until the cause is gone
+  blocked,          // follows only in the other direction
+  resumes,          // continues with the target that has waited
+  dropped,          // the command has no effect
   kept,             // the command waits for SVON
-  ends,             // the command does nothing, but what runs is over
-  begins,           // what runs ends at once, and the command begins from standstill
-  changes,          // goes from its present state to what is commanded
+  ends,             // the command has no effect, but the running motion ends
+  begins,           // the running motion ends at once, and the command begins from standstill
+  changes,          // changes from its present state to the command
 };
 
-/// What a choice makes of a cell.
+/// The outcome of a cell under another option.
 struct OtherOutcome {
   Option chosen{};
   Outcome outcome = Outcome::goes_on;
@@ -93,9 +92,9 @@ constexpr bool has(Set set, T member) {
 struct ReactionRow {
   Set doings, phases, events;
   Outcome outcome;
-  /// The manual's section, or the choice that the cell follows.
+  /// The manual's section, or the choice, on which the cell is based.
   std::string_view source;
-  OtherOutcome other{}, another{};  // the first that is chosen counts
+  OtherOutcome other{}, another{};  // the first chosen one applies
 };
 
 namespace reactions {
@@ -138,7 +137,7 @@ inline constexpr OtherOutcome kUnlessMoving{option("command_while_moving", "igno
 inline constexpr OtherOutcome kUnlessPositioning{option("mode_change_while_moving", "ignored"), dropped};
 inline constexpr OtherOutcome kUnlessInOtherMode{option("move_in_other_mode", "ignored"), dropped};
 inline constexpr OtherOutcome kUnlessIntoLimit{option("command_into_limit", "dropped"), dropped};
-inline constexpr OtherOutcome kForgotten{kAlarmResumes, ends};  // what would have resumed
+inline constexpr OtherOutcome kForgotten{kAlarmResumes, ends};  // for motion that would have resumed
 inline constexpr OtherOutcome kFromTheSpeed{option("move_in_other_mode", "goes_on_from_the_speed"), changes};
 
 // clang-format off
@@ -258,7 +257,7 @@ inline constexpr ReactionRow kRows[] = {
 
 }  // namespace reactions
 
-/// Whether there is such a phase in a mode.
+/// Returns true if a mode has this phase.
 constexpr bool is_phase_of(Doing doing, Phase phase) {
   using enum Phase;
   switch (doing) {
@@ -271,12 +270,12 @@ constexpr bool is_phase_of(Doing doing, Phase phase) {
   return false;
 }
 
-/// Whether an event can come in a phase.
+/// Returns true if an event can come in a phase.
 constexpr bool can_come(Phase phase, Event event) {
   using namespace reactions;
   if (phase == servo_off) return has(kCommands, event);
   switch (event) {
-    case Event::limit_ahead: return true;  // of what stands, any limit
+    case Event::limit_ahead: return true;  // while standing, any limit
     case Event::limit_behind: return has(kFree, phase);
     case Event::limit_gone: return has(kOnLimit | set_of(in_alarm), phase);
     case Event::alarm: return phase != in_alarm;
@@ -299,7 +298,7 @@ constexpr bool can_come(Phase phase, Event event) {
 
 inline constexpr std::uint8_t kNoRow = 255;
 
-/// The row of each cell; kNoRow if there is none, 254 if there are several.
+/// The row of each cell; kNoRow if it has none, 254 if it has several.
 inline constexpr auto kReactionOfCell = [] {
   std::array<std::array<std::array<std::uint8_t, kEvents>, kPhases>, kDoings> cells{};
   for (auto& phases : cells) {

@@ -1,5 +1,5 @@
-// Simple2-R3: every register, in the manual's order and spelling ("Resoultion" and the axis names that
-// lost their letter are the manual's). Section names are those of the manual.
+// Simple2-R3: every register, in the manual's order and spelling ("Resoultion", and the axis names without
+// their letter, are the manual's). Section names are those of the manual.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ consteval auto join(const std::array<RegisterRow, N>&... sections) {
   return all;
 }
 
-/// STATUS: A's bits are even, B's odd.
+/// The bits of STATUS: those of A are even, those of B odd.
 inline constexpr BitField kStatusBits[] = {
     bits(0, "A_alarm"),        bits(1, "B_alarm"),        bits(2, "A_ready"),
     bits(3, "B_ready"),        bits(4, "A_moving"),       bits(5, "B_moving"),
@@ -102,7 +102,7 @@ inline constexpr auto kPositionRows = section("編碼器，座標，類比輸入
     reg(0x0E0F, "ENCB_RPM", s16, R).range(-32768, 32767).in("RPM").reads<read_encoder_speed, Varies::with_time>(kAxisB).changes_at<every_tick>(),
 });
 
-// Speeds are printed with a minimum of 1, but the factory's value is 0 and appendix A documents it.
+// The manual prints a minimum of 1 for speeds, but the factory value is 0 and appendix A describes it.
 inline constexpr auto kMotionRows = section("運動相關", {
     reg(0x1000, "Aaxis_Pulse",     s32, RW).range(kS32Min, kS32Max).in("Pulse"),
     reg(0x1002, "Aaxis_Speed",     u16, RW).range(0, k2To15).in("RPM").does<change_speed>(kAxisA),
@@ -178,7 +178,7 @@ inline constexpr auto kProgramRows = section("程式控制", {
     reg(0x8100, "PROG_VAR{}", s32, RW).times(32, 2, 0).halves("_RegL", "_RegH"),
 });
 
-// EncSync is printed up to 2^16, which 16 bits cannot hold. 0xF02A is printed like 0xF029.
+// The manual prints EncSync up to 2^16, which 16 bits cannot hold. It prints 0xF02A like 0xF029.
 inline constexpr auto kSystemRows = section("系統參數相關", {
     reg(0xF000, "Aaxis_Home_Speed",    u16, RW).also("Axis_Home_Speed").range(0, k2To15).in("RPM").kept(),
     reg(0xF001, "Baxis_Home_Speed",    u16, RW).range(0, k2To15).in("RPM").kept(),
@@ -247,7 +247,7 @@ inline constexpr std::size_t kSlotCount = [] {
   return count;
 }();
 
-/// Where a register's value is kept in the image; a compile error if the name is not in the table.
+/// Returns the slot of a register in the image; an unknown name is a compile error.
 consteval std::size_t slot(std::string_view name) {
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {
@@ -257,7 +257,7 @@ consteval std::size_t slot(std::string_view name) {
   throw "no such register";
 }
 
-/// The factory's value of the register that is kept in a slot.
+/// Returns the factory value of the register in a slot.
 constexpr Value factory_value(std::size_t number) {
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {

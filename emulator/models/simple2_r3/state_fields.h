@@ -1,4 +1,4 @@
-// What the state of a Simple2-R3 consists of (base/state/fields.h), in the order of the bytes.
+// The fields of a Simple2-R3's state (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@
 namespace understudy {
 
 namespace emulator::models::simple2_r3 {
-/// Which register a slot of the image belongs to: "Aaxis_Speed", "Program+17" of several.
+/// Returns the name of the register at a slot of the image: "Aaxis_Speed", or "Program+17" for one of
+/// several.
 std::string register_at_slot(std::size_t slot);
 }  // namespace emulator::models::simple2_r3
 

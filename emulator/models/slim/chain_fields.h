@@ -1,4 +1,4 @@
-// What the state of a chain consists of (base/state/fields.h), in the order of the bytes.
+// The fields of a chain's state (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include "base/state/fields.h"
@@ -115,7 +115,7 @@ struct StateOf<emulator::models::slim::Job> {
   static void check(const Value& job);
 };
 
-/// Only what is in it.
+/// Writes only the items that are in the FIFO.
 template <>
 struct StateOf<
     emulator::models::slim::Fifo<emulator::models::slim::Job, emulator::models::slim::kFifoLength>> {
@@ -156,7 +156,7 @@ struct StateOf<emulator::models::slim::Chain::Group> {
   using Value = emulator::models::slim::Chain::Group;
   static constexpr auto fields =
       FieldList{field("motion", &Value::motion), field("paths", &Value::paths), field("end", &Value::end)};
-  // Only as far as it is there.
+  // Writes the group only if it is in use.
   static void write(const Value& group, StateWriter& writer);
   static void read(Value& group, StateReader& reader);
 };
@@ -175,7 +175,7 @@ struct StateOf<emulator::models::slim::Chain> {
                                            field("last_number", &Value::last_number_),
                                            field("now", &Value::now_)};
   static constexpr std::size_t members = 11;
-  static constexpr std::size_t apart = 1;  // what was chosen, which is the bench's
+  static constexpr std::size_t apart = 1;  // the options, which belong to the bench
   static void name_all(Value& all) {       // does not compile if there are others
     [[maybe_unused]] auto& [options, modules, axes, surroundings, groups, map, continuous, paused,
                             queues_paused, last_number, now] = all;

@@ -1,4 +1,4 @@
-// What the manual leaves open about modules and their motion: the chain asks the rows of choices.h, as the
+// The chain looks up what the manual leaves open about modules and motion in the rows of choices.h, as the
 // device does.
 #pragma once
 
@@ -10,13 +10,13 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Our options, the first of each row, until another one is chosen.
+/// The chosen option of each row; at first our own, the first of the row.
 struct ChainOptions {
-  std::array<std::uint8_t, std::size(kChoices)> numbers{};  // of each row's option in force
+  std::array<std::uint8_t, std::size(kChoices)> numbers{};  // chosen option of each row
 
   constexpr bool chose(const Option& option) const { return numbers[option.choice] == option.number; }
   constexpr void choose(const Option& option) { numbers[option.choice] = option.number; }
-  /// Of a row whose options are numbers.
+  /// Returns the number of the chosen option, for a row whose options are numbers.
   constexpr int number(std::size_t row) const { return number_of(kChoices[row], numbers[row]); }
 
   bool operator==(const ChainOptions&) const = default;

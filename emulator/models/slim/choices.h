@@ -1,6 +1,6 @@
 // SLIM: what its command list leaves open, and what we chose. The list gives names and meanings of commands
-// and hardly anything of the dialogue around them, so most rows are proposals. docs/fidelity/slim.md is made
-// from these rows; a bench overrides one with `choices: { ID: OPTION }`.
+// and hardly anything of the dialogue around them, so most rows are proposals. docs/fidelity/slim.md is
+// generated from these rows; a bench overrides one with `choices: { ID: OPTION }`.
 #pragma once
 
 #include "emulator/device/choices.h"

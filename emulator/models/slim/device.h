@@ -1,5 +1,5 @@
 // SLIM: a chain of integrated servos behind one RS232 line. The host types commands and queries at module T0,
-// or has it run a stored program; both act on the chain (chain.h).
+// or lets it run a stored program; both act on the chain (chain.h).
 //
 //   a line ──> dialogue.cpp ──> an editor's line, a number for GETI, or a command
 //                                            └─> commands.cpp, queries.cpp ──> chain, memory, program
@@ -36,7 +36,7 @@ namespace understudy::emulator::models::slim {
 
 inline constexpr std::size_t kMostSpeech = 256 * 1024;
 
-// A module's terminals, among all: T0's, then T1's ...
+// The terminals of a module. Those of T0 come first, then those of T1, and so on.
 inline constexpr int kInputs = lang::kInputCount;
 inline constexpr int kHorg = kInputs;
 inline constexpr int kAnalog = kHorg + 1;
@@ -48,7 +48,7 @@ constexpr int terminal(int module, int which) { return module * kTerminalsOfModu
 /// ?ERR and ?ERC of a module.
 struct Errors {
   Error present = Error::none;
-  std::vector<std::uint8_t> history{};  // the last one first
+  std::vector<std::uint8_t> history{};  // the latest first
 
   bool operator==(const Errors&) const = default;
 };
@@ -63,11 +63,11 @@ struct State {
   lang::Editor editor{};
   lang::Execution execution{};
   std::array<Errors, kModules> errors{};
-  std::array<std::uint8_t, kModules> inputs{};  // bit n: input n + 1, as looked at in this tick
+  std::array<std::uint8_t, kModules> inputs{};  // bit n: input n + 1, as sampled in this tick
   Tick powered_at = 0;                          // ?time counts from it
   Tick clock_zero = 0;                          // TM counts from it
-  std::string speech{};                         // not taken yet
-  bool touched = true;                          // something was done from outside since the last tick
+  std::string speech{};                         // not taken yet by the line
+  bool touched = true;                          // an outside event has come since the last tick
 
   bool operator==(const State&) const = default;
 };
@@ -104,7 +104,7 @@ class Slim final : public DeviceOf<Slim>,
   void load_program(std::string_view text) override;
   std::string program_text() const override;
   std::vector<ProgramPlace> places() const override;
-  /// What is wrong with a text, for a device made like this one.
+  /// Returns the mistakes in a program text, for a device with these settings.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const { return read_program(text).mistakes; }
 
   // --- time ---
@@ -123,7 +123,7 @@ class Slim final : public DeviceOf<Slim>,
   bool output(int terminal) const override;
   bool output_moves(int /*terminal*/) const override {
     return false;
-  }  // those by position and by time have ticks of their own
+  }  // outputs that change by position or time have ticks of their own
   std::int64_t pulses_this_tick(int axis) const override { return state_.chain.pulses(axis); }
   double speed_pps(int axis) const override { return state_.chain.speed_pps(axis); }
   std::optional<bool> servo_on(int axis) const override { return powered() && state_.chain.servo_on(axis); }
@@ -142,22 +142,22 @@ class Slim final : public DeviceOf<Slim>,
   void read_memory(const NvImage& given) override;
 
  private:
-  /// What a command has to say.
+  /// The reply to a command.
   struct Answer {
     std::string name{};
     std::string text{};
-    std::optional<double> number{};  // of a query that has one
-    bool has_words = true;           // false: only the number is wanted
+    std::optional<double> number{};  // the value of a numeric query
+    bool has_words = true;           // false: only the number is needed
   };
 
-  /// A program, as far as its lines are good.
+  /// A program as read: its good lines, and the mistakes.
   struct ReadProgram {
     lang::Program program{};
     std::vector<ProgramMistake> mistakes{};
   };
   ReadProgram read_program(std::string_view text) const;
 
-  // Of a program: interpreter/slim/machine.h.
+  // Machine of a program: interpreter/slim/machine.h.
   bool input(int number) const override;
   double value(const lang::Operand& operand) const override;
   lang::Outcome carry_out(const lang::Command& command) override;
@@ -170,22 +170,22 @@ class Slim final : public DeviceOf<Slim>,
   bool is_silence(Error error) const {
     return error == Error::not_linked && chose(option("unlinked_module", "silence"));
   }
-  /// As it is shown.
+  /// Returns the number that is shown for an error.
   int code_of(Error error) const;
   std::size_t history_length() const {
     return static_cast<std::size_t>(chosen_number(numbers("history_length")));
   }
-  /// For what a program says by itself: it is faster than its line.
+  /// Returns true if there is room for unrequested output of a program, which is faster than its line.
   bool has_room_to_speak() const {
     return state_.speech.size() < static_cast<std::size_t>(chosen_number(numbers("print_ahead")));
   }
   void say(std::string_view text);
-  /// What has succeeded and says nothing itself.
+  /// Acknowledges a successful command that has no reply of its own.
   void acknowledge() {
     if (chose(option("acknowledgement", "ok"))) say("OK");
   }
   bool errors_are_of_t0() const { return chose(option("error_of", "t0")); }
-  /// These two return the module that ends up with the error.
+  /// Both return the module that ends up with the error.
   int fail(int module, Error error);
   int remember(int module, Error error);
   void note_error(int module, Error error);
@@ -209,14 +209,14 @@ class Slim final : public DeviceOf<Slim>,
   }
   double amount(const lang::Command& command, std::size_t operand) const;
   std::string text_of(const lang::Operand& variable) const;
-  /// A module that has an axis letter already gives it up for another one.
+  /// Returns true if, by choice, a module with an axis letter gives it up for a new one.
   bool takes_letters_away() const { return chose(option("axis_values", "is_taken_from_its_letter")); }
   Error set_variable(const lang::Operand& variable, double value);
-  /// PR4 is another name of PR3, unless it is a speed of its own.
+  /// Returns the parameter's canonical name: PR4 is another name of PR3, unless it is a speed of its own.
   std::string_view meant(std::string_view parameter) const {
     return parameter == "PR4" && !state_.chain.lines_have_own_speed() ? "PR3" : parameter;
   }
-  /// By number: this many pulses are this many user units.
+  /// The user unit, by parameter numbers: this many pulses are this many user units.
   struct UserUnit {
     std::size_t pulses = parameter("PN45");
     std::size_t units = parameter("PN46");
@@ -254,7 +254,7 @@ class Slim final : public DeviceOf<Slim>,
   bool level(int module, int which) const { return Device::input(terminal(module, which)) != 0; }
   std::uint8_t input_levels(int module) const;
   bool sees_something_new() const;
-  /// What a module's number is, or that it is not linked.
+  /// Returns none if the module is linked, else the error.
   Error linked(int module) const;
   ChainOptions chain_options() const;
   lang::ProgramOptions program_options() const;
@@ -264,14 +264,14 @@ class Slim final : public DeviceOf<Slim>,
   Memory factory() const;
   bool history_is_kept() const { return chose(option("history_kept", "for_ever")); }
   std::array<Errors, kModules> read_history(NvImage& image) const;
-  /// By PZ.
+  /// Returns true if PZ holds the program.
   bool program_is_held() const {
     const bool is_paused =
         state_.chain.queues_paused() || (chose(pauses::kOnePause) && state_.chain.paused());
     return chose(option("pause_and_program", "program_pauses_too")) && is_paused;
   }
   void reboot();
-  /// As if all ticks up to now had been run one by one.
+  /// Returns the state as if all ticks up to now had been run one by one.
   State settled() const;
   void wake() {
     state_.chain.skip_to(now());
@@ -280,8 +280,8 @@ class Slim final : public DeviceOf<Slim>,
 
   int modules_ = 1;
   lang::FlowOptions flow_options_{};
-  int failed_module_ = 0;  // within a step of the program: the module whose command carry_out() refused
-  // Queries by their names: not state, only a cache of the words.
+  int failed_module_ = 0;  // within a step of the program: the module whose command carry_out() has refused
+  // Parsed queries by name: not state, only a cache.
   mutable std::map<std::string, std::optional<lang::Command>, std::less<>> queries_{};
   State state_;
 };

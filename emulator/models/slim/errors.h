@@ -1,4 +1,4 @@
-// What a chain of SLIM modules refuses: the language's own numbers, which ?ERR shows.
+// Errors of a chain of SLIM modules: the language's own numbers, which ?ERR shows.
 #pragma once
 
 #include "interpreter/slim/error.h"

@@ -1,9 +1,9 @@
-// Where pausing, going on and stopping meet what the chain and its program are doing: one table. Each cell
-// has its result, and the authority for it: the list's line, or a row of choices.h, whose first option stands
-// here.
+// The transition table of pauses, resumes and stops against the activities of the chain and its program. Each
+// cell has its outcome and the source for it: the list's line, or a row of choices.h, whose first option it
+// is.
 //
-// The code follows it (chain_stops.cpp for motions; dialogue.cpp and commands.cpp for programs), and
-// meetings_test.cpp tries every cell.
+// The code follows this table (chain_stops.cpp for motions; dialogue.cpp and commands.cpp for programs), and
+// meetings_test.cpp checks every cell.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// States. The last four are a program's, which may run during any of the others.
+/// The activities. The last four are those of a program, which may run during any of the others.
 enum class Doing : std::uint8_t {
   line,
   move,
@@ -29,11 +29,11 @@ inline constexpr std::size_t kDoings = 9;
 
 enum class Meeting : std::uint8_t {
   pause,    // TAPZ
-  go_on,    // TAREDO, in the pause
-  give_up,  // TAUPZ, in the pause
+  go_on,    // TAREDO, during the pause
+  give_up,  // TAUPZ, during the pause
   stop,     // TASTOP
   pause_q,  // PZ
-  go_on_q,  // REDO, in that pause
+  go_on_q,  // REDO, during that pause
 };
 inline constexpr std::size_t kMeetings = 6;
 
@@ -42,22 +42,22 @@ enum class From : std::uint8_t { host, program, event_routine };
 inline constexpr std::size_t kSources = 3;
 
 enum class Outcome : std::uint8_t {
-  // of a motion
-  comes_to_a_stand,  // by its ramp, on its path; nothing of it is lost
-  does_as_before,    // what it did before the pause
-  is_forgotten,      // it stands still, and will not go on
-  stops_at_once,     // without another pulse, and will not go on
-  // of a program
-  goes_on,             // as if nothing had happened: it waits on, or takes its next line
-  ends,                // no line more
-  ends_after_routine,  // the event's routine goes on to its RET, but what it interrupted does not
-  cannot_be,           // a program that waits says nothing, except for an event's routine
+  // of a motion:
+  comes_to_a_stand,  // slows down by its ramp, on its path; nothing of it is lost
+  does_as_before,    // continues what it did before the pause
+  is_forgotten,      // stands still and does not continue
+  stops_at_once,     // stops without another pulse and does not continue
+  // of a program:
+  goes_on,             // continues as if nothing had happened: it waits on, or takes its next line
+  ends,                // takes no further line
+  ends_after_routine,  // the event's routine continues to its RET, but the interrupted program does not
+  cannot_be,           // impossible: a waiting program gives no command, except in an event's routine
 };
 
 struct MeetingRow {
   Doing doing;
   Meeting meeting;
-  std::array<Outcome, kSources> outcomes;  // from the host, the program, an event's routine
+  std::array<Outcome, kSources> outcomes;  // by From: the host, the program, an event's routine
   std::string_view by;
 };
 
@@ -130,7 +130,7 @@ inline constexpr MeetingRow kMeetingTable[] = {
      Meeting::stop,
      {Outcome::ends, Outcome::cannot_be, Outcome::ends_after_routine},
      "emergency_stop_program"},
-    // --- PZ and REDO: the same of motions; of programs by a row of their own
+    // --- PZ and REDO: like TAPZ and TAREDO for motions; for programs by a row of their own
     {Doing::line, Meeting::pause_q, meetings::any(Outcome::comes_to_a_stand), "pause_scope"},
     {Doing::move, Meeting::pause_q, meetings::any(Outcome::comes_to_a_stand), "pause_scope"},
     {Doing::homing, Meeting::pause_q, meetings::any(Outcome::comes_to_a_stand), "pause_scope"},
@@ -157,7 +157,7 @@ inline constexpr MeetingRow kMeetingTable[] = {
      "while_program_runs"},
 };
 
-/// The cell's row; every cell has one.
+/// Checks that every cell has exactly one row.
 consteval bool every_meeting_has_a_row() {
   for (std::size_t doing = 0; doing < kDoings; ++doing) {
     for (std::size_t meeting = 0; meeting < kMeetings; ++meeting) {

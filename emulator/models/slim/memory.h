@@ -1,4 +1,5 @@
-// The numbers that a SLIM holds: its modules' parameters, variables, arrays. In RAM, and as they are kept.
+// The numbers in a SLIM: parameters of its modules, variables, arrays. There is a copy in RAM and a retentive
+// one.
 #pragma once
 
 #include <array>
@@ -23,20 +24,21 @@ struct Memory {
   bool operator==(const Memory&) const = default;
 };
 
-/// As it leaves the factory; the first `modules` are linked.
+/// Returns the memory of a new device; the first `modules` are linked.
 Memory factory_memory(int modules);
 
-/// The names and ranges that a bench has chosen.
+/// The names and ranges that the bench has chosen.
 struct MemoryForm {
   SpeedNames speed_names = SpeedNames::pn10_is_vm;
   int integer_least = interpreter::slim::kIntegerLeast;
 };
 
-/// "T1PR3", of a row by its number; of the host without a prefix, as commands name it.
+/// Returns the name of a parameter row, "T1PR3"; parameters of the whole chain have no prefix, as in
+/// commands.
 std::string parameter_name(int module, std::size_t number, SpeedNames names);
 
-/// What differs from `factory`, by name, into an image; and back into a memory that is `factory` otherwise.
-/// The latter throws NvError for unknown names and impossible values.
+/// write_image() writes the values that differ from `factory`, by name. read_image() reads them into a memory
+/// that is `factory` otherwise; it throws NvError for unknown names and impossible values.
 void write_image(const Memory& memory, const Memory& factory, const MemoryForm& form, NvImage& image);
 Memory read_image(const NvImage& image, const Memory& factory, const MemoryForm& form);
 

@@ -1,4 +1,4 @@
-// How SLIM writes its numbers.
+// Text of numbers in SLIM's replies.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 namespace understudy::emulator::models::slim {
 
 enum class RealForm : std::uint8_t {
-  plain,     // digits and a point, whatever the size
-  exponent,  // from 1e9 on and below 1e-4 with an exponent
+  plain,     // digits and a point, for any size
+  exponent,  // with an exponent from 1e9 on and below 1e-4
 };
 
 std::string text_of_integer(double value);
-/// As few digits as distinguish a 32-bit real from its neighbours.
+/// Writes as few digits as distinguish a 32-bit real from its neighbours.
 std::string text_of_real(double value, RealForm form = RealForm::plain);
-/// Every pulse: whole numbers exactly, others to the ninth decimal as far as 15 digits go.
+/// Writes every pulse: whole numbers exactly, others to the ninth decimal as far as 15 digits go.
 std::string text_of_coordinate(double units);
 
 }  // namespace understudy::emulator::models::slim

@@ -1,5 +1,5 @@
-// SLIM: the options of choices.h as the code asks for them, `chose(option("thrust", "runs_at_vj"))`. An
-// unknown row or option is a compile error. Of options that are numbers the row is asked for:
+// SLIM: the code looks up the options of choices.h with these, as in `chose(option("thrust", "runs_at_vj"))`.
+// An unknown row or option is a compile error. For options that are numbers it looks up the row:
 // `chosen_number(numbers("history_length"))`.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace understudy::emulator::models::slim {
 
 consteval Option option(std::string_view id, std::string_view name) { return option_of(kChoices, id, name); }
 
-/// The number that one of a row's options begins with: 256 of "256_lines".
+/// Returns the number that an option of a row begins with: 256 of "256_lines".
 constexpr int number_of(const ChoiceRow& row, std::size_t option_number) {
   std::string_view rest = row.options;
   for (; option_number > 0; --option_number) rest.remove_prefix(rest.find('|') + 1);
@@ -26,7 +26,7 @@ constexpr int number_of(const ChoiceRow& row, std::size_t option_number) {
   return number;
 }
 
-/// A row whose options are numbers; a compile error if one of them is not.
+/// Returns a row whose options are numbers; it is a compile error if one of them is not.
 consteval std::size_t numbers(std::string_view id) {
   const std::size_t row = choice_number(kChoices, id);
   const auto bars = std::ranges::count(kChoices[row].options, '|');

@@ -18,21 +18,22 @@ struct Output {
     pwm,    // on for the first `duty_percent` of each period, counted from `since`
   };
   Mode mode = Mode::level;
-  bool on = false;  // of a level; else before `since`
+  bool on = false;  // the level in mode level; in the other modes that before `since`
   Tick since = 0;
-  Tick width = 0;  // of a pulse
+  Tick width = 0;  // of a single pulse
   double frequency_hz = 0;
   double duty_percent = 0;
 
   bool operator==(const Output&) const = default;
 
-  /// A frequency that ticks cannot show (above 500 Hz) shows the level that prevails.
+  /// Returns the level at a tick. A frequency that ticks cannot show (above 500 Hz) gives the prevailing
+  /// level.
   bool level_at(Tick tick) const;
-  /// The first tick after `done` at which the level may change by itself; kNever if it will not.
+  /// Returns the first tick after `done` at which the level may change without a command, or kNever.
   Tick next_change(Tick done) const;
 };
 
-/// What a command does to outputs.
+/// A command for outputs.
 struct OutputOrder {
   enum class Kind : std::uint8_t { set, clear, toggle, pulse, pwm, all, arm };
   Kind kind = Kind::set;
@@ -48,7 +49,7 @@ struct OutputOrder {
   bool operator==(const OutputOrder&) const = default;
 };
 
-/// P1SET, P1CLR (trigger 0), P2SET, P2CLR (trigger 1): when the coordinate is reached from either side.
+/// P1SET, P1CLR (trigger 0), P2SET, P2CLR (trigger 1): act when the coordinate is reached from either side.
 struct PositionTrigger {
   bool armed = false;
   bool sets = false;
@@ -58,7 +59,7 @@ struct PositionTrigger {
   bool operator==(const PositionTrigger&) const = default;
 };
 
-/// All kinds but arm. Pulses and PWM begin with tick `begin_at`, so that they last for whole ticks.
+/// Executes all kinds but arm. Pulses and PWM begin with tick `begin_at`, to last for whole ticks.
 void carry_out(Output& output, const OutputOrder& order, Tick begin_at);
 
 }  // namespace understudy::emulator::models::slim

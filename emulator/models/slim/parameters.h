@@ -20,21 +20,21 @@ struct ParameterDefinition {
   enum class Type : std::uint8_t { integer, real } type = Type::real;
   double lowest = 0;
   double highest = 0;
-  bool above_lowest = false;  // the lowest itself is not allowed
+  bool above_lowest = false;  // the lowest value itself is not allowed
   double factory = 0;
   std::string_view unit;
-  bool host_only = false;  // one for the chain, T0's
+  bool host_only = false;  // one for the whole chain, stored in T0
   std::string_view meaning;
-  std::string_view unmodelled{};  // what is missing, if it is only stored
+  std::string_view unmodelled{};  // what is missing, if the parameter is only stored
 };
 
 inline constexpr double kMaxReal = 3.4028234663852886e38;  // float32
-/// Speeds and accelerations outside belong to no machine, and may be impossible to plan. (As 32 bits hold
-/// 1e-6.)
+/// Speeds and accelerations outside these limits belong to no machine, and may be impossible to plan. (1e-6
+/// is the value that 32 bits hold.)
 inline constexpr double kLeastSpeed = 1e-6F;
 inline constexpr double kMostSpeed = 1e9;
 
-/// In the order in which ULC lists them.
+/// All parameters, in the order in which ULC lists them.
 inline constexpr ParameterDefinition kParameters[] = {
     {"PN10", "VM", ParameterDefinition::Type::real, kLeastSpeed, 1e6, false, 1000, "RPM or RPS, by FU", false,
      "working speed"},
@@ -71,10 +71,10 @@ inline constexpr ParameterDefinition kParameters[] = {
 };
 inline constexpr std::size_t kParameterCount = std::size(kParameters);
 
-/// The values of one module. An integer is held exactly.
+/// The values of one module. A double holds an integer exactly.
 using Parameters = std::array<double, kParameterCount>;
 
-/// The number of a row; a compile error for an unknown name.
+/// Returns the number of a row; an unknown name is a compile error.
 consteval std::size_t parameter(std::string_view name) {
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     if (kParameters[i].name == name || (!kParameters[i].alias.empty() && kParameters[i].alias == name))
@@ -83,11 +83,11 @@ consteval std::size_t parameter(std::string_view name) {
   throw "no such parameter";
 }
 
-/// Of PN10 and PN14 the manual says only that both are speeds. Rows are named after what they mean: with
-/// `pn14_is_vm` the first is called PN14.
+/// Which of PN10 and PN14 is VM. The manual says only that both are speeds. Rows are ordered by meaning: with
+/// `pn14_is_vm` the first row is called PN14.
 enum class SpeedNames : std::uint8_t { pn10_is_vm, pn14_is_vm };
 
-/// The row whose name is at that place in a list; and the place of a row.
+/// Converts a place in a list into the row whose name is there, and a row into its place.
 constexpr std::size_t listed_at(std::size_t place, SpeedNames names) {
   static_assert(parameter("PN10") == 0 && parameter("PN14") == 1);
   return names == SpeedNames::pn14_is_vm && place < 2 ? 1 - place : place;
@@ -96,7 +96,7 @@ constexpr std::string_view name_of(std::size_t number, SpeedNames names) {
   return kParameters[listed_at(number, names)].name;
 }
 
-/// By name or alias, in capitals.
+/// Finds a row by name or alias, in capitals.
 constexpr std::optional<std::size_t> find_parameter(std::string_view name, SpeedNames names) {
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     const std::string_view alias = kParameters[i].alias;
@@ -111,19 +111,19 @@ constexpr Parameters factory_parameters() {
   return all;
 }
 
-/// The value as the parameter holds it: a real one is rounded to what 32 bits hold. Nothing if it is out of
-/// range.
+/// Returns the value as the parameter stores it: a real is rounded to what 32 bits hold. Returns nothing if
+/// it is out of range.
 std::optional<double> fitted(const ParameterDefinition& row, double value);
 
-/// TM is set like a parameter.
+/// The limit of TM, which is set like a parameter.
 inline constexpr double kMostClock_s = 1e9;
 
-/// Why an assignment is refused, whatever the chain is doing: no such parameter (syntax), or a value that it
-/// cannot have. Without a value, the former. An axis map may name a module twice only if the last letter
-/// takes it from the others.
+/// Returns why an assignment is refused in any state of the chain: an unknown parameter (syntax), or a value
+/// that it cannot have. Without a value, only the name is checked. An axis map may name a module twice only
+/// if the last letter takes it from the others.
 Error check_parameter(int module, std::string_view name, std::optional<double> value, SpeedNames names,
                       bool module_taken_from_letter);
-/// The same for a line of a program, whose value may be a variable; all other lines are accepted.
+/// Like check_parameter(), for a program line, whose value may be a variable; all other lines are accepted.
 Error check_parameter_line(const interpreter::slim::Command& command, bool module_taken_from_letter);
 
 }  // namespace understudy::emulator::models::slim

@@ -1,12 +1,12 @@
-// Which pause is on, which command comes, and what happens then: one table.
+// The transition table of pauses: for each pause in force and each command, what happens.
 //
-//   PZ   is ended by REDO, which goes on, and by CLR BUF, which gives up
-//   TAPZ is ended by TAREDO, which goes on, and by TAUPZ, which gives up
+//   PZ   is ended by REDO, which continues, and by CLR BUF, which abandons
+//   TAPZ is ended by TAREDO, which continues, and by TAUPZ, which abandons
 //   TASTOP ends both
 //
-// The two can be on together: what moves goes on when neither is left. Each cell says what is done, which
-// pause is left, the authority for it (the list's line, or a row of choices.h), and what other options make
-// of it. chain_stops.cpp and chain_commands.cpp ask it; pauses_test.cpp tries every cell.
+// Both pauses can be in force; motion continues when neither is left. Each cell has the outcome, the pause
+// that is left, the source (the list's line, or a row of choices.h), and the results under other options.
+// chain_stops.cpp and chain_commands.cpp look it up; pauses_test.cpp checks every cell.
 #pragma once
 
 #include <array>
@@ -38,22 +38,22 @@ enum class InPause : std::uint8_t {
   taredo,
   taupz,
   tastop,
-  reset,   // of T0; of another module it concerns only that one
-  motion,  // one that waits in the buffer for its turn: MA, H, 2MA ...
-  jog,     // one that cannot wait: JGF, JGR, FT
+  reset,   // of T0; a RESET of another module concerns only that module
+  motion,  // a motion that can wait in the buffer: MA, H, 2MA ...
+  jog,     // a motion that cannot wait: JGF, JGR, FT
 };
 inline constexpr std::size_t kInPause = 10;
 
 enum class PauseOutcome : std::uint8_t {
-  slows_down,  // what is held comes to a stand on its path; nothing of it is lost
-  goes_on,     // what is no longer held does what it did before
-  gives_up,    // what is half done and what waits is forgotten
-  clears,      // what waits is forgotten; what is half done is finished, now or after the pause
-  stops,       // no more pulses, and nothing is left
-  resets,      // the same of one module
-  in_vain,     // nothing, or error 3 by `ineffective_pause`
-  is_taken,    // begins when its turn comes
-  waits,       // is taken, and begins when the pause is over
+  slows_down,  // held motion slows down on its path; nothing of it is lost
+  goes_on,     // motion that is no longer held continues
+  gives_up,    // the unfinished and the waiting commands are discarded
+  clears,      // the waiting commands are discarded; the unfinished one is finished, now or after the pause
+  stops,       // no more pulses, and no command is left
+  resets,      // like stops, for one module
+  in_vain,     // no effect, or error 3 by `ineffective_pause`
+  is_taken,    // accepted; begins when its turn comes
+  waits,       // accepted; begins when the pause is over
   is_refused,  // error 6; a program waits
 };
 
@@ -64,7 +64,7 @@ struct PauseResult {
   bool operator==(const PauseResult&) const = default;
 };
 
-/// What an option makes of a cell.
+/// The result of a cell under another option.
 struct OtherPauseResult {
   std::optional<Option> chosen{};
   PauseResult result{};
@@ -75,7 +75,7 @@ struct PauseRow {
   InPause what;
   PauseResult result;
   std::string_view by;
-  OtherPauseResult other{}, another{};  // the first that is chosen counts
+  OtherPauseResult other{}, another{};  // the first chosen one applies
 };
 
 namespace pauses {

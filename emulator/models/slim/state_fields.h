@@ -1,4 +1,4 @@
-// What the state of a SLIM consists of (base/state/fields.h), in the order of the bytes.
+// The fields of a SLIM's state (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include <string>

@@ -29,9 +29,9 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// How the chip is told to run (PRMD), and that it is to start with a ramp (PRCMD).
+/// The chip's mode of motion (PRMD), and its command to start with a ramp (PRCMD).
 constexpr int kModeContinuous = 0x00;
-constexpr int kModeNegative = 0x08;  // added for the negative way
+constexpr int kModeNegative = 0x08;  // added for the negative direction
 constexpr int kStartWithRamp = 0x53;
 
 std::int32_t in_32_bits(double number) {
@@ -119,7 +119,7 @@ void Super40nc::report(Code code, Mover of_its_line) {
   report(error);
 }
 
-/// A program has started, or a motion by hand or of the PLC.
+/// Called when a program, or a motion by hand or of the PLC, has started.
 void Super40nc::error_is_over() {
   if (!chose(option("error_clears", "plc_to_run_alone"))) clear_error();
 }
@@ -182,7 +182,7 @@ motion::AxisSettings Super40nc::motor_settings(int axis, bool homes) const {
   return made;
 }
 
-/// What is taken from the parameters when a motion starts.
+/// Takes from the parameters what a motion needs when it starts.
 void Super40nc::prepare(int axis_number, bool homes) {
   const Settings its = registers();
   AxisState& state = axis(axis_number);
@@ -200,12 +200,12 @@ void Super40nc::prepare(int axis_number, bool homes) {
   settings.backlash_speed_pps = std::min(its.pps(axis_number, creep_rpm), its.top_pps(axis_number));
   chip(axis_number).set(settings);
   state.masked = its.is_on(kept_x(17), axis_number);
-  // What has come in this tick counts; the DOG's edge is left for the latch.
+  // Signals that have come in this tick count; the DOG's edge is left for the latch.
   motion::Axis& motor = chip(axis_number);
   const motion::Signals mark = motion::bit(motion::Signal::mark);
   const motion::Signals seen = here(axis_number).at(motor.travel_pulses, motor.signals);
   motor.signals = static_cast<motion::Signals>((seen & ~mark) | (motor.signals & mark));
-  // A host may have written the high half alone, by the manual's wrong example: the low one counts.
+  // A host may have written the high half alone, as the manual's wrong example does: the low half counts.
   const bool is_whole = chose(option("motor_direction", "whole_value"));
   const std::int32_t direction = its.raw(kept_x(0), axis_number) & (is_whole ? -1 : 0xFFFF);
   const bool inverted = direction == 3 || direction == 6;
@@ -228,7 +228,7 @@ void Super40nc::begun(int axis_number, motion::Cause why_not, Holder holder) {
     fail(axis_number, code_of(why_not));
     return;
   }
-  // Of a program only its start does.
+  // For a program, only its start clears the error.
   if (state.mover >= Mover::plc) error_is_over();
   take_off(state, MarkEvent::motion_begins);
   state.holder = holder;
@@ -274,7 +274,7 @@ void Super40nc::start_jog(int axis_number, int way, bool AxisState::*asked_by) {
   mirror_start(axis_number, kModeContinuous + (way < 0 ? kModeNegative : 0), 0, law);
 }
 
-/// By a ramp, when nobody asks for it any more.
+/// Stops a jog by its ramp when no request is left.
 void Super40nc::release_jog(int axis_number, bool AxisState::*asked_by) {
   AxisState& state = axis(axis_number);
   if (state.holder != Holder::jog || !(state.*asked_by)) return;
@@ -308,7 +308,7 @@ void Super40nc::stop_axis(int axis_number, Code code) {
   let_go(axis_number);
 }
 
-/// The motor has come to rest by itself.
+/// Called when the motor has come to rest without a command.
 void Super40nc::ended(int axis_number) {
   AxisState& state = axis(axis_number);
   const motion::Axis& motor = chip(axis_number);
@@ -317,7 +317,7 @@ void Super40nc::ended(int axis_number) {
   state.has_ended = true;
   if (held == Holder::nobody || held == Holder::rest) return;
   const bool has_found = (motor.events & motion::bit(motion::Event::homed)) != 0;
-  // What the search or mark before ended by is not asked for: its result stays until the next one.
+  // The result of the last search or mark counts, however it ended; it stays until the next one.
   const bool is_stopped = why == motion::Cause::stopped;
   if (state.is_held && is_stopped && !has_found) return rest_axis(axis_number);
   if (held == Holder::wheel) return wheel_ended(axis_number);
@@ -379,7 +379,7 @@ void Super40nc::mirror_start(int axis_number, int mode, std::int64_t distance_pu
                          {10, its.raw(kept_x(68), axis_number)},
                          {11, its.raw(kept_x(69), axis_number)}};
   static constexpr Kept kFirst = kept_d(8120);
-  static constexpr Kept kFirstWorking = kept_d(8151);  // RMV, behind which the rest follows
+  static constexpr Kept kFirstWorking = kept_d(8151);  // RMV; the other registers follow
   const auto show = [&](Kept first, int offset, std::int32_t value) {
     const auto slot = first.slot + static_cast<std::size_t>(offset * kAxisCount + axis_number);
     state_.image[slot] = static_cast<std::uint32_t>(value);

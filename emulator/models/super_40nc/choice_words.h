@@ -1,4 +1,4 @@
-// How sure we are of a choice, for the rows of a SUPER-40NC.
+// Short names of the confidence levels of a choice, for the rows of a SUPER-40NC.
 #pragma once
 
 #include "emulator/device/choices.h"

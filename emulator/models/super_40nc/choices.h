@@ -1,5 +1,5 @@
-// SUPER-40NC: what its manual leaves open, and what we chose. docs/fidelity/super-40nc.md is made from these
-// rows; a bench overrides one with `choices: { ID: OPTION }`.
+// SUPER-40NC: what its manual leaves open, and what we chose. docs/fidelity/super-40nc.md is generated from
+// these rows; a bench overrides one with `choices: { ID: OPTION }`.
 #pragma once
 
 #include <array>

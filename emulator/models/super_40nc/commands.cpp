@@ -24,7 +24,7 @@ namespace language = interpreter::super_40nc;
 
 namespace {
 
-/// M8x00 + number.
+/// Returns the contact M8x00 + number.
 constexpr int of_axis(int axis, int number) { return 8100 + 100 * axis + number; }
 
 constexpr int kRun = 0;
@@ -38,7 +38,7 @@ constexpr int kWheelContacts[] = {8, 9, 10};
 constexpr WheelSource kWheelSources[] = {WheelSource::contact_1, WheelSource::contact_10,
                                          WheelSource::contact_100};
 
-/// All that a scan looks at.
+/// All contacts that a scan reads.
 constexpr auto kCommandContacts = [] {
   constexpr int kGeneral[] = {8000, 8001, 8002, 8004, 8005, 8006, 8008, 8500, 8501, 8507};
   constexpr int kOfEachAxis = 11;
@@ -96,7 +96,7 @@ void Super40nc::meet(int axis, ManualEvent event, Code code) {
   if (motion) meet(axis, *motion, event, code);
 }
 
-/// As the table has it.
+/// Applies the table of manual_motions.h.
 void Super40nc::meet(int axis, ManualMotion motion, ManualEvent event, Code code) {
   switch (answer_of(motion, event)) {
     case ManualAnswer::goes_on: break;
@@ -119,15 +119,15 @@ bool Super40nc::has_errors_for_a_scan() const {
   return has_one && chose(option("serr_clears", "one_scan"));
 }
 
-/// As long as it is ON: a program is reset, or an axis' program pauses at its line.
+/// While the emergency lasts, resets a program, or pauses an axis program at its line.
 void Super40nc::stop_by_emergency(language::Area area, bool is_new) {
   const language::Phase phase = state_.steps.programs[language::index_of(area)].phase;
   const bool pauses =
       area != language::Area::c && chose(option("emergency_of_axis_programs", "they_pause_at_their_line"));
   if (!pauses || (is_new && phase == language::Phase::held)) return tell(language::Event::emergency, area);
   if (!is_new) return;
-  tell(language::Event::limit_pauses, area);  // its motion is over
-  tell(language::Event::hold, area);          // a wait, or lines
+  tell(language::Event::limit_pauses, area);  // the motion of its line is over
+  tell(language::Event::hold, area);          // its wait, or its lines
 }
 
 void Super40nc::obey_stops() {
@@ -158,7 +158,7 @@ void Super40nc::obey_stops() {
     if (is_reset) tell(Event::reset, language::area_of_axis(number));
     if (!is_pressed(KeyDoes::stop, number)) continue;
     tell(Event::stop, language::area_of_axis(number));
-    set_contact(of_axis(number, kRun), false);  // a start in the same scan, too
+    set_contact(of_axis(number, kRun), false);  // also cancels a start in the same scan
   }
   if (is_pressed(KeyDoes::stop_c, -1)) {
     for (int number = 0; number < kAxisCount; ++number) meet(number, ManualEvent::main_stop);
@@ -180,12 +180,12 @@ void Super40nc::obey_stops() {
   }
 }
 
-/// PAUSE and M8006, where they end what is moved by hand.
+/// PAUSE and M8006: slow down motion by hand, if that is chosen.
 void Super40nc::slow_by_hand(int axis_number) {
   if (manual_motion(axis_number)) end_by_ramp(axis_number, Mover::hand);
 }
 
-/// What the panel triggers when it turns its pages.
+/// Executes what the panel triggers when it turns its pages.
 void Super40nc::obey_pages() {
   if (rises(8500)) {
     const bool renews_all = chose(option("parameter_moment", "when_m8500_rises"));
@@ -205,7 +205,7 @@ bool Super40nc::acts_behind_reset(int axis) const {
   return state_.were_held[static_cast<std::size_t>(axis)] && chose(option("level_after_stop", "act_at_once"));
 }
 
-/// A level that has stayed ON behind a stop, if that is chosen to act.
+/// Returns true for a level that has stayed ON through a stop, if a choice makes it act.
 bool Super40nc::is_level_again(int axis, int contact) const {
   return is_on(contact) && acts_behind_reset(axis);
 }
@@ -270,7 +270,7 @@ void Super40nc::obey_contacts() {
   }
 }
 
-/// M8004, where it is chosen to hold what runs: programs' and the PLC's motions, as a pause does.
+/// M8004: holds running motions of programs and the PLC like a pause, if that is chosen.
 void Super40nc::hold_while_inhibited() {
   const bool is_inhibited_now = is_on(8004);
   const bool has_changed = is_inhibited_now != state_.was_inhibited;
@@ -284,7 +284,7 @@ void Super40nc::hold_while_inhibited() {
     }
     return;
   }
-  // Not what a pause holds as well.
+  // Except those that a pause holds as well.
   const auto is_paused = [&](Mover mover) {
     return mover < Mover::plc && state_.steps.programs[static_cast<std::size_t>(mover)].machine_holds;
   };
@@ -298,7 +298,7 @@ void Super40nc::see_contacts() {
   state_.touched = false;
   for (const int number : kCommandContacts) {
     const bool level = contact(number);
-    // What was ON for this scan only falls in the next one.
+    // A contact that was ON for this scan only falls in the next one.
     if (!level && is_on(number)) state_.touched = true;
     state_.contacts.see(number, level);
   }

@@ -1,7 +1,7 @@
-// The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48): = (1), on the way up (2) or down (3), set
-// > count (4), set < count (5), and soft limits (6). Of COUNTER1, and of COUNTER2 and COUNTER4 where they
-// count pulses or an encoder, the chip's stop and latch to the pulse; by other numbers, and as soft limits by
-// others than COUNTER1, they do so when a tick is over.
+// The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48): = (1), on the way up (2) or down (3),
+// set > count (4), set < count (5), and soft limits (6). The chip stops and latches at the exact pulse for
+// COUNTER1, and for COUNTER2 and COUNTER4 if they count pulses or an encoder. For other numbers, and for soft
+// limits on counters other than COUNTER1, it does so at the end of a tick.
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -45,7 +45,7 @@ motion::Comparator::Relation relation_of(Value method) {
   }
 }
 
-/// Whether a number that went from one value to another has met the condition on its way.
+/// Returns true if a number has met the condition between two values.
 bool is_met(Value method, std::int64_t before, std::int64_t present, std::int64_t set) {
   const bool upwards = before < set && set <= present;
   const bool downwards = before > set && set >= present;
@@ -61,7 +61,7 @@ bool is_met(Value method, std::int64_t before, std::int64_t present, std::int64_
 
 }  // namespace
 
-/// What it compares.
+/// Returns the number that a comparator compares.
 std::int64_t Super40nc::compared_number(int axis, std::size_t which) const {
   switch (registers().of(kComparatorRows[which].source, axis)) {
     case 0: return counter(axis, 0);
@@ -92,7 +92,8 @@ bool Super40nc::comparator_holds(int axis, int number) const {
   }
 }
 
-/// As the chip compares it on the way; nothing where it looks when a tick is over.
+/// Returns the comparator as the chip compares within a tick, or nothing if it is checked at the end of a
+/// tick.
 std::optional<motion::Comparator> Super40nc::comparator_of(int axis_number, std::size_t which) const {
   const Settings its = registers();
   const ComparatorRow& row = kComparatorRows[which];
@@ -110,7 +111,7 @@ std::optional<motion::Comparator> Super40nc::comparator_of(int axis_number, std:
   constexpr Value kCounter4 = 3;
   const bool is_stopped = (its.raw(kept_x(30), axis_number) >> source & 1) != 0;
   if (is_stopped || (source != kCounter2 && source != kCounter4)) return std::nullopt;
-  // COUNTER2 by D9x23, COUNTER4 by D9x25: the pulses, the encoder, or something else.
+  // The source of COUNTER2 is D9x23, that of COUNTER4 D9x25: the pulses, the encoder, or something else.
   const Value from = its.of(source == kCounter2 ? kept_x(23) : kept_x(25), axis_number);
   const bool by_pulses = from == (source == kCounter2 ? 1 : 0);
   const bool by_encoder = from == (source == kCounter2 ? 0 : 1) && !its.is_on(kept_x(19), axis_number);
@@ -137,7 +138,7 @@ void Super40nc::set_comparators(int axis_number) {
     // D9x50: 2 and 3 are the comparators 4 and 5.
     const bool latches = which >= 3 && its.of(kept_x(50), axis_number) == static_cast<Value>(which) - 1;
     if ((!stops(action) && !latches) || method == 0) continue;
-    if (its.of(row.source, axis_number) == 0 && method == kSoftLimit) continue;  // the axis' own
+    if (its.of(row.source, axis_number) == 0 && method == kSoftLimit) continue;  // the axis's own soft limit
     std::optional<motion::Comparator> made = comparator_of(axis_number, which);
     if (!made || next == motor.comparators.size()) {
       if (stops(action))
@@ -153,7 +154,7 @@ void Super40nc::set_comparators(int axis_number) {
   see_counters(axis_number);
 }
 
-/// The same again changes nothing.
+/// Sets a comparator; setting the same one again changes nothing.
 void Super40nc::set_comparator(int axis, std::size_t place, motion::Comparator wanted) {
   const motion::Comparator& present = chip(axis).comparators[place];
   wanted.was_true = present.was_true;
@@ -161,7 +162,7 @@ void Super40nc::set_comparator(int axis, std::size_t place, motion::Comparator w
   if (wanted != present) chip(axis).set_comparator(place, wanted);
 }
 
-/// A number that was written has met nothing on its way.
+/// Marks the counters as seen: a written number has not passed anything.
 void Super40nc::see_counters(int axis_number) {
   AxisState& state = axis(axis_number);
   for (std::size_t which = 0; which < kComparators; ++which) {
@@ -170,7 +171,7 @@ void Super40nc::see_counters(int axis_number) {
   }
 }
 
-/// At the end of a tick.
+/// Checks the comparators at the end of a tick.
 void Super40nc::compare_counters(int axis_number) {
   AxisState& state = axis(axis_number);
   if (state.compares_by_tick == 0) return;

@@ -31,7 +31,7 @@ inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(�
     relay(8005).does<write_command>(8005),  // M code finished
     relay(8006).does<write_command>(8006),  // C: pause
     relay(8007),                            // C: single, continuous
-    relay(8008).does<write_command>(8008),  // D9 to the factory's values
+    relay(8008).does<write_command>(8008),  // D9 to factory values
     relays(8009, 8011),
     relays(8012, 8019),
     relays(8020, 8021),
@@ -40,7 +40,7 @@ inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(�
     relays(8024, 8099),
 });
 
-// Names of the chip's signals are the manual's (M8x20 SSCM to M8x58 PFM0).
+// The names of the chip's signals are the manual's (M8x20 SSCM to M8x58 PFM0).
 inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU 軸用)", {
     axis_relay(8100).does<write_command>(8100),  // START, PAUSE
     axis_relay(8101).does<write_command>(8101),  // single step

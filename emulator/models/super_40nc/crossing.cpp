@@ -1,5 +1,5 @@
-// Many ticks in one step, where a SUPER-40NC only counts on: the PLC has settled, no step program is at work,
-// and axes meet nothing.
+// Many ticks in one step, while a SUPER-40NC only counts: the PLC has settled, no step program runs, and axes
+// meet nothing.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -27,18 +27,18 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// COUNTER4 or the comparators 4 and 5 latch at the end of a tick: those are run.
+/// Returns true if COUNTER4 or the comparators 4 and 5 latch at the end of a tick: such ticks are run.
 bool latches_by_comparator(const Settings& its, int axis) { return its.of(kept_x(50), axis) >= 2; }
 
 }  // namespace
 
-/// Ticks that the PLC needs no scan in, if nothing that it reads changes.
+/// Returns the ticks in which the PLC needs no scan, if nothing that it reads changes.
 Tick Super40nc::quiet_scans(bool moves) const {
   if (ladder_->is_empty() || !state_.plc.runs) return kNever;
   return moves && watched_.some_move ? 0 : state_.plc_quiet_scans;
 }
 
-/// Signals have ticks of their own, and a PLC that looks at what moves scans in each.
+/// Signals have ticks of their own, and a PLC that reads moving values scans in each tick.
 bool Super40nc::output_moves(int /*terminal*/) const { return false; }
 
 bool Super40nc::scans_in(Tick tick) const {
@@ -46,9 +46,9 @@ bool Super40nc::scans_in(Tick tick) const {
   return is_one_of_them && tick >= state_.flash_until;
 }
 
-/// A scan that has changed nothing is the same again until what it reads changes. What hosts and step
-/// programs write, they tell (touched, programs_are_busy()); the rest is looked at in each tick that is run.
-/// In those that are not, only what moves changes, by its row (Varies).
+/// A scan that has changed nothing is the same again until something that it reads changes. Writes by hosts
+/// and step programs are noted (touched, programs_are_busy()); other values are checked in each tick that is
+/// run. In skipped ticks only moving values change, as their rows say (Varies).
 void Super40nc::find_what_plc_watches() {
   using language::Letter;
   watched_.places.clear();
@@ -76,11 +76,11 @@ void Super40nc::note_what_plc_sees() {
     watched_.seen[i] = read_value(*this, watched_.places[i]);
 }
 
-/// At the end of a tick.
+/// Checks at the end of a tick whether the PLC must scan.
 void Super40nc::wake_plc_by_what_changed() {
   const bool sleeps = !ladder_->is_empty() && state_.plc.runs && state_.plc_quiet_scans > 0;
   if (!sleeps) return;
-  bool is_as_seen = watched_.seen.size() == watched_.places.size();  // else the ladder is another one since
+  bool is_as_seen = watched_.seen.size() == watched_.places.size();  // else the ladder has been replaced
   for (std::size_t i = 0; is_as_seen && i < watched_.places.size(); ++i)
     is_as_seen = read_value(*this, watched_.places[i]) == watched_.seen[i];
   if (!is_as_seen) state_.plc_quiet_scans = 0;
@@ -95,7 +95,7 @@ bool Super40nc::is_quiet(int axis_number) const {
 }
 
 Tick Super40nc::next_active_tick(Tick done) const {
-  const bool scans = !ladder_->is_empty() && state_.plc.runs;  // they are crossed, not skipped
+  const bool scans = !ladder_->is_empty() && state_.plc.runs;  // scans are skipped in bulk, not left out
   if (scans || state_.touched || inputs_changed() || programs_are_busy() || has_errors_for_a_scan()) {
     return done + 1;
   }

@@ -30,8 +30,8 @@ inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用
     data(8003).range(0, 1000).does<limit_voltage>(0),  // Vout1; 1000 are 3.3 V
     data(8004).range(0, 1000).does<limit_voltage>(1),  // Vout2
     data(8005).range(0, 200).in("%").from_factory(100).does<change_override>(),
-    data(8006).in("0.001 mm/s"),  // F in force
-    data(8007).range(0, 2),       // plane in force
+    data(8006).in("0.001 mm/s"),  // current F
+    data(8007).range(0, 2),       // current plane
     data(8008),
     data(8009, 8018),
     data(8019).shows<read_table_line, Varies::in_ticks>().does<write_nothing>(),  // line of the user table
@@ -55,8 +55,8 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8100).in("step").shows<read_pointer, Varies::in_ticks>(1).does<write_pointer>(1),
     axis_data(8101, 8116, 0), axis_data(8101, 8116, 1), axis_data(8101, 8116, 2), axis_data(8101, 8116, 3),
     axis_data(8117).in("0.001 mm").shows<read_work_position, Varies::while_moving>().does<set_work_position>(),
-    axis_data(8118).range(0, 2).from_factory(1).does<change_axis>(),  // +EL as in force
-    axis_data(8119).range(0, 2).from_factory(1).does<change_axis>(),  // -EL as in force
+    axis_data(8118).range(0, 2).from_factory(1).does<change_axis>(),  // +EL setting in force
+    axis_data(8119).range(0, 2).from_factory(1).does<change_axis>(),  // -EL setting in force
     axis_data(8120),  // PRCMD
     axis_data(8121),  // PRMV
     axis_data(8122),  // PRFL

@@ -35,7 +35,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// Of the signals, the time of each.
+/// The output and time of each signal.
 struct FinishSignal {
   Kept output;
   Kept time;
@@ -85,7 +85,7 @@ MapPolicy Super40nc::chosen_map_policy() const {
 }
 
 Addressing Super40nc::addressing(std::uint8_t address) const {
-  // D9000 is the number; 0 is one as well, and answers.
+  // D9000 is the station number; 0 is also a number, and answers.
   if (address == 0 && chose(option("station_rule", "0_is_never_answered"))) return Addressing::obey_silently;
   const Kept kept = kept_d(9000);
   const Value number = chose(option("station_change", "at_the_next_power_up"))
@@ -104,7 +104,7 @@ bool Super40nc::knows(std::uint8_t function) const {
   return function != kSeveralCoils || !chose(option("coils_at_once", "exception_1"));
 }
 
-/// The usual one is 3.5 characters.
+/// The usual silence is 3.5 characters.
 pty::SimTime Super40nc::end_silence(pty::SimTime usual) const {
   if (chose(option("frame_gap", "10_ms"))) return std::chrono::milliseconds(10);
   return chose(option("frame_gap", "1_5_characters")) ? usual * 3 / 7 : usual;
@@ -155,7 +155,7 @@ void Super40nc::sample_inputs(Tick tick) {
   if (!take_inputs_changed()) return;
   const bool was_emergency = state_.emergency;
   look_at_inputs();
-  // What is ON before the first scan is no edge, also where a listing came before the inputs did.
+  // A contact that is ON before the first scan is not an edge, even if a listing came before the inputs did.
   if (state_.plc.runs && state_.plc.is_first_scan) {
     ProgramMachine machine(*this);
     language::run(state_.plc, *ladder_, machine, options_);
@@ -163,7 +163,7 @@ void Super40nc::sample_inputs(Tick tick) {
   if (was_emergency != state_.emergency) state_.touched = true;
 }
 
-/// PLC, keys, contacts, step programs: later writers win.
+/// Runs PLC, keys, contacts and step programs in this order: later writers win.
 void Super40nc::run_interpreters(Tick tick) {
   if (!scans_in(tick)) return;
   const bool contacts_first = chose(option("scan_order", "contacts_before_the_plc"));
@@ -183,7 +183,7 @@ void Super40nc::run_plc() {
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
   const auto ladder = ladder_;
   if (!ladder->is_empty() && state_.plc.runs) {
-    // A scan that changed nothing, and was not told of anything new, is the same again.
+    // A scan that changed nothing, and had no new input, is the same again.
     const bool was_told = state_.touched;
     const language::Scanned scanned = language::scan(state_.plc, *ladder, machine, steps, options_);
     state_.plc_quiet_scans = was_told || scanned.has_changed ? 0 : scanned.quiet_scans;

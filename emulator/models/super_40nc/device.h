@@ -1,6 +1,6 @@
-// SUPER-40NC: a four-axis controller on Modbus RTU by two ports. Its state is one value; what contacts and
-// registers do is in effects.cpp, what a scan does with command contacts in commands.cpp, with the panel's
-// keys in keys.cpp, and what axes do in axes.cpp.
+// SUPER-40NC: a four-axis controller on Modbus RTU with two ports. Its state is one value. effects.cpp holds
+// the effects of contacts and registers, commands.cpp the command contacts of a scan, keys.cpp the panel's
+// keys, and axes.cpp the axes.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// What D8094 shows of it.
+/// Returns the code that D8094 shows for `why`.
 Code code_of(motion::Cause why);
 
 class Super40nc final : public DeviceOf<Super40nc>,
@@ -78,11 +78,11 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::uint64_t kept_revision() const override { return state_.eeprom.revision() + state_.blocks.revision(); }
   void settle_memory() override { state_.eeprom.settle(state_.image); }
 
-  /// Areas that the text does not name stay as they are. A listing that is refused shows in D8094 to D8096.
-  /// What would be wrong with it as a program.
+  /// Returns the errors of `text` as a program.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
-  /// What is odd about it, though it loads.
+  /// Returns the warnings about `text`: it loads, but something is odd.
   std::vector<ProgramMistake> warnings_about(std::string_view text) const;
+  /// Areas that `text` does not name stay as they are. A refused listing shows in D8094 to D8096.
   void load_program(std::string_view text) override;
   std::string program_text() const override;
   std::vector<ProgramPlace> places() const override;
@@ -119,7 +119,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   const motion::Axis& chip(int number) const { return state_.chips[static_cast<std::size_t>(number)]; }
   const motion::Surroundings& here(int number) const { return state_.here[static_cast<std::size_t>(number)]; }
   motion::Surroundings& here(int number) { return state_.here[static_cast<std::size_t>(number)]; }
-  /// COUNTER1.
+  /// Returns COUNTER1.
   std::int64_t machine_pulses(int number) const {
     return axis(number).command.at(chip(number).travel_pulses);
   }
@@ -127,87 +127,86 @@ class Super40nc final : public DeviceOf<Super40nc>,
     return (chip(number).signals & motion::bit(signal)) != 0;
   }
   Settings registers() const { return Settings(state_.image, readings_, state_.parameters_in_force); }
-  /// As the device writes it: without its effect.
+  /// Writes a register as the device does: without its effect.
   void put(Kept kept, std::int32_t value, int of_axis = 0);
-  /// The memory keeps what the image has there, if it is of that kind.
+  /// Keeps the image's value in memory, if it is retentive.
   void keep_slot(std::size_t slot) { state_.eeprom.write(slot, state_.image[slot], 0, now()); }
 
-  /// In the work coordinate, as D8x17 shows it.
+  /// Returns the position that D8x17 shows, in the work coordinate.
   std::int64_t work_lu(int axis_number) const;
   void set_work_lu(int axis_number, std::int64_t position);
   std::int32_t counter(int axis_number, int number) const;
   void set_counter(int axis_number, int number, std::int32_t pulses);
   bool comparator_holds(int axis, int number) const;
   bool status(int axis_number, AxisStatus what) const;
-  /// D8x64.
+  /// Returns the value of D8x64.
   std::int32_t operation_of(int axis_number) const;
-  /// In its own sense.
+  /// Returns the speed in the axis's own direction.
   double commanded_pps(int axis_number) const;
-  /// D8x70, in steps of the chip.
+  /// Returns the speed in steps of the chip (D8x70).
   std::int32_t chip_speed(int axis_number) const;
   std::int64_t braking_pulses(int axis) const;
   std::int64_t remaining_pulses(int axis_number) const;
-  /// A parameter of an axis was written: D9x00 + `number`, or a D8x, 0.
+  /// Applies a written parameter of an axis: `number` of D9x00 + number; 0: a D8x.
   void heed_axis(int axis_number, int number);
-  /// The parameters of all axes may have changed.
+  /// Applies the parameters of all axes.
   void heed_all();
-  /// D9001, D9002: another path file or recipe.
+  /// Changes the path file (D9001) or the recipe (D9002).
   void change_file(std::int32_t number);
   void change_recipe(std::int32_t number);
-  /// D8022 was written.
+  /// Applies D8022.
   void change_jog_speed();
-  /// D8020 was written: the wheel's axis, or a command.
+  /// Applies D8020: the wheel's axis, or a command.
   void take_user_command(std::int32_t number);
-  /// D8019.
+  /// Returns D8019, the line of the user table.
   std::int32_t table_line() const;
-  /// M8x49, M8x52, M8x53.
+  /// Returns true while ERC is given (M8x49, M8x52, M8x53).
   bool gives_erc(int axis) const { return now() < state_.erc_until[static_cast<std::size_t>(axis)]; }
   bool keeps_unlisted() const { return !chose(option("unlisted_contacts", "read_0")); }
   bool has_chip_pins() const { return chose(option("pins_fitted", "also_clr_ltc_and_erc")); }
-  /// VR1 to VR3 in counts.
+  /// Returns the counts of VR1 to VR3.
   std::int32_t analog_counts(int number) const;
   void flash_written(bool is_recipe);
   int first_of_recipe() const;
   void take_recipe(std::int32_t number);
-  /// M8022.
+  /// Returns the state of M8022.
   bool is_pausing() const;
-  /// D8000, D8x00; programs in the order of their areas.
+  /// Sets D8000 or D8x00. Programs are numbered in the order of their areas.
   void set_pointer(int program, std::int32_t step);
-  /// Beyond the area's own number of it, as D8000 and D8x00 count.
+  /// Returns what D8000 and D8x00 add to the area's own step number.
   int shown_base(std::size_t program) const;
-  /// D8000, D8x00.
+  /// Returns D8000 or D8x00.
   std::int32_t shown_step(std::size_t program) const;
-  /// D9042, D9043, by D9045.
+  /// Computes D9042 and D9043 from D9045.
   void show_capacities();
 
-  /// As it is stored: of contacts that are not views.
   // --- for programs: program_machine.cpp -------------------------------------------------------------
   void report(const ErrorReport& error);
   void report(Code code) { report({.code = code}); }
-  /// At the line that the mover's program is at, if one is.
+  /// Reports at the current line of the mover's program, if there is one.
   void report(Code code, Mover of_its_line);
   void clear_error() { state_.error = {}; }
   void error_is_over();
-  /// The line of the PLC that begins a motion, as D8095 counts; 0 between them.
+  /// Sets the PLC line that begins a motion, counted as by D8095; 0 between such lines.
   void set_plc_step(int step) { plc_step_ = step; }
-  /// The step of the line that a step program is at, as D8095 counts.
+  /// Returns the step of the current line of a step program, counted as by D8095.
   int line_step(Mover mover) const;
   const interpreter::super_40nc::Options& language_options() const { return options_; }
-  /// What runs by hand, or nothing where a line of a program waits for it.
+  /// Returns the motion by hand, or nothing if a program's line waits for the axis.
   std::optional<ManualMotion> manual_motion(int axis_number) const;
-  /// What it does then (manual_motions.h).
+  /// Handles an event by the table in manual_motions.h.
   void meet(int axis, ManualEvent event, Code code = Code::none);
   void meet(int axis, ManualMotion motion, ManualEvent event, Code code = Code::none);
   Grant ask(int axis_number, Request request);
-  /// By the table, as it is chosen.
+  /// Looks up the table of ownership.h, under the chosen option.
   Grant granted(Holder holder, Request request) const { return grant(holder, request, lines_wait_); }
   std::int64_t relative_base_lu(int axis_number) const;
-  /// In pulses. Of a target that was reached, but is elsewhere since: by PSET, another D8x40, CMX.
+  /// Returns pulses to the target; not 0 if PSET, another D8x40 or CMX moved a target that was reached.
   std::int64_t distance_to(int axis_number, std::int64_t target_lu) const;
   std::int64_t search_pulses(int axis) const;
   motion::SpeedLaw line_law(int axis, double rpm, Mover mover) const;
   motion::SpeedLaw drive_law(int axis, std::int32_t rpm, Mover mover) const;
-  // Each of these returns whether it has begun; if not, its error is reported.
+  // Each of these returns true if the motion has begun; if not, it reports its error.
   bool begin_drive(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover);
   bool begin_mark(int axis_number, std::int64_t distance, std::int64_t search, std::int32_t rpm, Mover mover);
   bool begin_blind_mark(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover);
@@ -224,36 +223,36 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void break_program(Mover mover, int but_for = -1);
   void stop_all_of(Mover mover);
   bool is_awaited_by(Mover mover) const;
-  /// At once; of a home or zero return that is given up nothing is done.
+  /// Stops at once. A home or zero return that is abandoned has no further effect.
   void stop_axis(int axis_number, Code code = Code::none);
   bool is_held_in_reset(int axis) const;
-  /// M8004, or one of those above: starts by hand are lost without a code.
+  /// Returns true under M8004 or one of the above: starts by hand are then dropped without a code.
   bool is_inhibited(int axis) const;
-  /// Whether levels that have stayed ON behind a reset act now.
+  /// Returns true if levels that stayed ON through a reset act now.
   bool acts_behind_reset(int axis) const;
   bool is_stopped_by_emergency() const;
-  /// Begins the signal Y0 + `signal`, or begins it anew.
+  /// Begins the signal Y0 + `signal`, or restarts it.
   void show_finished(std::size_t signal);
-  /// Whether a line does so whose axes are there already.
+  /// Returns true if a line whose axes are at their targets already gives the signal.
   bool finishes_without_motion() const { return !chose(option("fsh_without_motion", "do_not_come")); }
 
-  /// A LIN or an arc, in the machine's coordinate.
+  /// A LIN or an arc, in the machine coordinate.
   struct PathPlan {
     motion::Path path;
     std::array<bool, kAxisCount> takes{};
     std::array<std::int64_t, kAxisCount> target_lu{};  // in the work coordinate
     std::int32_t feed_lu_per_s = 0;
-    int mode = 0;  // as the chip's PRMD
+    int mode = 0;  // the value of the chip's PRMD
   };
-  /// What its axes get together.
+  /// Returns what the axes of a path get together.
   Grant ask_for_path(const std::array<bool, kAxisCount>& takes);
   bool begin_path(const PathPlan& plan);
-  /// Whether a path that runs is to be gone on with (D9005).
+  /// Returns true if a new path continues the current one (D9005).
   bool joins_paths() const;
-  /// For one more with the same axes.
+  /// Returns true if the current path can take one more piece with the same axes.
   bool has_room_on_path(const std::array<bool, kAxisCount>& takes) const;
   void join_path(const PathPlan& plan);
-  /// Where a LIN or an arc begins that comes now.
+  /// Returns where the next LIN or arc begins.
   std::int64_t path_base_lu(int axis_number) const;
   bool is_on_path(int axis) const { return state_.path.takes(static_cast<std::size_t>(axis)); }
   void hold_path();
@@ -292,13 +291,13 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void read_keys();
   void read_jog_keys();
   bool is_locked(const Key& key) const;
-  /// In this scan; axis -1: on the main page.
+  /// Returns true if the key is pressed in this scan; axis -1: on the main page.
   bool is_pressed(KeyDoes what, int axis) const;
   void give_up_orders();
   void obey_order_keys();
   void follow_order(OrderKey& key, Holder holder, Kept order_of_axis, void (Super40nc::*start)(int, int));
   void obey_contacts();
-  /// Errors of axes that fall at the next tick, where that is chosen.
+  /// Returns true if axes have errors that fall at the next tick, where that is chosen.
   bool has_errors_for_a_scan() const;
   void obey_stops();
   void stop_by_emergency(interpreter::super_40nc::Area area, bool is_new);
@@ -309,20 +308,20 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void slow_by_hand(int axis);
   void obey_pages();
   bool is_level_again(int axis, int contact) const;
-  /// M8x97 to M8x99.
+  /// Returns whether M8x97 to M8x99 show a motion.
   bool shows_running(bool is_by_contact) const;
   void see_contacts();
 
   // --- axes.cpp: what moves them
   void prepare(int axis_number, bool homes = false);
-  /// What a scan starts moves in its own tick.
+  /// Returns the tick before this one: a scan's moves start in the scan's own tick.
   Tick before_motion() const { return now() - 1; }
   void begun(int axis_number, motion::Cause why_not, Holder holder);
   void start_zero(int axis_number, int order = 0);
   void set_zero(int axis_number);
   void ended(int axis_number);
   void wheel_ended(int axis);
-  /// An axis that a program moves has met something, and let go.
+  /// Ends the program of an axis that has met something and was released.
   void program_broken(Mover mover, int axis, bool is_awaited, motion::Cause why);
   void home_ended(int axis_number, bool found, Code code);
   void fail(int axis_number, Code code);
@@ -336,11 +335,11 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void count_until(const motion::SharedTick& tick, int axis_number);
   void add_to_counter(int axis_number, int which, std::int64_t counts);
   bool counts_now(int axis_number) const;
-  /// COUNTER4, by a clock (D9x25 = 3).
+  /// Returns true if a clock drives COUNTER4 (D9x25 = 3).
   bool counts_a_clock(int axis) const;
   void clear_counters(int axis_number);
   motion::SpeedLaw jog_law(int axis) const;
-  /// The limit that an axis stands on, where that blocks both ways.
+  /// Returns the limit that the axis stands on, if that blocks both directions.
   motion::Cause blocked_both_ways(int axis) const;
   motion::Cause blocked_on_path(int axis_number, const motion::Path& path) const;
   void count_index(int axis_number, std::int8_t phase_before);
@@ -352,7 +351,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
 
   void rest_axis(int axis_number);
   void cannot_go_on(int axis_number, const Rest& rest, Mover mover, bool is_awaited);
-  /// What has ended between ticks has been dealt with.
+  /// Drops an end between ticks that has been handled.
   void forget_end(int axis);
   void path_ended();
   void step_axes(Tick tick, std::int32_t wheel_counts, std::array<std::int64_t, kAxisCount>& sent);
@@ -369,7 +368,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
 
   void run_plc();
   void look_at_contacts();
-  /// The PLC may switch FSH and END outputs ON and OFF between their signals.
+  /// Returns true if the PLC may switch FSH and END outputs between their signals.
   bool shares_signals() const { return chose(option("signal_outputs", "the_plc_has_them_between")); }
 
   // --- programs.cpp
@@ -392,7 +391,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void find_what_plc_watches();
   void note_what_plc_sees();
   void wake_plc_by_what_changed();
-  /// The first tick after `done` at which anything is due by its time.
+  /// Returns the first tick after `done` at which something is due by time.
   Tick next_timed_tick(Tick done) const;
   bool is_quiet(int axis_number) const;
 
@@ -405,16 +404,16 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void compare_counters(int axis_number);
   void stop_by_comparator(int axis, bool by_ramp, motion::Cause why);
 
-  // --- signals.cpp: what they meet
+  // --- signals.cpp: inputs, limits and what the axes encounter
   void look_at_inputs();
   void see_first_signals();
   void look_round(int axis_number);
-  /// X33, X34: 0 not in use, 1 NO, 2 NC.
+  /// Returns X33 or X34: 0 not in use, 1 NO, 2 NC.
   Value limit_logic(int axis, int way) const;
-  /// D8x18 and D8x19 are what acts of X33 and X34.
+  /// Returns true if D8x18 and D8x19 are what acts of X33 and X34.
   bool has_limit_copies() const { return !chose(option("limit_copies", "plain_registers")); }
 
-  // --- pins.cpp: those of the chip that are fitted by choice
+  // --- pins.cpp: pins of the chip that are fitted by choice
   bool has_voltage_inputs() const { return !chose(option("analog_counts", "in_counts_only")); }
   void see_pins();
   void hold_cleared();
@@ -429,19 +428,19 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void leave_table();
 
   State state_;
-  interpreter::super_40nc::StepCodes codes_;  // like the ladder made of the memory's listings: not state
+  interpreter::super_40nc::StepCodes codes_;  // not state: made, like the ladder, of the memory's listings
   SharedLadder ladder_ = std::make_shared<const interpreter::super_40nc::Ladder>();
-  std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
-  NamedBlocks::mapped_type ready_texts_;        // that those two are made of
+  std::array<bool, kAxisCount> is_restored_{};  // restored, and its edges not set again yet
+  NamedBlocks::mapped_type ready_texts_;        // the texts of codes_ and ladder_
   WatchedPlaces watched_;
-  std::vector<int> table_lines_;  // of the user table, while it runs
+  std::vector<int> table_lines_;  // lines of the user table, while it runs
   interpreter::super_40nc::Options options_;
   MapPolicy map_policy_;
-  bool lines_wait_ = false;                       // a choice that is asked for often
-  Readings readings_;                             // likewise
-  bool parameters_wait_ = false;                  // likewise: those written act later, all at once
-  int plc_step_ = 0;                              // not state: 0 outside of a line
-  std::array<MachineEdges, kAxisCount> edges_{};  // not state: they are told again
+  bool lines_wait_ = false;                       // a choice, cached
+  Readings readings_;                             // cached choices
+  bool parameters_wait_ = false;                  // cached: written parameters act later, all at once
+  int plc_step_ = 0;                              // not state: 0 outside a line
+  std::array<MachineEdges, kAxisCount> edges_{};  // not state: set again after a restore
   std::array<CountedSoFar, kAxisCount> counted_{};
   std::int32_t wheel_of_tick_ = 0;
 };

@@ -67,7 +67,7 @@ Value read_file_changed(const Super40nc& device, Cell) { return device.state().s
 void write_command(Super40nc& device, Cell cell, Value level) {
   const bool is_of_axes = cell.argument >= 8100 && cell.argument < 8500;
   const int contact = cell.argument + cell.index * (is_of_axes ? 100 : 1);
-  if (device.chose(option("command_latch", "lost"))) return;  // its level at the scan is all that counts
+  if (device.chose(option("command_latch", "lost"))) return;  // only its level at the scan counts
   device.state().contacts.write(contact, level != 0);
 }
 

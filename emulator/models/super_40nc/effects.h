@@ -1,4 +1,4 @@
-// What SUPER-40NC's contacts and registers do beyond storing, for its tables of rows.
+// Readers and effects of SUPER-40NC's contacts and registers, for its tables of rows.
 #pragma once
 
 #include "emulator/device/register_map/row.h"
@@ -8,7 +8,7 @@ namespace understudy::emulator::models::super_40nc {
 class Super40nc;
 
 /// The chip's flags of an axis, by the manual's names (《M8x 特殊接點的功用(XYZU 軸用)》), and the
-/// controller's.
+/// controller's own.
 enum AxisStatus : int {
   SSCM,  // a motion runs
   SRUN,  // pulses come
@@ -42,7 +42,7 @@ enum AxisStatus : int {
   WHEEL_RUNS,
 };
 
-// Readers. A cell's index is the axis, where there is one.
+// Readers. The cell's index is the axis, if there is one.
 Value read_status(const Super40nc& device, Cell cell);
 Value read_analog(const Super40nc& device, Cell cell);          // index: VR1 to VR3
 Value read_error(const Super40nc& device, Cell cell);           // argument: code, step, other step
@@ -63,7 +63,7 @@ Value read_file_changed(const Super40nc& device, Cell);
 
 // Effects.
 void write_command(Super40nc& device, Cell cell,
-                   Value level);  // argument: the M, of X or the first of several
+                   Value level);  // argument: the M of axis X, or the first of several
 void write_pointer(Super40nc& device, Cell cell, Value step);  // argument: 0 of C, 1 of an axis
 void write_nothing(Super40nc& device, Cell, Value);
 void select_file(Super40nc& device, Cell, Value number);
@@ -75,7 +75,7 @@ void change_override(Super40nc& device, Cell, Value percent);
 void select_wheel(Super40nc& device, Cell, Value);
 void select_wheel_or_command(Super40nc& device, Cell, Value number);
 void select_jog_speed(Super40nc& device, Cell, Value);
-void change_axis(Super40nc& device, Cell cell, Value);  // argument: of D9x00 + that; 0: of a D8x
+void change_axis(Super40nc& device, Cell cell, Value);  // argument: the number of D9x00 + number; 0: a D8x
 void set_work_position(Super40nc& device, Cell cell, Value position);
 void set_counter(Super40nc& device, Cell cell, Value pulses);
 

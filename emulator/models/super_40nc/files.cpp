@@ -82,7 +82,7 @@ std::string why_not_file_name(const std::string& name) {
 }
 
 std::string why_not_listing(const std::string& text) {
-  // Whatever is chosen: by the most tolerant options.
+  // Use the most tolerant options, whatever is chosen.
   language::Options options;
   options.loose_groups = language::Options::LooseGroups::take_last_result;
   options.capacity = language::Options::Capacity::lines;
@@ -94,7 +94,7 @@ std::string why_not_listing(const std::string& text) {
   return "line " + std::to_string(first.line) + ": " + first.message();
 }
 
-constexpr std::size_t kLongestListing = 100'000;  // of 1,500 steps
+constexpr std::size_t kLongestListing = 100'000;  // for 1,500 steps
 constexpr std::size_t kMostFiles = 30'000;
 
 constexpr std::array<BlockKind, 3> kBlocks{{{.name = kPrograms,
@@ -139,13 +139,14 @@ void read_recipe(std::string_view text, std::span<std::uint32_t> values, int fir
   }
 }
 
-/// To D999; three texts of the manual have three ranges.
+/// Returns the first register of a recipe, which extends to D999; three texts of the manual have three
+/// ranges.
 int Super40nc::first_of_recipe() const {
   if (chose(option("recipe_range", "d800_to_d999"))) return 800;
   return chose(option("recipe_range", "d900_to_d999")) ? 900 : kFirstOfRecipe;
 }
 
-/// Into its registers; one that was never stored is all 0.
+/// Loads a recipe into its registers; a recipe that was never stored is all 0.
 void Super40nc::take_recipe(std::int32_t number) {
   const int first = first_of_recipe();
   const auto count = static_cast<std::size_t>(kLastOfRecipe - first) + 1;
@@ -158,7 +159,7 @@ void Super40nc::take_recipe(std::int32_t number) {
   }
 }
 
-/// At power-up, where that is chosen: those that have been stored.
+/// Reads the stored file and recipe again at power-up, if that is chosen.
 void Super40nc::read_files_again() {
   const std::string number = std::to_string(state_.file);
   const SharedText* const c = state_.blocks.find(kFiles, number);
@@ -201,7 +202,7 @@ void Super40nc::show_capacities() {
   put(kept_d(9043), kAllSteps / lines);
 }
 
-/// Of C and of each file.
+/// Returns the room of C and of each file, in steps.
 std::int32_t Super40nc::room_of_c() const {
   constexpr std::int32_t kStepsOfC = 1500;
   if (chose(option("file_layout", "always_20_files"))) return kStepsOfC;

@@ -1,4 +1,4 @@
-// HOME and ZERO of a SUPER-40NC: how they begin, and what they leave (《X20.》 to 《X32.》, 《X26.》).
+// HOME and ZERO of a SUPER-40NC: their start and their results (《X20.》 to 《X32.》, 《X26.》).
 #include <cstdint>
 
 #include "emulator/models/super_40nc/axis_state.h"
@@ -18,7 +18,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// How the chip is told to run (PRMD).
+/// The chip's modes of homing (PRMD).
 constexpr int kModeGoHome = 0x10;
 constexpr int kModeGoHomeBack = 0x18;
 constexpr int kModeGoToZero = 0x41;
@@ -47,7 +47,7 @@ void Super40nc::start_home(int axis_number, int order) {
     return;
   }
   prepare(axis_number, true);
-  // X25 = 0 never leads away from a DOG that is on.
+  // X25 = 0 never leads away from a DOG that is ON.
   if (!is_by_limit && has_signal(axis_number, motion::Signal::home) && its.of(kept_x(93), axis_number) == 0 &&
       chose(option("home_leave_0", "the_search_fails"))) {
     home_ended(axis_number, false, Code::home_failed);
@@ -117,7 +117,7 @@ void Super40nc::set_zero(int axis_number) {
   set_counter(axis_number, 1, 0);
 }
 
-/// `code`: why it has failed; none: it was given up.
+/// `code` says why it has failed; none: it was abandoned.
 void Super40nc::home_ended(int axis_number, bool found, Code code) {
   AxisState& state = axis(axis_number);
   const Settings its = registers();

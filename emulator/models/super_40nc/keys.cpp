@@ -1,5 +1,5 @@
-// What a scan does with the panel's keys: they switch command contacts, and the main page's HOME and ZERO
-// begin with the axes of the first order.
+// How a scan handles the panel's keys: they switch command contacts; HOME and ZERO of the main page begin
+// with the axes of the first order.
 #include "emulator/models/super_40nc/keys.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace understudy::emulator::models::super_40nc {
 namespace {
 
 constexpr int kOrders = 4;
-constexpr int kFirstJogKey = 8560;  // the older ones come before
+constexpr int kFirstJogKey = 8560;  // the older keys come before
 constexpr int kOriginKey = 8514;
 
 bool has_digit(std::int32_t mask, int digits, int digit) {
@@ -29,15 +29,15 @@ bool has_digit(std::int32_t mask, int digits, int digit) {
   return rest % 10 != 0;
 }
 
-/// M8x03 or M8x04.
+/// Returns contact M8x03 or M8x04.
 int jog_contact(int axis, int way) { return 8100 + 100 * axis + (way > 0 ? 3 : 4); }
 
-/// Of the two meanings of M8514.
+/// Returns which of its two meanings M8514 has.
 bool is_origin_the_home_key(const Super40nc& device) { return device.chose(option("m8514_meaning", "home")); }
 
 }  // namespace
 
-/// The wheel key of an axis' page has no contact; what it selects is D8020.
+/// The wheel key of an axis's page has no contact; it selects by D8020.
 bool Super40nc::is_wheel_locked(int axis) const {
   constexpr int kWheelDigit = 1;
   return chose(option("lock_scope", "keys_and_d8020")) &&
@@ -51,8 +51,8 @@ bool Super40nc::is_locked(const Key& key) const {
                       : has_digit(its.raw(kept_x(98), key.axis), kAxisLockDigits, key.lock);
 }
 
-/// A jog key writes its contact in each scan while it is down, and clears it when it is let go. Its lock and
-/// X52 count when it is pressed: whatever becomes of them meanwhile, the axis stops with the key.
+/// A jog key writes its contact in each scan while it is pressed, and clears it when it is released. Its lock
+/// and X52 count when it is pressed: even if they change meanwhile, the axis stops with the key.
 void Super40nc::read_jog_keys() {
   const bool knows_older = !chose(option("jog_aliases", "plain_contacts"));
   for (int number = 0; number < kAxisCount; ++number) {
@@ -104,7 +104,7 @@ void Super40nc::read_keys() {
           if (registers().raw(kept_x(74), number) == enabled) press(8107 + 100 * number);
         }
         break;
-      // These have no contact of their own: obey_contacts() asks for them.
+      // These have no contact of their own: obey_contacts() checks them.
       case KeyDoes::stop:
       case KeyDoes::stop_c:
       case KeyDoes::pause:
@@ -120,7 +120,7 @@ bool Super40nc::is_pressed(KeyDoes what, int axis) const {
   });
 }
 
-/// Axes of one order start together; the next order when all of them are done.
+/// Starts the axes of one order together, and the next order when all of them have finished.
 void Super40nc::follow_order(OrderKey& key, Holder holder, Kept order_of_axis,
                              void (Super40nc::*start)(int, int)) {
   const auto is_under_way = [&](const AxisState& its) { return its.holder == holder && its.order != 0; };
@@ -139,7 +139,7 @@ void Super40nc::follow_order(OrderKey& key, Holder holder, Kept order_of_axis,
   }
 }
 
-/// Axes that still come to rest are not those of a key that is pressed meanwhile.
+/// Drops the orders: axes that are still stopping do not belong to a key pressed meanwhile.
 void Super40nc::give_up_orders() {
   state_.homing_by_key = state_.zeroing_by_key = {};
   for (AxisState& its : state_.axes) take_off(its, MarkEvent::orders_given_up);
@@ -150,7 +150,7 @@ void Super40nc::obey_order_keys() {
     if (!key.runs && is_pressed(what, -1)) key = {.runs = true};
   };
   press(state_.homing_by_key, KeyDoes::home_by_order);
-  // As a HOME key it obeys that one's digit.
+  // As a HOME key it obeys the lock digit of HOME.
   constexpr int kHomeDigit = 1;
   const bool is_home_key = is_origin_the_home_key(*this) && rises(kOriginKey);
   const Key as_home{.contact = kOriginKey, .does = KeyDoes::home_by_order, .lock = kHomeDigit};

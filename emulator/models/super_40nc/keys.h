@@ -1,4 +1,4 @@
-// The panel's keys (《M85x 人機對應接點》): a contact each, what it does, and the digit that locks it.
+// The panel's keys (《M85x 人機對應接點》): for each its contact, its function, and the digit that locks it.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@ namespace understudy::emulator::models::super_40nc {
 enum class KeyDoes : std::uint8_t {
   home_by_order,  // X50
   zero_by_order,  // X51
-  set_zero,       // where X60 allows it
+  set_zero,       // if X60 allows it
   pause_c,
   start_c,
   stop_c,
-  jog,  // as long as it is down; X52 swaps the directions
+  jog,  // while it is pressed; X52 swaps the directions
   home,
   zero,
   oset,
@@ -25,15 +25,15 @@ enum class KeyDoes : std::uint8_t {
 struct Key {
   int contact = 0;
   KeyDoes does = KeyDoes::jog;
-  int axis = -1;  // -1: of the main page, which D9025 locks; else of the axis' page, by D9x98
-  int way = 0;    // of a jog
-  int lock = 0;   // the digit from the left, from 1
+  int axis = -1;  // -1: on the main page, locked by D9025; else on the axis' page, locked by D9x98
+  int way = 0;    // jog direction
+  int lock = 0;   // the lock digit, counted from the left from 1
 };
 
 inline constexpr int kMainLockDigits = 6;
 inline constexpr int kAxisLockDigits = 9;
 
-/// Keys that are storage, such as those that turn pages, are not here.
+/// All keys with a function. Keys that are only storage, such as those that turn pages, are left out.
 inline constexpr auto kKeys = [] {
   constexpr int kMain = 6 + 5;
   constexpr int kJogAliases = 6;
@@ -41,7 +41,7 @@ inline constexpr auto kKeys = [] {
   std::array<Key, kMain + kJogAliases + kOfAxes> keys;
   std::size_t next = 0;
   const auto add = [&](const Key& key) { keys[next++] = key; };
-  // The older names of five of them (《命令範例》 has the jog keys' as well) act alike.
+  // Five keys have an older name that acts alike (《命令範例》 has the jog keys' older names as well).
   for (const auto& [contact, older, does, lock] :
        {std::array{8592, 0, static_cast<int>(KeyDoes::home_by_order), 1},
         std::array{8593, 8513, static_cast<int>(KeyDoes::zero_by_order), 2},
@@ -63,7 +63,7 @@ inline constexpr auto kKeys = [] {
     add({.contact = 8588 + axis, .does = KeyDoes::pause, .axis = axis, .lock = 7});
     add({.contact = 8580 + axis, .does = KeyDoes::start, .axis = axis, .lock = 8});
     add({.contact = 8584 + axis, .does = KeyDoes::stop, .axis = axis, .lock = 9});
-    if (axis == 3) continue;  // no older jog keys of U
+    if (axis == 3) continue;  // U has no older jog keys
     add({.contact = 8519 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .way = +1, .lock = 2});
     add({.contact = 8520 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .way = -1, .lock = 3});
   }

@@ -22,7 +22,7 @@ namespace {
 
 namespace lang = interpreter::super_40nc;
 
-/// "PCXYZU", as the manual's lists have it: where an instruction does something.
+/// Returns "PCXYZU" as in the manual's lists: the areas in which an instruction acts.
 std::string areas_of(const lang::InstructionRow& row) {
   const auto acts_in = [&](lang::Area area) {
     return lang::has(row.areas, area) && !lang::has(row.void_in, area);
@@ -47,7 +47,7 @@ std::string_view cost_of(const lang::InstructionRow& row) {
   return "";
 }
 
-/// The rows, and what they refer to.
+/// The rows, and the data that they refer to.
 struct Instructions {
   std::array<std::array<OperandRow, 4>, lang::kInstructions.size()> operands;
   std::array<std::string, lang::kInstructions.size()> areas;
@@ -80,14 +80,14 @@ class ProgramListing final : public ProgramLanguage {
     static const Instructions instructions;
     return instructions.rows;
   }
-  /// What a listing may be is in part a choice.
+  /// Checks a listing; some rules are choices.
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return Super40nc(settings).mistakes_in(text);
   }
   std::vector<ProgramMistake> warnings(std::string_view text, const DeviceSettings& settings) const override {
     return Super40nc(settings).warnings_about(text);
   }
-  /// A key acts when it goes on: it is let go before.
+  /// A key acts when it goes ON, so it is released first.
   std::span<const ProgramControl> controls() const override {
     using By = ProgramControl::By;
     static constexpr std::array<ProgramControl, 11> kControls{{{"start C", By::registers, "M8000=1"},

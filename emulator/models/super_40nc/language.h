@@ -1,4 +1,4 @@
-// The language of SUPER-40NC's programs, as a model offers it.
+// The language of SUPER-40NC's programs, as its model offers it.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace understudy::emulator::models::super_40nc {
 
 const ProgramLanguage& program_language();
 
-/// All errors of a listing that was checked.
+/// Returns all errors of a checked listing.
 std::vector<ProgramMistake> mistakes_of(const interpreter::super_40nc::Checked& checked);
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -1,4 +1,4 @@
-// SUPER-40NC: what the languages ask for, as it is chosen.
+// SUPER-40NC: the options of the languages, as chosen.
 #include "emulator/device/choices.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"

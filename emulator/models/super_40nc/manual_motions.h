@@ -1,7 +1,7 @@
-// What happens to motions that no line of a step program waits for, against each event: the whole table, as
-// data. (《M8 特殊接點的功用》, 《M8x 特殊接點的功用》, 《STP 指令》; what the manual does not name is ours.)
-// Limits and alarms are met by the motor itself; lines and their programs have
-// interpreter/super_40nc/events.h.
+// What each event does to a motion that no line of a step program waits for: the whole table, as data. (《M8
+// 特殊接點的功用》, 《M8x 特殊接點的功用》, 《STP 指令》; where the manual says nothing, the entry is ours.)
+// The motor itself handles limits and alarms; interpreter/super_40nc/events.h handles lines and their
+// programs.
 #pragma once
 
 #include <array>
@@ -20,20 +20,20 @@ enum class ManualMotion : std::uint8_t {
   wheel,           // by contact
   selected_wheel,  // by D8020
   plc_drive,
-  behind_end,  // VDRV or MPG of an axis program, CHK 0
+  behind_end,  // VDRV or MPG of an axis program after its END, CHK 0
   behind_end_of_c,
 };
 inline constexpr std::size_t kManualMotions = 11;
 
 enum class ManualEvent : std::uint8_t {
-  contact_off,  // nobody asks for it any more; D8020 written
+  contact_off,  // the request has ended; D8020 was written
   pause,        // M8006, a PAUSE key
   stop,         // STP, M8x02 or the STOP key of its axis
   stop_of_c,    // STP without fields
   main_stop,    // the main page's STOP key
   emergency,    // M8002, CEMG
   inhibit,      // M8004
-  plc_stop,     // to STOP
+  plc_stop,     // the PLC goes to STOP
 };
 inline constexpr std::size_t kManualEvents = 8;
 

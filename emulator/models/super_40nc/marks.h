@@ -1,6 +1,6 @@
-// Marks of an axis of a SUPER-40NC: what is set where something begins, for somebody who asks later. Each has
-// a row with the events that take it off; the code takes off by this table, and a test begins every motion,
-// ends it by every way out and looks at all rows.
+// Marks of an axis of a SUPER-40NC: flags that are set when something begins, for a later decision. Each mark
+// has a row with the events that clear it. The code clears marks by this table, and a test begins every
+// motion, ends it in every possible way and checks all rows.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@ namespace understudy::emulator::models::super_40nc {
 
 enum class MarkEvent : std::uint8_t {
   motion_begins,
-  motion_ends,      // however: arrived, stopped, given up, or another order took its place
-  path_ends,        // LIN or an arc, however
-  program_over,     // of the program that waits; awaited and stop_awaited_by alone know whose they are
-  orders_given_up,  // of the main page's HOME and ZERO keys
+  motion_ends,      // in any way: arrived, stopped, abandoned, or replaced by another command
+  path_ends,        // LIN or an arc, in any way
+  program_over,     // of the waiting program; only awaited and stop_awaited_by name the program
+  orders_given_up,  // orders of the main page's HOME and ZERO keys
   reset,            // M8x02
   plc_run,
 };

@@ -1,4 +1,4 @@
-// What a SUPER-40NC keeps: latched contacts and registers at once, recipes; what power-up finds, and M8008.
+// The retentive memory of a SUPER-40NC: latched contacts and registers, recipes; also power-up and M8008.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// Calls visit(slot, row) for every register that has one.
+/// Calls visit(slot, row) for every register with a slot.
 template <typename Visit>
 void for_each_kept_slot(Visit visit) {
   std::size_t next = 0;
@@ -40,8 +40,8 @@ bool is_parameter(const RegisterRow& row) {
 
 }  // namespace
 
-/// The panel's parameters have other values where its chapter and the table of D9 differ (3 of them in every
-/// axis, the decimals, the logo).
+/// The panel's parameters have other factory values where its chapter and the table of D9 differ (3 of them
+/// in every axis, the decimals, the logo).
 std::uint32_t Super40nc::factory_bits(const RegisterRow& row) const {
   struct Panel {
     int d9;
@@ -90,14 +90,14 @@ void Super40nc::put(Kept kept, std::int32_t value, int of_axis) {
   }
 }
 
-/// Those that have been written act from now on, where they had to wait.
+/// Puts written parameters into force that had to wait.
 void Super40nc::take_parameters() {
   if (!parameters_wait_) return;
   state_.parameters_in_force.assign(state_.image.begin() + static_cast<std::ptrdiff_t>(kFirstParameterSlot),
                                     state_.image.end());
 }
 
-/// X14 and C0 act as they are at power-up.
+/// Puts X14 and C0 into force as they are at power-up.
 void Super40nc::take_power_up_parameters() {
   const Settings its = registers();
   state_.logo_ms = static_cast<std::int32_t>(its.of(kept_d(9007)));
@@ -173,7 +173,7 @@ void Super40nc::power_up() {
   look_at_inputs();
 }
 
-/// M8008. Another file and another recipe are changed to as if they were written.
+/// M8008. File and recipe change as if they had been written.
 void Super40nc::reset_parameters() {
   const bool leaves_some = chose(option("m8008_scope", "but_for_d9000_and_d9026"));
   const auto stays = [&](const RegisterRow& row) {

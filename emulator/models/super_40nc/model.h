@@ -1,4 +1,4 @@
-// SUPER-40NC as data for those that make devices.
+// SUPER-40NC as a model, from which devices are made.
 #pragma once
 
 #include <string_view>

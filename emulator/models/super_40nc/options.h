@@ -1,4 +1,4 @@
-// SUPER-40NC: the options of choices.h as the code asks for them. An unknown row or option is a compile
+// SUPER-40NC: the code looks up the options of choices.h with this. An unknown row or option is a compile
 // error.
 #pragma once
 

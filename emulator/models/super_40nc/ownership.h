@@ -1,5 +1,5 @@
-// Who gets an axis (5.7 of the specification is ours: the manual only says that a DRV waits for the one
-// before it, that VDRV 0 ends any motion, and what stops programs). Who moves an axis keeps it.
+// Who gets an axis. The manual only says that a DRV waits for the one before it, that VDRV 0 ends any motion,
+// and what stops programs; the rest is ours (5.7 of the specification). Whoever moves an axis keeps it.
 #pragma once
 
 #include <array>
@@ -8,25 +8,25 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// By what an axis is held.
+/// What holds an axis.
 enum class Holder : std::uint8_t {
   nobody,
   jog,
-  home,   // to the machine's zero
-  zero,   // to the work's
-  move,   // of a program or the PLC, with an end
-  rest,   // of a move that a pause holds
+  home,   // to the machine zero
+  zero,   // to the work zero
+  move,   // a move of a program or the PLC, with an end
+  rest,   // the rest of a move that a pause interrupted
   vdrv,   // turns at a speed
   wheel,  // follows the hand-wheel
 };
 inline constexpr std::size_t kHolders = 8;
 
-/// What asks for it.
+/// What requests an axis.
 enum class Request : std::uint8_t {
   jog,
   home_or_zero,
   wheel,     // by contact or D8020
-  line,      // of a step program: LIN, an arc, DRV, HOM, MRK
+  line,      // a line of a step program: LIN, an arc, DRV, HOM, MRK
   mpg_line,  // MPG
   plc_drv,
   vdrv,    // not 0
@@ -36,14 +36,14 @@ enum class Request : std::uint8_t {
 inline constexpr std::size_t kRequests = 9;
 
 enum class Grant : std::uint8_t {
-  nothing,  // there is nothing to do
+  nothing,  // nothing to do
   starts,
-  same_or_no,  // of the same kind it goes on (a jog in the same direction, the same source of the wheel);
-               // else as refused
-  refused,     // void, and D8094 says so
+  // if of the same kind (a jog in the same direction, the same wheel source), it continues; else as refused
+  same_or_no,
+  refused,  // has no effect, and D8094 shows it
   waits,
-  new_speed,  // of what turns
-  stops,      // by a ramp, or at once, as the request has it
+  new_speed,  // changes the speed of a turning axis
+  stops,      // stops by a ramp, or at once, as the request says
 };
 
 using OwnershipRow = std::array<Grant, kRequests>;
@@ -65,8 +65,8 @@ inline constexpr std::array<OwnershipRow, kHolders> kOwnership = [] {
 }();
 // clang-format on
 
-/// What turns or follows the wheel does not end by itself, so lines are lost on it. By another choice they
-/// wait for it as well.
+/// A turning axis and one that follows the wheel do not end without a command, so a line for them is dropped.
+/// Under another choice the line waits for them as well.
 struct OwnershipCell {
   Holder holder;
   Request request;

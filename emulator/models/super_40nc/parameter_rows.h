@@ -1,6 +1,6 @@
-// SUPER-40NC: parameters D9, in the manual's order. Where it prints none for a D9, ranges and factory values
-// are those of the panel's parameter (《基本參數說明》, 《X(Y/Z/U)軸參數說明》; parameters.h). Nothing is
-// refused: what is beyond its range is stored, and limited where it is used.
+// SUPER-40NC: parameters D9, in the manual's order. If the manual prints no range or factory value for a D9,
+// the row has that of the panel's parameter (《基本參數說明》, 《X(Y/Z/U)軸參數說明》; parameters.h). No
+// value is refused: a value outside its range is stored, and limited where it is used.
 #pragma once
 
 #include "emulator/models/super_40nc/row_words.h"
@@ -49,7 +49,7 @@ inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功�
     data(9046, 9099).kept_at_once(),
 });
 
-/// Counters of the chip, as D9x27 to D9x30 and D9x55 choose among them.
+/// The chip's counters, among which D9x27 to D9x30 and D9x55 choose.
 inline constexpr BitField kCounterBits[] = {bits(0, "C1"), bits(1, "C2"), bits(2, "C3"), bits(3, "C4")};
 inline constexpr BitField kCountersButTheFirst[] = {bits(0, "C2"), bits(1, "C3"), bits(2, "C4")};
 

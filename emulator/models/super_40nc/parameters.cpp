@@ -1,5 +1,5 @@
 // The parameters by the numbers that the panel shows (《基本參數說明》, 《X(Y/Z/U)軸參數說明》). They are the
-// registers D9; ranges and factory values here are the panel's, where the table of D9 has others.
+// registers D9; ranges and factory values here are the panel's, even where the table of D9 differs.
 #include "emulator/models/super_40nc/parameters.h"
 
 #include <array>
@@ -23,11 +23,11 @@ namespace {
 
 struct PanelParameter {
   int number;
-  int d9;  // of the axes: beyond D9x00; 0 of a base parameter: no register is printed
+  int d9;  // for axes: added to D9x00; 0 for a base parameter without a printed register
   std::int32_t least;
   std::int32_t most;
   std::string_view unit;
-  std::int32_t factory;  // the panel's
+  std::int32_t factory;  // as the panel has it
   std::string_view meaning;
 };
 

@@ -1,4 +1,5 @@
-// SUPER-40NC's parameters by the numbers that its panel shows: C0 to C26, X0 to X61 and the same of Y, Z, U.
+// SUPER-40NC's parameters by the numbers that its panel shows: C0 to C26, X0 to X61, and likewise for Y, Z
+// and U.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
-// Backlash before a LIN or an arc: every axis of it that turns round, or each one if it slips (D9x57 = 2),
-// first goes its X1 pulses at X22, all at once; the path begins when the last is done. Within an arc nothing
-// is corrected, as on the chip, unless that is chosen. (Manual, X1., X22.)
+// Backlash before a LIN or an arc. Every axis that reverses, or every axis if it slips (D9x57 = 2), first
+// goes its X1 pulses at X22, all at once; the path begins when the last is done. Within an arc nothing is
+// corrected, as on the chip, unless that is chosen. (Manual, X1., X22.)
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// As a motion of its own would have it.
+/// Returns the backlash as for a separate motion.
 std::int64_t play_before(const motion::Axis& motor, int way) {
   const std::int64_t all = motor.settings.backlash_pulses;
   if (motor.settings.slips) return all;
@@ -32,7 +32,7 @@ std::int64_t play_before(const motion::Axis& motor, int way) {
   return way > 0 ? all - play : play;
 }
 
-/// Of so many pulses, those that have come after so many ticks.
+/// Returns how many of `pulses` have come after `ticks`.
 std::int64_t come_by(std::int64_t pulses, double speed_pps, Tick ticks) {
   constexpr double kRounding = 1e-9;
   const double come = speed_pps * static_cast<double>(ticks) / motion::kTicksPerSecond + kRounding;
@@ -47,7 +47,7 @@ bool Super40nc::awaits_path() const {
 }
 
 void Super40nc::begin_path_backlash(const motion::Path& path) {
-  constexpr double kFirstPart = 1e-3;  // an arc may begin at right angles to the axis
+  constexpr double kFirstPart = 1e-3;  // an arc may begin perpendicular to the axis
   state_.path_backlash_ticks = 0;
   for (int number = 0; number < kAxisCount; ++number) {
     if (!is_on_path(number)) continue;
@@ -58,14 +58,14 @@ void Super40nc::begin_path_backlash(const motion::Path& path) {
     const std::int64_t play = play_before(motor, way);
     if (play == 0) continue;
     axis(number).path_backlash = play * way;
-    // As far as it has come, should it be stopped.
+    // Record how much has come, in case it is stopped.
     motor.play_pulses = way > 0 ? motor.settings.backlash_pulses - play : play;
     motor.last_direction = static_cast<std::int8_t>(way);
   }
   awaits_path() ? state_.path.run.pause(before_motion()) : end_path_backlash();
 }
 
-/// All of it has come. On the path nothing is corrected.
+/// Ends the backlash before a path. On the path nothing is corrected.
 void Super40nc::end_path_backlash() {
   for (int number = 0; number < kAxisCount; ++number) {
     if (!is_on_path(number)) continue;
@@ -96,8 +96,8 @@ void Super40nc::step_path_backlash(Tick tick, std::array<std::int64_t, kAxisCoun
   if (state_.path.slowing_for == motion::Cause::none) state_.path.run.resume(tick);
 }
 
-/// Where that is chosen: an axis that turns round on its path goes X1 at X22 beside it. If it turns again
-/// before, what has come so far is gone back.
+/// If that is chosen, an axis that reverses on its path goes X1 at X22 in addition. If it reverses again
+/// before the end, it goes back what has come so far.
 void Super40nc::step_arc_backlash(const std::array<std::int8_t, kAxisCount>& ways_before,
                                   std::array<std::int64_t, kAxisCount>& sent) {
   const Settings its = registers();

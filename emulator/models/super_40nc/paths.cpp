@@ -33,20 +33,20 @@ double pulses_per_lu(const Settings& its, int axis) { return its.scale(axis).pul
 
 }  // namespace
 
-/// D8005, as it is used.
+/// Returns D8005 within its limits.
 double Super40nc::override_percent() const {
   constexpr double kMost = 100;
   const auto percent = static_cast<double>(registers().of(kept_d(8005)));
   return chose(option("override_range", "0_to_100")) ? std::min(percent, kMost) : percent;
 }
 
-/// F as D8005 scales it; a feed that is not above 0 is the least there is.
+/// Returns F, scaled by D8005; a feed that is not above 0 is the least feed.
 double Super40nc::path_feed() const {
   const double feed = std::max<std::int32_t>(state_.path_feed_lu_s, 1);
   return feed * state_.path_feed_scale * override_percent() / 100;
 }
 
-/// LU along a path to a unit of F.
+/// Returns the LU along a path for a unit of F.
 double Super40nc::feed_scale(const motion::Path& path) const {
   static constexpr std::array<double, 4> kUnits{0.001, 0.01, 0.1, 1};
   const bool goes_by_decimals = chose(option("feed_unit", "0_001_mm_by_the_decimals_of_x"));
@@ -69,10 +69,10 @@ Grant Super40nc::ask_for_path(const std::array<bool, kAxisCount>& takes) {
   return worst;
 }
 
-/// Why an axis may not begin on a path: it stands on a limit that the path goes into.
+/// Returns why an axis may not begin a path: it stands on a limit into which the path goes.
 motion::Cause Super40nc::blocked_on_path(int axis_number, const motion::Path& path) const {
   if (const motion::Cause why = blocked_both_ways(axis_number); why != motion::Cause::none) return why;
-  constexpr double kFirstPart = 1e-3;  // an arc may begin at right angles to the axis
+  constexpr double kFirstPart = 1e-3;  // an arc may begin perpendicular to the axis
   const double ahead = path.at(path.length_u * kFirstPart)[axis_number] - path.begin[axis_number];
   if (ahead == 0) return chip(axis_number).forbidden_anywhere();
   return chip(axis_number).forbidden(ahead > 0 ? +1 : -1);
@@ -84,12 +84,12 @@ bool Super40nc::begin_path(const PathPlan& plan) {
   state_.path_feed_lu_s = takes_default ? its.raw(kept_d(9004)) : plan.feed_lu_per_s;
   motion::Coordinated path;
   state_.path_feed_scale = feed_scale(plan.path);
-  // What each axis allows along its own direction, in LU a second, and how it speeds up.
+  // The limit of each axis along its own direction, in LU a second, and its acceleration.
   motion::Point most;
   most.setConstant(std::numeric_limits<double>::infinity());
   double target_lu_s = std::numeric_limits<double>::infinity();
   double fastest_pps = 0;
-  double longest = 0;  // pulses of an axis to a LU of the path
+  double longest = 0;  // pulses of an axis for a LU of the path
   const bool goes_by_longest = chose(option("path_law", "slope_of_the_longest_axis"));
   double fastest_ppu = 1;
   const motion::Point direction = motion::greatest_direction(plan.path);
@@ -170,7 +170,7 @@ bool Super40nc::has_room_on_path(const std::array<bool, kAxisCount>& takes) cons
          state_.path.run.queued() <= 1;
 }
 
-/// Without slowing down, whatever the corner; the feed is its own from now on.
+/// Appends a path without slowing down, whatever the corner; its own feed applies from now on.
 void Super40nc::join_path(const PathPlan& plan) {
   const Settings its = registers();
   motion::Point most;
@@ -224,7 +224,7 @@ void Super40nc::go_on_path() {
   if (!awaits_path()) state_.path.run.resume(now());
 }
 
-/// VDRV 0: by the ramp of the path, and over.
+/// VDRV 0: slows down by the path's ramp, and ends.
 void Super40nc::slow_path() { state_.path.slow_down(now()); }
 
 void Super40nc::stop_path() {
@@ -266,7 +266,7 @@ void Super40nc::step_axes(Tick tick, std::int32_t wheel_counts, std::array<std::
   }
 }
 
-/// It has arrived, or an axis of it has met something.
+/// Called when the path has arrived, or an axis of it has met something.
 void Super40nc::path_ended() {
   const motion::Cause why = state_.path.cause;
   const bool has_arrived = why == motion::Cause::arrived;
@@ -287,7 +287,7 @@ void Super40nc::path_ended() {
   if (has_arrived) show_finished(kPathSignal);
   using interpreter::super_40nc::Phase;
   const Phase phase = state_.steps.programs[0].phase;
-  const bool is_awaited = phase == Phase::moving || phase == Phase::held;  // not where paths are joined
+  const bool is_awaited = phase == Phase::moving || phase == Phase::held;  // false while paths are joined
   if (code != Code::none) program_broken(Mover::c, -1, is_awaited, why);
 }
 

@@ -1,5 +1,5 @@
-// What the terminals do that are fitted by choice alone: DOG_X, Vin1 and SVON_X on, and the chip's CLR, LTC
-// and ERC (D9x04 to D9x06, D9x09, D9x27, D9x50).
+// Terminals that are fitted only by choice: DOG_X, Vin1 and SVON_X on, and the chip's CLR, LTC and ERC (D9x04
+// to D9x06, D9x09, D9x27, D9x50).
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -20,9 +20,9 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// D9x06: from 12 us to 104 ms, as whole ticks; the last stays until the next start.
+/// D9x06: from 12 us to 104 ms, in whole ticks; the last one stays until the next start.
 constexpr std::array<Tick, 8> kErcTicks{1, 1, 1, 2, 13, 52, 104, kNever};
-/// D9x09.
+/// The modes of D9x09.
 enum ClearMode : std::uint8_t { kAtOn, kAtOff, kWhileOn, kWhileOff };
 
 }  // namespace
@@ -58,7 +58,7 @@ void Super40nc::see_pins() {
   }
 }
 
-/// At the end of a tick, as long as the level lasts.
+/// Clears at the end of each tick while the level lasts.
 void Super40nc::hold_cleared() {
   if (!has_chip_pins()) return;
   for (int number = 0; number < kAxisCount; ++number) {
@@ -67,7 +67,7 @@ void Super40nc::hold_cleared() {
   }
 }
 
-/// The counters that D9x27 names.
+/// Clears the counters in the mask D9x27.
 void Super40nc::clear_by_pin(int axis) {
   const std::int32_t mask = registers().raw(kept_x(27), axis);
   for (int which = 0; which < static_cast<int>(kCounters); ++which) {
@@ -81,7 +81,7 @@ void Super40nc::give_erc(int axis) {
   state_.erc_until[static_cast<std::size_t>(axis)] = ticks == kNever ? kNever : now() + 1 + ticks;
 }
 
-/// The deviation counter of the drive is cleared after a stop without a ramp.
+/// Gives ERC, which clears the drive's deviation counter, after a stop without a ramp.
 void Super40nc::give_erc_behind(int axis, Code code) {
   const Settings its = registers();
   const bool is_limit = code == Code::limit_positive || code == Code::limit_negative;
@@ -90,7 +90,7 @@ void Super40nc::give_erc_behind(int axis, Code code) {
   if (at_once && its.is_on(kept_x(4), axis)) give_erc(axis);
 }
 
-/// Where D8x17 is a counter of its own, another CMX or CDV leaves it as it is.
+/// If D8x17 is a counter of its own, another CMX or CDV leaves it unchanged.
 void Super40nc::keep_display(int axis_number) {
   AxisState& state = axis(axis_number);
   const motion::UnitScale scale = registers().scale(axis_number);

@@ -1,4 +1,4 @@
-// What the PLC moves: DRV, HOM, PJG and MJG. It never waits: an axis that is taken is void.
+// Motion of the PLC: DRV, HOM, PJG and MJG. It never waits: a command for an axis that is taken is dropped.
 #include <cstddef>
 #include <cstdint>
 
@@ -18,7 +18,7 @@ namespace understudy::emulator::models::super_40nc {
 
 using language::Area;
 
-/// An axis is taken, and that is chosen to stop all.
+/// Returns true if an axis is taken, and a choice makes that stop all axes.
 bool ProgramMachine::plc_takes_none(language::AxisSet axes, Request request) {
   if (!device_.chose(option("plc_several_axes", "none"))) return false;
   for (int axis = 0; axis < kAxisCount; ++axis) {
@@ -52,7 +52,7 @@ void ProgramMachine::plc_home(const language::HomeSearch& search, int step) {
     if ((search.axes >> axis & 1) == 0 || device_.is_inhibited(axis)) continue;
     AxisState& state = device_.axis(axis);
     const bool is_free = state.holder == Holder::nobody;
-    if (is_free) state.mover = Mover::plc;  // as long as it begins
+    if (is_free) state.mover = Mover::plc;  // if the motion begins
     device_.start_home(axis);
     if (state.holder != Holder::home) state.mover = is_free ? Mover::hand : state.mover;
   }
@@ -68,7 +68,7 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
     const bool positive = ((is_swapped ? jogs.negative : jogs.positive) >> axis & 1) != 0;
     const bool negative = ((is_swapped ? jogs.positive : jogs.negative) >> axis & 1) != 0;
     const int running = state.asked_by_plc ? device_.chip(axis).last_direction : 0;
-    // Both at once: the one that runs goes on.
+    // Both at once: the running direction continues.
     const int of_both = stops_both ? 0 : running;
     const int way = positive && negative ? of_both : positive ? +1 : negative ? -1 : 0;
     if (running != 0 && running != way) {
@@ -84,7 +84,7 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
     }
     device_.set_plc_step(step);
     const bool is_free = state.holder == Holder::nobody;
-    if (is_free) state.mover = Mover::plc;  // as long as it begins
+    if (is_free) state.mover = Mover::plc;  // if the motion begins
     device_.start_jog(axis, way, &AxisState::asked_by_plc);
     if (is_free) state.mover = Mover::hand;
     device_.set_plc_step(0);

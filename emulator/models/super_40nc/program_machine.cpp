@@ -67,7 +67,7 @@ bool ProgramMachine::set_special_contact(int number, bool on) {
 
 std::int32_t ProgramMachine::special_register(int number) const {
   Place place = device_.at(Table::holding, data_address(number));
-  place.part = Place::Part::whole;  // of the two words of the wire
+  place.part = Place::Part::whole;  // both words on the wire
   return static_cast<std::int32_t>(read_value(device_, place));
 }
 

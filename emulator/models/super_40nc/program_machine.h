@@ -1,5 +1,4 @@
-// A SUPER-40NC as its programs see it: contacts and registers as a host would write them, and motions by
-// value.
+// A SUPER-40NC as its programs see it: contacts and registers as a host writes them, and motions as values.
 #pragma once
 
 #include <functional>
@@ -12,7 +11,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace language = interpreter::super_40nc;
 
-/// A field of a line.
+/// Returns true if the line sets the field of this axis.
 inline bool is_set(const language::AxisValues& values, int axis) {
   return values[static_cast<std::size_t>(axis)].has_value();
 }
@@ -61,7 +60,7 @@ class ProgramMachine final : public language::Machine {
 
  private:
   bool plc_takes_none(language::AxisSet axes, Request request);
-  /// What all axes of a line get; taken if one has to wait.
+  /// Begins a motion on each axis of a line if all are granted; waits if one has to.
   template <class Start>
   language::Begun begin_each(language::Area by, const language::AxisValues& values, Request request,
                              Start start);
@@ -71,7 +70,7 @@ class ProgramMachine final : public language::Machine {
   language::Begun begin_on_path(const std::array<bool, kAxisCount>& takes,
                                 const std::array<std::int64_t, kAxisCount>& target_lu, std::int32_t feed,
                                 int mode, const Geometry& geometry);
-  /// `reports`: that it cannot be; else it is passed over.
+  /// `reports`: whether to report an impossible arc; else it is skipped.
   language::Begun begin_arc(const ArcFrame& frame, std::int32_t feed, int mode, bool reports,
                             const Geometry& geometry);
   ArcFrame frame_of(language::Plane plane, language::Targets targets, const language::PlanePoint& end) const;

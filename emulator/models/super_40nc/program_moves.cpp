@@ -1,5 +1,5 @@
-// What programs move: DRV, MRK, HOM, VDRV and MPG of step programs, DRV, HOM, PJG and MJG of the PLC; how
-// they are held, go on and stop. Paths are in paths.cpp.
+// Motion of programs: DRV, MRK, HOM, VDRV and MPG of step programs, DRV, HOM, PJG and MJG of the PLC; how it
+// is held, continued and stopped. Paths are in paths.cpp.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -40,14 +40,14 @@ std::int64_t Super40nc::distance_to(int axis_number, std::int64_t target_lu) con
   return scale.to_pulses(target_lu - axis(axis_number).offset_lu).value_or(0) - machine_pulses(axis_number);
 }
 
-/// Of a line: by the axis' own times, whatever program it stands in.
+/// Returns the law of a line: by the axis's own times, whichever program it is in.
 motion::SpeedLaw Super40nc::line_law(int axis, double rpm, Mover mover) const {
   const bool is_by_times_of_c = mover == Mover::c && chose(option("drv_of_c", "c11_to_c14"));
   const Settings its = registers();
   return is_by_times_of_c ? its.law_of_c(axis, rpm) : its.law(axis, rpm);
 }
 
-/// Of DRV, which the feed's override does not scale.
+/// Returns the law of DRV, which the feed override does not scale unless that is chosen.
 motion::SpeedLaw Super40nc::drive_law(int axis, std::int32_t rpm, Mover mover) const {
   const bool is_scaled = chose(option("override_scope", "drv_as_well"));
   return line_law(axis, is_scaled ? rpm * override_percent() / 100 : rpm, mover);
@@ -56,7 +56,7 @@ motion::SpeedLaw Super40nc::drive_law(int axis, std::int32_t rpm, Mover mover) c
 bool Super40nc::begin_drive(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
   AxisState& state = axis(axis_number);
   prepare(axis_number);
-  state.mover = mover;  // whose line D8095 tells, if it cannot begin
+  state.mover = mover;  // its line is reported in D8095 if the motion cannot begin
   const std::int64_t distance = distance_to(axis_number, target_lu);
   const motion::SpeedLaw law = drive_law(axis_number, rpm, mover);
   begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Holder::move);
@@ -77,7 +77,7 @@ bool Super40nc::begin_drive(int axis_number, std::int64_t target_lu, std::int32_
   return true;
 }
 
-/// MRK with X16 = 0: a signal in the way resets the program, as a limit would, whatever X33 and X34 say.
+/// MRK with X16 = 0: a signal on the way resets the program, as a limit would, regardless of X33 and X34.
 bool Super40nc::begin_blind_mark(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
   AxisState& state = axis(axis_number);
   if (chose(option("mark_without_distance", "a_plain_move"))) {
@@ -147,7 +147,7 @@ void Super40nc::change_turning(int axis_number, std::int32_t rpm, Mover mover) {
   state.stop_awaited_by = Mover::hand;
 }
 
-/// VDRV 0. Returns whether it has to come to rest first.
+/// VDRV 0. Returns true if the axis has to come to rest first.
 bool Super40nc::end_by_ramp(int axis_number, Mover mover) {
   AxisState& state = axis(axis_number);
   if (state.holder == Holder::nobody) return false;
@@ -166,7 +166,7 @@ bool Super40nc::end_by_ramp(int axis_number, Mover mover) {
   return true;
 }
 
-/// STP, a STOP key, M8x02.
+/// Stops by STP, a STOP key or M8x02.
 void Super40nc::stop_by_command(int axis_number) {
   if (!chose(option("stp_stops", "by_its_ramp")) || (is_on_path(axis_number) && state_.path_is_held)) {
     return stop_axis(axis_number);
@@ -199,7 +199,7 @@ void Super40nc::hold_axis(int axis_number) {
   motor.slow_down(now());
 }
 
-/// It has come to rest, and waits.
+/// Called when a held axis has come to rest; it waits.
 void Super40nc::rest_axis(int axis_number) {
   AxisState& state = axis(axis_number);
   if (state.rest.kind == RestKind::mark) {
@@ -257,7 +257,7 @@ void Super40nc::go_on_axis(int axis_number) {
   state.awaited = is_awaited;
 }
 
-/// As if it had met in motion what it stands at now: its program is reset.
+/// Resets the program, as if the axis had met in motion what it stands at now.
 void Super40nc::cannot_go_on(int axis_number, const Rest& rest, Mover mover, bool is_awaited) {
   const motion::Axis& motor = chip(axis_number);
   let_go(axis_number);
@@ -275,7 +275,7 @@ void Super40nc::cannot_go_on(int axis_number, const Rest& rest, Mover mover, boo
   program_broken(mover, axis_number, is_awaited, why);
 }
 
-/// X16, of MRK.
+/// Returns X16, for MRK.
 std::int64_t Super40nc::search_pulses(int axis) const {
   const Settings its = registers();
   const Value distance = its.of(kept_x(90), axis);
@@ -283,14 +283,14 @@ std::int64_t Super40nc::search_pulses(int axis) const {
   return is_in_pulses ? distance : its.scale(axis).to_pulses(distance).value_or(0);
 }
 
-/// What has ended between ticks has been dealt with.
+/// Drops an end between ticks that has been handled.
 void Super40nc::forget_end(int axis) {
   motion::Axis& motor = chip(axis);
   motor.events_between =
       static_cast<motion::Events>(motor.events_between & ~motion::bit(motion::Event::ended));
 }
 
-/// All axes that a program moves stop as the one that has met something.
+/// Stops all axes that a program moves, after one of them has met something.
 void Super40nc::break_program(Mover mover, int but_for) {
   for (int number = 0; number < kAxisCount; ++number) {
     AxisState& state = axis(number);

@@ -1,5 +1,5 @@
-// The geometry of LIN and arcs, as programs ask for it (《LIN 指令》, 《CW , CCW 指令》, 《C3P 指令》, 《CWR
-// , CCWR 指令》).
+// The geometry of LIN and arcs of programs (《LIN 指令》, 《CW , CCW 指令》, 《C3P 指令》, 《CWR , CCWR
+// 指令》).
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -29,7 +29,7 @@ namespace {
 constexpr int kModeLine = 0x61;
 constexpr int kModeClockwise = 0x64;
 constexpr int kModeCounterClockwise = 0x65;
-/// End points so far off the circle are taken all the same.
+/// End points up to this far off the circle are accepted.
 constexpr double kOffCircleLu = 10;
 
 }  // namespace
@@ -87,7 +87,7 @@ Begun ProgramMachine::begin(Area, const language::LinearMove& move) {
       [](const motion::Point& from, const motion::Point& to) { return motion::line(from, to); });
 }
 
-/// The places of an arc in its plane, whose two axes it takes.
+/// The points of an arc in its plane, and the two axes of the plane.
 struct ProgramMachine::ArcFrame {
   std::array<int, 2> axes;
   motion::ArcOptions options;
@@ -96,7 +96,7 @@ struct ProgramMachine::ArcFrame {
   std::array<std::int64_t, kAxisCount> base_lu{};
   std::array<std::int64_t, kAxisCount> offset_lu{};
 
-  /// In the machine's coordinate.
+  /// Returns a point in the machine coordinate.
   motion::Point place(const std::array<double, 2>& lu) const {
     motion::Point point = motion::Point::Zero();
     point[axes[0]] = lu[0];
@@ -144,7 +144,7 @@ Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mo
   }
 }
 
-/// C24 to C26 swap the sense in a plane. Seen from the third axis Z comes before X.
+/// Returns the turn in a plane, which C24 to C26 swap. Seen from the third axis, Z comes before X.
 motion::Turn ProgramMachine::turn_of(language::Turn turn, language::Plane plane) const {
   const std::array<Kept, 3> swaps{kept_d(9017), kept_d(9018), kept_d(9019)};
   const bool is_seen_from_behind =
@@ -183,10 +183,10 @@ Begun ProgramMachine::begin(Area, const language::PointArc& arc) {
                    });
 }
 
-/// One that is too small for its chord becomes that of a half circle, where that is chosen.
+/// Returns the radius; one that is too small for its chord becomes that of a half circle, if that is chosen.
 double ProgramMachine::radius_for(std::int32_t radius_lu, const motion::Point& from,
                                   const motion::Point& to) const {
-  constexpr double kNoLess = 1 + 1e-12;  // than half the chord, as it is rounded
+  constexpr double kNoLess = 1 + 1e-12;  // at least half the chord, despite rounding
   const auto radius = static_cast<double>(radius_lu);
   const double least = (to - from).norm() / 2 * kNoLess;
   const bool widens = std::abs(radius) < least && device_.chose(option("radius_too_small", "half_circle"));

@@ -1,4 +1,4 @@
-// A SUPER-40NC's programs: as texts in its memory, made ready to run, and what happens to them.
+// A SUPER-40NC's programs: stored as texts, compiled, and their events.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -43,7 +43,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// One area by itself, as it is kept.
+/// Writes one area as text, as it is stored.
 std::string text_of_area(language::Area area, const language::AreaProgram& program) {
   language::Program alone;
   alone.areas[language::index_of(area)] = program;
@@ -65,7 +65,7 @@ void Super40nc::make_programs_ready() {
   const auto texts = state_.blocks.all().find(kPrograms);
   ready_texts_ = texts == state_.blocks.all().end() ? NamedBlocks::mapped_type{} : texts->second;
   ProgramMachine machine(*this);
-  std::set<std::int32_t> labels;  // of areas before, where those are theirs alone
+  std::set<std::int32_t> labels;  // of earlier areas, if labels belong to the first area
   for (const language::AreaRow& row : language::kAreas) {
     const auto stored = stored_area(state_.blocks, kPrograms, row.name, row.area, options_);
     const language::AreaProgram program = stored.value_or(language::AreaProgram{.base = row.base});
@@ -83,7 +83,7 @@ void Super40nc::make_programs_ready() {
   show_line_counts();
 }
 
-/// D9036 to D9042, where they are chosen to tell what there is, not what there is room for.
+/// Shows in D9036 to D9042 the stored lines, not the capacities, if that is chosen.
 void Super40nc::show_line_counts() {
   if (!shows_line_counts()) return;
   const Kept shown[] = {kept_d(9042), kept_d(9037), kept_d(9038), kept_d(9039), kept_d(9040), kept_d(9036)};
@@ -97,14 +97,14 @@ void Super40nc::show_line_counts() {
   }
 }
 
-/// D9042 is the room of C and of each file.
+/// Returns the options with D9042, the room of C and of each file.
 language::Options Super40nc::options_with_room() const {
   language::Options options = options_;
-  if (registers().raw(kept_d(9045)) > 0) options.c_capacity = room_of_c();  // it is 0 before power-up
+  if (registers().raw(kept_d(9045)) > 0) options.c_capacity = room_of_c();  // 0 before power-up
   return options;
 }
 
-/// Whether a program that is stored has more lines than D9042 gives it.
+/// Returns true if a stored program has more lines than D9042 allows.
 bool Super40nc::is_too_long(std::string_view kind, std::string_view name) const {
   const auto program = stored_area(state_.blocks, kind, name, language::Area::c, options_);
   if (!program) return false;
@@ -141,7 +141,7 @@ void Super40nc::load_program(std::string_view text) {
   }
   const bool runs = state_.plc.runs;
   const bool has_plc = checked.program->area(language::Area::plc).has_value();
-  if (has_plc) {  // what it jogs stops, also where the new one never scans
+  if (has_plc) {  // its jogs stop, even if the new program never scans
     ProgramMachine machine(*this);
     language::stop(state_.plc, machine);
   }
@@ -161,7 +161,7 @@ void Super40nc::load_program(std::string_view text) {
   }
   make_programs_ready();
   if (has_plc && runs) plc_to_run();
-  // Labels may be those of areas that the text does not name.
+  // Labels may belong to areas that the text does not name.
   const language::Checked all =
       options_.labels_are_common ? language::check(program_text(), options_with_room()) : language::Checked{};
   const auto& warnings = all.warnings.empty() ? checked.warnings : all.warnings;
@@ -188,7 +188,7 @@ std::string Super40nc::program_text() const {
   return language::list(all);
 }
 
-/// What is loaded takes its place: the axes that it moves stop, and no others.
+/// Prepares an area for a new program: only the axes that the old one moves stop.
 void Super40nc::give_up_program(language::Area area) {
   stop_all_of(static_cast<Mover>(area));
   ProgramMachine machine(*this);
@@ -230,7 +230,7 @@ void Super40nc::set_pointer(int program, std::int32_t step) {
       .set_step(static_cast<language::Area>(program), step);
 }
 
-/// "plc 初始": what does not run begins anew.
+/// "plc 初始": programs that do not run begin anew.
 void Super40nc::plc_to_run() {
   ProgramMachine machine(*this);
   language::run(state_.plc, *ladder_, machine, options_);
@@ -254,7 +254,7 @@ void Super40nc::plc_to_stop() {
   std::fill(outputs.begin(), outputs.end(), 0U);
 }
 
-/// Values and contacts of those that are not latched.
+/// Clears values and contacts of timers that are not latched.
 void Super40nc::clear_timers() {
   constexpr int kTimers = 56;
   for (int i = 0; i < kTimers; ++i) {
@@ -274,7 +274,7 @@ void Super40nc::program_broken(Mover mover, int axis, bool is_awaited, motion::C
   break_program(mover, axis);
   const auto area = static_cast<language::Area>(mover);
   const language::Phase phase = state_.steps.programs[language::index_of(area)].phase;
-  // A motion beside the lines resets a program that runs as well; one that is over is left alone.
+  // A motion beside the lines also resets a running program; a program that is over is left alone.
   const bool runs_on = !is_awaited && phase != language::Phase::idle;
   const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus;
   const bool is_soft = why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;
@@ -295,7 +295,7 @@ void Super40nc::flash_written(bool is_recipe) {
   if (chose(option("flash_time", "100_ms_without_a_scan"))) state_.flash_until = now() + 1 + kFlashTicks;
 }
 
-/// Saves the C program that is in memory, and takes the one of another file.
+/// Saves the C program in memory, and loads that of another file.
 void Super40nc::change_file(std::int32_t number) {
   if (chose(option("file_number_range", "nearest_one"))) {
     number = std::clamp(number, 0, std::max(registers().raw(kept_d(9043)) - 1, 0));
@@ -326,7 +326,7 @@ void Super40nc::change_file(std::int32_t number) {
       state_.blocks.put(to, to_name, *text);
     }
   };
-  // A file that was too long to be loaded stays as it is.
+  // A file that was too long to load stays unchanged.
   const std::string left = std::to_string(state_.file);
   if (!state_.file_is_left_out) copy(kPrograms, c, kFiles, left);
   state_.file_is_left_out = is_too_long(kFiles, std::to_string(number));

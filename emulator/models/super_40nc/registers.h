@@ -1,4 +1,4 @@
-// SUPER-40NC: every contact and register, and where its value is kept.
+// SUPER-40NC: every contact and register, and where its value is stored.
 #pragma once
 
 #include <algorithm>
@@ -33,12 +33,12 @@ inline constexpr std::size_t kSlotCount = [] {
   return count;
 }();
 
-/// A register as the code uses it: where its value is kept, and within what it is limited.
+/// A register as the code uses it: where its value is stored, and its limits.
 struct Kept {
   std::size_t slot = 0;
   Value min = INT32_MIN;
   Value max = INT32_MAX;
-  bool on_axes = false;  // the first of one for each axis, whose values are neighbours
+  bool on_axes = false;  // the first of one register for each axis, with adjacent values
 };
 
 consteval Kept kept_at(Table table, int address) {
@@ -62,7 +62,7 @@ consteval Kept kept_at(Table table, int address) {
   throw "no such register";
 }
 
-/// Where the special contacts M8000 to M8699 are kept; views of other state are not.
+/// Where the special contacts M8000 to M8699 are stored; views of other state are not stored.
 inline constexpr int kFirstSpecialContact = 8000;
 inline constexpr std::size_t kNotKept = SIZE_MAX;
 inline constexpr auto kSpecialContactSlots = [] {
@@ -84,11 +84,12 @@ constexpr std::size_t relay_slot(int special) {
   return kSpecialContactSlots[static_cast<std::size_t>(special - kFirstSpecialContact)];
 }
 
-/// Contacts and registers that no table of the manual names.
+/// Marks the contacts and registers that no table of the manual names.
 inline constexpr auto kIsUnlisted = [] {
   struct Range {
     Table table;
-    int first, last, each;  // of X, and how far the next axis is; 0: of all
+    // `first` and `last` of axis X; `each`: distance to the next axis; 0: common to all axes
+    int first, last, each;
   };
   constexpr Range kRanges[] = {
       {Table::coil, 8012, 8019, 0},    {Table::coil, 8027, 8099, 0},    {Table::coil, 8159, 8191, 100},
@@ -118,11 +119,11 @@ inline constexpr auto kIsUnlisted = [] {
   return unlisted;
 }();
 
-/// By number; a compile error where there is none.
+/// Find a register by number; an unknown number is a compile error.
 consteval Kept kept_d(int number) { return kept_at(Table::holding, data_address(number)); }
 consteval Kept kept_m(int number) { return kept_at(Table::coil, relay_address(number)); }
 consteval Kept kept_y(int number) { return kept_at(Table::coil, number); }
-/// D9x00 + number, of the first axis.
+/// Finds D9x00 + number, for the first axis.
 consteval Kept kept_x(int number) { return kept_d(9100 + number); }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -1,5 +1,5 @@
-// How SUPER-40NC's tables of registers are written down: a device is named by its letter and number, and the
-// row's address follows from them (《接點元件編號一覽表》, 《暫存器元件編號一覽表》).
+// The words in which SUPER-40NC's register tables are written: letter and number name a device, and its
+// address follows (《接點元件編號一覽表》, 《暫存器元件編號一覽表》).
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ inline constexpr Access RW = Access::read_write;
 
 inline constexpr int kAxisCount = 4;
 
-/// Addresses of the wire.
+/// Addresses on the wire.
 constexpr std::uint16_t relay_address(int number) {
   return static_cast<std::uint16_t>(number < 8000 ? 1000 + number : number - 6000);
 }
@@ -27,14 +27,14 @@ constexpr std::uint16_t data_address(int number) {
   return static_cast<std::uint16_t>(number < 9000 ? 7000 + 2 * (number - 8000) : 9000 + 2 * (number - 9000));
 }
 
-/// One relay M, or several with the numbers from that one on.
+/// Make a row of one relay M, or of several with consecutive numbers.
 constexpr RegisterRow relay(int number, Access access = RW) {
   return coil(relay_address(number), "M{}", access).times(1, 1, number);
 }
 constexpr RegisterRow relays(int first, int last, Access access = RW) {
   return relay(first, access).times(last - first + 1, 1, first);
 }
-/// M81.., M82.., M83.., M84..: one for each axis, X first.
+/// Makes a row of M81.., M82.., M83.., M84..: one for each axis, X first.
 constexpr RegisterRow axis_relays(int first_of_x, int last_of_x, int axis) {
   return relays(first_of_x + 100 * axis, last_of_x + 100 * axis);
 }
@@ -42,22 +42,22 @@ constexpr RegisterRow axis_relay(int of_x, Access access = RW) {
   return relay(of_x, access).times(kAxisCount, 100, of_x).numbered_by(100);
 }
 
-/// One data register D, or several.
+/// Make a row of one data register D, or of several.
 constexpr RegisterRow data(int number, Access access = RW) {
   return reg(data_address(number), "D{}", s32, access).times(1, 2, number);
 }
 constexpr RegisterRow data(int first, int last, Access access = RW) {
   return data(first, access).times(last - first + 1, 2, first);
 }
-/// D81.., D82.., D83.., D84.. or D91.. and so on: one for each axis, X first.
+/// Makes a row of D81.., D82.., D83.., D84.. or D91.. and so on: one for each axis, X first.
 constexpr RegisterRow axis_data(int of_x, Access access = RW) {
   return data(of_x, access).times(kAxisCount, 200, of_x).numbered_by(100);
 }
-/// Several neighbours of one axis.
+/// Makes a row of several adjacent registers of one axis.
 constexpr RegisterRow axis_data(int first_of_x, int last_of_x, int axis) {
   return data(first_of_x + 100 * axis, last_of_x + 100 * axis);
 }
-/// D9n00 + number of each axis.
+/// Makes a row of D9n00 + number of each axis.
 constexpr RegisterRow parameter(int number) { return axis_data(9100 + number).kept_at_once(); }
 
 template <std::size_t N>

@@ -1,4 +1,5 @@
-// What the axes of a SUPER-40NC meet: switches along their way, the drive's alarm, the encoder's index.
+// What the axes of a SUPER-40NC encounter: switches along their travel, the drive's alarm, the encoder's
+// index.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -26,7 +27,8 @@ Value Super40nc::limit_logic(int axis, int way) const {
 
 void Super40nc::look_round(int axis_number) {
   const Settings its = registers();
-  const auto limit_level = [&](int way) -> std::optional<bool> {  // of an active one; none: not in use
+  // level of an active limit; none: not in use
+  const auto limit_level = [&](int way) -> std::optional<bool> {
     const Value how = limit_logic(axis_number, way);
     return how == 0 ? std::nullopt : std::optional(how == 1);
   };
@@ -35,7 +37,7 @@ void Super40nc::look_round(int axis_number) {
     motion::Signal signal;
     std::optional<bool> active_level;
   };
-  // MRK looks for its mark on one of them, whatever it is as a limit.
+  // MRK looks for its mark on a limit input, whatever its use as a limit.
   const Rest& rest = axis(axis_number).rest;
   const auto limit_of_line = [&](int way) {
     const std::optional<bool> level = limit_level(way);
@@ -85,7 +87,7 @@ void Super40nc::look_round(int axis_number) {
   here(axis_number) = seen;
 }
 
-/// What is ON at power-up is no edge of a contact that shows it.
+/// A signal that is ON at power-up is not an edge of the contact that shows it.
 void Super40nc::see_first_signals() {
   if (state_.has_ticked) return;
   for (int number = 0; number < kAxisCount; ++number) {
@@ -95,7 +97,7 @@ void Super40nc::see_first_signals() {
 
 void Super40nc::set_edges(int axis, const MachineEdges& edges) {
   edges_[static_cast<std::size_t>(axis)] = edges;
-  // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
+  // A restored state has seen these already, but not yet the inputs that have changed since the last tick.
   if (!std::exchange(is_restored_[static_cast<std::size_t>(axis)], false)) look_round(axis);
 }
 
@@ -114,7 +116,7 @@ void Super40nc::heed_axis(int axis_number, int number) {
   };
   switch (number) {
     case 13: {
-      // It counts the other way from here on, and has met nothing.
+      // It counts in the other direction from here on, and has met nothing.
       motion::Axis& motor = chip(axis_number);
       const std::int64_t counts = axis(axis_number).encoder_counts;
       motor.encoder_pulses = motor.encoder_seen = its.is_on(kept_x(13), axis_number) ? -counts : counts;

@@ -35,7 +35,7 @@ std::string register_at_slot(std::size_t slot) {
 
 namespace {
 
-/// What sums of pulses and lengths can come to.
+/// The largest sums of pulses and lengths.
 constexpr std::int64_t kFar = std::int64_t{1} << 60;
 
 }  // namespace

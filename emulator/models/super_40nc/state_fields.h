@@ -1,4 +1,4 @@
-// What the state of a SUPER-40NC consists of (base/state/fields.h), in the order of the bytes.
+// The fields of a SUPER-40NC's state (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 namespace understudy {
 
 namespace emulator::models::super_40nc {
-/// Which register a slot of the image belongs to: "D9100", "M8000".
+/// Returns the name of the register at a slot of the image: "D9100", "M8000".
 std::string register_at_slot(std::size_t slot);
 }  // namespace emulator::models::super_40nc
 

@@ -1,5 +1,5 @@
-// What a SUPER-40NC shows of its axes, and how its counters count (《M8x 特殊接點的功用(XYZU 軸用)》,
-// 《D8x 特殊暫存器的功用(XYZU 軸用)》).
+// What a SUPER-40NC shows of its axes, and how its counters count (《M8x 特殊接點的功用(XYZU 軸用)》, 《D8x
+// 特殊暫存器的功用(XYZU 軸用)》).
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// D8x64, by the chip's numbers.
+/// The values of D8x64, by the chip's numbers.
 enum Operation : std::int32_t {
   kStopped = 0,
   kBacklash = 7,
@@ -38,7 +38,7 @@ enum Operation : std::int32_t {
   kSlowingDown = 13,
 };
 
-/// Where counters count from, as D9x23 to D9x25 number them.
+/// The sources of the counters, as D9x23 to D9x25 number them.
 struct CountedThisTick {
   std::int64_t pulses = 0;
   std::int64_t backlash = 0;
@@ -47,7 +47,7 @@ struct CountedThisTick {
 
 bool is_bit(std::int32_t mask, int bit) { return (mask >> bit & 1) != 0; }
 
-/// Half the chip's clock of 19.6608 MHz: so many counts in so many ticks.
+/// Returns the counts of half the chip's clock of 19.6608 MHz in a number of ticks.
 std::int64_t clock_counts(Tick ticks) { return ticks * 49'152 / 5; }
 
 std::int32_t wrapped(std::int64_t number) {
@@ -118,7 +118,7 @@ std::int32_t Super40nc::operation_of(int axis_number) const {
   if (!(sample.speed_u_s > 0)) return kStopped;
   if (sample.acceleration_u_s2 > 0) return kSpeedingUp;
   if (sample.acceleration_u_s2 < 0) return kSlowingDown;
-  constexpr int kCreep = 1;  // of a homing's speeds
+  constexpr int kCreep = 1;  // index of a homing's speeds
   if (motor.homing.active() && motor.homing.row().speed == kCreep) return kAtFa;
   return sample.speed_u_s > motor.law.start_speed_u_s ? kAtFh : kAtFl;
 }
@@ -136,7 +136,7 @@ std::int32_t Super40nc::chip_speed(int axis_number) const {
 
 // ---- counters
 
-/// Of COUNTER2 to COUNTER4.
+/// Adds to one of COUNTER2 to COUNTER4.
 void Super40nc::add_to_counter(int axis_number, int which, std::int64_t counts) {
   constexpr int kDeviation = 2;
   if (counts == 0 || is_bit(registers().raw(kept_x(30), axis_number), which - 1)) return;
@@ -145,7 +145,7 @@ void Super40nc::add_to_counter(int axis_number, int which, std::int64_t counts) 
   if (which == kDeviation) its_count = static_cast<std::int16_t>(its_count);  // 16 bits on the chip
 }
 
-/// COUNTER4, which may be told to do so only while the axis moves.
+/// Returns true if COUNTER4 counts now; it may count only while the axis moves.
 bool Super40nc::counts_now(int axis_number) const {
   const AxisState& its = axis(axis_number);
   return !registers().is_on(kept_x(26), axis_number) || its.moves() || its.followed_pulses != 0;
@@ -155,7 +155,7 @@ bool Super40nc::counts_a_clock(int axis) const {
   return chose(option("counter4_clock", "9_8304_mhz")) && registers().of(kept_x(25), axis) == 3;
 }
 
-/// The machine's encoder, which has moved by what came out in this tick.
+/// Sets the machine's encoder, which has moved by the pulses of this tick.
 void Super40nc::set_encoder(int axis_number, std::int64_t counts) {
   count_encoder(axis_number, counts);
   chip(axis_number).set_encoder(registers().is_on(kept_x(13), axis_number) ? -counts : counts);
@@ -176,7 +176,7 @@ void Super40nc::count_encoder(int axis_number, std::int64_t counts) {
     add_to_counter(axis_number, 3, counted);
 }
 
-/// At the end of a home: the counts of its last tick have come in.
+/// Clears counters at the end of a home, after the counts of its last tick.
 void Super40nc::clear_counters(int axis_number) {
   const std::uint8_t cleared = std::exchange(axis(axis_number).clears, std::uint8_t{0});
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
@@ -184,7 +184,7 @@ void Super40nc::clear_counters(int axis_number) {
   }
 }
 
-/// What a tick, or many of them, have sent out, and the wheel's; the encoder's come by set_encoder().
+/// Counts the pulses of one or several ticks, and those of the wheel; set_encoder() counts the encoder.
 void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts,
                       Tick clock_ticks) {
   AxisState& state = axis(axis_number);
@@ -223,10 +223,10 @@ void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t 
       default: break;  // the encoder's
     }
   }
-  if (is_beside_travel) set_comparators(axis_number);  // by the travel they would not know of it
+  if (is_beside_travel) set_comparators(axis_number);  // the comparators by travel would not notice it
 }
 
-/// D8x71: edges of C in the row of the search that counts them.
+/// D8x71: counts edges of C in the row of the search that counts them.
 void Super40nc::count_index(int axis_number, std::int8_t phase_before) {
   const motion::Homing& homing = chip(axis_number).homing;
   if (phase_before < 0) return;
@@ -237,7 +237,7 @@ void Super40nc::count_index(int axis_number, std::int8_t phase_before) {
   if (has_met) axis(axis_number).index_count = is_over ? row.count : homing.counted;
 }
 
-/// All counters up to this moment of a tick, of which the rest is counted behind it.
+/// Counts up to this moment of a tick; the rest of the tick is counted afterwards.
 void Super40nc::count_until(const motion::SharedTick& tick, int axis_number) {
   CountedSoFar& so_far = counted_[static_cast<std::size_t>(axis_number)];
   const motion::Axis& motor = chip(axis_number);
@@ -251,7 +251,7 @@ void Super40nc::count_until(const motion::SharedTick& tick, int axis_number) {
   count_encoder(axis_number, encoder.turned ? -counts : counts);
 }
 
-/// D9x50: the DOG's edge, and the comparators 4 and 5, where the chip compares.
+/// D9x50: latches at the DOG's edge, and at the comparators 4 and 5 if the chip compares them.
 void Super40nc::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) {
   const int axis_number = static_cast<int>(axis);
   const Value by = registers().of(kept_x(50), axis_number);
@@ -263,7 +263,7 @@ void Super40nc::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Even
   take_latch(axis_number, chip(axis_number).travel_pulses);
 }
 
-/// By one of what the chip does not compare within the tick: when it has become true at its end.
+/// Latches by a comparator that the chip does not check within the tick: when it is true at the tick's end.
 void Super40nc::latch_by_comparator(int axis_number) {
   AxisState& state = axis(axis_number);
   const Value by = registers().of(kept_x(50), axis_number);

@@ -1,5 +1,5 @@
-// SUPER-40NC's terminals: X, Y, and the pins without a number (names of these are ours; the wiring pictures
-// are lost).
+// SUPER-40NC's terminals: X, Y, and the pins without a number. The names of these pins are ours, since the
+// wiring pictures are lost.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace understudy::emulator::models::super_40nc {
 inline constexpr int kFirstOutput = kInputCount;
 inline constexpr int kFirstPin = kFirstOutput + kOutputCount;
 
-/// Of each axis.
+/// Pins of each axis.
 enum Pin : int { kAlarmPin, kIndexPin, kInPositionPin, kReadyPin, kPinsOfAxis };
 constexpr int pin_of(int axis, Pin pin) { return kFirstPin + axis * kPinsOfAxis + pin; }
 
@@ -25,8 +25,8 @@ inline constexpr int kAnalogInCount = 3;
 inline constexpr int kFirstAnalogOut = kFirstAnalogIn + kAnalogInCount;  // Vout1, Vout2
 inline constexpr int kAnalogOutCount = 2;
 inline constexpr int kRunSwitch = kFirstAnalogOut + kAnalogOutCount;  // PLC_RUN
-// What is there by choice alone: DOG_X on (dog_inputs), Vin1 on (analog_counts), SVON_X on (servo_on), CLR_X
-// on and so forth (pins_fitted).
+// Terminals that exist only by choice: DOG_X on (dog_inputs), Vin1 on (analog_counts), SVON_X on (servo_on),
+// CLR_X on and so forth (pins_fitted).
 inline constexpr int kFirstDogTerminal = kRunSwitch + 1;
 inline constexpr int kFirstVoltageIn = kFirstDogTerminal + kAxisCount;
 inline constexpr int kFirstServoTerminal = kFirstVoltageIn + kAnalogInCount;
@@ -35,7 +35,7 @@ enum ChipPin : int { kClearPin, kLatchPin, kErcPin, kChipPinsOfAxis };
 constexpr int chip_pin_of(int axis, ChipPin pin) { return kFirstChipPin + axis * kChipPinsOfAxis + pin; }
 inline constexpr int kTerminalCount = kFirstChipPin + kAxisCount * kChipPinsOfAxis;
 
-// 《X33./X34.》; DOG is where their list leaves a gap.
+// Inputs by 《X33./X34.》; DOG fills the gap in that list.
 constexpr int dog_input(int axis) { return 3 * axis; }
 constexpr int limit_plus_input(int axis) { return 3 * axis + 1; }
 constexpr int limit_minus_input(int axis) { return 3 * axis + 2; }
@@ -63,7 +63,7 @@ inline constexpr std::array<AxisRow, kAxisCount> kAxes = [] {
   return rows;
 }();
 
-/// Rows whose names are made once.
+/// Returns the rows of all terminals; their names are made once.
 std::span<const TerminalRow> terminals();
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -55,7 +55,7 @@ constexpr std::array<CommandRow, 10> kCommands{{{Op::lin, 4},
                                                 {Op::set, 4, true, true},
                                                 {Op::rst, 4, true, true}}};
 
-/// Y, M or M8 at an address; unset where none is.
+/// Returns Y, M or M8 at an address; unset if there is none.
 Operand coil_at(std::uint32_t address) {
   const auto number = static_cast<std::int32_t>(std::min(address, kNoCoil));
   Operand coil;
@@ -66,7 +66,7 @@ Operand coil_at(std::uint32_t address) {
   return language::block_of(coil) != nullptr ? coil : Operand{};
 }
 
-/// The instructions of a line; none if it cannot be carried out.
+/// Returns the instructions of a line; none if it cannot run.
 std::vector<Instruction> instructions_of(std::span<const std::uint32_t> line) {
   const std::uint32_t number = line[0];
   if (number < 1 || number > kCommands.size()) return {};
@@ -102,7 +102,8 @@ TableProgram program_of_table(std::span<const std::uint32_t> words) {
   for (; words.size() >= kWordsOfATableLine; ++number, words = words.subspan(kWordsOfATableLine)) {
     if (words[0] == 0) break;
     const std::vector<Instruction> instructions = instructions_of(words);
-    if (instructions.empty() && number == 0) add({.op = Op::nop}, number);  // a program has a line
+    // a program needs at least one line
+    if (instructions.empty() && number == 0) add({.op = Op::nop}, number);
     if (instructions.empty()) return made;
     for (const Instruction& each : instructions) add(each, number);
   }
@@ -133,7 +134,7 @@ void Super40nc::take_user_command(std::int32_t number) {
   const std::int32_t feed = its.raw(kept_d(8006));
   const std::int32_t plane = its.raw(kept_d(8007));
   tell(language::Event::start, language::Area::c);
-  if (!is_table && before.has_modes) {  // F and RPM are for the commands behind them
+  if (!is_table && before.has_modes) {  // F and RPM apply to later commands
     language::StepState& program = state_.steps.programs[0];
     program.targets = before.targets;
     program.rpm = before.rpm;
@@ -151,7 +152,7 @@ void Super40nc::put_table_in_place() {
   table_lines_ = std::move(made.table_lines);
 }
 
-/// C is its own program again when the table is over.
+/// Restores C's own program when the table is over.
 void Super40nc::leave_table() {
   if (state_.table.runs == UserTable::Runs::nothing) return;
   if (state_.steps.programs[0].phase != language::Phase::idle) return;

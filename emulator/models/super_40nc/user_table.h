@@ -1,12 +1,12 @@
 // The user table and the direct command (《命令範例》 24, 《D8 特殊暫存器的功用(一般用途)》 D8019 to D8029),
-// which the manual calls unfinished: it prints a line of the table, and of its commands only 1, a line. All
-// else is ours, and off unless it is chosen.
+// which the manual calls unfinished. It prints one line of the table and only command 1, a line. All other
+// commands are ours, and off unless chosen.
 //
 // A line has ten registers: a command, and data 1 to 9; there are 200 lines. D8020 = 100 runs the table as
-// the C program, from line 0 to a line with command 0; D8019 is the line. D8020 = 100 + command carries one
-// out with the data in D8021 to D8029. Either way D8020 falls to 0; while C runs it is void, with code 21.
-// The table begins with the parameters' modes and speeds, as C does; a command has those of the one before
-// it.
+// the C program, from line 0 to a line with command 0; D8019 shows the line. D8020 = 100 + command runs one
+// command with the data in D8021 to D8029. In both cases D8020 falls to 0; while C runs, D8020 has no effect,
+// and code 21 is shown. The table begins with the modes and speeds of the parameters, as C does; a command
+// has those of the command before it.
 //
 //   1 LIN  2 CW  3 CCW  4 DRV  6 RPM  8 HOM   data 1 to 4 as their fields, -2147483648 for one that is unset
 //   5 F  7 TMR                                data 1
@@ -24,18 +24,18 @@ namespace understudy::emulator::models::super_40nc {
 inline constexpr int kTableLines = 200;
 inline constexpr int kWordsOfATableLine = 10;
 
-/// At work, or nothing.
+/// What runs now: the table, a command or nothing.
 struct UserTable {
   enum class Runs : std::uint8_t { nothing, command, table } runs = Runs::nothing;
-  std::vector<std::uint32_t> words;  // its lines, as they were when it began
+  std::vector<std::uint32_t> words;  // the table's lines, as they were when it began
 
   bool operator==(const UserTable&) const = default;
 };
 
-/// As a program of C. It ends without END, and so stops with code 1, at a line that cannot be carried out.
+/// A table as a program of C. It has no END, so it stops with code 1, at a line that cannot run.
 struct TableProgram {
   interpreter::super_40nc::AreaProgram program;
-  std::vector<int> table_lines;  // by line of the program
+  std::vector<int> table_lines;  // table line of each line of the program
 };
 TableProgram program_of_table(std::span<const std::uint32_t> words);
 

@@ -1,4 +1,4 @@
-// What a tick works with and does not keep: none of it is state.
+// Working values of a tick; none of them is state.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// A scan keeps the ladder that it began with, whoever replaces the device's meanwhile.
+/// A scan keeps the ladder that it began with, even if the device's ladder is replaced meanwhile.
 using SharedLadder = std::shared_ptr<const interpreter::super_40nc::Ladder>;
 
-/// What the PLC's ladder reads and others write without telling it.
+/// What the PLC's ladder reads and others write without notice.
 struct WatchedPlaces {
   std::vector<Place> places;
-  bool some_move = false;   // with the pulses of an axis
-  std::vector<Value> seen;  // by the PLC in the present tick
+  bool some_move = false;   // some places change with an axis's pulses
+  std::vector<Value> seen;  // values that the PLC saw in the current tick
 };
 
-/// Of the tick that is stepped: what has been counted of an axis so far.
+/// What has been counted of an axis so far in the current tick.
 struct CountedSoFar {
-  std::int64_t travel = 0;  // up to there
-  std::int64_t wheel = 0;   // so many counts
+  std::int64_t travel = 0;  // travel up to which it has been counted
+  std::int64_t wheel = 0;   // wheel counts so far
 };
 
 }  // namespace understudy::emulator::models::super_40nc

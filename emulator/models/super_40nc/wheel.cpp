@@ -1,4 +1,4 @@
-// The hand-wheel of a SUPER-40NC: one for all axes, each of which decodes and weighs its counts by its own
+// The hand-wheel of a SUPER-40NC: one for all axes. Each axis decodes and scales its counts by its own
 // parameters (《X40.》 to 《X44.》).
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ std::int64_t Super40nc::wheel_lu_per_count(int axis_number) const {
   }
 }
 
-/// As the parameters are now; what a division has left over stays.
+/// Sets the ratio by the present parameters; the remainder of a division stays.
 void Super40nc::follow_ratio(int axis) {
   motion::Follower& follower = chip(axis).follower;
   const Settings its = registers();
@@ -75,7 +75,7 @@ void Super40nc::start_wheel(int axis_number, WheelSource source) {
   mirror_start(axis_number, kModeWheel, 0, {});
 }
 
-/// Each axis decodes the edges as its own parameter says.
+/// Feeds the edges to each axis, which decodes them by its own parameters.
 void Super40nc::feed_wheel(std::int32_t edges) {
   for (int number = 0; number < kAxisCount; ++number) {
     AxisState& state = axis(number);
@@ -92,7 +92,7 @@ void Super40nc::feed_wheel(std::int32_t edges) {
   }
 }
 
-/// At a limit the wheel turns in vain, and back.
+/// At a limit the wheel has no effect, in that direction.
 void Super40nc::wheel_ended(int axis) {
   const motion::Cause why = chip(axis).cause;
   const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus ||

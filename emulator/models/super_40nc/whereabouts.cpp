@@ -1,4 +1,4 @@
-// Where its step programs are, for onlookers.
+// The locations of the step programs, for observers.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -22,7 +22,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// The first line of a listing that begins so, behind an area's head; 0 if there is none.
+/// Returns the first line of a listing that begins this way, after an area's head; 0 if there is none.
 int line_of_step(std::string_view text, std::string_view area, const std::string& begin) {
   const std::string head = "AREA " + std::string(area);
   bool is_inside = false;
@@ -36,7 +36,7 @@ int line_of_step(std::string_view text, std::string_view area, const std::string
   return 0;
 }
 
-/// Why a program stands where it does, as far as D8094 says so.
+/// Returns why a program stands where it does, as far as D8094 says.
 std::string why_of(const ErrorReport& error, language::Area area, bool is_idle) {
   const bool stops_all = error.code == Code::emergency_stop || error.code == Code::emergency_input;
   if (error.code == Code::none || (error.area != area && !(stops_all && is_idle))) return {};
@@ -63,7 +63,7 @@ std::vector<ProgramPlace> Super40nc::places() const {
     if (is_of_error && !place.why.empty() && !language::leaves_program_running(state_.error.code)) {
       place.state = ProgramPlace::State::failed;
     }
-    // Where it is, or what stopped it.
+    // Show where it is, or what stopped it.
     const int at = is_of_error ? state_.error.step - language::base_of(row.area, options_) : step.step;
     if (const int line = code.line_at(at); line >= 0 && (!is_idle || (is_of_error && !place.why.empty()))) {
       place.text = language::text_of(code.line(line));

@@ -1,4 +1,4 @@
-// Instructions that decide which line comes next: jumps, loops, delays, waits for an input.
+// Instructions that determine the next line: jumps, loops, delays, waits for an input.
 #pragma once
 
 #include "interpreter/simple2/execution/step.h"
@@ -11,7 +11,7 @@ inline Then jump(Step&) { return Then::flag; }
 
 // --- inputs and STATUS ---------------------------------------------------------------------------
 
-/// An input that does not exist is OFF, a bit that does not exist 0.
+/// Returns OFF for an input, and 0 for a bit, that does not exist.
 inline bool input(const MachineView& machine, std::uint8_t din) {
   return is_defined(Operand::input, din) && machine.input(din);
 }
@@ -64,7 +64,7 @@ inline Then loop(Step& step) {
   const int first = step.flag_line();
   const int here = step.line_number;
   LoopState& state = step.execution.loop;
-  if (first >= here || step.is_void_jump()) return Then::next_line;  // rule 1: void
+  if (first >= here || step.is_void_jump()) return Then::next_line;  // rule 1: no effect
 
   const bool is_counting_here = state.counts && state.loop_line == here;
   if (state.counts && !is_counting_here && here >= state.first_line && here <= state.loop_line) {
@@ -77,7 +77,7 @@ inline Then loop(Step& step) {
   }
 
   if (!is_counting_here) state = {.counts = true, .loop_line = static_cast<std::uint8_t>(here), .passes = 1};
-  state.first_line = static_cast<std::uint8_t>(first);  // the flag may have been moved meanwhile
+  state.first_line = static_cast<std::uint8_t>(first);  // the flag may have moved meanwhile
   const int count = step.line.data2;
   if (count == 0) return Then::flag;  // endless
   const bool counts_further = step.dialect.loop_count == Dialect::LoopCount::further_passes;

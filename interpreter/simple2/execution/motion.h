@@ -13,7 +13,7 @@ constexpr bool has(Axes axes, Axis axis) {
   return axes == Axes::all || axes == (axis == Axis::a ? Axes::a : Axes::b);
 }
 
-// --- orders to one axis --------------------------------------------------------------------------
+// --- actions on one axis -------------------------------------------------------------------------
 
 inline void home(Step& step, Axis axis) { step.machine.go_home(axis); }
 inline void servo_on(Step& step, Axis axis) { step.machine.switch_servo(axis, true); }
@@ -44,7 +44,7 @@ inline void velocity_rpm(Step& step, Axis axis, std::int32_t rpm) {
       axis, static_cast<std::int32_t>(std::clamp<std::int64_t>(milli_rpm, INT32_MIN, INT32_MAX)));
 }
 
-// --- lines that give them ------------------------------------------------------------------------
+// --- lines with these actions --------------------------------------------------------------------
 
 template <Axes axes, void (*order)(Step&, Axis)>
 Then to_axes(Step& step) {
@@ -53,8 +53,8 @@ Then to_axes(Step& step) {
   return Then::next_line;
 }
 
-/// One axis takes the parameter in DATA1; with both, A takes DATA1 and B DATA2. Both are read before either
-/// acts.
+/// One axis takes the parameter in DATA1. With both axes, A takes DATA1 and B takes DATA2, and both are read
+/// before either acts.
 template <Axes axes, void (*order)(Step&, Axis, std::int32_t)>
 Then to_axes(Step& step) {
   const std::int32_t first = step.first_parameter();
@@ -64,7 +64,7 @@ Then to_axes(Step& step) {
   return Then::next_line;
 }
 
-/// DATA1 is the acceleration, DATA2 the deceleration; with both axes, they share them.
+/// DATA1 is the acceleration and DATA2 the deceleration; both axes share them.
 template <Axes axes>
 Then ramps(Step& step) {
   const std::int32_t up_10ms = fitted(step.dialect, step.first_parameter(), 0, 3000);
@@ -105,17 +105,17 @@ bool any_moving(const MachineView& machine) {
          (has(axes, Axis::b) && machine.moving_for_wait(Axis::b));
 }
 
-/// Whether what was waited for has been cut short.
+/// Returns true if the move for which the line waits was cut short.
 inline bool wait_is_cut_short(const Execution& execution, const MachineView& machine) {
   return (execution.waits_for_a && machine.cut_short(Axis::a)) ||
          (execution.waits_for_b && machine.cut_short(Axis::b));
 }
-/// The same, and the line waits for a later move.
+/// Returns true if it was cut short, and the line waits for a later move.
 inline bool waits_on(const Execution& execution, const Dialect& dialect, const MachineView& machine) {
   return dialect.wait_cut_short == Dialect::WaitCutShort::waits_on && wait_is_cut_short(execution, machine);
 }
 
-/// Where Wait_Move_* goes on. It does nothing else.
+/// Returns where Wait_Move_* continues. It has no other effect.
 template <Axes axes>
 Then after_wait_move(const Line& line, const Execution& execution, const Program& program,
                      const Dialect& dialect, const MachineView& machine) {

@@ -1,5 +1,5 @@
-// Instructions that calculate and compare, in 32 bits with a sign. What a result beyond them becomes, and how
-// a quotient is rounded, is the dialect's; a division by zero gives 0.
+// Instructions that calculate and compare, in 32 bits with a sign. The dialect determines what happens to a
+// result beyond 32 bits and how a quotient is rounded; a division by zero gives 0.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using Number = std::int32_t;
 /// 64 bits hold every result of two 32-bit numbers, INT32_MIN / -1 included.
 using Result = std::int64_t;
 
-/// What 32 bits keep of a result.
+/// Returns what 32 bits keep of a result.
 constexpr Number kept(const Dialect& dialect, Result result) {
   if (dialect.overflow == Dialect::Overflow::saturates) {
     return static_cast<Number>(std::clamp<Result>(result, INT32_MIN, INT32_MAX));
@@ -43,7 +43,7 @@ constexpr bool equal(Number a, Number b) { return a == b; }
 constexpr bool greater(Number a, Number b) { return a > b; }
 constexpr bool less(Number a, Number b) { return a < b; }
 
-/// What the second operand is: the value of a parameter, or DATA2 itself (-128 to 127).
+/// The source of the second operand: the value of a parameter, or DATA2 itself (-128 to 127).
 using SecondOperand = Number (*)(const Step&);
 inline Number from_parameter(const Step& step) { return step.second_parameter(); }
 inline Number from_line(const Step& step) { return static_cast<std::int8_t>(step.line.data2); }
@@ -55,14 +55,14 @@ Then into_calc_register(Step& step) {
   return Then::next_line;
 }
 
-/// DATA1 becomes something made of itself.
+/// Sets DATA1 to a function of itself.
 template <Result (*operation)(Number)>
 Then change(Step& step) {
   step.machine.set_parameter(step.line.data1, kept(step.dialect, operation(step.first_parameter())));
   return Then::next_line;
 }
 
-/// DATA2 becomes something made of DATA1.
+/// Sets DATA2 to a function of DATA1.
 template <Result (*operation)(Number)>
 Then change_second(Step& step) {
   step.machine.set_parameter(step.line.data2, kept(step.dialect, operation(step.first_parameter())));
@@ -84,7 +84,7 @@ inline Then set_from_line(Step& step) {
   return Then::next_line;
 }
 
-/// True: the next line. False: it is skipped.
+/// Continues with the next line if true, else skips it.
 template <bool (*comparison)(Number, Number), SecondOperand second>
 Then next_if(Step& step) {
   return comparison(step.first_parameter(), second(step)) ? Then::next_line : Then::line_after_next;

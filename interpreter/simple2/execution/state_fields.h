@@ -1,4 +1,4 @@
-// What the state of a program and its run consists of (base/state/fields.h), in the order of the bytes.
+// The state fields of a program and its run (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace understudy::interpreter::simple2 {
 
-/// By which two programs are told apart.
+/// The parts of a program that describe its differences from another one.
 struct ToldProgram {
   Lines lines{};
   FlagRules flag_rules{};
@@ -86,7 +86,7 @@ struct StateOf<interpreter::simple2::Execution> {
   static void check(const Value& execution);
 };
 
-/// A program's lines, and what they do not tell of its flags.
+/// A program's lines, and the flags that do not follow from them.
 template <>
 struct StateOf<interpreter::simple2::ToldProgram> {
   using Value = interpreter::simple2::ToldProgram;

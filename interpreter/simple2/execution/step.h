@@ -1,4 +1,4 @@
-// What an instruction is given and what it answers.
+// The argument and the result of an instruction.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace understudy::interpreter::simple2 {
 
-/// Where the program goes on after a line.
+/// Where the program continues after a line.
 enum class Then : std::uint8_t {
   next_line,
   line_after_next,
@@ -28,15 +28,15 @@ struct Step {
   const Dialect& dialect;
   Machine& machine;
 
-  /// The parameters that DATA1 and DATA2 name.
+  /// Return the parameters that DATA1 and DATA2 name.
   std::int32_t first_parameter() const { return machine.parameter(line.data1); }
   std::int32_t second_parameter() const { return machine.parameter(line.data2); }
-  /// To a flag that there cannot be, where a choice makes that a void line.
+  /// Returns true for a jump to an impossible flag, if a choice makes that a line without effect.
   bool is_void_jump() const {
     const bool is_flag = line.data1 >= 1 && line.data1 <= kFlagCount;
     return !is_flag && dialect.undefined_flag == Dialect::UndefinedFlag::line_void;
   }
-  /// "If no line has the flag, the target is line 0."
+  /// Returns the line of the flag. "If no line has the flag, the target is line 0."
   int flag_line() const { return program.line_with_flag(line.data1).value_or(0); }
 };
 

@@ -1,4 +1,4 @@
-// Every instruction with what it does, by opcode.
+// Every instruction with its action, by opcode.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ inline constexpr auto kOpcodes = [] {
   return all;
 }();
 
-/// Null where the manual lists no instruction.
+/// The action of each opcode; null if the manual lists no such instruction.
 inline constexpr CompleteTable<std::uint8_t, Action> kActions(kOpcodes, kFlowActions, kOutputActions,
                                                               kNumberActions, kMotionActions);
 
