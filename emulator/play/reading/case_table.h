@@ -1,5 +1,5 @@
-// The cases of a scenario file, by number: each row of `cases` with each combination of what `vary` says.
-// They are never listed, so there may be any number.
+// The cases of a scenario file, by number: each row of `cases` with each combination of the values of
+// `vary`. They are never listed, so there may be any number.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ namespace understudy::emulator::play {
 
 class CaseTable {
  public:
-  /// `seed` stands for the file's own, also in what is drawn. Throws FileError.
+  /// `seed` replaces the file's own seed, also for drawn values. Throws FileError.
   CaseTable(const world::YamlFields& root, std::optional<std::uint64_t> seed);
 
-  /// 1 for a file with neither.
+  /// Returns 1 for a file with neither `cases` nor `vary`.
   std::uint64_t size() const { return size_; }
   bool is_varied() const { return !variations_.empty(); }
   /// The last entry of `vary` changes fastest, the row slowest.
   Case at(std::uint64_t number) const;
-  /// Where that case gets that parameter's value, for complaints.
+  /// Returns the position in the file of that parameter's value in that case, for messages.
   world::YamlFields field_of(std::uint64_t number, const std::string& name) const;
-  /// Where the case as a whole stands.
+  /// Returns the position in the file of the case as a whole.
   world::YamlFields place_of(std::uint64_t number) const;
 
-  /// Cases that have each row and each listed value at least once, and both ends and some more of each range:
-  /// of a few all, of many hardly more than that.
+  /// Returns cases that have each row and each listed value at least once, and both ends and some more
+  /// values of each range. If there are few cases, these are all.
   std::vector<std::uint64_t> typical() const;
 
  private:
