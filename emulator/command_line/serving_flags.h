@@ -1,4 +1,4 @@
-// The flags of everything that serves a bench. Included by flags.cpp only: CLI11 is slow to compile.
+// The flags of all commands that serve a bench. Included by flags.cpp only: CLI11 is slow to compile.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// `--link "$UNSET"` is a slip, not a wish for the default.
+/// An empty value such as `--link "$UNSET"` is a mistake, not a request for the default.
 inline const CLI::Validator kNotEmpty(
     [](const std::string& value) { return value.empty() ? std::string("is empty; expected a value") : ""; },
     "");
@@ -29,7 +29,7 @@ inline constexpr const char* kTraceAlsoHelp =
     "Also trace these: registers, or anything else that a condition can name, such as feeder.Cord_A";
 inline constexpr const char* kLintHelp = "At exit, report protocol violations by the host";
 
-/// Those of everything that serves a bench.
+/// Adds the flags that these commands share.
 inline void add_serving_flags(CLI::App& command, ServeArguments& serving) {
   serving.version = UNDERSTUDY_VERSION;
   command.add_option("BENCH", serving.bench, "A bench file, unless you use --model");
