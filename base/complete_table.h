@@ -1,5 +1,5 @@
-// A table that is complete: exactly one handler for each key. As a constexpr variable it does not compile
-// with none or two. What an interpreter's opcodes or a device's commands do is such a table:
+// A complete table holds exactly one handler for each key. As a constexpr variable it does not compile if a
+// key has no handler or two. Tables of an interpreter's opcodes or a device's commands are built like this:
 //
 //   constexpr HandlerRow<Verb, Action> kOutputActions[] = {{Verb::set_port, set_port}, ...};
 //   constexpr CompleteTable<Verb, Action> kActions(kVerbs, kMotionActions, kOutputActions);
@@ -12,7 +12,7 @@
 
 namespace understudy {
 
-/// How a row is written. Any type with a `key` and a `handler` will do.
+/// A row of the table. Any type with a `key` and a `handler` can take its place.
 template <typename Key, typename Handler>
 struct HandlerRow {
   Key key;
@@ -23,7 +23,7 @@ struct HandlerRow {
 template <typename Key, typename Handler>
 class CompleteTable {
  public:
-  /// Keys may appear several times: they are often what the rows of another table name.
+  /// A key may appear several times in `keys`, because keys are often a column of another table.
   constexpr explicit CompleteTable(const auto& keys, const auto&... groups_of_rows) {
     (add(groups_of_rows), ...);
     std::array<bool, kSize> is_key{};
@@ -35,7 +35,7 @@ class CompleteTable {
   }
 
   constexpr bool has(Key key) const { return is_filled_[place(key)]; }
-  /// Of what is not a key, Handler{}.
+  /// Returns the handler of `key`, or Handler{} if the key is not in the table.
   constexpr const Handler& operator[](Key key) const { return handlers_[place(key)]; }
 
  private:
@@ -51,7 +51,7 @@ class CompleteTable {
     }
   }
 
-  // clang shows a refused call with the number of its key, g++ shows only the call.
+  // If a handler is missing, clang's message shows the number of its key; g++'s shows only the call.
   static constexpr void demand_handler(Key /*key*/, bool has_one) {
     if (!has_one) throw "a key has no handler";
   }

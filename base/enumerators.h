@@ -1,4 +1,4 @@
-// Which numbers of an enumeration have names, for tables that must have a row for each of them.
+// Finds out which numbers of an enumeration have names, for tables that must have a row for each of them.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@ namespace understudy {
 
 template <auto value>
 constexpr bool has_name() {
-  // The compiler writes "... value = Colour::red]" for one with a name, and "... value = (Colour)7]" for one
-  // without.
+  // The compiler writes "... value = Colour::red]" for a value that has a name, and "... value = (Colour)7]"
+  // for a value that has none.
   std::string_view text = __PRETTY_FUNCTION__;
   text.remove_suffix(1);
   const std::size_t bracket = text.rfind(')');
@@ -18,7 +18,7 @@ constexpr bool has_name() {
          text.find_first_not_of("0123456789", bracket + 1) != std::string_view::npos;
 }
 
-/// Whether no value stands behind this one.
+/// Returns true if the enumeration has no value after `last`.
 template <auto last>
 constexpr bool is_last() {
   using T = decltype(last);

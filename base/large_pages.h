@@ -1,13 +1,13 @@
-// Memory in large pages. Many devices take some megabytes, of which each tick reads a little everywhere: with
-// pages of 4 KiB the processor spends much of its time looking up addresses.
+// Keeps memory in large pages. Many devices take some megabytes, and each tick reads a little of all of it:
+// with pages of 4 KiB the processor spends much of its time translating addresses.
 #pragma once
 
 #include <cstddef>
 
 namespace understudy {
 
-/// Asks the kernel to keep everything between two addresses in large pages. Only speed depends on it, and the
-/// kernel may refuse.
+/// Asks the kernel to back the addresses from `first` to `last` with large pages. The kernel may refuse;
+/// only speed depends on it.
 void ask_for_large_pages(const void* first, const void* last);
 
 }  // namespace understudy

@@ -1,5 +1,5 @@
-// Memory that is needed soon. With many devices each one's state has left the processor's caches by the time
-// of its next tick; if it is asked for while the devices before it run, it is back in time.
+// Prefetches memory that is needed soon. With many devices, a device's state has left the processor's caches
+// by the time of its next tick. Requesting it while earlier devices run brings it back in time.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,11 @@ namespace understudy {
 
 inline constexpr std::size_t kCacheLine = 64;  // bytes
 
-/// The one line that an address is on. Only speed depends on it; any address will do.
+/// Prefetches the cache line of `address`. Only speed depends on it; any address is allowed.
 inline void prefetch_line(const void* address) {
   __builtin_prefetch(address, 1);
-  // Otherwise the compiler sees a function that only prefetches as one without effect, and drops the calls.
+  // Without this the compiler considers a function that only prefetches as one without effect, and drops its
+  // calls.
   asm volatile("");
 }
 

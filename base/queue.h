@@ -1,4 +1,4 @@
-// A queue whose elements lie side by side: a vector whose first ones may have gone already.
+// A queue with contiguous elements: a vector whose first elements may have been removed already.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ class Queue {
   const_iterator end() const { return values_.end(); }
   std::span<const T> values() const { return std::span(values_).subspan(first_); }
 
-  /// Counts what is in it and what has gone.
+  /// Includes the room of removed elements that is not reused yet.
   std::size_t capacity() const { return values_.capacity(); }
 
   void push_back(T value) {
@@ -41,7 +41,7 @@ class Queue {
   }
   void insert(const_iterator before, T value) { values_.insert(before, std::move(value)); }
   void resize(std::size_t count) { values_.resize(first_ + count); }
-  /// Removes the first ones: `count`, at most size().
+  /// Removes the first `count` elements. `count` must be at most size().
   void pop_front(std::size_t count = 1) {
     first_ += count;
     if (first_ == values_.size()) clear();
@@ -57,8 +57,8 @@ class Queue {
   }
 
  private:
-  /// Those that have gone make room once they are half of all, so that an element is moved a few times at
-  /// most.
+  /// Reuses the room of removed elements once they are at least half of all, so that each element is moved
+  /// only a few times.
   void make_room(std::size_t count) {
     if (values_.size() + count <= values_.capacity() || 2 * first_ < values_.size()) return;
     values_.erase(values_.begin(), begin());

@@ -15,7 +15,7 @@ struct Unit {
   std::int64_t nanoseconds;
 };
 
-// Longest names first where one ends another ("ms" before "s").
+// If one name ends with another, the longer comes first ("ms" before "s").
 constexpr std::array<Unit, 6> kUnits{{{"ns", 1},
                                       {"us", 1'000},
                                       {"ms", 1'000'000},
@@ -43,7 +43,7 @@ std::optional<SimTime> parse_duration(std::string_view text) {
       if (c < '0' || c > '9') return std::nullopt;
       any_digit = true;
       if (!point) {
-        // More than a century is a slip of the pen, and would overflow.
+        // A number above a century is a typing error, and would overflow.
         if (whole > 4'000'000'000'000'000'000 / 10 / unit.nanoseconds) return std::nullopt;
         whole = whole * 10 + (c - '0');
       } else {

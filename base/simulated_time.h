@@ -1,5 +1,5 @@
-// Simulated time: an integer count of nanoseconds since the world's power-up. Never a double, never
-// the wall clock.
+// Simulated time: an integer count of nanoseconds since the world's power-up. Never a double, never the wall
+// clock.
 #pragma once
 
 #include <chrono>
@@ -15,20 +15,21 @@ using SimTime = std::chrono::nanoseconds;
 /// A tick is 1 ms of simulated time; tick k happens at k ms.
 using Tick = std::int64_t;
 inline constexpr SimTime kTickLength = std::chrono::milliseconds(1);
-/// "There is nothing to wait for."
+/// The tick that never comes: there is no event to wait for.
 inline constexpr Tick kNever = INT64_MAX;
 inline constexpr SimTime kForever = SimTime::max();
-/// Where simulated time ends: a century after power-up, far from what its count can hold.
+/// The end of simulated time: a century after power-up, far below what its count can hold.
 inline constexpr SimTime kHorizon = std::chrono::hours(24 * 365 * 100);
 
 constexpr SimTime time_of(Tick tick) { return tick == kNever ? kForever : tick * kTickLength; }
-/// The last tick that is not later than `time`.
+/// Returns the last tick that is not later than `time`.
 constexpr Tick tick_at(SimTime time) { return time / kTickLength; }
 
-/// "250ms", "3s", "1.5s", "40us", "20ns", "2min", "1h": a number of at least 0 and a unit; the result
-/// must be a whole number of nanoseconds. Nothing if it is something else.
+/// Parses a number of at least 0 with a unit: "250ms", "3s", "1.5s", "40us", "20ns", "2min", "1h". Returns
+/// nothing for any other text, or if the result is not a whole number of nanoseconds.
 std::optional<SimTime> parse_duration(std::string_view text);
-/// Exact, in the largest unit up to seconds that it reaches: "3.05s", "250ms", "750us", "0s".
+/// Returns the exact text in the largest unit up to seconds that is not larger than the duration: "3.05s",
+/// "250ms", "750us", "0s".
 std::string format_duration(SimTime duration);
 
 }  // namespace understudy

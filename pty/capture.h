@@ -1,6 +1,6 @@
-// What a capture holds, whatever its format: one packet for each frame that went over a line, and for what
-// was not a frame. Encoders (capture_pcapng.h, capture_text.h) are pure; capture_file.h writes what they
-// make.
+// Defines the contents of a capture in any format: one packet for each frame that went over a line, and one
+// for each run of characters that was not a frame. Encoders (capture_pcapng.h, capture_text.h) are pure;
+// capture_file.h writes their output.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,17 @@ namespace understudy::pty {
 
 enum class Way : std::uint8_t { from_host, to_host };
 
-/// A remark about a packet.
 enum class Remark : std::uint8_t {
   none,
-  wrong_checksum,  // a whole request but for its checksum: dropped
-  incomplete,      // the beginning of one: dropped
+  wrong_checksum,  // a whole request with a wrong checksum: dropped
+  incomplete,      // the beginning of a request: dropped
   not_a_frame,     // noise: dropped
   unheard,         // no station listens at the host's speed
-  collided,        // ran into what another station was saying
-  to_nobody,       // said while no host had the line open
+  collided,        // overlapped another station's transmission
+  to_nobody,       // sent while no host had the line open
 };
 
-/// Empty for Remark::none.
+/// Returns an empty text for Remark::none.
 constexpr std::string_view text_of(Remark remark) {
   switch (remark) {
     case Remark::none: break;
@@ -48,19 +47,19 @@ struct CapturedPacket {
   Remark remark = Remark::none;
   bool is_text = false;  // of a line of text, and no Modbus frame
   std::string_view
-      faults{};  // what they have done to it; without bytes: to one that was dropped, or already seen
-  std::string_view command{};  // what it means, where that has a name: "mill: MOVE X 1000"
+      faults{};  // effects of faults; without bytes: on a message that was dropped or captured before
+  std::string_view command{};  // the meaning of a command, if it has a name: "mill: MOVE X 1000"
 };
 
-/// "fault 1 drop: not said; fault 2 delay: said later".
+/// Returns "fault 1 drop: not said; fault 2 delay: said later".
 std::string text_of(std::span<const Strike> strikes);
-/// Everything there is to say about it; may be empty.
+/// Returns the remark, faults and command of a packet as one text. It may be empty.
 std::string comment_of(const CapturedPacket& packet);
 constexpr bool has_comment(const CapturedPacket& packet) {
   return packet.remark != Remark::none || !packet.faults.empty() || !packet.command.empty();
 }
 
-/// A line of a capture.
+/// A line as a capture lists it.
 struct CapturedLine {
   std::string name;
   int baud = 0;

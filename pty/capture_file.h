@@ -1,5 +1,5 @@
-// A capture as a file that grows while the world runs: pcapng or text, as its name says. Adding packets never
-// waits for the disk, and the file consists of whole packets at every moment.
+// Writes a capture to a file while the world runs. The format, pcapng or text, follows from the file's name.
+// Adding packets never waits for the disk, and the file consists of whole packets at every moment.
 #pragma once
 
 #include <cstdint>
@@ -15,28 +15,29 @@
 
 namespace understudy::pty {
 
-/// The file cannot be written. One line: what is wrong, what was expected.
+/// Thrown if the file cannot be written. The message is one line: what is wrong, and what was expected.
 struct CaptureError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 class CaptureFile {
  public:
-  /// `path` ends in .pcapng, or the capture is text. Opens it (output_file.h has which files may be); `log`
-  /// gets a sentence when packets are lost; it is called by add() and finish() only. Throws CaptureError.
+  /// Opens the file. The format is pcapng if `path` ends in .pcapng, otherwise text. output_file.h has the
+  /// rules about which files may be written. `log` receives a sentence when packets are lost; only add() and
+  /// finish() call it. Throws CaptureError.
   CaptureFile(const std::string& path, std::function<void(const std::string&)> log);
   ~CaptureFile();  // finishes
 
-  /// Deletes what was there before; from now on packets of these lines may be added. Throws CaptureError.
+  /// Deletes the old content. From now on packets of these lines may be added. Throws CaptureError.
   void begin(std::vector<CapturedLine> lines);
   void add(const CapturedPacket& packet);
 
-  /// Waits until all is written; nothing may be added afterwards.
+  /// Waits until everything is written. Nothing may be added afterwards.
   void finish();
 
-  /// Packets that are not in the file: the disk was too slow, or full.
+  /// The number of packets that are missing from the file because the disk was too slow or full.
   std::uint64_t lost() const { return lost_ + (writer_ ? writer_->failure().lost : 0); }
-  /// Why it has ended early; empty if it has not. Known at the end: after finish().
+  /// The reason why the file ended early, or an empty string. Known only after finish().
   const std::string& failure() const { return failure_; }
 
  private:
@@ -53,7 +54,7 @@ class CaptureFile {
   std::string failure_;
   bool is_finished_ = false;
   std::string piece_;
-  std::unique_ptr<BackgroundWriter> writer_;  // last: its thread uses the others
+  std::unique_ptr<BackgroundWriter> writer_;  // declared last: its thread uses the others
 };
 
 }  // namespace understudy::pty

@@ -17,10 +17,10 @@
 namespace understudy::pty {
 namespace {
 
-// Dropped characters that follow each other become one packet, of this many bytes at most.
+// Dropped characters in a row become one packet of at most this many bytes.
 constexpr std::size_t kLongestNoise = kRtuMaxFrame;
-// More than a framer can hold, so all of them are dropped: strict framing has that many open in a lump that
-// is too long for a frame.
+// More bytes than a framer can hold, so all of them are dropped: strict framing keeps this many open in a
+// lump that is too long for a frame.
 constexpr std::size_t kMostBytesWaiting = 5 * kRtuMaxFrame;
 
 Remark why_dropped(std::span<const std::uint8_t> bytes) {
@@ -73,7 +73,7 @@ void CaptureFrames::on_speech(const Speech& speech) {
   faults_.clear();
 }
 
-/// A reply of a text station is said in pieces, and not at once.
+/// A text station sends a reply in pieces, and not at once.
 void CaptureFrames::on_strike(const StruckMessage& message) {
   give_strikes();
   faults_ = text_of(message.strikes);
@@ -89,7 +89,7 @@ void CaptureFrames::on_strike(const StruckMessage& message) {
   faults_.clear();
 }
 
-/// Nothing was said after all.
+/// Reports strikes on a reply that was not sent in the end.
 void CaptureFrames::give_strikes() {
   if (faults_.empty()) return;
   sink_({line_, Way::to_host, struck_at_, {}, Remark::none, is_text_, faults_});
@@ -119,12 +119,12 @@ void CaptureFrames::finish() {
   framer_.reset();
 }
 
-/// All that waits, which is a packet's worth at most.
+/// Emits all waiting characters, which are at most one packet.
 void CaptureFrames::give_text() {
   if (!waiting_.empty()) give_packet(waiting_.size(), Remark::none);
 }
 
-/// What the framer has dropped so far, once it is plain that nothing more belongs to it.
+/// Emits characters that the framer has dropped, once no further ones can belong to them.
 void CaptureFrames::give_what_was_dropped() {
   const auto open = framer_.first_open_character();
   const auto first_open =
@@ -145,7 +145,7 @@ void CaptureFrames::give_dropped(std::size_t count) {
   }
 }
 
-/// The first `count` characters that wait, kRtuMaxFrame at most.
+/// Emits the first `count` waiting characters, at most kRtuMaxFrame.
 void CaptureFrames::give_packet(std::size_t count, Remark remark) {
   std::array<std::uint8_t, kRtuMaxFrame> bytes;
   for (std::size_t i = 0; i < count; ++i) bytes[i] = waiting_[i].value;

@@ -1,6 +1,6 @@
-// Makes packets of what goes over one line: requests as a station frames them, replies as stations say them,
-// and what was dropped. It has its own framer, so that a line with many stations still yields each request
-// once.
+// Turns the traffic of one line into packets: requests as a station frames them, replies as stations send
+// them, and characters that were dropped. It has a framer of its own, so that each request is captured once
+// however many stations the line has.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ class CaptureFrames final : public LineObserver {
  public:
   using Sink = std::function<void(const CapturedPacket&)>;
 
-  /// `framing`: as the line's stations have it; the shortest of different silences. On a line of text a
-  /// packet is a line (an LF behind its CR begins the next one), and ESC ends one as well.
+  /// `framing` is that of the line's stations, with the shortest silence if they differ. On a line of text
+  /// each text line is a packet (an LF behind its CR begins the next one); ESC also ends a packet.
   CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, bool is_text = false);
 
   void on_start_bit(SimTime at) override;
@@ -30,7 +30,7 @@ class CaptureFrames final : public LineObserver {
   void run(SimTime now) override;
   std::size_t quiet_characters() const override { return is_text_ ? 0 : framer_.quiet_characters(); }
 
-  /// Nothing more will come: what waits for its end is a packet now.
+  /// Ends the capture: characters that wait for the rest of a packet become a packet now.
   void finish();
 
  private:
@@ -46,7 +46,7 @@ class CaptureFrames final : public LineObserver {
   bool is_text_;
   std::vector<TimedByte> waiting_;  // characters that are in no packet yet
   bool is_heard_ = true;            // all of them
-  std::string faults_;              // of the reply that is said next
+  std::string faults_;              // of the next reply
   SimTime struck_at_{0};            // the reply
 };
 

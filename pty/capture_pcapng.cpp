@@ -50,7 +50,7 @@ void put_big_endian(std::string& to, Number number) {
   for (std::size_t i = sizeof(Number); i-- > 0;) to += static_cast<char>(number >> (8 * i));
 }
 
-/// Everything but the numbers inside a block is padded to 32 bits.
+/// Data inside a block, except numbers, is padded to 32 bits.
 void put_padded(std::string& to, std::string_view bytes) {
   to += bytes;
   to.append((4 - bytes.size() % 4) % 4, '\0');
@@ -69,7 +69,7 @@ void put_number_option(std::string& to, std::uint16_t code, Number number) {
   put_option(to, code, value);
 }
 
-/// A block whose length, at its beginning and its end, is known when it is complete.
+/// A block writes its length at its beginning and its end, once it is complete.
 class Block {
  public:
   Block(std::string& file, std::uint32_t type) : file_(file), start_(file.size()) {
@@ -97,8 +97,7 @@ void put_number_tag(std::string& to, std::uint16_t tag, std::uint32_t number) {
   put_big_endian(to, number);
 }
 
-/// Text, what is not a frame and what is only a comment is shown as bytes; a whole request with a wrong
-/// checksum is worth a look inside.
+/// Text, noise and bare comments are shown as bytes. A whole request with a wrong checksum is dissected.
 std::string_view padded_dissector_of(const CapturedPacket& packet) {
   using namespace std::string_view_literals;
   const bool is_frame = !packet.is_text && !packet.bytes.empty() && packet.remark != Remark::incomplete &&

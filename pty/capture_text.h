@@ -1,10 +1,11 @@
-// A capture as text, one line a packet:
+// Encodes a capture as text, one line a packet:
 //
 //   0.005333333 out rs485 01 03 02 C0 01 29 84  # remark
 //
 //   0.105333333 out rs485  # fault 1 drop: not said
 //
-// simulated seconds since power-up, `in` (from the host) or `out`, the line's name, the bytes. Pure.
+// The columns are simulated seconds since power-up, `in` (from the host) or `out`, the line's name, and the
+// bytes. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@ namespace understudy::pty {
 
 void append_text_head(std::string& file);
 
-/// `lost_before`: packets of the same line that are missing before this one.
+/// Appends a packet. `lost_before` is the number of packets of the same line that are missing before this
+/// one.
 void append_text_packet(std::string& file, std::span<const CapturedLine> lines, const CapturedPacket& packet,
                         std::uint64_t lost_before);
 

@@ -18,7 +18,7 @@
 
 namespace understudy::pty {
 
-/// Ties what a station says to the station.
+/// Passes a station's transmissions to the line with the station's number.
 class Line::Voice final : public Transmitter {
  public:
   Voice(Line& line, std::size_t member) : line_(line), member_(member) {}
@@ -69,7 +69,7 @@ void Line::attach(Station& station) {
 void Line::set_settings(const LineSettings& settings) {
   if (settings == state_.settings) return;
   state_.settings = settings;
-  // A burst counts characters of one length: what follows is another.
+  // A burst counts characters of one length, so a change of speed begins another burst.
   const auto end = [](Burst& burst) { burst = {burst.end, 0, burst.end}; };
   end(state_.arriving);
   for (Member& member : state_.members) end(member.speech);
@@ -109,7 +109,8 @@ void Line::host_purged() {
 
 void Line::take_back_unsent() {
   if (state_.input.empty()) return;
-  // The first one is on the wire; those of a host before are not this one's.
+  // The first character is on the wire, and characters of the previous host are not this host's to take
+  // back.
   const std::uint64_t first = std::max(state_.input.front().number, state_.last_departed);
   state_.input.remove_if([&](const TimedByte& character) { return character.number > first; });
   const SimTime end = state_.input.back().end;
@@ -171,7 +172,7 @@ Line::Event Line::find_next_event() const {
   const auto offer_input = [&] {
     if (!state_.input.empty()) offer(What::character_in, state_.input.front().end, 0);
   };
-  // What is offered first wins at equal times.
+  // At equal times the first offer wins.
   if (!is_instant()) offer_input();
   for (std::size_t i = 0; i < observers_.size(); ++i) {
     if (const auto at = observers_[i]->due()) offer(What::observer, *at, i);
@@ -197,7 +198,7 @@ std::optional<SimTime> Line::due() const {
 }
 
 void Line::run(SimTime now) {
-  // A station that is due again and again, and does nothing, would never let go.
+  // Stops a station that is due again and again without making progress.
   constexpr int kMostAtOnce = 1 << 23;
   int at_once = 0;
   SimTime& clock = state_.edge.clock;
@@ -227,21 +228,21 @@ void Line::handle(const Event& event) {
   }
 }
 
-/// The next character of a burst: at `now`, or right after the one before it.
+/// Places the next character of a burst: at `now`, or right after the character before it.
 TimedByte Line::place(Burst& burst, std::uint8_t value, SimTime now) const {
   if (is_instant()) return {now, now, value};
   if (now >= burst.end) burst = {now, 0, now};
   const SimTime start = burst.end;
   burst.end = burst.start + state_.settings.duration_of(++burst.count);
-  // After `baud` characters the time is a whole number of seconds: begin anew there, without an error,
-  // so that the count of a host that never stops does not overflow.
+  // After `baud` characters the time is a whole number of seconds. The burst restarts there without a
+  // rounding error, so that the count of a host that never stops does not overflow.
   if (burst.count == state_.settings.baud) burst = {burst.end, 0, burst.end};
   return {start, burst.end, value};
 }
 
 // --- from the host -----------------------------------------------------------------------------
 
-/// A start bit: decides who hears the character that follows.
+/// Handles a start bit: decides which stations receive the character.
 void Line::begin_character(SimTime at) {
   const bool is_departed = state_.input.front().number <= state_.last_departed;
   const std::optional<HostSettings>& settings = is_departed ? state_.departed_settings : state_.host_settings;
@@ -270,8 +271,8 @@ void Line::begin_character(SimTime at) {
   for (LineObserver* observer : observers_) observer->on_start_bit(at);
 }
 
-/// Without wire time those of a lump come at one moment: as many of them at once as nobody has anything to do
-/// between.
+/// With Timing::instant all characters of a lump arrive at one moment. This delivers as many as possible
+/// before a station or observer has to act.
 void Line::deliver_characters() {
   const SimTime moment = state_.input.front().end;
   deliver_character();
@@ -291,7 +292,7 @@ void Line::deliver_characters() {
   }
 }
 
-/// How many more come before somebody has to be asked what is due.
+/// Returns how many characters may be delivered before stations and observers must be asked for due().
 std::size_t Line::quiet_characters() const {
   std::size_t least = kInputCapacity;
   for (const LineObserver* observer : observers_) least = std::min(least, observer->quiet_characters());
@@ -299,7 +300,7 @@ std::size_t Line::quiet_characters() const {
   return least;
 }
 
-/// A character has wholly arrived; the next one, if there is any, begins at that very moment.
+/// Delivers a character that has wholly arrived. If another one waits, it begins at that very moment.
 void Line::deliver_character() {
   tell_character();
   if (!state_.input.empty()) begin_character(state_.input.front().start);
@@ -329,7 +330,7 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
   Member& member = state_.members[index];
   const SimTime clock = state_.edge.clock;
   const bool is_new = is_instant() || clock >= member.speech.end;
-  // A station that keeps talking faster than the wire carries must not run ahead of it without bound.
+  // The backlog of a station that transmits faster than the wire is bounded.
   const SimTime latest = clock + state_.settings.duration_of(kOutputCapacity);
   SimTime first_start = clock;
   SimTime first_end = clock;
@@ -347,7 +348,7 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
       first_start = character.start;
       first_end = character.end;
     }
-    // It takes the wire's time whether anybody listens or not.
+    // A transmission takes the wire's time even if no host has the line open.
     if (is_anybody_listening) put_on_wire(character, has_collided);
   }
   if (is_new && !member.noticed_at) {
@@ -364,9 +365,9 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
   warn_once(state_.warned.of_collision, "two stations spoke at once; what they said is garbled");
 }
 
-/// A character that runs into one of another station is lost in it: the receiver follows the start bit
-/// that came first and reads the AND of both, as the dominant level wins. (A station never runs into
-/// itself, so what overlaps is always another's.)
+/// A character that overlaps one of another station is merged into it: the receiver follows the start bit
+/// that came first and reads the AND of both, as the dominant level wins. (A station never overlaps itself,
+/// so the other character is always another station's.)
 void Line::put_on_wire(const TimedByte& character, bool& has_collided) {
   Queue<TimedByte>& leaving = state_.leaving;
   if (leaving.empty() || leaving.back().end <= character.start) {
@@ -392,7 +393,7 @@ void Line::hush(const Station& station, SimTime now) {
   }
 }
 
-/// Stations that talk at this moment hear nothing but themselves.
+/// Skips stations that are transmitting: they receive only themselves.
 void Line::notify_others(std::size_t speaker) {
   state_.members[speaker].noticed_at.reset();
   --notices_;

@@ -1,11 +1,11 @@
-// One serial line: bytes from the host reach every station in the time the wire takes, what the
-// stations say reaches the host the same way. Pure: it knows simulated time, never a descriptor.
+// Models one serial line. Bytes from the host reach every station after their time on the wire; bytes from
+// the stations reach the host the same way. Pure: it knows simulated time, never a descriptor.
 //
 //   host bytes --receive()--> [wire, one character at a time] --> every Station
 //   Station::run() --transmit()--> [wire] --> output() --> host
 //
-// The two directions do not disturb each other. A station never gets another station's reply as bytes,
-// only the news that there is one: a reply to "write single register" is the same frame as its request,
+// The two directions do not disturb each other. A station never receives another station's reply as bytes,
+// only the notice that there is one: a reply to "write single register" is the same frame as its request,
 // and slaves that answer every address would take each other's replies for requests without end.
 #pragma once
 
@@ -38,11 +38,12 @@ struct LineOptions {
   std::int64_t baud_tolerance_ppm = kUsualBaudTolerancePpm;  // this much faster or slower is the same baud
 };
 
-/// What stands between the wire and the host, where it is not just a plug.
+/// An adapter between the wire and the host. The default one passes everything on at once.
 struct Adapter {
-  bool echoes = false;        // the host hears its own bytes, also where the line's options do not say so
-  SimTime latency{0};         // what comes is handed over at multiples of it, or where it is full; 0: at once
-  bool is_unplugged = false;  // nothing gets through
+  bool echoes = false;  // the host receives its own bytes, even if the line's options do not say so
+  SimTime latency{
+      0};  // received bytes are delivered at multiples of it, or when the buffer is full; 0: at once
+  bool is_unplugged = false;  // no byte passes in either direction
 
   bool operator==(const Adapter&) const = default;
 };
@@ -50,9 +51,9 @@ struct Adapter {
 struct LineCounters {
   std::uint64_t bytes_in = 0;         // from the host
   std::uint64_t bytes_out = 0;        // to the host
-  std::uint64_t bytes_unheard = 0;    // from a host whose settings no station listens to
-  std::uint64_t bytes_discarded = 0;  // to the host, dropped because nobody read them
-  std::uint64_t collisions = 0;       // transmissions that ran into another station's (wire timing only)
+  std::uint64_t bytes_unheard = 0;    // from a host whose settings match no station's
+  std::uint64_t bytes_discarded = 0;  // to the host, dropped because the host did not read them
+  std::uint64_t collisions = 0;       // transmissions that overlapped another station's (wire timing only)
 };
 
 class Line {
@@ -61,75 +62,76 @@ class Line {
   static constexpr std::size_t kOutputCapacity = 4096;  // bytes that wait for the host
   static constexpr std::size_t kLump = 62;  // bytes that an adapter holds back, as those with USB do
 
-  /// `warn` gets one clear sentence for what the user should know (a deaf station, a host that set no
-  /// speed, a collision), once for each opening of the line by a host.
-  /// Throws std::invalid_argument if the baud is not positive.
+  /// `warn` receives one clear sentence for each problem that the user should know (a deaf station, a host
+  /// that set no speed, a collision), once for each opening of the line by a host. Throws
+  /// std::invalid_argument if the baud rate is not positive.
   Line(std::string name, LineOptions options, std::function<void(const std::string&)> warn);
 
-  /// The station must outlive the line. Stations hear, and speak, in the order of attaching.
+  /// Adds a station, which must outlive the line. Stations receive and transmit in the order of attaching.
   void attach(Station& station);
-  /// A station has lost its power: what it has not begun to send, character by character, is never sent.
+  /// Drops the characters that a station has not begun to send, because it has lost its power.
   void hush(const Station& station, SimTime now);
-  /// How the host is joined to the wire from now on.
+  /// Sets how the host is connected to the wire from now on.
   void set_adapter(const Adapter& adapter);
   bool is_unplugged() const { return state_.adapter.is_unplugged; }
-  /// The wire's speed from now on; characters on their way keep theirs.
+  /// Sets the wire's speed from now on. Characters on their way keep their times.
   void set_settings(const LineSettings& settings);
-  /// Tells `observer` what goes over the wire, until it is removed. Several are told in the order in which
-  /// they were added.
+  /// Tells `observer` what goes over the wire, until it is removed. Observers are called in the order of
+  /// adding.
   void add_observer(LineObserver& observer);
   void remove_observer(LineObserver& observer);
-  /// Lets them know of it; it has no other effect.
+  /// Passes the strike to the observers. It has no other effect.
   void tell_strike(const StruckMessage& message);
 
   // --- the host's side -----------------------------------------------------------------------
-  /// How many bytes receive() takes at this moment; the rest must wait in the pty (bounded buffers).
+  /// Returns how many bytes receive() can take now. The rest must wait in the pty, because buffers are
+  /// bounded.
   std::size_t room() const;
-  /// Bytes that the host has written, seen at `now`. On the wire the first starts at `now` or when the
-  /// one before it is over. At most room() bytes; what is beyond that is ignored.
+  /// Takes bytes that the host has written, seen at `now`. The first begins at `now`, or when the character
+  /// before it is over. Bytes beyond room() are ignored.
   void receive(std::span<const std::uint8_t> bytes, SimTime now);
-  /// Likewise, for bytes of a host that has closed since.
+  /// Like receive(), for bytes of a host that has closed the line since.
   void receive_departed(std::span<const std::uint8_t> bytes, SimTime now);
 
-  /// The host takes back what it has written: what is not on the wire yet never will be.
+  /// The host flushes its output: characters that are not on the wire yet are never sent.
   void host_purged();
 
-  /// The clock stands, and no byte has come for as long as a frame is waited for: see Station. Nothing
-  /// happens while characters are on their way.
+  /// The clock is stopped, and no byte has arrived for as long as a frame is waited for
+  /// (Station::hear_nothing_more). It has no effect while characters are on their way.
   void nothing_more(SimTime now);
 
-  /// A host opened the line; what the one before had set is forgotten. A new line counts as opened.
+  /// A host opened the line. The previous host's settings are forgotten. A new line counts as opened.
   void host_opened();
-  /// What the host set (nothing: it left the line's speed as it was). Holds for characters that begin from
-  /// now on.
+  /// Sets what the host has configured, or nothing if it did not set the line's speed. It holds for
+  /// characters that begin from now on.
   void host_settings(std::optional<HostSettings> settings);
-  /// The last host closed the line: what is still on its way to it, and what the stations say until the
-  /// next one opens it, is dropped, as nobody listens. What the host has written still arrives, also what
-  /// is received before the next one opens; replies to that go nowhere, never to the next host.
+  /// The last host closed the line. Bytes on their way to it are dropped, as are the stations' transmissions
+  /// until the next host opens the line. Bytes that the host has written still arrive, including those
+  /// received before the next host opens; replies to them are dropped and never reach the next host.
   void host_closed();
 
-  /// Bytes that have wholly left the wire towards the host and were not taken yet. At most
-  /// kOutputCapacity; beyond that new ones are discarded and counted.
+  /// Returns the bytes that have wholly left the wire towards the host and were not taken yet: at most
+  /// kOutputCapacity. Further ones are discarded and counted.
   std::span<const std::uint8_t> output() const;
   void take_output(std::size_t count);
 
   // --- time ----------------------------------------------------------------------------------
   std::optional<SimTime> due() const;
-  /// A station's or an observer's due() has changed by itself: not because of what the line, or run(), told
-  /// it.
+  /// Must be called after the due() of a station or an observer has changed for any other reason than a call
+  /// from the line.
   void due_changed() { next_.reset(); }
-  /// Does everything that is due at `now` or earlier, in the order of time. At equal times: characters
-  /// that arrive, the observer, stations in the order of attaching, characters that leave. With
-  /// Timing::instant the stations come before the next character, so that requests in one lump are served one
-  /// by one.
+  /// Processes everything that is due at `now` or earlier, in the order of time. At equal times the order
+  /// is: characters that arrive, observers, stations in the order of attaching, characters that leave. With
+  /// Timing::instant stations come before the next character, so that requests in one lump are served one by
+  /// one.
   void run(SimTime now);
 
   const std::string& name() const { return name_; }
-  /// As they are in force: the wire's speed may have changed.
+  /// Returns the options in force, including a speed that set_settings() has changed.
   LineOptions options() const;
   const LineCounters& counters() const { return state_.edge.counters; }
   bool is_host_open() const { return state_.is_host_open; }
-  /// What the host that has it open was last said to have set, if anything was.
+  /// The settings last reported for the host that has the line open, if there are any.
   const std::optional<HostSettings>& settings_of_host() const { return state_.host_settings; }
 
   // --- its state: its stations and observers have states of their own -------------------------
@@ -139,18 +141,18 @@ class Line {
     std::int64_t count = 0;
     SimTime end{0};
   };
-  /// What it knows of a station.
+  /// What the line knows about a station.
   struct Member {
     bool is_deaf = false;                 // to the character on the wire
     Burst speech;                         // its last transmission
-    std::optional<SimTime> noticed_at{};  // when the others hear that it talks
+    std::optional<SimTime> noticed_at{};  // when the other stations notice that it transmits
   };
   struct Warned {
     bool of_deafness = false;
     bool of_no_speed = false;
     bool of_collision = false;
   };
-  /// What depends on whoever reads the line, or looks at it: the stations never notice.
+  /// The part of the state that depends on the reader of the line; it never affects the stations.
   struct Edge {
     Queue<std::uint8_t> output;  // waits to be taken
     LineCounters counters;
@@ -168,7 +170,7 @@ class Line {
     Queue<TimedByte> input;  // from the host, on the wire or before it, the first one next
     Burst arriving;
     bool is_heard = true;      // the character that arrives, by a station at least
-    Queue<TimedByte> leaving;  // to the host, on the wire, in the order of time; numbered by their speakers
+    Queue<TimedByte> leaving;  // to the host, on the wire, in the order of time; numbered by their stations
     Adapter adapter;
     Queue<std::uint8_t> lump;          // held back by the adapter,
     std::optional<SimTime> lump_at{};  // until then
@@ -177,7 +179,7 @@ class Line {
   const State& save() const { return state_; }
   /// Throws std::invalid_argument if this line cannot be in that state.
   void check(const State& state) const;
-  /// Like check(); if it throws, nothing has changed.
+  /// Checks the state, then puts it in force. If it throws, nothing has changed.
   void restore(const State& state);
 
  private:
@@ -225,7 +227,7 @@ class Line {
   std::vector<Station*> stations_;
   std::vector<LineObserver*> observers_;
   State state_;
-  // What follows from it. Stations that wait for nothing are many, and asked in every tick.
+  // A cache of the next event. Most stations wait for nothing, but are asked in every tick.
   mutable std::optional<Event> next_{};
   std::size_t notices_ = 0;  // members whose noticed_at is set
 };

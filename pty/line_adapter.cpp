@@ -1,4 +1,4 @@
-// Where what leaves a line's wire reaches its host: by way of an adapter, which may hold it back.
+// Delivers the bytes that leave a line's wire to its host, through an adapter that may hold them back.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ void Line::set_adapter(const Adapter& adapter) {
   }
 }
 
-/// An adapter with a latency hands over what it has at multiples of it, and when it is full.
+/// An adapter with a latency delivers its bytes at multiples of the latency, and when it is full.
 void Line::leave_wire(std::span<const std::uint8_t> bytes) {
   const SimTime latency = state_.adapter.latency;
   if (is_unplugged()) return;

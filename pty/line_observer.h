@@ -1,5 +1,5 @@
-// Watches a line without being on it: it is told what goes over the wire, and never answers, so the line and
-// its stations do the same with or without it.
+// Watches a line without taking part: an observer is told what goes over the wire and never answers, so the
+// line and its stations behave the same with or without it.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +14,20 @@ namespace understudy::pty {
 
 /// One transmission of a station.
 struct Speech {
-  std::span<const std::uint8_t> bytes;  // as the station said them
+  std::span<const std::uint8_t> bytes;  // as the station sent them
   SimTime start{0};                     // of the first character
-  bool has_collided = false;            // ran into what another station was saying
-  bool is_for_host = true;              // false: no host is there to read it
+  bool has_collided = false;            // overlapped another station's transmission
+  bool is_for_host = true;              // false: no host has the line open
 };
 
 /// A fault that acted on a message.
 struct Strike {
   std::uint64_t fault = 0;  // its number
   std::string_view kind;    // "drop"
-  std::string_view effect;  // "not said"
+  std::string_view effect;  // for example "not said"
 };
 
-/// What faults have done to one message.
+/// The effects of faults on one message.
 struct StruckMessage {
   SimTime time{0};
   bool is_reply = false;  // else a request
@@ -39,35 +39,36 @@ class LineObserver {
  public:
   virtual ~LineObserver() = default;
 
-  /// A character from the host has begun; on_character() follows. Only where characters take time.
+  /// A character from the host has begun; on_character() follows. Called only if characters take time.
   virtual void on_start_bit(SimTime at) = 0;
-  /// A character from the host is over. `is_heard`: by a station at least.
+  /// A character from the host is over. `is_heard` is true if at least one station received it.
   virtual void on_character(const TimedByte& character, bool is_heard) = 0;
-  /// Nothing more has come for a while although the clock stands (Station::hear_nothing_more).
+  /// No more characters have arrived for a while although the clock is stopped (Station::hear_nothing_more).
   virtual void on_nothing_more() = 0;
 
-  // What the host does, when it does it. `bytes` are those that the line takes.
+  // These report the host's actions when they happen. `bytes` are those that the line takes.
   virtual void on_receive(std::span<const std::uint8_t> /*bytes*/, bool /*is_departed*/) {}
   virtual void on_host_opened() {}
   virtual void on_host_closed() {}
   virtual void on_host_purged() {}
   virtual void on_host_settings(const std::optional<HostSettings>& /*settings*/) {}
 
-  /// A station has begun to talk.
+  /// A station has begun to transmit.
   virtual void on_speech(const Speech& speech) = 0;
 
-  /// What comes next for the host has no room any more, and is lost unless some of what waits is taken now.
+  /// The buffer for the host is full: the next byte is lost unless the observer takes some of the output
+  /// now.
   virtual void on_output_full() {}
 
-  /// Faults have acted on a message. For a request this comes after what was heard, for a reply before what
-  /// is said.
+  /// Faults have acted on a message. For a request this is called after its characters, for a reply before
+  /// its transmission.
   virtual void on_strike(const StruckMessage& /*message*/) {}
 
-  /// When run() wants to be called next. At equal times it comes before the stations, so that what they
-  /// answer follows what they were asked.
+  /// Returns when run() wants to be called next. At equal times observers run before stations, so that a
+  /// request is captured before its reply.
   virtual std::optional<SimTime> due() const = 0;
   virtual void run(SimTime now) = 0;
-  /// As Station::quiet_characters().
+  /// See Station::quiet_characters().
   virtual std::size_t quiet_characters() const { return 0; }
 };
 

@@ -1,4 +1,4 @@
-// What a serial line's two ends must agree on, and how long a character takes.
+// Defines the settings that both ends of a serial line must agree on, and the length of a character.
 #pragma once
 
 #include <chrono>
@@ -11,17 +11,17 @@ namespace understudy::pty {
 /// Simulated time since the world's power-up. Always whole nanoseconds, never the wall clock.
 using SimTime = std::chrono::nanoseconds;
 
-/// A receiver samples each bit in its middle, counted from the start bit: after ten or eleven bits it is
-/// still in the right one if the other end is 2 % faster or slower.
+/// A receiver samples each bit in its middle, counted from the start bit. After ten or eleven bits it still
+/// samples the right bit if the other end is 2 % faster or slower.
 inline constexpr std::int64_t kUsualBaudTolerancePpm = 20'000;
 
-/// Whether a receiver at `baud` hears a talker at `host_baud`.
+/// Returns true if a receiver at `baud` understands a sender at `host_baud`.
 constexpr bool is_within(int host_baud, int baud, std::int64_t tolerance_ppm) {
   const std::int64_t off = host_baud > baud ? std::int64_t{host_baud} - baud : std::int64_t{baud} - host_baud;
   return off * 1'000'000 <= tolerance_ppm * baud;
 }
 
-/// Mark and space are what hosts may set; no device has them.
+/// Hosts may set mark and space; no device has them.
 enum class Parity : std::uint8_t { none, odd, even, mark, space };
 
 struct LineSettings {
@@ -32,21 +32,21 @@ struct LineSettings {
 
   bool operator==(const LineSettings&) const = default;
 
-  /// Start bit, data, parity, stop: 11 at 8E1.
+  /// Counts the start bit, data, parity and stop bits: 11 at 8E1.
   int bits_per_character() const { return 1 + data_bits + (parity == Parity::none ? 0 : 1) + stop_bits; }
 
-  /// Time of `count` characters sent back to back, rounded down to a nanosecond. Computed from the
-  /// whole count, so that long transmissions do not drift.
+  /// Returns the time of `count` characters sent back to back, rounded down to a nanosecond. It is computed
+  /// from the whole count, so that long transmissions do not drift.
   SimTime duration_of(std::int64_t count) const {
     return SimTime{count * bits_per_character() * 1'000'000'000 / baud};
   }
 };
 
-/// "19200 8E1".
+/// Returns text such as "19200 8E1".
 std::string to_string(const LineSettings& settings);
 
-/// What is known of a host's settings. A Linux pty drops parity and forces 8 data bits: then these two are
-/// unknown, and taken to be right. RFC 2217 tells them.
+/// The known settings of a host. A Linux pty drops parity and forces 8 data bits; these two are then unknown
+/// and assumed to match. RFC 2217 transmits them.
 struct HostSettings {
   int baud = 0;
   int stop_bits = 1;
@@ -56,10 +56,10 @@ struct HostSettings {
   bool operator==(const HostSettings&) const = default;
 };
 
-/// Whether a receiver with these settings hears the host.
+/// Returns true if a receiver with these settings understands the host.
 bool hears(const LineSettings& receiver, const HostSettings& host, std::int64_t baud_tolerance_ppm);
 
-/// "9600 8N1", or "9600 baud, 1 stop bit" where parity and data bits are unknown.
+/// Returns "9600 8N1", or "9600 baud, 1 stop bit" if parity and data bits are unknown.
 std::string to_string(const HostSettings& settings);
 
 }  // namespace understudy::pty

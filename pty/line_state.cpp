@@ -1,4 +1,4 @@
-// A line's state as a value: checked, restored.
+// Checks and restores a line's state.
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>

@@ -24,11 +24,12 @@ std::string lock_of(const std::filesystem::path& link) {
   throw std::system_error(error, std::generic_category(), path);
 }
 
-/// The lock file, made if there is none.
+/// Opens the lock file, creating it if needed.
 Descriptor open_lock(const std::string& path) {
   constexpr int kClaimFlags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
   while (true) {
-    // Not in one call: in /tmp that would be refused for a file that root may well lock.
+    // Opening and creating are two calls: in /tmp the kernel would refuse O_CREAT on another user's file,
+    // which root may lock.
     Descriptor lock(::open(path.c_str(), kClaimFlags));
     if (!lock && errno == ENOENT)
       lock = Descriptor(::open(path.c_str(), kClaimFlags | O_CREAT | O_EXCL, 0600));
@@ -41,7 +42,7 @@ Descriptor open_lock(const std::string& path) {
   }
 }
 
-/// Whoever had it before may have removed it since it was opened.
+/// The previous owner may have removed the file since it was opened.
 bool is_still_there(const Descriptor& lock, const std::string& path) {
   struct stat ours = {};
   struct stat there = {};
@@ -65,7 +66,7 @@ PortClaim::PortClaim(const std::string& link) : path_(lock_of(link)) {
 }
 
 PortClaim::~PortClaim() {
-  if (lock_) ::unlink(path_.c_str());  // still locked: nobody else takes it for theirs
+  if (lock_) ::unlink(path_.c_str());  // still locked: no other process can have claimed it
 }
 
 PortClaim::PortClaim(PortClaim&& other) noexcept

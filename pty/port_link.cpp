@@ -22,7 +22,7 @@ namespace {
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
-/// Where a symbolic link points; empty if `path` is not one.
+/// Returns the target of a symbolic link, or an empty string if `path` is not one.
 std::string link_target(const std::string& path) {
   std::array<char, PATH_MAX> target{};
   const ssize_t size = ::readlink(path.c_str(), target.data(), target.size());
@@ -31,14 +31,14 @@ std::string link_target(const std::string& path) {
 
 const std::string kExpected = ", not a link of ours; expected a free path or a stale link";
 
-/// Throws if there is something other than a link.
+/// Throws if `absolute_path` exists and is not a symbolic link.
 void demand_link_or_nothing(const std::string& path, const std::string& absolute_path) {
   struct stat status = {};
   if (::lstat(absolute_path.c_str(), &status) != 0 || S_ISLNK(status.st_mode)) return;
   throw PortError(path + ": is " + kind_of_file(status.st_mode) + kExpected);
 }
 
-/// Throws if what is at `absolute_path` may not be replaced.
+/// Throws if the link at `absolute_path` may not be replaced.
 void demand_stale(const std::string& path, const std::string& absolute_path) {
   demand_link_or_nothing(path, absolute_path);
   const std::string target = link_target(absolute_path);
@@ -48,7 +48,8 @@ void demand_stale(const std::string& path, const std::string& absolute_path) {
   if (!dangles) throw PortError(path + ": is a link to " + target + kExpected);
 }
 
-/// A new link under the first free name; empty, and errno, if it cannot be made.
+/// Creates a link under the first free name beside `name` and returns that name, or an empty string with
+/// errno set if it fails.
 std::string make_link_beside(const std::string& name, const std::string& target) {
   for (int i = 1;; ++i) {
     const std::string fresh = name + ".new" + (i == 1 ? "" : "-" + std::to_string(i));
@@ -57,7 +58,8 @@ std::string make_link_beside(const std::string& name, const std::string& target)
   }
 }
 
-/// Makes a link, over one that is there, in one step: nobody ever finds no link there. 0, or the error.
+/// Creates a link, or replaces one in one step, so that the path never lacks a link. Returns 0 or the error
+/// number.
 int replace_link(const std::string& path, const std::string& target) {
   const std::string fresh = make_link_beside(path, target);
   if (fresh.empty()) return errno;
@@ -100,7 +102,7 @@ PortLink::PortLink(const std::string& path, std::string target) {
     throw PortError(
         path + ": is the link of another understudy, which is running; expected a free path or a stale link");
   }
-  // A free path is taken in one step, which never replaces anything.
+  // A free path is taken in one step that never replaces anything.
   if (::symlink(target.c_str(), name.c_str()) != 0) {
     if (errno != EEXIST) throw cannot_link(path, errno);
     demand_stale(path, name);

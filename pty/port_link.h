@@ -1,4 +1,5 @@
-// The stable path of a port: a symbolic link to a pseudo-terminal whose number changes from run to run.
+// Keeps a port's path stable: a symbolic link leads to a pseudo-terminal, whose number changes from run to
+// run.
 #pragma once
 
 #include <stdexcept>
@@ -8,7 +9,7 @@
 
 namespace understudy::pty {
 
-/// A port could not be opened: one line that names the path and what was expected.
+/// Thrown if a port could not be opened. The message is one line that names the path and what was expected.
 struct PortError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -17,14 +18,14 @@ class PortLink {
  public:
   PortLink() = default;  // no link
 
-  /// Links `path` to `target`. What is there is replaced if it is a stale link: a symbolic link that
-  /// dangles, or one to a /dev/pts entry (left by a run that was killed; its number may be another
-  /// program's by now). A link that another run serves, and anything else, is left alone: throws PortError.
+  /// Links `path` to `target`. It replaces a stale link: a symbolic link that dangles, or one to a /dev/pts
+  /// entry (left by a run that was killed; its number may belong to another program by now). It throws
+  /// PortError for a link that another run serves, and for anything else at `path`.
   PortLink(const std::string& path, std::string target);
-  /// Removes the link, unless it now belongs to another process.
+  /// Removes the link, unless it belongs to another process by now.
   ~PortLink();
-  /// Links the same path to another target, in one step. Does nothing if there is no link, or if it now
-  /// belongs to another process. Throws PortError.
+  /// Links the same path to another target, in one step. It does nothing if there is no link, or if the link
+  /// belongs to another process by now. Throws PortError.
   void point_to(const std::string& target);
   PortLink(PortLink&& other) noexcept;
   PortLink& operator=(PortLink&& other) noexcept;

@@ -31,7 +31,7 @@ PortError cannot_have(const std::string& link_path, const std::string& what, int
                    std::generic_category().message(error));
 }
 
-/// Ours is for reading only, so that its closing (IN_CLOSE_NOWRITE) differs from a usual host's.
+/// Our descriptor is read-only, so that its closing (IN_CLOSE_NOWRITE) differs from a usual host's.
 Descriptor open_slave(const std::string& path) {
   for (;;) {
     Descriptor slave(::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
@@ -39,7 +39,7 @@ Descriptor open_slave(const std::string& path) {
   }
 }
 
-/// Whether no slave is open.
+/// Returns true if no slave is open.
 bool is_hung_up(int master) {
   pollfd entry{.fd = master, .events = 0, .revents = 0};
   while (::poll(&entry, 1, 0) < 0 && errno == EINTR) {
@@ -47,7 +47,7 @@ bool is_hung_up(int master) {
   return (entry.revents & POLLHUP) != 0;
 }
 
-/// Whether bytes wait to be read. Those that the kernel has yet to hand over are handed over by this.
+/// Returns true if bytes wait to be read. The check also makes the kernel deliver bytes that it still holds.
 bool is_readable(int descriptor) {
   pollfd entry{.fd = descriptor, .events = POLLIN, .revents = 0};
   while (::poll(&entry, 1, 0) < 0 && errno == EINTR) {
@@ -55,7 +55,7 @@ bool is_readable(int descriptor) {
   return (entry.revents & POLLIN) != 0;
 }
 
-/// Whether a host wants the line for itself alone (TIOCEXCL): then only root can open it once more.
+/// Returns true if a host has claimed the line (TIOCEXCL); then only root can open it again.
 bool is_claimed(int slave) {
   int claimed = 0;
   return ::ioctl(slave, TIOCGEXCL, &claimed) == 0 && claimed != 0;
@@ -67,7 +67,7 @@ struct Pair {
   std::string path;  // of the slave
 };
 
-/// Raw, at the resting speed.
+/// Opens a pair that is raw and at the resting speed.
 Pair open_pair(const std::string& link_path) {
   Pair pair;
   pair.master = Descriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
@@ -87,7 +87,7 @@ Pair open_pair(const std::string& link_path) {
   return pair;
 }
 
-/// Of a slave: who opens and closes it.
+/// Watches a slave for opens and closes.
 Descriptor watch_of(const std::string& path, const std::string& link_path) {
   Descriptor watch(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
   if (!watch) {
@@ -101,11 +101,11 @@ Descriptor watch_of(const std::string& path, const std::string& link_path) {
   return watch;
 }
 
-/// Whoever may open the one may open the other.
+/// Gives the new file the owner and permissions of the old one.
 void give_same_access(const std::string& from, const std::string& to) {
   struct stat access = {};
   if (::stat(from.c_str(), &access) != 0) return;
-  // The group first: until then the old one must not gain anything.
+  // The group is changed first: the old group must not gain any permission meanwhile.
   if (::chown(to.c_str(), static_cast<uid_t>(-1), access.st_gid) != 0) return;
   ::chmod(to.c_str(), access.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
 }
@@ -131,11 +131,12 @@ std::size_t PseudoTerminal::read(std::span<std::uint8_t> bytes) {
     size = ::read(master_.get(), bytes.data(), bytes.size());
   } while (size < 0 && errno == EINTR);
   if (size <= 0) return 0;
-  // Who has left and come until now is settled before these bytes are answered: otherwise the answer to
-  // a new host could be thrown away as one that the old host did not read.
+  // Closes and opens up to now are processed before these bytes are answered. Otherwise the answer to a new
+  // host could be dropped as one that the old host did not read.
   follow_presence(false);
   if (!is_present_) follow_presence(true);  // its opening was missed, or it has left already
-  // A host that writes has done its tcsetattr: now its next one can be prepared without disturbing it.
+  // A host that writes has done its tcsetattr, so the line can be prepared for its next one without
+  // disturbing it.
   if (const auto taken = take_host_settings(master_.get())) settings_ = taken;
   return static_cast<std::size_t>(size);
 }
@@ -170,7 +171,8 @@ void PseudoTerminal::follow_presence(bool must_look) {
   bool is_second_look = was_in_doubt && !has_closed && is_in_doubt();
   const bool is_abandoned = !slave_ && is_hung_up(master_.get());
   must_look = must_look || has_closed || is_second_look || is_abandoned;
-  // Hosts come and go while we look; if they go on doing so, the watch stays readable for the next call.
+  // Hosts may open and close while we look. If they keep doing so, the watch stays readable for the next
+  // call.
   constexpr int kMaxLooks = 8;
   for (int look = 0; must_look && look < kMaxLooks; ++look) {
     if (!is_somebody_there()) {
@@ -185,7 +187,7 @@ void PseudoTerminal::follow_presence(bool must_look) {
   }
 }
 
-/// True if something has closed.
+/// Returns true if a descriptor has been closed.
 bool PseudoTerminal::read_presence_events() {
   bool has_closed = false;
   alignas(inotify_event) std::array<char, 4096> buffer;
@@ -204,7 +206,7 @@ bool PseudoTerminal::read_presence_events() {
   return has_closed;
 }
 
-/// True if it says that a host has closed, or that events were lost.
+/// Returns true if the event says that a host has closed, or that events were lost.
 bool PseudoTerminal::count_event(std::uint32_t mask) {
   if ((mask & IN_OPEN) != 0) {
     if (own_opens_ > 0) {
@@ -212,7 +214,7 @@ bool PseudoTerminal::count_event(std::uint32_t mask) {
       return false;
     }
     if (opens_ == 0 && is_present_) {
-      // Closed and opened again since we last looked. What was set stays, as on any serial port.
+      // The host closed and opened again since the last look. The settings stay, as on a serial port.
       count_departure();
       is_present_ = news_.opened = true;
     } else if (!is_present_) {
@@ -235,10 +237,10 @@ void PseudoTerminal::count_arrival() {
   settings_.reset();
 }
 
-/// What a host has not read must not be found by the next host. What it has written stays.
-/// Only where there is something: while the kernel flushes, a poll() of the next host may find the line
-/// readable that holds nothing (n_tty empties its buffer in several steps), and libmodbus takes that for a
-/// lost line.
+/// Drops bytes that a host has not read, so that the next host does not find them. Bytes that the host wrote
+/// stay. It flushes only if there are such bytes: while the kernel flushes, a poll() of the next host may
+/// find the line readable but empty (n_tty empties its buffer in several steps), and libmodbus takes that
+/// for a lost line.
 void PseudoTerminal::forget_unread() {
   if (is_readable(slave_.get())) ::tcflush(slave_.get(), TCIFLUSH);
 }
@@ -247,17 +249,17 @@ void PseudoTerminal::count_departure() {
   is_present_ = false;
   news_.closed = true;
   forget_unread();
-  // Bytes of this host may still be unread here, and its settings go with them.
+  // Bytes of this host may still be unread here, and they need its settings.
   if (const auto last = host_settings_of(master_.get())) settings_ = last;
 }
 
-// A claim (TIOCEXCL) would keep us out as well, unless we are root; and on a pseudo-terminal, unlike a real
-// port, it outlives the host that made it. So it is taken off before we let go, and given back if a host is
-// still there. What is left is a host that comes and claims the line in just that moment: then we are
-// without a slave until it goes, which works, as its own keeps the master from hanging up. If it went without
-// taking its claim back, the kernel never lets anybody in again: recover().
+// A claim (TIOCEXCL) would lock us out as well, unless we are root; and on a pseudo-terminal, unlike on a
+// real port, it outlives the host that made it. So it is removed before we close, and restored if a host is
+// still there. One case is left: a host that opens and claims the line at exactly that moment. Then we have
+// no slave until it closes; this works, because the host's own keeps the master from hanging up. If that
+// host goes without releasing its claim, the kernel never lets anyone in again: recover().
 
-/// If nobody is there, the line is at rest afterwards, and nobody's.
+/// Returns true if a host has the line open. If not, the line is then at rest and unclaimed.
 bool PseudoTerminal::is_somebody_there() {
   const bool was_claimed = slave_ && is_claimed(slave_.get());
   if (was_claimed) ::ioctl(slave_.get(), TIOCNXCL);
@@ -266,7 +268,7 @@ bool PseudoTerminal::is_somebody_there() {
   const bool is_free = is_hung_up(master_.get());
   if (is_free) {
     if (const auto last = host_settings_of(master_.get())) settings_ = last;
-    // What is at rest needs nothing; if it is not, it may be because somebody has come since.
+    // A line at rest needs nothing. If it is not at rest, a host may have opened it since.
     if (!is_at_rest(master_.get()) && is_hung_up(master_.get())) rest(master_.get());
   }
   slave_ = open_slave(path_);

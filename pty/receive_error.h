@@ -1,4 +1,4 @@
-// What can be wrong with characters that were received and are not a frame.
+// Kinds of errors in received characters that are not a frame.
 #pragma once
 
 #include <cstdint>

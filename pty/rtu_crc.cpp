@@ -24,7 +24,7 @@ constexpr auto kTable = make_table();
 
 constexpr std::size_t kAtOnce = 4;  // bytes
 
-/// What each of so many bytes does to the checksum, that behind which so many more come.
+/// Row n has the effect of each byte value on the checksum if n more bytes follow it.
 constexpr auto kTables = [] {
   std::array<std::array<std::uint16_t, 256>, kAtOnce> tables{kTable};
   for (std::size_t behind = 1; behind < kAtOnce; ++behind) {
@@ -49,7 +49,7 @@ std::uint16_t rtu_crc(std::span<const std::uint8_t> bytes) {
 }
 
 bool rtu_crc_ok(std::span<const std::uint8_t> frame) {
-  // A message followed by its own checksum leaves zero.
+  // The checksum of a message with its own checksum appended is zero.
   return frame.size() >= kRtuMinFrame && rtu_crc(frame) == 0;
 }
 

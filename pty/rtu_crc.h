@@ -1,4 +1,4 @@
-// CRC-16/MODBUS: polynomial 0xA001 (reflected), start 0xFFFF, sent low byte first.
+// CRC-16/MODBUS: polynomial 0xA001 (reflected), start value 0xFFFF, low byte first.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@ inline constexpr std::size_t kRtuMinFrame = 4;  // address, function, CRC
 
 std::uint16_t rtu_crc(std::span<const std::uint8_t> bytes);
 
-/// True if the last two bytes are the right checksum of those before. Never for a cut frame (< 4 bytes).
+/// Returns true if the last two bytes are the right checksum of those before. False for fewer than 4 bytes.
 bool rtu_crc_ok(std::span<const std::uint8_t> frame);
 
-/// Completes a frame: appends the checksum of what is there.
+/// Completes a frame by appending the checksum of its bytes.
 void append_rtu_crc(std::vector<std::uint8_t>& frame);
 
-/// Like the above, in a fixed buffer whose first `size` bytes are the frame. Returns the new size. Demands
+/// Like the above, in a fixed buffer whose first `size` bytes are the frame. Returns the new size. Requires
 /// buffer.size() >= size + 2.
 std::size_t append_rtu_crc(std::span<std::uint8_t> buffer, std::size_t size);
 

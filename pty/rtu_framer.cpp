@@ -15,9 +15,9 @@
 namespace understudy::pty {
 namespace {
 
-// How a request's length follows from its function.
+// A function's rule for the length of a request.
 struct LengthRule {
-  std::uint8_t fixed = 0;          // bytes in all, or, with a byte count, bytes besides the counted ones
+  std::uint8_t fixed = 0;          // all bytes or, with a byte count, the bytes that it does not count
   std::uint8_t byte_count_at = 0;  // index of the byte count, 0 if there is none
   bool may_be_longer = false;      // another length is legal too, and only silence tells it
 };
@@ -52,13 +52,13 @@ enum class Fit {
 
 struct Verdict {
   Fit fit = Fit::waiting;
-  std::uint16_t size = 0;  // good: of the frame; waiting: look again when this many bytes are in
+  std::uint16_t size = 0;  // good: size of the frame; waiting: number of bytes at which to judge again
 };
 
 constexpr std::uint16_t kOnlySilenceTells = kRtuMaxFrame + 1;
 constexpr std::size_t kShortestFrame = 4;  // address, function, checksum
 
-/// Of characters that are over and are not a frame.
+/// Returns the error in complete characters that are not a frame.
 ReceiveError error_in(std::span<const std::uint8_t> noise) {
   if (noise.size() > kRtuMaxFrame) return ReceiveError::overlong;
   if (noise.size() < kShortestFrame) return ReceiveError::cut_off;
@@ -69,8 +69,8 @@ ReceiveError error_in(std::span<const std::uint8_t> noise) {
   return is_cut ? ReceiveError::cut_off : ReceiveError::bad_checksum;
 }
 
-/// Judges a frame that would begin with the first of `bytes` (one at least). A length that only silence
-/// tells is believed of a frame that begins where one should, never in the middle of noise.
+/// Judges a frame that would begin with the first of `bytes` (at least one). A length that only silence can
+/// tell is accepted for a frame that begins after a silence, never in the middle of noise.
 Verdict judge(std::span<const std::uint8_t> bytes, bool is_in_noise) {
   if (bytes.size() < 2) return {Fit::waiting, 2};
   const std::uint8_t function = bytes[1];
@@ -111,7 +111,8 @@ SimTime RtuFramer::patience() const {
   return state_.is_paused ? std::max(framing_.rest_patience, usual_patience()) : usual_patience();
 }
 
-/// Whether the line has been quiet for long enough at `at` to end what is undecided, or to be a pause in it.
+/// Returns true if the line has been quiet long enough at `at` to end the undecided part, or to be a pause
+/// in it.
 bool RtuFramer::is_silent(SimTime at) const {
   return state_.undecided < used() && at >= state_.last_end + patience();
 }
@@ -157,15 +158,15 @@ void RtuFramer::give_up_waiting() {
   if (!framing_.strict && state_.undecided < used() && !state_.character_under_way) end_of_silence();
 }
 
-/// Moves the candidate on for as long as what is in decides about it.
+/// Advances the candidate while the received characters decide about it.
 void RtuFramer::search() {
   Index& candidate = state_.candidate;
   while (candidate < used()) {
     const Verdict verdict = judge(bytes(candidate, used()), candidate > state_.undecided);
     if (verdict.fit == Fit::waiting) {
       state_.look_again_at = verdict.size;
-      // What precedes a candidate is kept in case the whole is one frame of unknown length.
-      // It cannot be one any more when it is too long, and that bounds the undecided part.
+      // Characters before a candidate are kept in case all of them are one frame of unknown length. Once
+      // they are too long for one, they are given up; this bounds the undecided part.
       if (undecided().size > kRtuMaxFrame) give_up_as_overlong(candidate);
       return;
     }
@@ -181,7 +182,7 @@ void RtuFramer::search() {
   if (undecided().size > kRtuMaxFrame) give_up_as_overlong(used());
 }
 
-/// Whatever comes later in this lump is part of the same error.
+/// Later characters of this lump are part of the same error.
 void RtuFramer::give_up_as_overlong(Index index) {
   const auto count = static_cast<std::uint64_t>(index - state_.undecided);
   if (count == 0) return;
@@ -192,7 +193,7 @@ void RtuFramer::give_up_as_overlong(Index index) {
   forget_served();
 }
 
-/// What has come since the last pause may be a frame: its host has given up the one before.
+/// The characters since the last pause may be a frame, if the host has given up the one before.
 void RtuFramer::look_behind_pause() {
   if (state_.resumed <= state_.undecided) return;  // decided meanwhile
   const Verdict verdict = judge(bytes(state_.resumed, used()), true);
@@ -202,11 +203,11 @@ void RtuFramer::look_behind_pause() {
   decide_up_to(end);
 }
 
-/// The line was quiet for as long as patience lasts: takes the good frames out of what is undecided, and
-/// drops the rest, but for the beginning of a frame, which may wait longer.
+/// Ends patience: takes the good frames out of the undecided part and drops the rest, except the beginning
+/// of a frame, which may wait longer.
 void RtuFramer::end_of_silence() {
   const bool is_pause = !framing_.strict && !state_.is_paused && framing_.rest_patience > usual_patience();
-  // The whole comes first: a shorter frame inside a good one of unknown length is its data.
+  // The whole is tried first: a shorter frame inside a good one of unknown length is its data.
   const bool is_whole =
       take_whole(state_.undecided) || (state_.resumed > state_.undecided && take_whole(state_.resumed));
   const bool has_good_ones = !is_whole && !framing_.strict && take_good_ones();
@@ -219,8 +220,8 @@ void RtuFramer::end_of_silence() {
   state_.look_again_at = judge(bytes(state_.undecided, used()), false).size;
 }
 
-/// Where a frame begins that may wait for its rest: right behind a silence, a good frame or a pause; used()
-/// if there is none. `is_clean`: so does what is undecided.
+/// Returns where a frame begins that may wait for its rest: right behind a silence, a good frame or a pause;
+/// used() if there is none. `is_clean` tells that the undecided part begins at such a place.
 RtuFramer::Index RtuFramer::beginning(bool is_clean) const {
   const auto may_wait = [this](Index first) {
     return first < used() && judge(bytes(first, used()), true).fit == Fit::waiting;
@@ -229,7 +230,7 @@ RtuFramer::Index RtuFramer::beginning(bool is_clean) const {
   return state_.resumed > state_.undecided && may_wait(state_.resumed) ? state_.resumed : used();
 }
 
-/// All from there on, if its checksum is right.
+/// Takes all characters from `first` on as one frame, if their checksum is right.
 bool RtuFramer::take_whole(Index first) {
   const auto whole = bytes(first, used());
   const bool may_be = (state_.oversize == 0 || !framing_.strict) && whole.size() <= kRtuMaxFrame;
@@ -238,7 +239,7 @@ bool RtuFramer::take_whole(Index first) {
   return true;
 }
 
-/// Returns whether there were some.
+/// Returns true if there was at least one.
 bool RtuFramer::take_good_ones() {
   bool has_some = false;
   for (Index at = state_.candidate; at < used();) {
@@ -250,7 +251,7 @@ bool RtuFramer::take_good_ones() {
   return has_some;
 }
 
-/// Queues a frame of the undecided part, and counts as dropped what lies before it.
+/// Queues a frame of the undecided part, and drops the characters before it.
 void RtuFramer::add_ready(Index first, std::uint16_t size) {
   drop_up_to(first);
   state_.oversize = 0;
@@ -267,7 +268,7 @@ void RtuFramer::decide_up_to(Index index) {
   forget_served();
 }
 
-/// What lies before `index` in the undecided part is not a frame.
+/// Drops the characters of the undecided part before `index`: they are not a frame.
 void RtuFramer::drop_up_to(Index index) {
   const auto noise = bytes(state_.undecided, index);
   state_.undecided = index;
@@ -292,7 +293,7 @@ std::optional<ReceiveError> RtuFramer::take_error() {
   return std::nullopt;
 }
 
-/// What lies before the first that is ready, or undecided, matters to nobody any more.
+/// Removes characters before the first ready frame or the undecided part: they are not needed any more.
 void RtuFramer::forget_served() {
   const Index served = state_.ready.empty() ? state_.undecided : state_.ready.front().first;
   if (served == 0) return;
@@ -303,7 +304,7 @@ void RtuFramer::forget_served() {
   state_.resumed = state_.resumed > served ? static_cast<Index>(state_.resumed - served) : Index{0};
 }
 
-/// No more fits: gives up the oldest ready frame, of a station that does not take its frames. (There is one:
+/// Makes room by dropping the oldest ready frame, of a station that does not take its frames. (There is one:
 /// the undecided part alone always fits.)
 void RtuFramer::drop_oldest() {
   state_.dropped += state_.ready.front().size;
@@ -328,7 +329,7 @@ std::size_t RtuFramer::quiet_characters() const {
   const bool may_be_due =
       framing_.strict || patience() == SimTime{0} || !state_.ready.empty() || state_.resumed != 0;
   if (may_be_due || used() == kCapacity) return 0;
-  // Only what search() finds is due at once.
+  // Only frames that search() finds are due at once.
   const auto heard = static_cast<std::size_t>(used() - state_.candidate);
   const std::size_t undecided_still = state_.look_again_at > heard ? state_.look_again_at - heard : 1;
   return std::min(undecided_still, kCapacity - used());
@@ -350,7 +351,7 @@ std::optional<RtuFrame> RtuFramer::take_due(SimTime now) {
   for (std::optional<SimTime> at = due(); at && *at <= now;) {
     if (const auto frame = take(now)) return frame;
     const std::optional<SimTime> before = std::exchange(at, due());
-    if (at == before) break;  // nothing has come of it, and nothing would
+    if (at == before) break;  // this call changed nothing, and further calls would not
   }
   return std::nullopt;
 }
@@ -373,12 +374,12 @@ RtuFrame RtuFramer::frame_at(const Frame& place) const {
   return frame;
 }
 
-/// What is undecided, as one frame.
+/// Returns the undecided part as one frame.
 RtuFramer::Frame RtuFramer::undecided() const {
   return {state_.undecided, static_cast<std::uint16_t>(used() - state_.undecided)};
 }
 
-/// Under the strict rule: what is undecided would be a frame, if it ended here.
+/// Strict rule: returns true if the undecided part would be a frame if it ended here.
 bool RtuFramer::may_be_over() const {
   return framing_.strict && state_.undecided < used() && !state_.character_under_way &&
          state_.oversize == 0 && rtu_crc_ok(bytes(state_.undecided, used()));

@@ -1,15 +1,15 @@
-// Where a Modbus RTU frame ends: a value that a station feeds with characters and asks for frames.
+// Finds where Modbus RTU frames end. A framer is a value: a station pushes characters and takes frames.
 //
-// Two rules (docs/wire.md):
+// There are two rules (docs/wire.md):
 //  * strict: only silence ends a frame. A gap of `silence` or more between two characters (idle time,
 //    from the stop bit's end to the next start bit) ends it; two frames without a gap are one.
-//  * tolerant (default): a frame ends when its length is complete and its checksum right. What does
-//    not complete that way (unknown function, wrong checksum) ends after `patience` of silence; a good
-//    frame that follows noise, even without a gap, is found. A frame that lies inside another good one is
-//    data, never a request: a candidate that may still become complete covers what is in it.
-//    After that silence, a pause, a frame that has begun and whose length follows from what it begins with
-//    waits for its rest for `rest_patience` in all; until then a good frame that begins behind a pause takes
-//    its place.
+//  * tolerant (default): a frame ends when its length is complete and its checksum right. Characters that do
+//    not form such a frame (unknown function, wrong checksum) end after `patience` of silence. A good frame
+//    that follows noise, even without a gap, is found. A frame inside another good one is data, never a
+//    request: a candidate that may still become complete covers the frames in it.
+//    That silence is a pause. A begun frame whose first bytes tell its length waits for its rest after a
+//    pause, for `rest_patience` in all. If a good frame begins behind the pause meanwhile, it takes the
+//    place of the begun one.
 #pragma once
 
 #include <array>
@@ -28,14 +28,14 @@ inline constexpr std::size_t kRtuMaxFrame = 256;  // address, 253 bytes of PDU, 
 
 struct RtuFraming {
   bool strict = false;
-  SimTime silence{0};  // the device's end-of-frame silence; also earliest reply after the last byte
-  // Tolerant only, scaled by the pacer: how long what is incomplete waits (10 ms), and how long a frame of
-  // known length does.
+  SimTime silence{0};  // the device's end-of-frame silence; also the earliest reply after the last byte
+  // Used only by the tolerant rule, scaled by the pacer: how long incomplete characters wait (10 ms), and
+  // how long an incomplete frame of known length waits.
   SimTime patience{0};
   SimTime rest_patience{0};
 };
 
-/// A frame with a right checksum. `bytes` includes address and CRC.
+/// A frame with a right checksum. `bytes` includes the address and the CRC.
 struct RtuFrame {
   std::array<std::uint8_t, kRtuMaxFrame> bytes{};
   std::size_t size = 0;
@@ -43,58 +43,60 @@ struct RtuFrame {
   std::uint64_t last_character = 0;  // its number
 };
 
-/// How long a request that begins with these bytes is, by its function and its byte count; nothing if they do
-/// not say.
+/// Returns the length of a request that begins with these bytes, by its function and byte count, or nothing
+/// if they do not tell.
 std::optional<std::size_t> rtu_request_size(std::span<const std::uint8_t> bytes);
 
 class RtuFramer {
  public:
   explicit RtuFramer(RtuFraming framing = {});
 
-  /// A character has begun (Station::hear_start_bit): until it comes, the silence is over. Optional;
-  /// without it only the times of push() count, and take() may end a frame under a character's feet.
+  /// A character has begun (Station::hear_start_bit): the silence is over before the character is. Optional:
+  /// without it only the times of push() count, and take() may end a frame in the middle of a character.
   void start_bit(SimTime at);
-  /// Characters must come in the order of time.
+  /// Adds a character. Characters must be added in the order of time.
   void push(const TimedByte& byte);
-  /// Forget what is buffered (another station used the line).
+  /// Forgets all characters (another station used the line).
   void reset();
-  /// Judges what is incomplete now, without waiting for patience: the first time as after a pause, the second
-  /// time as if nothing more would come.
+  /// Judges an incomplete frame now, without waiting for patience: the first call acts as a pause, the
+  /// second as if no more characters would come.
   void give_up_waiting();
 
-  /// When take() is worth calling: end of a complete frame plus the silence rule, or the patience of
-  /// an incomplete one. Nothing while the buffer is empty.
+  /// Returns when take() is worth calling: at the end of a complete frame plus its silence, or after the
+  /// patience for an incomplete one. Nothing while no characters are undecided or ready.
   std::optional<SimTime> due() const;
 
-  /// How many more characters may come at one moment before due() may be that moment (Station).
+  /// Returns how many more characters may arrive at one moment before due() may be that moment (Station).
   std::size_t quiet_characters() const;
 
-  /// At due() or later: the next good frame, or nothing (noise, bad checksum: dropped and counted).
-  /// Call again while it returns a frame or due() is not later than now.
+  /// Returns the next good frame, at due() or later, or nothing if noise or a bad checksum was dropped and
+  /// counted. Call it again while it returns a frame or due() is not later than `now`.
   std::optional<RtuFrame> take(SimTime now);
 
-  /// Calls take() as often as is useful until a good frame comes: nothing when there are none left. For
-  /// loops, which it always ends.
+  /// Calls take() until it returns a good frame, and returns nothing if no frame is left. Meant for loops:
+  /// it always ends them.
   std::optional<RtuFrame> take_due(SimTime now);
 
-  /// The frame that take() would give if no silence had to be waited for: a complete one, or under the strict
-  /// rule all that has come since the last silence, if its checksum is right. For a device that is too quick.
+  /// Returns the frame that take() would return without waiting for silence: a complete one or, under the
+  /// strict rule, all characters since the last silence, if their checksum is right. Meant for a device that
+  /// answers too early.
   std::optional<RtuFrame> peek() const;
   std::optional<RtuFrame> take_early();
 
   const RtuFraming& framing() const { return framing_; }
 
-  /// Number of the first character that is in a frame not taken yet, or may still become part of one;
-  /// nothing if there is none. What came before it was taken or dropped.
+  /// Returns the number of the first character that is in a frame not taken yet, or may still become part of
+  /// one, or nothing if there is none. All characters before it were taken or dropped.
   std::optional<std::uint64_t> first_open_character() const;
 
-  /// What was wrong with something that it has dropped since the last call, once for what came without a
-  /// silence or a good frame between. Call again while it returns one. To be asked after each of the calls
-  /// above: what nobody has asked for is not part of the state.
+  /// Returns an error in characters dropped since the last call: one for all characters without a silence or
+  /// a good frame between them. Call it again while it returns one, after each of the calls above: errors
+  /// that were not taken are not part of the state.
   std::optional<ReceiveError> take_error();
   bool has_errors() const { return error_count_ != 0; }
 
-  /// Noise, wrong checksums, cut frames, and what did not fit; not what reset() forgot.
+  /// Counts noise, wrong checksums, cut frames, and characters that did not fit, but not those that reset()
+  /// forgot.
   std::uint64_t dropped_bytes() const { return state_.dropped; }
 
   // --- its state: the framing is not in it ---------------------------------------------------
@@ -107,7 +109,7 @@ class RtuFramer {
     SimTime end{0};
     std::uint64_t number = 0;
   };
-  /// What has been heard; the values lie side by side, as a checksum wants them.
+  /// Received characters. Their values are contiguous, as the checksum needs them.
   struct Characters {
     Queue<std::uint8_t> values;
     Queue<Mark> marks;  // of the same characters
@@ -134,29 +136,29 @@ class RtuFramer {
     Index first = 0;
     std::uint16_t size = 0;
   };
-  /// The characters, from low to high index:  [ready frames, noise between them] [undecided]
-  /// Within the undecided part, no frame begins before `candidate`; the one that may begin there needs
-  /// looking at again when `look_again_at` bytes of it are in.
-  /// That part never exceeds two frames: noise that may be the beginning of a long one, and a candidate.
+  /// The characters, from low to high index:  [ready frames, noise between them] [undecided] In the
+  /// undecided part no frame begins before `candidate`. A frame that may begin there is judged again when it
+  /// has `look_again_at` bytes. The undecided part never exceeds two frames: noise that may be the beginning
+  /// of a long frame, and a candidate.
   struct State {
     Characters characters;
     Queue<Frame> ready;
     Index undecided = 0;
     Index candidate = 0;
     std::uint16_t look_again_at = 0;
-    bool is_paused = false;  // after the last character there was a pause, and its frame waits for the rest
-    Index resumed = 0;       // the first character behind the last pause; 0: there was none
-    // Bytes of this lump that are too many: strict those beyond the longest frame, which are not stored,
-    // tolerant those that were given up before its end.
+    bool is_paused = false;  // there was a pause after the last character, and its frame waits for the rest
+    Index resumed = 0;       // the first character behind the last pause; 0: there was no pause
+    // The number of characters of this lump that are too many. Strict: those beyond the longest frame, which
+    // are not stored. Tolerant: those that were given up before the end of the lump.
     std::uint64_t oversize = 0;
     SimTime last_end{0};
     bool character_under_way = false;
     std::uint64_t dropped = 0;
   };
   const State& save() const { return state_; }
-  /// Throws std::invalid_argument if this framer cannot hold it.
+  /// Throws std::invalid_argument if this framer cannot hold the state.
   void check(const State& state) const;
-  /// Like check(); if it throws, nothing has changed.
+  /// Checks the state, then puts it in force. If it throws, nothing has changed.
   void restore(const State& state);
 
  private:
@@ -166,7 +168,7 @@ class RtuFramer {
   bool may_be_over() const;
   RtuFrame frame_at(const Frame& place) const;
   RtuFrame take_ready();
-  SimTime patience() const;  // of the undecided part, under the rule in force
+  SimTime patience() const;  // for the undecided part, under the rule in force
   SimTime usual_patience() const;
   bool is_silent(SimTime at) const;
   void be_silent_until(SimTime at);

@@ -1,4 +1,4 @@
-// A framer's state as a value: checked, restored.
+// Checks and restores a framer's state.
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>

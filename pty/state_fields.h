@@ -1,4 +1,4 @@
-// What the states of lines and of what listens on them consist of (base/state/fields.h), in the order of the
+// Lists the fields of the states of lines and their listeners (base/state/fields.h), in the order of the
 // bytes.
 #pragma once
 
@@ -91,7 +91,7 @@ struct StateOf<pty::Line::State> {
                                            field("adapter", &Value::adapter),
                                            field("lump", &Value::lump),
                                            field("lump_at", &Value::lump_at)};
-  static constexpr std::size_t apart = 1;  // what the stations never notice: Line::Edge
+  static constexpr std::size_t apart = 1;  // Line::Edge, which never affects the stations
 };
 
 template <>
@@ -117,7 +117,7 @@ struct StateOf<pty::RtuFramer::Character> {
       FieldList{field("value", &Value::value), field("end", &Value::end), field("number", &Value::number)};
 };
 
-/// One after another, each as a whole.
+/// Saves the characters one after another, each as a whole.
 template <>
 struct StateOf<pty::RtuFramer::Characters> {
   using Value = pty::RtuFramer::Characters;

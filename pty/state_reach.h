@@ -1,4 +1,4 @@
-// How far times may reach in a restored state: sums of a few of them still fit their count.
+// Limits the times in a restored state, so that sums of a few of them do not overflow.
 #pragma once
 
 #include "pty/line_settings.h"

@@ -1,7 +1,7 @@
 #include "pty/terminal_settings.h"
 
-// The kernel's own structure holds any speed as a number; libc's <termios.h> does not, and cannot be included
-// beside it. Hence this file.
+// This is a file of its own because the kernel's structure, which holds any speed as a number, cannot be
+// included beside libc's <termios.h>.
 #include <asm/termbits.h>
 #include <sys/ioctl.h>
 

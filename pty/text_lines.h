@@ -1,11 +1,12 @@
-// Where a line of text ends: a value that a station feeds with characters and that gives lines.
+// Finds where lines of text end: a value that a station feeds with characters and that returns lines.
 //
-//  * CR ends a line, also an empty one; an LF right behind it is ignored. An LF alone ends a line that is
-//    not empty, so hosts that send CR, LF or both are understood.
-//  * A line that is too long is given as such at its end, without its text.
-//  * Where the device echoes, a person types: BS and DEL take the last character back.
+//  * CR ends a line, even an empty one; an LF right behind it is ignored. An LF alone ends a line that is
+//    not
+//    empty, so hosts that send CR, LF or both are understood.
+//  * A line that is too long is reported at its end, without its text.
+//  * If the device echoes, a person types: BS and DEL remove the last character.
 //  * ESC is reported at once, and the unfinished line before it is forgotten.
-//  * XOFF and XON, where the device heeds them, are reported at once and are not part of a line.
+//  * If the device has flow control, XOFF and XON are reported at once and are not part of a line.
 #pragma once
 
 #include <cstddef>
@@ -23,10 +24,10 @@ struct TextLineRules {
   bool echoes = false;                   // each character is sent back, and BS and DEL edit
   bool line_feed_ends = true;            // an LF alone ends a line; false: an LF is ignored wherever it comes
   bool has_flow_control = false;         // XOFF and XON
-  std::string_view echoed_end = "\r\n";  // what is sent back for the end of a line
+  std::string_view echoed_end = "\r\n";  // sent back at the end of a line
 };
 
-/// What a character has completed.
+/// What one character has completed.
 struct HeardText {
   enum class What : std::uint8_t { line, overlong, escape, hold, go_on } what = What::line;
   std::string text{};                // of a line, without its end
@@ -38,31 +39,31 @@ class TextLines {
  public:
   struct Outcome {
     std::optional<HeardText> heard{};
-    std::string echo{};  // what a device that echoes sends back for this character
+    std::string echo{};  // the text that an echoing device sends back for this character
   };
-  /// The rules may change from one character to the next.
+  /// Takes a character. The rules may change from one character to the next.
   Outcome push(const TimedByte& byte, const TextLineRules& rules);
   /// Forgets the unfinished line.
   void reset();
 
-  /// Characters that were not part of any line: those of overlong lines, and those forgotten because of an
-  /// ESC.
+  /// Counts characters that were not part of any line: those of overlong lines, and those forgotten because
+  /// of an ESC.
   std::uint64_t dropped_bytes() const { return state_.dropped; }
 
   // --- its state -----------------------------------------------------------------------------
-  /// No line may be longer than this, whatever the rules say.
+  /// The limit for the length of a line, whatever the rules allow.
   static constexpr std::size_t kLongest = 4096;
   struct State {
     std::string text;          // of the line that has begun
-    bool is_overlong = false;  // it was longer than allowed; its text is gone
+    bool is_overlong = false;  // it is longer than allowed; its text is dropped
     bool was_return = false;   // the last character was a CR
     std::uint64_t dropped = 0;
     bool operator==(const State&) const = default;
   };
   const State& save() const { return state_; }
-  /// Throws std::invalid_argument if it is impossible.
+  /// Throws std::invalid_argument if the state is impossible.
   static void check(const State& state);
-  /// Like check(); if it throws, nothing has changed.
+  /// Checks the state, then puts it in force. If it throws, nothing has changed.
   void restore(const State& state);
 
  private:

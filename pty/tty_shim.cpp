@@ -1,8 +1,9 @@
 // A library to preload into a host that insists on parity (understudy exec --tty-shim). A Linux pty drops
-// parity, and libc then says EINVAL although everything else was set. Here that one answer is turned into
-// success, on a pseudo-terminal and for parity alone. tty_shim_ioctl.cpp has what else a serial port can.
+// parity, and libc then returns EINVAL although everything else was set. This library turns that one error
+// into success, only on a pseudo-terminal and only for parity. tty_shim_ioctl.cpp has the other features of
+// a serial port.
 //
-// It lives in somebody else's process: nothing but libc, and no errors of its own.
+// It runs in another program's process, so it uses only libc and reports no errors of its own.
 #include <dlfcn.h>
 #include <errno.h>
 #include <sys/stat.h>
@@ -11,7 +12,7 @@
 
 #include "pty/tty_shim.h"
 
-// /dev/pts: the kernel's majors 136 to 143.
+// /dev/pts has the kernel's majors 136 to 143.
 int understudy::shim::pseudo_terminal_number(int descriptor) {
   constexpr unsigned kFirstMajor = 136;
   constexpr unsigned kLastMajor = 143;
@@ -33,13 +34,13 @@ using SetAttributes = int (*)(int, int, const termios*);
 constexpr tcflag_t kParity = PARENB | PARODD;
 
 SetAttributes real_tcsetattr() {
-  // A static of a plain type: no guard, so no need for the C++ library.
+  // A static of a plain type has no guard, so it does not need the C++ library.
   static SetAttributes found = nullptr;
   if (found == nullptr) found = reinterpret_cast<SetAttributes>(dlsym(RTLD_NEXT, "tcsetattr"));
   return found;
 }
 
-/// The speed is in c_cflag.
+/// The speed is part of c_cflag.
 bool all_but_parity_is_set(int descriptor, const termios& asked) {
   termios present;
   if (tcgetattr(descriptor, &present) != 0) return false;
@@ -57,7 +58,7 @@ extern "C" __attribute__((visibility("default"))) int tcsetattr(int fd, int opti
     errno = ENOSYS;
     return -1;
   }
-  // A second try, because the other end may have put the line back to rest just between.
+  // The call is tried twice, because the other end may have put the line back to rest in between.
   for (int attempt = 0; attempt < 2; ++attempt) {
     const int result = set(fd, optional_actions, termios_p);
     if (result == 0 || errno != EINVAL) return result;

@@ -1,10 +1,10 @@
-// What the parts of the library for preloading share. Nothing but libc.
+// Functions shared by the parts of the preloaded library. They use only libc.
 #pragma once
 
 namespace understudy::shim {
 
-/// The number of the pseudo-terminal whose slave it is; -1 if it is not one. From outside, any of them may be
-/// ours.
+/// Returns the number of the pseudo-terminal whose slave `descriptor` is, or -1 if it is not one. The number
+/// does not tell whether the emulator owns it.
 int pseudo_terminal_number(int descriptor);
 
 }  // namespace understudy::shim

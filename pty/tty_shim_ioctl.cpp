@@ -1,9 +1,10 @@
-// What a serial port can and a pseudo-terminal cannot, for hosts that insist on it: modem lines, RS-485 mode,
-// low latency. A pseudo-terminal says ENOTTY to all of them; here they are answered as by a port whose other
-// end is switched on and wired through: CTS, DSR and CD are on, RTS and DTR are as the host has last set them
-// (on, at first). RS-485 mode and low latency are remembered. Nothing of it reaches the emulator.
+// Adds features of a serial port that a pseudo-terminal lacks, for hosts that insist on them: modem lines,
+// RS-485 mode and low latency. A pseudo-terminal answers ENOTTY to all of them. This library answers as a
+// port whose other end is switched on and fully wired: CTS, DSR and CD are on; RTS and DTR are as the host
+// has last set them (at first on). RS-485 mode and low latency are remembered. None of it reaches the
+// emulator.
 //
-// It lives in somebody else's process: nothing but libc, and no errors of its own.
+// It runs in another program's process, so it uses only libc and reports no errors of its own.
 #include <dlfcn.h>
 #include <errno.h>
 #include <linux/serial.h>
@@ -22,7 +23,7 @@ using Ioctl = int (*)(int, unsigned long, ...);
 constexpr int kOwnLines = TIOCM_RTS | TIOCM_DTR;
 constexpr int kTheirLines = TIOCM_CTS | TIOCM_DSR | TIOCM_CD;
 
-/// Of a pseudo-terminal. All zero at first, so that untouched ones cost no memory.
+/// The state of one pseudo-terminal. It is all zero at first, so that unused ones cost no memory.
 struct Remembered {
   int lowered;  // of kOwnLines
   int serial_flags;
@@ -33,7 +34,7 @@ constexpr int kMostPseudoTerminals = 4096;  // the kernel's own limit, unless it
 Remembered remembered[kMostPseudoTerminals];
 
 int call_real(int descriptor, unsigned long request, void* argument) {
-  // A static of a plain type: no guard, so no need for the C++ library.
+  // A static of a plain type has no guard, so it does not need the C++ library.
   static Ioctl found = nullptr;
   if (found == nullptr) found = reinterpret_cast<Ioctl>(dlsym(RTLD_NEXT, "ioctl"));
   if (found == nullptr) return static_cast<int>(syscall(SYS_ioctl, descriptor, request, argument));
@@ -99,7 +100,7 @@ extern "C" __attribute__((visibility("default"))) int ioctl(int fd, unsigned lon
   va_end(arguments);
   const int error = errno;
   const int result = call_real(fd, request, argument);
-  // The kernel first: a real port, and whatever a later kernel can do, speaks for itself.
+  // The kernel is asked first: a real port, or a feature of a later kernel, answers for itself.
   if (result != -1 || (errno != ENOTTY && errno != EINVAL) || !is_offered(request)) return result;
   const int number = understudy::shim::pseudo_terminal_number(fd);
   if (number < 0 || number >= kMostPseudoTerminals) return result;

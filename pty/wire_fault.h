@@ -1,6 +1,6 @@
-// What a bad line does to a message, whatever the protocol: small stages, through which it goes in order.
+// Models what a bad line does to a message of any protocol. The message passes through stages in order:
 //
-//   message ──> stage ──> stage ──> pieces, each with how late it is
+//   message ──> stage ──> stage ──> pieces, each with its delay
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@ namespace understudy::pty {
 
 struct WireFault {
   enum class Kind : std::uint8_t {
-    drop,              // nothing of it is left
-    delay,             // it is late by `time`
+    drop,              // the message is lost
+    delay,             // it arrives late by `time`
     corrupt_checksum,  // its last byte is inverted
-    truncate,          // its first `size` bytes are left
-    duplicate,         // it comes twice, the second time late by `time`
-    noise,             // it comes between `before` and `after`
-    split,             // its first `size` bytes come, and the rest late by `time`
-    collision,         // somebody says `before` (empty: 0x55 throughout) at the same time; 0 wins
+    truncate,          // only its first `size` bytes remain
+    duplicate,         // it arrives twice, the second time late by `time`
+    noise,             // it arrives between `before` and `after`
+    split,             // its first `size` bytes arrive on time, the rest late by `time`
+    collision,  // another sender transmits `before` (empty: 0x55 throughout) at the same time; 0 bits win
   } kind = Kind::drop;
   SimTime time{0};
   std::size_t size = 0;
@@ -38,11 +38,11 @@ struct WirePiece {
   bool operator==(const WirePiece&) const = default;
 };
 
-/// The most pieces, however often a message is doubled.
+/// The largest number of pieces, however often a message is duplicated.
 inline constexpr std::size_t kMostWirePieces = 16;
 
-/// What comes out, in the order of time; at equal times the original before its double. A piece without bytes
-/// is left out.
+/// Returns the pieces in the order of time; at equal times the original precedes its duplicate. Pieces
+/// without bytes are left out.
 std::vector<WirePiece> through_faults(std::span<const std::uint8_t> message,
                                       std::span<const WireFault> stages);
 

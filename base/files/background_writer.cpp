@@ -13,10 +13,11 @@
 namespace understudy {
 namespace {
 
-// What comes within this time is written together, so that a busy line costs few writes and wake-ups.
+// Pieces that arrive within this time are written together, so that a busy line costs few writes and
+// wake-ups.
 constexpr std::chrono::milliseconds kGathering{50};
 
-/// A thread that gets no signals: they are the event loop's.
+/// Starts a thread that receives no signals: the event loop handles them.
 std::thread start_without_signals(std::function<void()> body) {
   sigset_t all;
   sigset_t before;
@@ -47,7 +48,7 @@ BackgroundWriter::Outcome BackgroundWriter::append(std::string_view piece) {
     is_first = before == 0;
     is_half_full = before < capacity_ / 2 && waiting_.bytes.size() >= capacity_ / 2;
   }
-  // The thread sleeps when there is nothing, and gathers for a while when there is something.
+  // The thread sleeps while the queue is empty, and gathers pieces for a while once there are some.
   if (is_first || is_half_full) changed_.notify_one();
   return Outcome::taken;
 }

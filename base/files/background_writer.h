@@ -1,5 +1,5 @@
-// Writes to something that may be slow, such as a file, without ever making its owner wait: a helper thread
-// does it, and the queue is bounded.
+// Writes to a slow destination, such as a file, without making its owner wait: a helper thread writes, and
+// the queue is bounded.
 #pragma once
 
 #include <condition_variable>
@@ -16,21 +16,21 @@ namespace understudy {
 
 class BackgroundWriter {
  public:
-  /// Writes one piece, all of it; returns 0, or the error after which nothing more is written. Called on the
-  /// helper thread.
+  /// Writes one whole piece. Returns 0, or an error number; after an error nothing more is written. Called
+  /// on the helper thread.
   using Write = std::function<int(std::string_view piece)>;
 
-  /// At most `capacity` bytes wait to be written, and as many are being written.
+  /// At most `capacity` bytes wait in the queue while at most as many are being written.
   BackgroundWriter(std::size_t capacity, Write write);
   ~BackgroundWriter();  // finishes
   BackgroundWriter(const BackgroundWriter&) = delete;
   BackgroundWriter& operator=(const BackgroundWriter&) = delete;
 
   enum class Outcome { taken, full, failed };
-  /// Takes a whole piece, or nothing. Never waits for the disk.
+  /// Takes a whole piece, or none of it. Never waits for the disk.
   Outcome append(std::string_view piece);
 
-  /// Waits until what was taken is written, and ends the thread. Nothing may be appended afterwards.
+  /// Waits until every piece taken is written, then ends the thread. Nothing may be appended afterwards.
   void finish();
 
   struct Failure {
@@ -56,7 +56,7 @@ class BackgroundWriter {
   Pieces waiting_;
   Failure failure_;
   bool is_finishing_ = false;
-  std::thread thread_;  // last: it uses all the others
+  std::thread thread_;  // declared last: it uses all the others
 };
 
 }  // namespace understudy

@@ -12,8 +12,8 @@ namespace understudy {
 
 namespace {
 
-/// A file is of a kind if it begins with one of the marks and has `within` in its head. JSON is looked at
-/// without its white space, so that a tool may have laid it out anew.
+/// A file is of a kind if it begins with one of the marks and contains `within` in its head. White space in
+/// JSON is ignored, so a tool may have reformatted it.
 struct KindRow {
   ContentKind kind;
   std::string_view name;
@@ -42,13 +42,13 @@ struct NamedKind {
   ContentKind kind;
   std::string_view name;
 };
-/// Those that people write; of YAML play::kind_of_file() reads them with care.
+/// Kinds that people write. play::kind_of_file() tells the YAML ones apart more carefully.
 constexpr std::array kYamlKinds{
     NamedKind{ContentKind::bench, "a bench"},
     NamedKind{ContentKind::scenario, "a scenario"},
     NamedKind{ContentKind::steps, "a file of steps"},
     NamedKind{ContentKind::model, "a model file"},
-    // Of these two nothing tells by how they begin.
+    // These two kinds cannot be recognised by how they begin.
     NamedKind{ContentKind::registers, "a list of registers"},
     NamedKind{ContentKind::program, "a program"},
 };
@@ -70,7 +70,7 @@ bool fits(const KindRow& row, std::string_view head) {
   return begins && text.find(row.within) != std::string_view::npos;
 }
 
-/// Written so far and no further: what our writers put first, cut.
+/// Returns true if `head` is a cut-off beginning of what our writers put first.
 bool is_torn(const KindRow& row, std::string_view head) {
   const std::string dense = row.is_json ? without_spaces(head) : std::string();
   const std::string_view text = row.is_json ? dense : head;
@@ -80,7 +80,7 @@ bool is_torn(const KindRow& row, std::string_view head) {
   return written_first.starts_with(text) || (!row.marks[1].empty() && row.marks[1].starts_with(text));
 }
 
-/// By the keys that stand at the margin.
+/// Decides by the keys at the left margin.
 ContentKind yaml_kind_of(std::string_view head) {
   bool is_ours = false;
   bool has_lines = false;

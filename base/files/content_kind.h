@@ -1,5 +1,6 @@
-// What a file holds, told by how it begins. An output replaces only what is of its own kind, or a file named
-// by mistake would be lost; and a file of the wrong kind is called what it is.
+// Tells what a file holds from its first bytes. An output replaces only a file of its own kind, so a
+// mistyped path does not destroy another file. A reader that is given the wrong kind of file can name the
+// kind it found.
 #pragma once
 
 #include <cstddef>
@@ -20,35 +21,36 @@ enum class ContentKind : std::uint8_t {
   page,
   junit,
   picture,
-  // From here on those that people write.
+  // Kinds from here on are files that people write.
   bench,
   scenario,
   steps,
   model,
   registers,  // a list of them, for `import`
   program,
-  other,  // nothing that this program knows
+  other,  // none of the kinds above
 };
 
-/// So much of its beginning tells what a file holds.
+/// The number of first bytes that are enough to tell what a file holds.
 inline constexpr std::size_t kTellingBytes = std::size_t{64} << 10;
 
-/// "a recording"
+/// Returns the name with an indefinite article: "a recording".
 std::string_view name_of(ContentKind kind);
-/// "the recording"
+/// Returns the name with a definite article: "the recording".
 std::string the(ContentKind kind);
 
-/// `head`: kTellingBytes of the file, or more, or all of it.
+/// Returns the kind of a file. `head` is the whole file, or at least its first kTellingBytes.
 ContentKind content_of(std::string_view head);
-/// Whether the beginning is of that kind, or may become so: it is empty, or was torn within its first words.
+/// Returns true if `head` begins a file of `kind`, or may once more is written: it is empty, or was cut off
+/// within its first words.
 bool is_of_kind(ContentKind kind, std::string_view head);
 
-/// Why nothing of `kind` may replace a file that begins like this: "it is a bench; expected a recording to
-/// replace, or a free path". Empty if it may.
+/// Returns why a file of `kind` may not replace a file that begins with `head`: "it is a bench; expected a
+/// recording to replace, or a free path". Empty if it may.
 std::string why_not_replaceable_by(ContentKind kind, std::string_view head);
 
-/// For a reader of `expected` that was given something else: "is a scenario; expected a recording". Empty
-/// where it may be one, or is nothing that this program knows.
+/// Returns why a reader that wants `expected` refuses a file that begins with `head`: "is a scenario;
+/// expected a recording". Empty if the file is of that kind, or of none that this program knows.
 std::string is_another_kind(std::string_view head, ContentKind expected);
 
 }  // namespace understudy

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMostLinksFollowed = 40;  // from one to the next, as many as Linux follows
 
-/// The file that is made or written when the path is opened.
+/// Returns the file that is created or written when the path is opened.
 std::string target_of(const std::string& path) {
   std::error_code error;
   fs::path target = fs::absolute(path, error);
@@ -29,7 +29,7 @@ std::string target_of(const std::string& path) {
   return (error ? target.lexically_normal() : canonical).string();
 }
 
-/// The place that the path names, itself not followed where it is a link.
+/// Returns the path with its folder resolved. The last component is not followed if it is a link.
 std::string place_of(const std::string& path) {
   std::error_code error;
   const fs::path absolute = fs::absolute(path, error).lexically_normal();
@@ -38,7 +38,7 @@ std::string place_of(const std::string& path) {
 
 struct Found {
   bool is_there = false;
-  bool is_special = false;  // there, but no regular file
+  bool is_special = false;  // exists, but is not a regular file
   std::pair<dev_t, ino_t> file{};
 };
 

@@ -1,6 +1,6 @@
-// Which files a command reads, and which it writes: an output may be neither another output nor anything that
-// is read, or a slip of the hand would cost the user a file. Asked before anything is opened;
-// base/files/output_file.h knows what else may not be written.
+// Records which files a command reads and which it writes. An output may be neither another output nor a
+// file that is read; otherwise a typing error would destroy a file. It is asked before anything is opened.
+// base/files/output_file.h has the other rules about outputs.
 #pragma once
 
 #include <sys/types.h>
@@ -12,30 +12,31 @@
 
 namespace understudy {
 
-/// A file, and what it means to whoever claims it: "the bench itself", "what --junit writes".
+/// A file and its role in the command: "the bench itself", "what --junit writes".
 struct FileClaim {
   std::string path;
   std::string what;
 };
 
-/// A file is the same file however its path is spelled, through links of both kinds, and even before it
-/// exists. Anything that is not a regular file is left out: nothing in it can be lost. For a link or a socket
-/// that we make, the path itself is claimed: replacing it would cut us off.
+/// Two paths name the same file however they are spelled, through symbolic and hard links, and even before
+/// the file exists. Files that are not regular are left out: they have no content to lose. For a link or a
+/// socket that the program creates, the path itself is claimed, because replacing it would cut off its
+/// users.
 class FileClaims {
  public:
-  /// The first claim on a file stands.
+  /// Claims a file. If it is claimed already, the first claim stays.
   void add(const FileClaim& claim);
   void add(const std::vector<FileClaim>& claims);
   void add_place(const FileClaim& claim);
-  /// Why the path cannot be written: "is the bench itself; expected another path". Empty if it can.
+  /// Returns why the path cannot be written: "is the bench itself; expected another path". Empty if it can.
   std::string objection_to(const std::string& path) const;
-  /// Like the above, for files in a folder of which only the `endings` are known beforehand.
+  /// Like objection_to(), for all files in `folder` whose names end in one of `endings`.
   std::string objection_to_folder(const std::string& folder, const std::vector<std::string>& endings) const;
 
  private:
-  std::map<std::pair<dev_t, ino_t>, std::string> of_files_;  // those that are there; what they are
-  std::map<std::string, std::string> of_paths_;              // all, by where their paths lead
-  std::map<std::string, std::string> of_places_;             // what stands there, wherever that leads
+  std::map<std::pair<dev_t, ino_t>, std::string> of_files_;  // existing files, and their roles
+  std::map<std::string, std::string> of_paths_;   // all files by their resolved paths, and their roles
+  std::map<std::string, std::string> of_places_;  // unresolved paths of links and sockets, and their roles
 };
 
 }  // namespace understudy

@@ -6,15 +6,15 @@
 
 namespace understudy {
 
-/// Where in a file; both count from 1. Without a line it is the whole file.
+/// A place in a file: line and column count from 1. A place without a line is the whole file.
 struct FilePlace {
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-/// What is wrong with a file that a user wrote. One line: "file:line:column: field: what is wrong; what was
-/// expected". Or several such lines: everything that is wrong.
+/// Reports what is wrong with a file that a user wrote, as one line a mistake: "file:line:column: field:
+/// what is wrong; what was expected".
 class FileError : public std::runtime_error {
  public:
   struct Complaint {

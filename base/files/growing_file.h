@@ -1,5 +1,5 @@
-// A file that grows while a world runs, written by a helper thread: a recording, a trace.
-// base/files/output_file.h decides which files may be written, and when the old content goes.
+// A file that grows while a world runs (a recording or a trace), written by a helper thread.
+// base/files/output_file.h decides which files may be written, and when the old content is deleted.
 #pragma once
 
 #include <functional>
@@ -14,24 +14,25 @@
 
 namespace understudy {
 
-/// The file cannot be written. One line: what is wrong, what was expected.
+/// Thrown if the file cannot be written. The message is one line: what is wrong, and what was expected.
 struct GrowingFileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 class GrowingFile {
  public:
-  /// It is opened and locked; what is there stays until the first line comes. Throws GrowingFileError.
+  /// Opens and locks the file. Its old content stays until the first line is written. Throws
+  /// GrowingFileError.
   GrowingFile(const std::string& path, ContentKind kind, std::function<void(const std::string&)> log);
   ~GrowingFile();  // finishes
 
-  /// Whole lines. The first is written at once, replacing what was there: throws GrowingFileError if that
-  /// fails. If a line cannot be taken (the disk is full, or too slow) the file ends there, with a line in the
-  /// log: with a gap it would be worthless.
+  /// Appends whole lines. The first call writes at once and replaces the old content; it throws
+  /// GrowingFileError if that fails. If a later line cannot be taken (the disk is full, or too slow), the
+  /// file ends there and the log says so: a file with a gap would be worthless.
   void take(std::string_view line);
-  /// Waits until all is written. Returns why it has ended early, or nothing.
+  /// Waits until everything is written. Returns why the file ended early, or an empty string.
   std::string finish();
-  /// Where it really is.
+  /// Returns the path with links resolved.
   const std::string& target() const { return file_.target(); }
 
  private:
@@ -44,7 +45,7 @@ class GrowingFile {
   OutputFile file_;
   bool has_begun_ = false;
   std::string failure_;
-  std::unique_ptr<BackgroundWriter> writer_;  // last: its thread uses the others
+  std::unique_ptr<BackgroundWriter> writer_;  // declared last: its thread uses the others
 };
 
 }  // namespace understudy

@@ -1,4 +1,5 @@
-// Work that may take long (a user's files, of any size), for a thread that must not wait.
+// A thread for work that may take long, such as reading a user's files, on behalf of a thread that must not
+// wait.
 #pragma once
 
 #include <condition_variable>
@@ -12,12 +13,12 @@ namespace understudy {
 class HelperThread {
  public:
   HelperThread() = default;
-  /// Waits for the work in hand; what has not begun is dropped.
+  /// Waits for the piece of work in progress. Pieces that have not begun are dropped.
   ~HelperThread();
   HelperThread(const HelperThread&) = delete;
   HelperThread& operator=(const HelperThread&) = delete;
 
-  /// Pieces are done one after the other, in order. They must not throw.
+  /// Queues a piece of work. Pieces run one after the other, in order. They must not throw.
   void give(std::function<void()> work);
 
  private:

@@ -29,7 +29,7 @@ constexpr mode_t kPermissions = 0777;
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
-/// As Linux judges it where fs.protected_symlinks and fs.protected_regular are on.
+/// Decides as Linux does with fs.protected_symlinks and fs.protected_regular switched on.
 bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
   struct stat folder = {};
   if (::stat(place.parent_path().c_str(), &folder) != 0) return true;
@@ -37,13 +37,13 @@ bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
   return anybody_may_write && status.st_uid != ::geteuid() && status.st_uid != folder.st_uid;
 }
 
-/// Throws where a folder on the way to a file is a link that a stranger has left.
+/// Throws if a folder on the way to a file is a link that another user has left.
 void demand_own_way(const fs::path& absolute) {
   fs::path way;
   for (const fs::path& step : absolute.parent_path()) {
     way /= step;
     struct stat status = {};
-    if (::lstat(way.c_str(), &status) != 0) return;  // whoever opens it gets an error
+    if (::lstat(way.c_str(), &status) != 0) return;  // opening it reports the error
     if (S_ISLNK(status.st_mode) && is_left_by_a_stranger(way, status)) {
       throw OutputError(
           way.string() +
@@ -52,7 +52,7 @@ void demand_own_way(const fs::path& absolute) {
   }
 }
 
-/// The beginning of a file that is open. Throws OutputError.
+/// Returns the beginning of an open file. Throws OutputError.
 std::string head_of(int file) {
   std::string head(kTellingBytes, '\0');
   const ssize_t size = ::pread(file, head.data(), head.size(), 0);
@@ -134,7 +134,7 @@ void give_access(int file, const FileAccess& access) {
   const bool is_same = status.st_uid == access.owner && status.st_gid == access.group;
   const bool has_owner = is_same || ::fchown(file, access.owner, access.group) == 0 ||
                          ::fchown(file, static_cast<uid_t>(-1), access.group) == 0;
-  // What was for one group is not for another.
+  // Permissions for the old group must not apply to another group.
   const mode_t mode = has_owner ? access.mode : access.mode & ~static_cast<mode_t>(S_IRWXG);
   [[maybe_unused]] const int ignored = ::fchmod(file, mode);
 }

@@ -27,7 +27,7 @@ namespace understudy {
 
 namespace {
 
-/// Opens a regular file, or says why not. It never waits: a pipe without a writer would.
+/// Opens a regular file, or sets `why`. It never waits, as opening a pipe without a writer would.
 Descriptor open_regular(const std::string& path, std::string& why) {
   Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat status = {};
@@ -54,12 +54,12 @@ int write_all(int file, const std::string& contents) {
 
 constexpr std::string_view kBeside = ".new";
 
-/// The names beside `path`, first and further ones: "a.json.new", "a.json.new-2".
+/// Returns the name of a temporary file beside `path`: "a.json.new", then "a.json.new-2".
 std::string name_beside(const std::string& path, int number) {
   return path + std::string(kBeside) + (number == 1 ? "" : "-" + std::to_string(number));
 }
 
-/// Whether the rest of a name behind that of the file is one of those.
+/// Returns true if `rest`, the end of a name behind that of the file, is one of name_beside()'s.
 bool is_beside(std::string_view rest) {
   if (!rest.starts_with(kBeside)) return false;
   rest.remove_prefix(kBeside.size());
@@ -73,19 +73,19 @@ bool is_still_there(int file, const std::string& name) {
          opened.st_dev == named.st_dev;
 }
 
-/// A new file beside `path`, locked while it is written: so one that is not was left by a writer that was
-/// killed.
+/// Creates a new file beside `path`, locked while it is written: an unlocked one was left by a writer that
+/// was killed.
 Descriptor make_beside(const std::string& path, mode_t mode, std::string& name) {
   for (int number = 1;; ++number) {
     name = name_beside(path, number);
     Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
     if (!file && errno != EEXIST) return file;
-    // Somebody who clears up may have taken it away before it was locked.
+    // Another process that cleans up may have removed it before it was locked.
     if (file && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0 && is_still_there(file.get(), name)) return file;
   }
 }
 
-/// Writes it and waits for the disk; 0, or the error.
+/// Writes the contents and waits for the disk. Returns 0 or the error number.
 int write_whole(int file, const std::string& contents) {
   const int error = write_all(file, contents);
   return error == 0 && ::fsync(file) != 0 ? errno : error;
@@ -120,7 +120,7 @@ FileText read_text_of(int descriptor) {
       return text;
     }
     if (size == 0) break;
-    // It may grow while it is read, so that its size beforehand says little.
+    // The file may grow while it is read, so its size beforehand is no limit.
     if (bytes.size() + static_cast<std::size_t>(size) > kMostTextBytes) {
       text.why = "is larger than " + std::to_string(kMostTextBytes >> 20) + " MiB";
       return text;
@@ -156,7 +156,7 @@ std::string replace_text_file(const std::string& path, const std::string& conten
   }
   const std::optional<FileAccess> access = access_of(target);
   std::string beside;
-  // Until it has the mode of what it replaces, nobody else may look into it.
+  // Until it has the mode of the file it replaces, no other user may read it.
   const Descriptor file = make_beside(target, access ? 0600 : 0644, beside);
   if (!file) return std::strerror(errno);
   int error = write_whole(file.get(), contents);

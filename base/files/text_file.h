@@ -8,34 +8,34 @@
 
 namespace understudy {
 
-/// The largest file that is read as a whole: far above any bench, trace or snapshot.
+/// The size limit for files that are read as a whole, far above any bench, trace or snapshot.
 inline constexpr std::size_t kMostTextBytes = std::size_t{64} << 20;
 
-/// The bytes of a file; nothing if it does not exist or cannot be read.
+/// The bytes of a file, or nothing if it does not exist or cannot be read.
 struct FileText : std::optional<std::string> {
-  std::string why{};  // where there is nothing, for messages: "cannot be read (Permission denied)"
+  std::string why{};  // the reason if there are no bytes, for messages: "cannot be read (Permission denied)"
 };
 
-/// Only a regular file is read, up to kMostTextBytes: a pipe might make us wait for ever, and a device may
-/// never end.
+/// Reads a regular file of up to kMostTextBytes. Other files are refused: a pipe might block for ever, and a
+/// device may never end.
 FileText read_text_file(const std::string& path);
-/// Like the above, for something that is open already, such as standard input, up to its end.
+/// Like read_text_file(), for an open descriptor such as standard input, up to its end.
 FileText read_text_of(int descriptor);
 
-/// Like the above, for files of any length that are read piece by piece: empty if it is a regular file.
+/// Returns why a file of any length cannot be read piece by piece. Empty if it is a readable regular file.
 std::string why_not_readable(const std::string& path);
 
-/// The first bytes of a file, so many that they tell what it holds (content_kind.h); none if it cannot be
-/// read.
+/// Returns the first bytes of a file, enough to tell its kind (content_kind.h), or an empty string if it
+/// cannot be read.
 std::string head_of_file(const std::string& path);
 
-/// Replaces a file as a whole: writes beside it, under a free name, and renames when the bytes are on the
-/// disk. base/files/output_file.h says what may be replaced. What stands there keeps its owner and mode.
-/// Returns nothing, or why it failed, and then what was there stays.
+/// Replaces a file as a whole: writes a new file beside it, and renames that once its bytes are on the disk.
+/// base/files/output_file.h has the rules about what may be replaced. The new file gets the owner and mode
+/// of the old one. Returns an empty string, or the reason of a failure; the old file then stays.
 std::string replace_text_file(const std::string& path, const std::string& contents, ContentKind kind);
 
-/// Removes what writers that were killed have left beside `path`: files of the names that replace_text_file()
-/// uses, of that kind, that nobody is writing.
+/// Removes temporary files of replace_text_file() that killed processes left beside `path`: files of that
+/// kind that no process has locked.
 void remove_left_beside(const std::string& path, ContentKind kind);
 
 }  // namespace understudy

@@ -1,4 +1,4 @@
-// Bytes in text files: base64 of RFC 4648, with padding, on one line.
+// Encodes bytes for text files: base64 (RFC 4648), with padding, on one line.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace understudy {
 
 std::string to_base64(std::span<const std::byte> bytes);
-/// Nothing for text that to_base64() does not give.
+/// Returns nothing for text that to_base64() never returns.
 std::optional<std::vector<std::byte>> from_base64(std::string_view text);
 
 }  // namespace understudy

@@ -1,4 +1,4 @@
-// Where two values of one type differ, by the names of their fields.
+// Finds where two values of one type differ, by the names of their fields.
 #pragma once
 
 #include <cstddef>
@@ -21,13 +21,13 @@ std::string first_difference(const T& a, const T& b, const std::string& path = "
 
 namespace state_fields {
 
-/// "path: this against that"; without a path, only what follows it.
+/// Returns "path: a against b", without "path: " if the path is empty.
 std::string told(const std::string& path, const std::string& a, const std::string& b);
 std::string told(const std::string& path, const std::string& what);
-/// "path.name", "path[name]".
+/// Returns "path.name" or "path[name]".
 std::string path_to(const std::string& path, std::string_view name);
 std::string path_to_element(const std::string& path, const std::string& name);
-/// In quotes, what cannot be printed as \x07.
+/// Returns the text in quotes, with unprintable characters as \x07.
 std::string text_in_quotes(std::string_view text);
 std::string number_text(std::int64_t value);
 std::string number_text(std::uint64_t value);
@@ -54,7 +54,8 @@ concept Row = requires(const T& value) {
   value[0];
 };
 
-/// Looked at by their numbers. `name` tells what one is called; null: by its number.
+/// Compares the elements of two rows by their numbers. `name` gives an element's name; if it is null, the
+/// number is used.
 template <class T>
 std::string difference_in_row(const T& a, const T& b, const std::string& path, ElementName name) {
   const auto size_a = static_cast<std::size_t>(a.size());
@@ -114,7 +115,7 @@ std::string difference_in_fields(const T& a, const T& b, const std::string& path
 
 }  // namespace state_fields
 
-/// Likewise, of what copy_fields() has returned.
+/// Like the above, for two values that copy_fields() has returned.
 template <HasFields T>
 std::string difference_of_copies(const CopiedFields<T>& a, const CopiedFields<T>& b,
                                  const std::string& path) {
@@ -128,8 +129,8 @@ std::string difference_of_copies(const CopiedFields<T>& a, const CopiedFields<T>
   return found;
 }
 
-/// "drive.profile.segments[2].speed_u_s: 12 against 13", the first difference in the order of the fields;
-/// empty if there is none. `path` is put in front of the names.
+/// Returns the first difference in the order of the fields: "drive.profile.segments[2].speed_u_s: 12 against
+/// 13". Empty if there is none. `path` is put in front of the names.
 template <class T>
 std::string first_difference(const T& a, const T& b, const std::string& path) {
   using namespace state_bytes;

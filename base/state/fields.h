@@ -1,23 +1,24 @@
-// What a value consists of: its fields, each by its name, written down once beside its type:
+// Describes what a value consists of. Its fields are listed once with their names, beside its type:
 //
 //   template <>
 //   struct understudy::StateOf<Timer> {
 //     static constexpr auto fields = FieldList{field("mode", &Timer::mode), field("since", &Timer::since)};
-//     static void check(const Timer& timer);   // optional: throws StateError for what no timer can be
+//     static void check(const Timer& timer);   // optional: throws StateError if the value is impossible
 //   };
 //   template <>
 //   struct understudy::StateOf<Mode> {
-//     static constexpr Mode last = Mode::sync;  // of an enumeration: its last value
+//     static constexpr Mode last = Mode::sync;  // for an enumeration: its last value
 //   };
 //
-// From that list a value is saved, restored, hashed (state_bytes.h) and compared (difference.h). The order of
-// the list is that of the bytes. A member that is not listed does not compile. A class with private fields
-// makes its StateOf a friend, which names them in a structured binding (they cannot be counted otherwise) and
-// says how many there are, `members`, and how many of them are not a part of its state, `apart`.
+// The list is used to save, restore and hash a value (state_bytes.h) and to compare two (difference.h). Its
+// order is the order of the bytes. It does not compile if a member is missing from the list. A class with
+// private fields makes its StateOf a friend. That StateOf names them in a structured binding (they cannot be
+// counted otherwise) and has two numbers: `members`, of all members, and `apart`, of those that are not
+// state.
 //
-// What lies in memory differently from how it is saved (a ring, a program that is kept as its lines) has a
-// pair of its own instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may have `fields`
-// as well, or `told(value)`, by which two values are compared. StateHeldBy (state_bytes.h) is such a pair.
+// A type that is saved in another form than it has in memory (a ring, a program kept as its lines) has a
+// pair of functions instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may also have
+// `fields`, or `told(value)`, to compare two values. StateHeldBy (state_bytes.h) is such a pair.
 #pragma once
 
 #include <cstddef>
@@ -31,11 +32,11 @@
 
 namespace understudy {
 
-/// Specialised for each type that is a part of a state.
+/// Describes the fields of a state. It is specialised for each type that is a part of a state.
 template <class T>
 struct StateOf;
 
-/// What an element of an array is called, by its number.
+/// Returns the name of an array's element with that number.
 using ElementName = std::string (*)(std::size_t number);
 
 template <class Owner, class T>
@@ -64,7 +65,7 @@ struct NumberedFields<std::index_sequence<number...>, Field...> : Numbered<numbe
   static constexpr std::size_t count = sizeof...(Field);
 
   constexpr explicit NumberedFields(Field... field) : Numbered<number, Field>{field}... {}
-  /// visit(field...), of all.
+  /// Calls visit(field...) with all fields at once.
   constexpr decltype(auto) apply(auto&& visit) const {
     return visit(static_cast<const Numbered<number, Field>&>(*this).field...);
   }
@@ -75,7 +76,8 @@ inline constexpr bool kIsOptional = false;
 template <class T>
 inline constexpr bool kIsOptional<std::optional<T>> = true;
 
-/// Stands for a member of any type when members are counted; an optional one is made from what it holds.
+/// Stands for a member of any type when members are counted. An optional member is initialised from its
+/// content type.
 struct AnyMember {
   template <class T>
   requires(!kIsOptional<T>) operator T&() const {  // NOLINT(google-explicit-constructor)
@@ -88,7 +90,7 @@ constexpr bool is_made_of(std::index_sequence<i...>) {
   return requires { T{(static_cast<void>(i), AnyMember{})...}; };
 }
 
-/// Whether a class has just so many members.
+/// Returns true if the class has exactly `count` members.
 template <class T, std::size_t count>
 constexpr bool has_members() {
   if constexpr (requires { StateOf<T>::members; }) {
@@ -99,7 +101,7 @@ constexpr bool has_members() {
   }
 }
 
-/// Those of them that are not a part of its state.
+/// Returns the number of members that are not part of the state.
 template <class T>
 constexpr std::size_t apart_of() {
   if constexpr (requires { StateOf<T>::apart; }) {
@@ -111,8 +113,8 @@ constexpr std::size_t apart_of() {
 
 }  // namespace state_fields
 
-/// The fields of a type. Not a std::tuple: there are hundreds of these lists, and a tuple takes compilers
-/// much longer.
+/// The fields of a type. It is not a std::tuple because there are hundreds of these lists, and a tuple takes
+/// much longer to compile.
 template <class... Field>
 struct FieldList : state_fields::NumberedFields<std::index_sequence_for<Field...>, Field...> {
   using state_fields::NumberedFields<std::index_sequence_for<Field...>, Field...>::NumberedFields;
@@ -125,7 +127,7 @@ concept HasFields = requires {
   StateOf<std::remove_cv_t<T>>::fields;
 };
 
-/// The fields of a type, all of them: a member that is not listed does not compile.
+/// Returns all fields of a type. It does not compile if a member is missing from the list.
 template <HasFields T>
 constexpr const auto& fields_of() {
   using Fields = std::remove_cvref_t<decltype(StateOf<T>::fields)>;
@@ -143,7 +145,8 @@ constexpr void for_each_field(T& value, auto visit) {
   fields_of<std::remove_cv_t<T>>().apply([&](const auto&... named) { (visit(value.*named.at), ...); });
 }
 
-/// The fields by themselves, of a class that cannot be copied: read first, put in force when all is read.
+/// Copies only the fields of a value whose class cannot be copied. A restore reads into such a copy first,
+/// and assigns it once all of it is read.
 template <HasFields T>
 auto copy_fields(const T& value) {
   return fields_of<T>().apply([&](const auto&... named) { return std::tuple(value.*named.at...); });

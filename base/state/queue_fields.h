@@ -1,4 +1,4 @@
-// A queue as a part of a state: saved is what is in it, as a vector of it would be.
+// Saves a queue as part of a state. Only its present elements are saved, in the same form as a vector.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct StateOf<Queue<T>> {
   static void read(Queue<T>& queue, StateReader& reader) {
     std::uint32_t count = 0;
     reader.read(count);
-    // Each takes at least a byte, so no room is made for what is not there.
+    // Each element takes at least one byte, so a wrong count is refused before memory is allocated for it.
     demand_state(count <= reader.rest().size(), "the bytes end too early");
     queue.clear();
     queue.resize(count);

@@ -1,5 +1,6 @@
-// A text that its copies share: it never changes, another takes its place. For what is large and rarely
-// written (files, recipes, programs): copies, comparisons and hashes of it cost as much as a number's.
+// A text that its copies share. It never changes; it is only replaced by another. It suits large texts that
+// are rarely written (files, recipes, programs): copying, comparing and hashing one costs as much as for a
+// number.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,9 @@ class SharedText {
   explicit SharedText(std::string text);
 
   const std::string& text() const { return held_->text; }
-  /// Of the content, worked out once, when it is made.
+  /// The digest of the content, computed once when the text is made.
   std::uint64_t digest() const { return held_->digest; }
-  /// By content, whoever shares it.
+  /// Compares contents.
   bool operator==(const SharedText& other) const {
     return held_ == other.held_ || (digest() == other.digest() && text() == other.text());
   }
@@ -35,7 +36,7 @@ class SharedText {
 
 using SharedTexts = std::vector<SharedText>;
 
-/// Saved as its text; or, where a writer shares texts, as its digest, with the text beside the bytes
+/// Saves the text itself or, if the writer shares texts, its digest, with the text kept beside the bytes
 /// (state_bytes.h).
 template <>
 struct StateOf<SharedText> {

@@ -1,5 +1,5 @@
-// State as bytes: the same on every machine, numbers in little endian, doubles by their bits, no padding. Its
-// StateOf (fields.h) says what a value consists of; by it the value is saved, restored and hashed.
+// Saves state as bytes that are the same on every machine: little-endian numbers, doubles by their bits, no
+// padding. A value's StateOf (fields.h) lists its fields, by which it is saved, restored and hashed.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ namespace understudy {
 class StateWriter;
 class StateReader;
 
-/// FNV-1a.
+/// Returns the FNV-1a hash of `bytes`, continuing from `onto`.
 std::uint64_t hash_of(std::span<const std::byte> bytes, std::uint64_t onto = 0xcbf29ce484222325);
 
 namespace state_bytes {
@@ -56,7 +56,7 @@ inline constexpr bool kIsTime = false;
 template <class Count, class Period>
 inline constexpr bool kIsTime<std::chrono::duration<Count, Period>> = true;
 
-/// Is saved by functions of its own.
+/// True for types that have write and read functions of their own.
 template <class T>
 concept SavesItself = requires(const T& value, T& restored, StateWriter& writer, StateReader& reader) {
   StateOf<T>::write(value, writer);
@@ -66,7 +66,7 @@ concept SavesItself = requires(const T& value, T& restored, StateWriter& writer,
 template <class T>
 concept Numeric = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// A number as an unsigned one of the same size.
+/// Returns a number as an unsigned one of the same size.
 template <class T>
 auto as_bits(T value) {
   if constexpr (std::is_same_v<T, double>) {
@@ -84,7 +84,8 @@ auto as_bits(T value) {
 template <class T>
 using Bits = decltype(as_bits(T{}));
 
-/// Numbers for which any bits are a value, saved as a little-endian machine has them in memory.
+/// True for numbers for which every bit pattern is a value and whose saved bytes equal their memory on this
+/// machine.
 template <class T>
 inline constexpr bool kIsAsInMemory =
     std::endian::native == std::endian::little&& std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
@@ -93,7 +94,7 @@ inline constexpr bool kIsAsInMemory =
 
 class StateWriter {
  public:
-  /// With `shared`, texts that copies share are put there, and the bytes have their digests only.
+  /// If `shared` is given, shared texts are put there, and the bytes hold only their digests.
   explicit StateWriter(std::size_t expected_bytes = 0, SharedTexts* shared = nullptr) : shared_(shared) {
     bytes_.resize(expected_bytes);
   }
@@ -105,7 +106,7 @@ class StateWriter {
     write(value.digest());
     shared_->push_back(value);
   }
-  /// What has been saved already.
+  /// Appends bytes that are saved already.
   void append(std::span<const std::byte> bytes) {
     if (!bytes.empty()) std::memcpy(room_for(bytes.size()), bytes.data(), bytes.size());
   }
@@ -151,18 +152,18 @@ class StateWriter {
     }
   }
 
-  // More than is written yet: thousands of numbers are put there one by one.
+  // Has more room than is written yet, because thousands of numbers are appended one by one.
   std::vector<std::byte> bytes_;
   std::size_t size_ = 0;
   SharedTexts* shared_ = nullptr;
 };
 
-/// Everything here throws StateError for bytes that end too early or hold what the type cannot (a bool of 7,
-/// an enumeration's value that does not exist).
+/// Reads what a StateWriter wrote. Every member throws StateError if the bytes end too early or hold a value
+/// that the type cannot have (a bool of 7, an enumerator that does not exist).
 class StateReader {
  public:
   explicit StateReader(std::span<const std::byte> bytes) : rest_(bytes) {}
-  /// Of a writer that shares: with the texts, in their order.
+  /// Reads bytes of a writer that shared its texts. `shared` holds these texts in their order.
   StateReader(std::span<const std::byte> bytes, std::span<const SharedText> shared)
       : rest_(bytes), shared_(shared) {}
 
@@ -242,7 +243,7 @@ inline void StateReader::read_shared(SharedText& value) {
   shared_ = shared_->subspan(1);
 }
 
-/// Of a class that holds its state as one value: save() gives it; restore() checks it, and puts it in force.
+/// Saves a class that holds its state as one value: save() returns it, and restore() checks and assigns it.
 template <class T>
 struct StateHeldBy {
   static void write(const T& value, StateWriter& writer) { writer.write(value.save()); }
@@ -254,7 +255,8 @@ struct StateHeldBy {
   static const auto& told(const T& value) { return value.save(); }
 };
 
-// Outside of their classes, so that a room can have those of its big types made once (motion/state_fields.h).
+// These functions stand outside their classes so that a library can instantiate those of its big types once
+// (motion/state_fields.h).
 
 template <class T>
 void StateWriter::write(const T& value) {
@@ -302,7 +304,7 @@ void StateReader::read(T& value) {
   } else if constexpr (kIsVector<T>) {
     std::uint32_t count = 0;
     read(count);
-    // Each takes at least a byte, so no room is made for what is not there.
+    // Each element takes at least one byte, so a wrong count is refused before memory is allocated for it.
     demand_state(count <= rest_.size(), "the bytes end too early");
     value.assign(count, {});
     read_all(value);

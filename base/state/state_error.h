@@ -1,4 +1,4 @@
-// Thrown for bytes or values that cannot be a state of what they are given to.
+// Thrown for bytes or values that are no valid state of the object they are given to.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace understudy {
 
-/// One line: "where: what is wrong". Nothing has changed.
+/// The message is one line: "where: what is wrong". The object has not changed.
 struct StateError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -19,7 +19,8 @@ inline void demand_within(std::int64_t value, std::int64_t least, std::int64_t g
   demand_state(value >= least && value <= greatest, "a number is beyond its range");
 }
 
-/// Pulses, ticks and times: sums and differences of a few of them fit 64 bits.
+/// Throws StateError if a count of pulses, ticks or nanoseconds is so large that sums and differences of a
+/// few of them may not fit 64 bits.
 inline void demand_reach(std::int64_t value) {
   constexpr std::int64_t kFarthest = std::int64_t{1} << 61;
   demand_within(value, -kFarthest, kFarthest);

@@ -1,4 +1,4 @@
-// A text line by line.
+// Splits a text into lines.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,13 @@
 
 namespace understudy {
 
-/// A line without its end, and its number from 1.
+/// A line without its line ending, and its number from 1.
 struct TextLine {
   std::string_view text;
   int number = 1;
 };
 
-/// A text for a loop over its lines. The end of the last line begins no further one.
+/// A text to loop over line by line. A line ending at the end of the text does not begin another line.
 class TextLines {
  public:
   explicit constexpr TextLines(std::string_view text) : text_(text) {}

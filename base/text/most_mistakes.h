@@ -1,4 +1,5 @@
-// Of a text that is full of mistakes, such as a log that was taken for a program, the first are told.
+// Limits how many mistakes of one text are reported. A text full of mistakes, such as a log given as a
+// program, reports only the first.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +9,10 @@
 
 namespace understudy {
 
-/// Whoever reads a text stops when it has found so many.
+/// A reader stops after this many mistakes.
 inline constexpr std::size_t kMostMistakes = 100;
 
-/// Puts mistakes with a line and a column into the order of the text, and leaves the first kMostMistakes.
+/// Sorts mistakes by line and column, and keeps the first kMostMistakes.
 template <class Mistake>
 void leave_first(std::vector<Mistake>& mistakes) {
   std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& a, const Mistake& b) {

@@ -6,7 +6,7 @@
 
 namespace understudy {
 
-/// The nearest double; nothing if it is not a number, or beyond all doubles.
+/// Returns the nearest double, or nothing if the text is not a number or is out of range.
 std::optional<double> parse_real(std::string_view text);
 
 }  // namespace understudy

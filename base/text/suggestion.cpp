@@ -36,7 +36,7 @@ bool begins_with(std::string_view text, std::string_view small_beginning) {
                     [](char a, char b) { return a == small(b); });
 }
 
-/// A bit for each letter that is there. Several letters share one, so that words may look more alike than
+/// Returns a bit for each letter of the word. Several letters share a bit, so words may look more alike than
 /// they are, never less.
 std::uint64_t letters_of(std::string_view word) {
   std::uint64_t letters = 0;
@@ -44,7 +44,7 @@ std::uint64_t letters_of(std::string_view word) {
   return letters;
 }
 
-/// A lower bound of the distance: each letter that is missing, or too many, is a change.
+/// Returns a lower bound of the distance: each missing or extra letter is a change.
 std::size_t least_distance(std::string_view a, std::uint64_t letters_of_a, std::string_view b) {
   const std::size_t longer = std::max(a.size(), b.size()) - std::min(a.size(), b.size());
   const std::uint64_t letters_of_b = letters_of(b);
@@ -52,10 +52,10 @@ std::size_t least_distance(std::string_view a, std::uint64_t letters_of_a, std::
                    static_cast<std::size_t>(std::popcount(letters_of_b & ~letters_of_a))});
 }
 
-/// Levenshtein's distance, where two neighbours that are swapped count once; `limit` if it is at least that.
-/// A row is about a longer and longer beginning of `b`; each of its cells about one of `a`, in small letters.
+/// Returns Levenshtein's distance, with a swap of two neighbours as one change, or `limit` if it is at least
+/// that. Each row stands for a longer beginning of `b`, each cell of a row for one of `a`, in lower case.
 std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) {
-  // What both begin with, and what both end with, changes nothing: names of one family share much.
+  // A common beginning and a common end do not change the distance: names of one family share much.
   const auto is_same = [](char x, char y) { return x == small(y); };
   const auto beginning = static_cast<std::size_t>(std::ranges::mismatch(a, b, is_same).in1 - a.begin());
   a.remove_prefix(beginning);
@@ -87,7 +87,7 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
       (*row)[j] = changes;
       least = std::min(least, changes);
     }
-    // What follows is made from these two rows.
+    // The next rows are computed from these two.
     if (std::min(least, least_above) >= limit) return limit;
     least_above = least;
     letter_before = letter;
@@ -95,7 +95,7 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
   return std::min((*row)[a.size()], limit);
 }
 
-/// The first known word that is longer than this one, and begins with it.
+/// Returns the first known word that is longer than `written` and begins with it.
 std::optional<std::string> beginning_of(const std::string& written, std::span<const std::string> known) {
   if (written.size() < kLeastBeginning) return std::nullopt;
   const auto longer = std::find_if(known.begin(), known.end(), [&](const std::string& candidate) {
@@ -111,14 +111,14 @@ std::optional<std::string> near_word(std::string_view word, std::span<const std:
   const std::string written = small(word);
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   const std::uint64_t letters = letters_of(written);
-  std::vector<std::size_t> bounds;  // what each differs by at least
+  std::vector<std::size_t> bounds;  // a lower bound of each word's distance
   bounds.reserve(known.size());
   for (const std::string& candidate : known) bounds.push_back(least_distance(written, letters, candidate));
   const auto limit_of = [&](const std::string& candidate) {
     return std::min(least, candidate.size());  // something of a short one must be left
   };
   if (!known.empty()) {
-    // The most alike first: the others then seldom need to be looked at closely.
+    // Start with the most similar word: the others then seldom need the full computation.
     const auto first = static_cast<std::size_t>(std::ranges::min_element(bounds) - bounds.begin());
     const std::size_t limit = limit_of(known[first]);
     if (bounds[first] >= least) return beginning_of(written, known);

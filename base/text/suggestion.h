@@ -1,4 +1,4 @@
-// What to say about an unknown word.
+// Words the suggestion in a message about an unknown word.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace understudy {
 
-/// The known word that differs least, if it is near enough to be what was meant: about a third of the letters
-/// may be missing, extra, different, or swapped with their neighbours. Case does not matter.
+/// Returns the known word that differs least, if it is near enough: about a third of its letters may be
+/// missing, extra, different, or swapped with their neighbours. Case does not matter.
 std::optional<std::string> near_word(std::string_view word, std::span<const std::string> known);
 
-/// The end of a complaint: "; the nearest is 'speed'". If none is near, "; expected one of A, B", or an
-/// example if there are many; if there are no known words, "; " and `none`.
+/// Returns the end of a message: "; the nearest is 'speed'". If no word is near, "; expected one of A, B",
+/// or an example if there are many; if there are no known words, "; " and `none`.
 std::string suggestion(std::string_view word, std::span<const std::string> known,
                        const std::string& none = "there is none");
 

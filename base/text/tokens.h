@@ -1,4 +1,4 @@
-// The words of a line of a listing, and where each stands.
+// Splits a line of a listing into words with their positions.
 #pragma once
 
 #include <string>
@@ -15,15 +15,15 @@ struct Token {
 
 enum class Colon { is_a_letter, ends_its_token };
 
-/// Split at blanks and commas; a ';' begins a comment.
+/// Splits at blanks and commas. A ';' begins a comment.
 std::vector<Token> tokens_of(std::string_view text, int line, Colon colon = Colon::is_a_letter);
 
-/// Of the letters A to Z alone.
+/// Converts only the letters a to z.
 constexpr char upper(char letter) {
   return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
 }
 std::string upper_case(std::string_view text);
-/// In upper or lower case.
+/// Compares without regard to case.
 bool is_word(std::string_view text, std::string_view word);
 
 }  // namespace understudy

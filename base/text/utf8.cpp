@@ -18,7 +18,7 @@ std::optional<std::size_t> first_not_utf8(std::string_view text) {
                                : first >= 0xF0 && first <= 0xF4 ? 4
                                                                 : 0;
     if (length == 0 || length > text.size() - at) return at;
-    // The second byte tells overlong forms, surrogates and what is beyond the last character.
+    // The second byte reveals overlong forms, surrogates and values beyond the last character.
     const unsigned lowest = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
     const unsigned highest = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
     if (byte(at + 1) < lowest || byte(at + 1) > highest) return at;

@@ -1,4 +1,4 @@
-// Text in UTF-8.
+// Checks that text is UTF-8.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,8 @@
 
 namespace understudy {
 
-/// The place of the first byte that is not a part of a well-formed character (RFC 3629); nothing if all are.
+/// Returns the position of the first byte that is not part of a well-formed character (RFC 3629), or nothing
+/// if all are.
 std::optional<std::size_t> first_not_utf8(std::string_view text);
 
 }  // namespace understudy

@@ -1,4 +1,4 @@
-// The words that `understudy` understands, as its flag parser knows them.
+// The words of `understudy`'s command line, taken from its flag parser.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ class ParseError;
 
 namespace understudy::emulator::command_line {
 
-/// All commands and flags, with their help.
+/// Returns all commands and flags with their help.
 CommandWords words_of(const CLI::App& app);
 
-/// What is wrong with a command line that it does not understand, in the words of this program: the first
-/// word that is no command or flag, with the nearest one, or what `error` is about.
+/// Returns what is wrong with a command line, in the words of this program: the first unknown command or
+/// flag with the nearest known one, or the subject of `error`.
 std::string complaint_about(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
 }  // namespace understudy::emulator::command_line

@@ -1,4 +1,4 @@
-// Which of the running daemons `ctl` talks to.
+// Chooses the running daemon that `ctl` talks to.
 #pragma once
 
 #include <string>
@@ -7,12 +7,13 @@
 
 namespace understudy::emulator::command_line {
 
-/// Its control socket: the one that was given, the one of that bench or port, the one in UNDERSTUDY_CONTROL,
-/// or the only one there is. If there are several it does not guess: throws UsageError, which names them all.
-/// Throws ControlError if there is none.
+/// Returns its control socket: the given one, that of the bench or port, the one in UNDERSTUDY_CONTROL, or
+/// the only one. If there are several it does not guess but throws UsageError, which names them all. Throws
+/// ControlError if there is none.
 std::string choose_daemon(const WhichDaemon& which);
 
-/// Prints a line for each running daemon of this user: its socket, bench and ports. As JSON: one object.
+/// Prints a line for each running daemon of this user: its socket, bench and ports. As JSON it is one
+/// object.
 int list_daemons(bool as_json);
 
 }  // namespace understudy::emulator::command_line

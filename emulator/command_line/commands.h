@@ -1,5 +1,5 @@
-// The commands of `understudy`, free of any parsing of flags. Each returns the exit code. Those that know
-// models are handed their list.
+// The commands of `understudy`, independent of flag parsing. Each returns the exit code. Commands that need
+// models receive their list.
 #pragma once
 
 #include <climits>
@@ -21,7 +21,7 @@ enum ExitCode : int {
   kExitInternal = 4,
 };
 
-/// Bad usage: one line that names the flag or value and what was expected.
+/// Reports bad usage in one line that names the flag or value and what was expected.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -36,7 +36,7 @@ struct DescribeArguments {
 int describe_model(ModelList models, const DescribeArguments& arguments);
 
 struct ServeArguments {
-  std::string bench;  // a file; or else `model` and what belongs to it
+  std::string bench;  // a file; if empty, `model` and its settings are used
   std::string model;
   std::optional<int> station;
   std::optional<int> modules;
@@ -52,14 +52,14 @@ struct ServeArguments {
   std::string byte_timeout;
   std::string speed = "real";
   std::string control;
-  std::string nv;  // the folder for memories of devices that have no file of their own
+  std::string nv;  // the folder for memories of devices without a file of their own
   std::string capture;
   std::string record;
   std::string trace;  // a file: .csv or .vcd
   std::vector<std::string> trace_also;
   bool lint = false;
-  std::vector<std::string> listen;  // addresses at which lines can be reached by TCP
-  bool no_pty = false;              // those lines have nothing else
+  std::vector<std::string> listen;  // TCP addresses of lines
+  bool no_pty = false;              // these lines have no pseudo-terminal
   std::optional<int> page;          // the port of a live page beside it; 0: any
   std::string version;              // of this program
 };
@@ -67,16 +67,16 @@ int serve(ModelList models, const ServeArguments& arguments);
 
 struct ExecArguments {
   ServeArguments serve;
-  std::vector<std::string> command;      // and its arguments: what stands behind --
+  std::vector<std::string> command;      // the words behind --: a command and its arguments
   std::vector<std::string> stray_words;  // in front of it
   std::string with;                      // the file of a scenario that is played beside it
   std::string save_below;                // the folder that it may save in; empty: its own
   bool tty_shim = false;
   std::string timeout;  // a duration
 };
-/// The command's exit code, if it has one.
+/// Returns the command's exit code, if it has one.
 int execute(ModelList models, const ExecArguments& arguments);
-/// The path of the library that `exec --tty-shim` preloads.
+/// Prints the path of the library that `exec --tty-shim` preloads.
 int print_tty_shim();
 
 struct RunArguments {
@@ -122,7 +122,7 @@ struct PlotArguments {
 };
 int plot_trace(const PlotArguments& arguments);
 
-/// Which of the running daemons is meant; nothing: the only one.
+/// Selects one of the running daemons; nothing: the only one.
 struct WhichDaemon {
   std::string socket;  // its control socket
   std::string bench;   // the file that it serves
@@ -155,11 +155,11 @@ struct FramesArguments {
   std::string every = "100ms";  // of wall time
   int times = 0;                // 0: until it is interrupted
 };
-/// What goes over the lines, a line for each frame.
+/// Prints a line for each frame on the lines.
 int follow_frames(const FramesArguments& arguments);
 
 struct PageArguments {
-  std::vector<std::string> sockets;  // control sockets; none: the only daemon there is
+  std::vector<std::string> sockets;  // control sockets; none: the only daemon
   int port = 0;                      // 0: any
   std::string listen = "127.0.0.1";
   std::vector<std::string> hosts;  // names of this machine besides the loopback's
@@ -168,12 +168,13 @@ struct PageArguments {
 };
 /// Serves the live page until it is ended.
 int show_page(const PageArguments& arguments);
-/// The same in a process of its own, which ends with this one.
+/// Like show_page(), in a process of its own that ends with this one.
 void start_page_beside(const std::string& control, int port);
 
 struct PollArguments {
   std::string port;
-  // Unsaid or empty: as the model has them from the factory, without one station 1 at 19200 8E1.
+  // If unset or empty, the model's factory settings are used; a model without a station number uses station
+  // 1 at 19200 8E1.
   static constexpr int kUnsaid = INT_MIN;
   int station = kUnsaid;
   int baud = kUnsaid;
@@ -191,14 +192,14 @@ struct PollArguments {
 };
 int poll_port(ModelList models, const PollArguments& arguments);
 
-/// A program as text, and what decides how it is read.
+/// A program as text, and the settings for reading it.
 struct ProgramTextArguments {
   std::string model;
   std::string firmware;              // empty: the newest
   std::vector<std::string> choices;  // "ID=OPTION"
   std::string file;
 };
-/// Into the numbers that go over the wire, and back (emulator/device/program_cells.h).
+/// Convert to the numbers that go over the wire, and back (emulator/device/program_cells.h).
 int assemble_program(ModelList models, const ProgramTextArguments& arguments);
 int disassemble_program(ModelList models, const ProgramTextArguments& arguments);
 
@@ -208,26 +209,26 @@ struct CheckArguments {
   ProgramTextArguments programs;   // with a model the files are programs for it
   std::string format = "text";     // or json, sarif, github
 };
-/// Benches, scenarios, files of steps that scenarios include, and models; or programs.
+/// Checks benches, scenarios, files of steps that scenarios include, models, and programs.
 int check_files(ModelList models, const CheckArguments& arguments);
 struct InitArguments {
   std::string model = "simple2-r3";
   std::string folder = ".";
 };
-/// A bench, a scenario and their schemas, for a model of one's choice.
+/// Writes a bench, a scenario and their schemas for the chosen model.
 int write_first_files(ModelList models, const InitArguments& arguments);
 struct ImportArguments {
   std::string list;    // a file
   std::string output;  // the model file; empty: beside the list
   std::string name;    // of the model; empty: as the list
 };
-/// A model file and a bench, made of a list of registers.
+/// Writes a model file and a bench made from a list of registers.
 int import_registers(ModelList models, const ImportArguments& arguments);
 struct SchemaArguments {
   std::string what;   // "bench", "scenario" or "model"
-  std::string bench;  // whose names scenarios may use; empty: any
+  std::string bench;  // the bench whose names scenarios may use; empty: any names
 };
-/// The JSON Schema of a kind of file.
+/// Prints the JSON Schema of a kind of file.
 int print_schema(ModelList models, const SchemaArguments& arguments);
 
 }  // namespace understudy::emulator::command_line

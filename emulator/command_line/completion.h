@@ -1,4 +1,4 @@
-// Scripts that make shells complete the words of `understudy`, made from its flags.
+// Makes shell completion scripts for `understudy` from its flags.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// A command, what may come after it, and its subcommands.
+/// A command, its flags, and its subcommands.
 struct CommandWords {
   struct Flag {
     std::string name;  // "link", without dashes
@@ -22,12 +22,12 @@ struct CommandWords {
   std::vector<CommandWords> commands;
 };
 
-/// For "bash", "zsh" or "fish"; nothing for other shells. Where neither a command nor a flag can come, it
-/// offers what is known for that place (models, faults), or files; after --model, the models.
+/// Returns the script for "bash", "zsh" or "fish", or nothing for other shells. At positions without
+/// commands or flags it offers known words (models, faults), or files; after --model, the models.
 std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell,
                                              ModelList models);
 
-/// `understudy completion SHELL`.
+/// Runs `understudy completion SHELL`.
 int print_completion(const CommandWords& words, const std::string& shell, ModelList models);
 
 }  // namespace understudy::emulator::command_line

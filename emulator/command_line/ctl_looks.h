@@ -1,4 +1,4 @@
-// The words of `ctl` for onlookers (docs/control.md): what there is, what has happened, how time goes by.
+// The `ctl` commands for observers (docs/control.md): the bench's contents, its events, and its time.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,11 +7,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// Puts the words of a command line into the message, which says already what to do. False: it is another
-/// one's. Throws UsageError.
+/// Adds the words of a command line to the message, which has its "do" already. Returns false if the message
+/// is not one of these. Throws UsageError.
 bool add_look_words(const ControlArguments& arguments, nlohmann::ordered_json& message);
 
-/// False: it is another message's reply.
+/// Returns false if it is the reply to another message.
 bool print_look(const nlohmann::ordered_json& reply);
 
 }  // namespace understudy::emulator::command_line

@@ -1,4 +1,4 @@
-// `ctl scope`: how far an oscilloscope's single shot is, in words, and what it has kept as a trace.
+// `ctl scope`: shows the progress of an oscilloscope's single shot, and writes its samples as a trace.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,11 +6,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// `scope` of a reply, which may be null.
+/// `scope` is the one in a reply, and may be null.
 void print_scope(const nlohmann::ordered_json& scope);
 
-/// Writes what the daemon at that socket has kept to FILE.csv, for `plot`. Throws UsageError where there is
-/// nothing, and GrowingFileError.
+/// Writes the samples of the daemon at that socket to FILE.csv, for `plot`. Throws UsageError if there are
+/// none, and GrowingFileError.
 void write_scope(const std::string& socket, const std::string& path);
 
 }  // namespace understudy::emulator::command_line

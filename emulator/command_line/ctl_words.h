@@ -1,4 +1,4 @@
-// The words of `ctl` that are a message each, with their help.
+// The `ctl` commands that are one message each, with their help.
 #pragma once
 
 #include <array>

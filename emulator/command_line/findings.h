@@ -1,4 +1,4 @@
-// What `check` found in each file, in the forms that people, editors and CI services read.
+// The findings of `check` in each file, in the formats of people, editors and CI services.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace understudy::emulator::command_line {
 
 struct Finding {
   FilePlace place;   // line 0: the whole file; column 0: the whole line
-  std::string text;  // what is wrong and what was expected, without the place
+  std::string text;  // what is wrong and what was expected, without the position
   bool is_warning = false;
 };
 
 struct CheckedFile {
   std::string file;
-  std::string kind;  // "bench", "scenario", "steps", "program" or "file": what it was taken for
-  std::string is{};  // "a bench with 1 line and 2 devices"; empty where something is wrong
+  std::string kind;  // "bench", "scenario", "steps", "program" or "file": the kind it was checked as
+  std::string is{};  // "a bench with 1 line and 2 devices"; empty if there are errors
   std::vector<Finding> findings{};
   bool is_wrong() const { return is.empty(); }
 };
@@ -29,16 +29,16 @@ struct CheckedFile {
 enum class FindingFormat : std::uint8_t { text, json, sarif, github };
 std::optional<FindingFormat> finding_format_called(std::string_view name);
 
-/// One of `complaints` of a file error as a finding: its line of text begins with its place, which is taken
-/// off.
+/// Converts one of the `complaints` of a file error to a finding. Its text begins with the position, which
+/// is removed.
 Finding finding_of(const FileError::Complaint& complaint, const std::string& file);
 
-/// "mill.lst:4: warning: label K1 stands twice", of a complaint that only warns.
+/// Returns a warning: "mill.lst:4: warning: label K1 stands twice".
 std::string warning_line(const FileError::Complaint& odd);
 
-/// As `check` has always said it: what is well on standard output, what is wrong on standard error.
+/// Prints the traditional form: valid files to standard output, errors to standard error.
 void print_as_text(const CheckedFile& checked);
-/// The whole of it, ready for standard output.
+/// Returns all findings as text for standard output.
 std::string findings_as(FindingFormat format, std::span<const CheckedFile> files);
 
 }  // namespace understudy::emulator::command_line

@@ -1,4 +1,4 @@
-// The words after `understudy`, and what they ask for.
+// Parses the command line of `understudy`.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace understudy::emulator::command_line {
 
-/// Does nothing yet: calling what it returns does it, and returns the exit code. What is wrong with the words
-/// goes to standard error.
+/// Returns a function that runs the command and returns the exit code. Errors in the command line are
+/// printed to standard error.
 std::function<int()> parse_command_line(int argc, char** argv, ModelList models);
 
 }  // namespace understudy::emulator::command_line

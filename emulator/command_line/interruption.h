@@ -1,11 +1,11 @@
-// Commands that go on until Ctrl-C, and then end well.
+// Lets commands that run until Ctrl-C end cleanly.
 #pragma once
 
 #include "base/simulated_time.h"
 
 namespace understudy::emulator::command_line {
 
-/// From now on SIGINT and SIGTERM no longer end the program, only its waiting.
+/// From now on SIGINT and SIGTERM only end wait_or_be_interrupted(), not the program.
 void watch_for_interruption();
 bool is_interrupted();
 /// Waits this long by the wall clock, or until it is interrupted.

@@ -4,7 +4,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// One line of the daemon's log, on standard error.
+/// Prints one line of the daemon's log to standard error.
 void log_line(const std::string& text);
 
 }  // namespace understudy::emulator::command_line

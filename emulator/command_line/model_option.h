@@ -8,11 +8,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// The model of that name, or of the file that it is the path of. `files` gets what was read. Throws
-/// UsageError with the nearest name; FileError.
+/// Returns the model of that name, or the one in the file at that path. Files that were read are added to
+/// `files`. Throws UsageError with the nearest name, or FileError.
 const Model& demand_model(ModelList models, const std::string& name);
 const Model& demand_model(ModelList models, const std::string& name, std::vector<FileClaim>& files);
-/// Of a file. Throws FileError.
+/// Returns the model in a file. Throws FileError.
 const Model& described_model(ModelList models, const std::string& path, std::vector<FileClaim>& files);
 
 }  // namespace understudy::emulator::command_line

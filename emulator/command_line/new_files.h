@@ -1,4 +1,4 @@
-// Files that a command writes for somebody to begin with.
+// Writes files that a user starts from.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ struct NewFile {
   std::string text;
 };
 
-/// Throws FileError if something of one of their names is there already.
+/// Throws FileError if any of the names exists already.
 void demand_new(const std::vector<NewFile>& files);
-/// All of them, or none. Nothing is ever overwritten. Throws FileError where something is there already, and
-/// GrowingFileError where nothing can be written.
+/// Writes all of them, or none. Nothing is ever overwritten. Throws FileError if one exists already, and
+/// GrowingFileError if it cannot be written.
 void write_all(const std::vector<NewFile>& files);
 
 }  // namespace understudy::emulator::command_line

@@ -11,8 +11,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// A flag's path for a file to write, which is claimed from now on. An empty path means none. Throws
-/// UsageError.
+/// Checks and claims the output path of a flag. An empty path means no file. Throws UsageError.
 inline std::string demand_output(FileClaims& claims, const std::string& flag, const std::string& path) {
   if (const std::string why = claims.objection_to(path); !why.empty()) {
     throw UsageError(flag + ": " + path + ": " + why);
@@ -29,7 +28,7 @@ inline std::string demand_capture(FileClaims& claims, const std::string& path) {
   return demand_output(claims, "--capture", path);
 }
 
-/// Also checks that there is no `also` without it.
+/// Like demand_output(), and checks that `also` is empty if there is no trace.
 inline std::string demand_trace(FileClaims& claims, const std::string& path,
                                 const std::vector<std::string>& also) {
   if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE beside it");
@@ -39,14 +38,14 @@ inline std::string demand_trace(FileClaims& claims, const std::string& path,
   return demand_output(claims, "--trace", path);
 }
 
-/// Where the older part of a recording goes once it has grown large: beside the file that is really written.
-/// Empty if there is none.
+/// Returns the path of the older part of a recording that has grown large: beside the file that is really
+/// written. Empty if there is no recording.
 inline std::string older_part_of(const std::string& recording) {
   if (recording.empty()) return "";
   try {
     return output_target(recording) + world::kOlderPart;
   } catch (const OutputError&) {
-    return recording + world::kOlderPart;  // whoever opens it gets an error
+    return recording + world::kOlderPart;  // opening it reports the error
   }
 }
 

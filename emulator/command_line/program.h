@@ -1,11 +1,11 @@
-// The whole program: does what its words ask for, and says what went wrong in one line.
+// The whole program: runs its command, and reports errors in one line.
 #pragma once
 
 #include "emulator/device/model.h"
 
 namespace understudy::emulator::command_line {
 
-/// With the models that it is to know. Returns the exit code.
+/// `models` are all models it knows. Returns the exit code.
 int run_program(int argc, char** argv, ModelList models);
 
 }  // namespace understudy::emulator::command_line

@@ -1,4 +1,4 @@
-// What commands that read programs share.
+// Code shared by commands that read programs.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// Throws UsageError where the model's devices take no programs.
+/// Throws UsageError if the model's devices take no programs.
 const ProgramLanguage& demand_language(const Model& model);
-/// Throws UsageError, or SettingError for what the model does not have.
+/// Throws UsageError, or SettingError for settings that the model does not have.
 DeviceSettings program_settings(const Model& model, const ProgramTextArguments& arguments);
-/// On standard error, a line each.
+/// Prints the mistakes to standard error, a line each.
 void print_mistakes(const std::vector<ProgramMistake>& mistakes, const std::string& file);
 
 }  // namespace understudy::emulator::command_line

@@ -1,4 +1,4 @@
-// What is written about a recording while it is run again: a trace, a capture, a page.
+// Writes files about a recording while it is replayed: a trace, a capture, a page.
 #pragma once
 
 #include <memory>
@@ -15,13 +15,13 @@
 
 namespace understudy::emulator::command_line {
 
-/// Checks that the wanted files may be written, and claims them. Throws UsageError.
+/// Checks that the files may be written, and claims them. Throws UsageError.
 void demand_looks(const ReplayArguments& arguments, FileClaims& claims);
 
-/// Opens the files, or throws an error that says why not.
+/// Opens the files, or throws an error with the reason.
 class ReplayLooks final : public world::ReplayWatcher {
  public:
-  /// `seen` gets what a page shows, once all is over: its footage and its steps.
+  /// `seen` receives the page's content at the end: footage and steps.
   ReplayLooks(world::World& world, const ReplayArguments& arguments, play::ScenarioResult& seen);
   ~ReplayLooks() override;
   ReplayLooks(const ReplayLooks&) = delete;
@@ -40,7 +40,7 @@ class ReplayLooks final : public world::ReplayWatcher {
   std::unique_ptr<play::Camera> camera_;  // of a page
 };
 
-/// The result, for the page. `seen` is what the looks have seen.
+/// Returns the result for the page. `seen` is what the looks have collected.
 play::ScenarioResult result_of(const world::Replayed& replayed, const std::string& recording,
                                play::ScenarioResult seen);
 

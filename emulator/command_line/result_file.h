@@ -1,4 +1,4 @@
-// A file that a command writes once all is over: results, a page.
+// A file that a command writes at its end: results, or a page.
 #pragma once
 
 #include <fcntl.h>
@@ -18,14 +18,14 @@
 
 namespace understudy::emulator::command_line {
 
-/// The path that means standard output.
+/// The path that stands for standard output.
 inline constexpr std::string_view kStandardOutput = "-";
 
-/// Opened before anything is played, so that a wrong path is reported at once. Endless files, such as
-/// /dev/stdout, can be written as well.
+/// Opened before anything runs, so that a wrong path is reported at once. Endless files, such as
+/// /dev/stdout, are allowed.
 class ResultFile {
  public:
-  /// Nothing is written if the path is empty.
+  /// An empty path means that nothing is written.
   ResultFile(const char* flag, const std::string& path, ContentKind kind) : flag_(flag), path_(path) {
     if (path_.empty()) return;
     if (path_ == kStandardOutput) {
@@ -46,11 +46,11 @@ class ResultFile {
     ::fcntl(stream_.get(), F_SETFL, 0);  // from here on it may make us wait
   }
   bool is_wanted() const { return !path_.empty(); }
-  /// Empties the file, so that nobody takes the old content for the result of a run that breaks off.
+  /// Empties the file, so that its old content is not mistaken for the result of a run that breaks off.
   void empty() {
     if (file_) begin();
   }
-  /// Adds it to what was written before.
+  /// Appends text.
   void write(std::string_view text) {
     if (file_) {
       if (!has_begun_) begin();

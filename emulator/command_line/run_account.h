@@ -1,5 +1,5 @@
-// What a run tells of its results, case by case: verdicts for whoever reads along, JUnit, rows of results, a
-// page. Of any number of cases it holds only what is counted, and the first failure of each kind.
+// Reports the results of a run case by case: verdicts for the user, JUnit, rows of results, a page. For any
+// number of cases it keeps only counts, and the first failure of each kind.
 #pragma once
 
 #include <cstdint>
@@ -27,16 +27,16 @@ class RunAccount {
   /// Opens the files of results. Throws UsageError and GrowingFileError.
   explicit RunAccount(const RunArguments& arguments);
 
-  /// Whether a case is in the files of results already, and nobody needs to play it again: it is counted as
-  /// left out. One call at a time, on any thread.
+  /// Returns true if the files of results have this case already, so that it need not run again; it is
+  /// counted as left out. May be called on any thread, one call at a time.
   bool was_played(const play::CaseKey& key);
-  /// Empties what a run begins anew.
+  /// Empties the files, unless the run continues in them.
   void begin();
-  /// The results of one case, in the order of the cases. `again` plays it once more, with a recorder; `files`
-  /// keeps what is to be kept.
+  /// Takes the results of one case, in the order of the cases. `again` runs it once more, with a recorder;
+  /// `files` keeps its files.
   void add(std::vector<play::ScenarioResult> results, std::uint64_t made_of, RunFiles& files,
            ProgressLine& progress, const std::function<std::vector<play::ScenarioResult>()>& again);
-  /// What is told when all is over.
+  /// Prints and writes the final reports.
   void finish();
 
   play::Junit* junit() { return junit_ ? &*junit_ : nullptr; }
@@ -44,7 +44,7 @@ class RunAccount {
   int exit_code() const;
 
  private:
-  /// Whether it is the first failure of its kind.
+  /// Returns true if it is the first failure of its kind.
   bool add_one(play::ScenarioResult& result, RunFiles& files, ProgressLine& progress,
                const std::function<std::vector<play::ScenarioResult>()>& again);
   void note_manners(const play::ScenarioResult& result);

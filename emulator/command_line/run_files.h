@@ -1,5 +1,5 @@
-// The files that `run` makes of everything it plays: recordings, traces, captures. Spooled below /tmp, and
-// kept where they are wanted.
+// The files that `run` makes of each scenario: recordings, traces, captures. They are spooled below /tmp,
+// and kept where the user wants them.
 #pragma once
 
 #include <array>
@@ -17,34 +17,35 @@
 
 namespace understudy::emulator::command_line {
 
-/// What is wanted of each play. Folders are made; an empty path means none.
+/// The folders for the files of each scenario. They are made if needed; an empty path means no files.
 struct RunFolders {
-  std::string recordings;  // of all; if empty, those of failures are kept, the first of each kind:
+  std::string recordings;  // for all; if empty, recordings of failures are kept, the first of each kind:
   std::string failures;    // here, or, if empty, below /tmp
   std::string traces;
   std::string captures;
   std::vector<std::string> trace_also;
 };
 
-/// Throws UsageError for folders whose files would overwrite what the command reads or writes, and for paths
-/// that cannot be folders.
+/// Throws UsageError for folders whose files would overwrite files that the command reads or writes, and for
+/// paths that cannot be folders.
 void demand_folders(const FileClaims& claims, const RunFolders& folders);
 
 class RunFiles {
  public:
-  /// Nothing that is claimed is overwritten, wherever a link in a folder leads. Throws pty::PortError and
+  /// No claimed file is overwritten, even through a link in a folder. Throws pty::PortError and
   /// std::system_error.
   RunFiles(RunFolders folders, FileClaims claims, bool real_time, std::string version);
   ~RunFiles();
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
 
-  /// Onlookers that make them of a scenario's play, or of one of its branches. May be called from any thread.
+  /// Returns observers that make the files for a scenario's run, or for one of its branches. May be called
+  /// on any thread.
   std::vector<play::OnlookerMaker> onlookers(const play::Scenario& scenario);
   play::OnlookerMaker recorder(const play::Scenario& scenario);
-  /// Keeps the files, under the result's name, or removes them; the result says where they are. To be called
-  /// in the order of the results, which decides between equal names. `is_new`: it is the first failure of its
-  /// kind.
+  /// Keeps the files under the result's name, or removes them, and stores their paths in the result. It is
+  /// called in the order of the results, which decides between equal names. `is_new` tells that it is the
+  /// first failure of its kind.
   void settle(play::ScenarioResult& result, bool is_new);
 
  private:

@@ -1,4 +1,4 @@
-// The flags that all serving commands share, and what they mean.
+// Code shared by all commands that serve a bench.
 #pragma once
 
 #include <sys/types.h>
@@ -19,14 +19,14 @@ struct Serving {
   std::optional<gid_t> group;  // that may open the ports as well
 };
 
-/// Reads the bench and the memories it begins with. `command` is for messages. Throws what is wrong with
-/// them.
+/// Reads the bench and its initial memories. `command` is for messages. Throws errors in either.
 Serving make_serving(ModelList models, const ServeArguments& arguments, const std::string& command);
 
-/// One line for each port on standard output: its pty and its link. Throws PortError if nobody can read it.
+/// Prints one line for each port: its pty and its link. Throws PortError if standard output cannot be
+/// written.
 void say_ready(const serve::Daemon& daemon);
 
-/// What `--lint` has found, on standard error.
+/// Prints the findings of `--lint` to standard error.
 void print_findings(const std::vector<std::string>& findings);
 
 }  // namespace understudy::emulator::command_line

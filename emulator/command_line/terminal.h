@@ -1,4 +1,4 @@
-// For people at a terminal only: colours, and the progress of a long run.
+// Output for people at a terminal only: colours, and the progress of a long run.
 #pragma once
 
 #include <condition_variable>
@@ -9,13 +9,14 @@
 
 namespace understudy::emulator::command_line {
 
-/// "850 played of 100000, ..." without the line's control characters. `seconds` since the beginning.
+/// Returns "850 played of 100000, ..." without the line's control characters. `seconds` counts from the
+/// start.
 std::string progress_text(std::uint64_t done, std::uint64_t total, std::uint64_t failed, double seconds);
 
-/// Whether it is a terminal, and colours are not unwanted (NO_COLOR, TERM=dumb).
+/// Returns true for a terminal, unless NO_COLOR or TERM=dumb turns colours off.
 bool wants_colour(int descriptor);
 
-/// A line that begins with a verdict ("ok", "FAIL", "-"); that word is coloured if colours are wanted.
+/// Colours the verdict that begins a line ("ok", "FAIL", "-"), if colours are wanted.
 std::string coloured_verdict(const std::string& line, bool with_colour);
 
 /// A last line at a terminal that says how many are done, how many have failed, how many a second, and how
@@ -28,18 +29,18 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// One more is done.
+  /// Counts a finished case.
   void one_done(bool has_failed) {
     const std::lock_guard lock(mutex_);
     ++done_;
     if (has_failed) ++failed_;
   }
-  /// One was played in another run.
+  /// Counts a case that another run has finished.
   void one_left_out() {
     const std::lock_guard lock(mutex_);
     --total_;
   }
-  /// What `print` prints stands above the line.
+  /// Calls `print`, whose output goes above the progress line.
   template <typename Print>
   void above(const Print& print) {
     const std::lock_guard lock(mutex_);
@@ -58,7 +59,7 @@ class ProgressLine {
   std::uint64_t failed_ = 0;
   bool is_shown_ = false;
   bool is_over_ = false;
-  std::thread thread_;  // last: it uses all the others
+  std::thread thread_;  // declared last: it uses all the others
 };
 
 }  // namespace understudy::emulator::command_line

@@ -1,4 +1,4 @@
-// Turns the files and folders given to `run` and `check` into files.
+// Replaces folders among the arguments of `run` and `check` by their files.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace understudy::emulator::command_line {
 
 inline constexpr std::array<std::string_view, 2> kYamlEndings{".yaml", ".yml"};
 
-/// All files with one of these endings in a folder and those below it, by their names; nothing hidden, and no
-/// folder that is a link. Throws FileError if a folder cannot be read, or has none.
+/// Returns all files with one of these endings in a folder and its subfolders, by their names. Hidden files
+/// and folders that are links are left out. Throws FileError if a folder cannot be read, or has none.
 std::vector<std::string> files_below(const std::string& folder, std::span<const std::string_view> endings);
 
 /// Replaces each folder by its files.

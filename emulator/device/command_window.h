@@ -1,5 +1,5 @@
-// Commands that go through a window of a model's registers, as text: an object for each such window, which
-// the model's `window` names. What hosts write in hexadecimal, people read and write by name.
+// Commands that a host writes to a window of registers, as text. Each such window has an object, which its
+// model's `window` refers to. People read and write by name what hosts send as numbers.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace understudy::emulator {
 class Device;
 struct Model;
 
-/// What decides how a message of a device is read.
+/// The settings of a device that decide how a message is encoded.
 struct WindowForm {
   Firmware firmware = 0;
   bool low_word_first = false;                 // as the device has it at this moment
@@ -26,14 +26,14 @@ struct WindowForm {
 
 class CommandWindow {
  public:
-  /// The first word's, as a row names it; of holding registers.
+  /// Returns the name of the window's first register in its row; it is a holding register.
   virtual std::string_view register_name() const = 0;
-  /// "MOVE X 1000": for messages.
+  /// Returns an example for messages: "MOVE X 1000".
   virtual std::string_view example() const = 0;
-  /// The message that a text means, which is one line. Throws ProgramError. Whether the device takes it is
-  /// its own affair.
+  /// Returns the message for a text of one line. Throws ProgramError. The device may still refuse the
+  /// message.
   virtual std::vector<std::uint16_t> words_of(std::string_view text, const WindowForm& form) const = 0;
-  /// As words_of() takes it; none where that is not one of its commands.
+  /// Returns the text that words_of() accepts for these words, or nothing if they are not a command.
   virtual std::optional<std::string> text_of(std::span<const std::uint16_t> words,
                                              const WindowForm& form) const = 0;
 
@@ -41,16 +41,16 @@ class CommandWindow {
   ~CommandWindow() = default;
 };
 
-/// What a host writes in one request.
+/// The words that a host writes in one request.
 struct WindowMessage {
   std::uint16_t first = 0;  // of the holding registers
   std::vector<std::uint16_t> words;
 };
-/// Throw ProgramError, also for a model without such a window.
+/// Both throw ProgramError, also for a model without such a window.
 WindowMessage window_message(const Model& model, std::string_view text, const WindowForm& form);
 WindowMessage window_message(const Device& device, std::string_view text);
 WindowForm window_form(const Device& device);
-/// What was written there, where it is a command.
+/// Returns the text of the words written to these registers, or nothing if they are not a command.
 std::optional<std::string> window_text(const Device& device, Table table, int first,
                                        std::span<const std::uint16_t> words);
 

@@ -1,5 +1,5 @@
-// What a device of type `Itself` derives from, beside its facets: whoever asks it for a facet gets the device
-// if it derives from that facet, and null if it does not. (Where a facet is a part of the device instead, the
+// The base of a device class `Itself`, beside its facets. A question for a facet returns the device if it
+// derives from that facet, and null if it does not. (If a facet is a member of the device instead, the
 // device overrides the question.)
 #pragma once
 

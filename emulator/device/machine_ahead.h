@@ -1,12 +1,12 @@
-// What a device may know of the machines on its axes when it makes up many ticks in one step
-// (Device::cross_to()): how far they are the same but for their place, and what their encoders will show.
+// Tells a device about the machines on its axes for making up many ticks in one step (Device::cross_to()):
+// how far each axis can move before anything but positions changes, and what its encoder will count.
 #pragma once
 
 #include <cstdint>
 
 namespace understudy::emulator {
 
-/// Pulses from now on, in the motor's sense; both included.
+/// A range of pulses from now on, in the motor's direction; both ends are included.
 struct PulseRoom {
   std::int64_t least = 0;
   std::int64_t most = 0;
@@ -14,10 +14,10 @@ struct PulseRoom {
 
 class MachineAhead {
  public:
-  /// How far an axis may go before anything but its place and its encoder's count changes.
+  /// Returns how far an axis can move before anything but its position and its encoder count changes.
   virtual PulseRoom room(int axis) const = 0;
   virtual bool has_encoder(int axis) const = 0;
-  /// The count after this many more pulses, within the room.
+  /// Returns the encoder count after this many more pulses, within the room.
   virtual std::int64_t encoder_counts(int axis, std::int64_t pulses) const = 0;
 
  protected:

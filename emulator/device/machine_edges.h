@@ -1,7 +1,7 @@
-// Where along an axis the switches of its machine change the levels of inputs: this is what a device that
-// meets edges at the pulse where they lie is told (Axes::meets_edges()). An input that is not here has its
-// level, wherever the axis is: it is wired to no switch, or held, stuck, or on by a wire as well; or pulses
-// are being lost.
+// Lists the positions along an axis at which the machine's switches change the levels of inputs, for a
+// device that detects edges at the exact pulse (Axes::meets_edges()). An input that is not listed keeps its
+// level at every position: it has no switch, or is held, stuck, or also driven by a wire, or pulses are
+// being lost.
 #pragma once
 
 #include <array>
@@ -11,40 +11,40 @@
 namespace understudy::emulator {
 
 struct MachineEdges {
-  /// An input has one level from `first` to `last`, both included, and the other one elsewhere.
+  /// An input has one level from `first` to `last`, both included, and the other level elsewhere.
   struct Span {
     int input = -1;  // a digital terminal
     bool level_inside = true;
     std::int64_t first = 0;  // in the count of Axes::place_pulses()
     std::int64_t last = 0;
-    std::int64_t slack = 0;  // >= 0; once inside, it stays so as far as this beyond either end
+    std::int64_t slack = 0;  // >= 0; once inside, the level stays until this far beyond either end
     bool operator==(const Span&) const = default;
   };
-  /// The same, for `width` pulses from every `at + k * period`.
+  /// Like Span, for `width` pulses from every `at + k * period`.
   struct Index {
     int input = -1;
     bool level_inside = true;
     std::int64_t at = 0;
     std::int64_t width = 1;
-    std::int64_t period = 0;  // 0: there is none
-    // The machine's stops: beyond them it is as it is there.
+    std::int64_t period = 0;  // 0: no index
+    // The positions of the machine's stops. Beyond a stop the levels are as at the stop.
     std::int64_t first = INT64_MIN;
     std::int64_t last = INT64_MAX;
     bool operator==(const Index&) const = default;
   };
-  /// What its encoder counts: floor((place - origin) * counts / pulses), between the machine's stops.
+  /// The count of the encoder: floor((place - origin) * counts / pulses), between the machine's stops.
   struct Encoder {
-    std::int64_t counts = 0;  // 0: it has none, or nobody knows before a tick is over what it will count
+    std::int64_t counts = 0;  // 0: no encoder, or its count cannot be known before the tick is over
     std::int64_t pulses = 1;
     std::int64_t origin = 0;
     std::int64_t first = INT64_MIN;
     std::int64_t last = INT64_MAX;
-    bool mirrored = false;     // of a device whose count runs against the motor's sense
+    bool mirrored = false;     // the device counts against the motor's direction
     bool reversed = false;     // its counts fall where the motor's pulses rise
     std::int64_t surplus = 0;  // counts too many
     bool operator==(const Encoder&) const = default;
 
-    /// As a line of another name, which has all of these.
+    /// Converts to a line of another type with the same members.
     template <class Line>
     Line as() const {
       Line line;
@@ -68,14 +68,14 @@ struct MachineEdges {
 
   bool operator==(const MachineEdges&) const = default;
 
-  /// Null where the input has its level wherever the axis is.
+  /// Returns null if the input has the same level at every position.
   const Span* span_of(int input) const {
     for (std::size_t i = 0; i < span_count; ++i) {
       if (spans[i].input == input) return &spans[i];
     }
     return nullptr;
   }
-  /// As a device sees it whose count runs against the motor's sense.
+  /// Returns the edges as seen by a device that counts against the motor's direction.
   MachineEdges reversed() const {
     MachineEdges made = *this;
     for (std::size_t i = 0; i < span_count; ++i) {

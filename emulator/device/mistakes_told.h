@@ -1,4 +1,4 @@
-// How a list of what is wrong with a program is told: it ends at kMostMistakes.
+// Words the end of a list of mistakes in a program, which is cut at kMostMistakes.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace understudy::emulator {
 
-/// The last of a full list says that there may be more.
+/// Adds to the last mistake of a full list that there may be more.
 inline std::vector<ProgramMistake> with_word_of_more(std::vector<ProgramMistake> mistakes) {
   if (mistakes.size() >= kMostMistakes) {
     mistakes.back().what +=
@@ -19,7 +19,7 @@ inline std::vector<ProgramMistake> with_word_of_more(std::vector<ProgramMistake>
   return mistakes;
 }
 
-/// " (and 3 more)", of mistakes of which one is told; of a full list more may not have been read.
+/// Returns " (and 3 more)" for a message that quotes only one mistake. A full list may not have all of them.
 inline std::string and_more(const std::vector<ProgramMistake>& mistakes) {
   if (mistakes.size() < 2) return "";
   const std::string at_least = mistakes.size() >= kMostMistakes ? "at least " : "";

@@ -1,6 +1,6 @@
-// What a device without registers knows by name (T2PE, R3), for scenarios, traces and the control socket.
-// They do not use the line, so they take no time and leave no trace in the dialogue. A facet:
-// Device::named_values() is null where a device has none.
+// The named values of a device without registers (T2PE, R3), for scenarios, traces and the control socket.
+// They bypass the line, so they take no time and do not appear in the dialogue. This is a facet:
+// Device::named_values() is null if a device has none.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,15 @@ namespace understudy::emulator {
 
 class NamedValues {
  public:
-  /// Nothing if it has no value of that name.
+  /// Returns nothing if there is no value of that name.
   virtual std::optional<double> value_named(std::string_view name) const = 0;
-  /// The first tick after `done` at which that value may be another although nothing happens, because it
-  /// tells time; kNever if it does not.
+  /// Returns the first tick after `done` at which the value may change with time alone, or kNever if it does
+  /// not depend on time.
   virtual Tick next_change(std::string_view /*name*/, Tick /*done*/) const { return kNever; }
-  /// Sets a value as a command over the line would. Returns nothing, or why not ("is out of range; expected 0
-  /// to 8"), and then nothing has changed.
+  /// Sets a value as a command over the line would. Returns nothing, or why it is refused ("is out of range;
+  /// expected 0 to 8"); then nothing has changed.
   virtual std::optional<std::string> assign(std::string_view name, double value) = 0;
-  /// Those that people meet most, for messages that suggest one.
+  /// Returns the most common names, for messages that suggest one.
   virtual std::vector<std::string> names() const = 0;
 
  protected:

@@ -1,5 +1,5 @@
-// Programs as numbers: what goes over the wire for a text, a row of numbers for each line of the program.
-// What `asm` prints and `disasm` reads.
+// Programs as numbers: the form in which a program goes over the wire, a row of numbers for each line. `asm`
+// prints it and `disasm` reads it.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace understudy::emulator {
 
 struct DeviceSettings;
 
-/// What a row of numbers looks like.
+/// The format of a row of numbers.
 struct CellForm {
   std::string_view row;  // for people: "CMD DATA1 DATA2 JMP"
   std::size_t fewest = 1;
@@ -27,22 +27,23 @@ struct CellRow {
   int line = 0;  // of the text that it was read from; 0: from none
 };
 
-/// A facet of a language: null where its programs are not such numbers.
+/// A facet of a language: null if its programs have no such form.
 class ProgramCells {
  public:
   virtual CellForm cell_form() const = 0;
-  /// Throws ProgramError. `settings`: as for ProgramLanguage::check().
+  /// Throws ProgramError. `settings` are as for ProgramLanguage::check().
   virtual std::vector<CellRow> assemble(std::string_view text, const DeviceSettings& settings) const = 0;
-  /// The rows are of that form. Throws ProgramError, with lines of the text that they are from.
+  /// The rows must have that format. Throws ProgramError with line numbers of the text that the rows were
+  /// read from.
   virtual std::string disassemble(const std::vector<CellRow>& rows, const DeviceSettings& settings) const = 0;
 
  protected:
   ~ProgramCells() = default;
 };
 
-/// "5 0 1 1": a line each.
+/// Returns one line for each row: "5 0 1 1".
 std::string to_text(const std::vector<CellRow>& rows);
-/// Empty lines are left out. Throws ProgramError.
+/// Reads rows and skips empty lines. Throws ProgramError.
 std::vector<CellRow> read_cells(std::string_view text, const CellForm& form);
 
 }  // namespace understudy::emulator

@@ -1,4 +1,4 @@
-// What is wrong with the text of a user's program, and where.
+// Reports what is wrong with the text of a user's program, and where.
 #pragma once
 
 #include <stdexcept>
@@ -16,7 +16,7 @@ struct ProgramMistake {
   bool operator==(const ProgramMistake&) const = default;
 };
 
-/// "pick.lst:4:9: operand 2: ...", where editors look for it.
+/// Returns "pick.lst:4:9: operand 2: ...", the form that editors recognise.
 inline std::string in_file(const ProgramMistake& mistake, const std::string& file) {
   const std::string line = mistake.line == 0 ? "" : ":" + std::to_string(mistake.line);
   const std::string column =
@@ -24,20 +24,20 @@ inline std::string in_file(const ProgramMistake& mistake, const std::string& fil
   return file + line + column + ": " + mistake.what;
 }
 
-/// "line 4, column 9: operand 2: ...", of a text that is not in a file.
+/// Returns "line 4, column 9: operand 2: ...", for a text that is not in a file.
 inline std::string in_text(const ProgramMistake& mistake) {
   if (mistake.line == 0) return mistake.what;
   const std::string column = mistake.column == 0 ? "" : ", column " + std::to_string(mistake.column);
   return "line " + std::to_string(mistake.line) + column + ": " + mistake.what;
 }
 
-/// "column 6: axis: 'W' is not one; ...", of a text of one line.
+/// Returns "column 6: axis: 'W' is not one; ...", for a text of one line.
 inline std::string in_line(const ProgramMistake& mistake) {
   return (mistake.column == 0 ? "" : "column " + std::to_string(mistake.column) + ": ") + mistake.what;
 }
 
-/// A program that a device cannot take: everything that is wrong with it, in the order of the text; one at
-/// least. As an exception it says the first.
+/// Thrown for a program that a device cannot take. It has all mistakes in the order of the text, at least
+/// one; what() quotes the first.
 struct ProgramError : std::runtime_error {
   explicit ProgramError(std::vector<ProgramMistake> all)
       : std::runtime_error(all.front().what), mistakes(std::move(all)) {}

@@ -1,6 +1,6 @@
-// The language in which users write programs for the devices of a model, as text: an object for each, which
-// the model's `language` names. A device of such a model loads a text and gives it back (user_program.h);
-// here is what can be said without a device.
+// The language of user programs for the devices of a model, as text. Each language has an object, which the
+// model's `language` refers to. A device loads a text and returns it (user_program.h); this class has the
+// functions that need no device.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +19,22 @@ struct DeviceSettings;
 /// An operand of an instruction.
 struct OperandRow {
   std::string_view name;    // "target", if it has one
-  std::string_view values;  // what it may be: "D0 to D124 or a number"
+  std::string_view values;  // its allowed values: "D0 to D124 or a number"
   bool may_be_unset = false;
 };
 
-/// A row of a language's instruction table. Columns that no row of a table fills are not shown.
+/// A row of a language's instruction table. A column that is empty in all rows is not shown.
 struct InstructionRow {
   std::optional<int> opcode{};
   std::string_view mnemonic;
   std::span<const OperandRow> operands{};
-  std::string_view areas{};  // the parts of a program where it may stand: "C X Y Z U"
-  int size = 0;              // of program memory that it takes, in the language's unit; 0: is not told
-  std::string_view cost{};   // of time, for people: "3 lines", "until the axes stand"
+  std::string_view areas{};  // the parts of a program that may contain it: "C X Y Z U"
+  int size = 0;              // its size in program memory, in the language's unit; 0: unknown
+  std::string_view cost{};   // its time, for people: "3 lines", "until the axes stand"
   std::string_view meaning{};
 };
 
-/// What a host does to start a program or to stop it: for onlookers' buttons.
+/// The host's request that starts or stops a program, for buttons of observers.
 struct ProgramControl {
   enum class By : std::uint8_t {
     registers,  // "M8596=0 M8596=1": one write after the other
@@ -44,26 +44,27 @@ struct ProgramControl {
   std::string_view word;  // "start"
   By by = By::registers;
   std::string_view what;
-  // Where `what` has a {}: a number, within these.
+  // If `what` contains {}: the limits of the number that replaces it.
   int lowest = 0;
   int highest = 0;
 };
 
 class ProgramLanguage {
  public:
-  /// What a text in it is called: "Simple2-R3 listing".
+  /// Returns the name of the format: "Simple2-R3 listing".
   virtual std::string_view name() const = 0;
-  /// ".lst": how names of its files usually end.
+  /// Returns the usual ending of file names: ".lst".
   virtual std::string_view file_ending() const = 0;
-  /// None where another table of the model has them (Model::commands).
+  /// Returns no rows if another table of the model has the instructions (Model::commands).
   virtual std::span<const InstructionRow> instructions() const { return {}; }
-  /// Where every instruction has the same operands in fixed cells: what those are called. Each row then has
-  /// one OperandRow for each of them. None: instructions have operands of their own.
+  /// Returns the names of the operand cells, if every instruction has the same fixed cells; each row then
+  /// has one OperandRow for each cell. Returns none if instructions have operands of their own.
   virtual std::span<const std::string_view> operand_cells() const { return {}; }
-  /// Everything that is wrong with a text, in its order: what loading it into a device made of `settings`
-  /// would say. They are checked already, and name a firmware.
+  /// Returns all mistakes in a text, in their order, as loading it into a device made of `settings` would
+  /// report them. The settings are checked already and name a firmware.
   virtual std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const = 0;
-  /// What a text that loads is likely to mean otherwise than it does: a label that stands twice.
+  /// Returns places in a text that loads but probably does not mean what it says, such as a label defined
+  /// twice.
   virtual std::vector<ProgramMistake> warnings(std::string_view, const DeviceSettings&) const { return {}; }
   virtual std::span<const ProgramControl> controls() const { return {}; }
   virtual const ProgramCells* cells() const { return nullptr; }

@@ -1,4 +1,4 @@
-// What is wrong with one entry of a setting that has many entries.
+// Reports one wrong entry of a setting that has many entries.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace understudy::emulator {
 
-/// Of `set`, `choices` or `dip`.
+/// An error in `set`, `choices` or `dip`.
 struct SettingEntryError : SettingError {
-  /// `told`: what is wrong, for messages that do not name the entry.
+  /// `told` is the text for messages that do not name the entry.
   SettingEntryError(std::string setting_name, std::string entry_name, std::string what_is_wrong,
                     const std::string& told)
       : SettingError(std::move(setting_name), told),

@@ -1,5 +1,5 @@
-// The program that a user gives a device to run by itself, in the language of its model (program_language.h).
-// A facet: Device::user_program() is null where a device takes none.
+// The program that a user loads into a device, in the language of its model (program_language.h). This is a
+// facet: Device::user_program() is null if a device takes no program.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,26 @@
 
 namespace understudy::emulator {
 
-/// Where a program is at this moment: of a device that runs several at once, one for each of them.
+/// The position of a program at this moment. A device that runs several programs at once has one for each.
 struct ProgramPlace {
   enum class State : std::uint8_t { stopped, running, waiting, failed };
-  std::string program;  // "MAIN", "P1"; empty where there is one
+  std::string program;  // "MAIN", "P1"; empty if there is only one
   State state = State::stopped;
-  int line = 0;           // of program_text(), from 1; 0: it is not told
-  std::string text;       // what stands there
-  std::string waits_for;  // of one that waits: "input 3 is ON", "a delay"
-  std::string why;        // it has stopped or failed, or what went wrong on its way, where that is known
+  int line = 0;                    // in program_text(), from 1; 0: unknown
+  std::string text;                // the program's text at that line
+  std::string waits_for;           // of one that waits: "input 3 is ON", "a delay"
+  std::string why;                 // why it has stopped or failed, or what went wrong on its way, if known
   std::optional<SimTime> until{};  // of one that waits for a time: when it is over
 };
 
 class UserProgram {
  public:
-  /// If it throws (ProgramError), the program is as it was; what the device shows of the attempt may not be.
-  /// The program is written as if over the wire.
+  /// Loads the program as if it was written over the wire. If it throws ProgramError, the program is
+  /// unchanged; the device's registers may still show the attempt.
   virtual void load_program(std::string_view text) = 0;
-  /// As text that load_program() takes.
+  /// Returns the program as text that load_program() accepts.
   virtual std::string program_text() const = 0;
-  /// For onlookers.
+  /// Returns the positions for observers.
   virtual std::vector<ProgramPlace> places() const { return {}; }
 
  protected:

@@ -1,4 +1,4 @@
-// What a model file says of an axis.
+// Reads the axes of a model file.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// One entry of `axes`. Its inputs must have been read. All that is wrong is kept.
+/// Reads one entry of `axes`. Its inputs must have been read. Keeps all errors.
 models::imported::AxisBinding read_axis(const world::YamlFields& fields, const std::string& name,
                                         const models::imported::Description& description, Binder& binder,
                                         world::Complaints& complaints);

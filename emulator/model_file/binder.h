@@ -1,4 +1,4 @@
-// Words of a model file into registers of its list: "STATUS.READY", "COMMAND == 2", "30".
+// Binds words of a model file to registers of its list: "STATUS.READY", "COMMAND == 2", "30".
 #pragma once
 
 #include <cstdint>
@@ -15,36 +15,36 @@
 
 namespace understudy::emulator::model_file {
 
-/// All that fails throws FileError, at the field.
+/// Everything that fails throws FileError at the field.
 class Binder {
  public:
-  /// Both must outlive it. The map is one of the description's registers, bound to nothing.
+  /// Both must outlive it. The map has the description's registers, bound to nothing.
   Binder(const models::imported::Description& description, const RegisterMap& map)
       : description_(description), map_(map) {}
 
-  /// A register that is read, or bits of it.
+  /// Returns a register that is read, or bits of it.
   models::imported::Spot spot(const world::YamlFields& field, const std::string& name) const;
   models::imported::Spot spot(const world::YamlFields& field) const { return spot(field, field.text()); }
 
-  /// Where something is shown that hosts read; a flag in one bit or a register, else in a whole register.
-  /// What shows something already, and what hosts write (unless `may_be_written`), is refused. `what` is for
-  /// messages: "A.busy".
+  /// Returns where a value is shown to hosts: a flag in one bit or a register, another value in a whole
+  /// register. Registers that show something else already, and registers that hosts write (unless
+  /// `may_be_written`), are refused. `what` is for messages: "A.busy".
   models::imported::Spot shown(const world::YamlFields& field, const std::string& name, bool is_flag,
                                const std::string& what, bool may_be_written = false);
 
-  /// "CONTROL.0", "COMMAND == 2".
+  /// Reads "CONTROL.0" or "COMMAND == 2".
   models::imported::Condition condition(const world::YamlFields& field) const;
-  /// Likewise, of 16 bits or one; and of what hosts write.
+  /// Like condition(), for one or 16 bits, and for registers that hosts write.
   models::imported::Condition level(const world::YamlFields& field) const;
   models::imported::Condition command(const world::YamlFields& field) const;
-  /// A register, or a number.
+  /// Reads a register or a number.
   models::imported::Quantity quantity(const world::YamlFields& field, const std::string& text) const;
   models::imported::Quantity quantity(const world::YamlFields& field) const {
     return quantity(field, field.text());
   }
-  /// Seconds: a register whose unit in the list is one of time, or a duration.
+  /// Reads seconds: a register whose unit in the list is one of time, or a duration.
   models::imported::Quantity time(const world::YamlFields& field) const;
-  /// "TEMPERATURE > LIMIT", without its spot.
+  /// Reads "TEMPERATURE > LIMIT", without setting its spot.
   models::imported::Comparison comparison(const world::YamlFields& field) const;
 
  private:

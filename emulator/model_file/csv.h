@@ -1,4 +1,4 @@
-// Comma-separated values (RFC 4180), with the place of each cell for messages.
+// Parses comma-separated values (RFC 4180), with the position of each cell for messages.
 #pragma once
 
 #include <string>
@@ -16,9 +16,9 @@ struct CsvRow {
   std::vector<CsvCell> cells;
 };
 
-/// The rows of a text, without empty ones and those that begin with #. Cells are separated by what separates
-/// the first row: commas, semicolons or tabs. A mark of byte order is left out. Throws FileError with `file`
-/// where a quotation has no end.
+/// Returns the rows of a text, without empty rows and those that begin with #. The separator is that of the
+/// first row: commas, semicolons or tabs. A byte order mark is ignored. Throws FileError with `file` if a
+/// quotation does not end.
 std::vector<CsvRow> parse_csv(const std::string& text, const std::string& file);
 
 }  // namespace understudy::emulator::model_file

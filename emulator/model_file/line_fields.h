@@ -1,4 +1,4 @@
-// What a model file says of its line and its map.
+// Reads the line and the map of a model file.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace understudy::emulator::model_file {
 
-/// The number of a word among those that a form lists; fails for another one.
+/// Returns the index of a word in a form's list. Throws for any other word.
 std::size_t read_word(const world::YamlFields& field, const world::Form& form);
 
-/// But for `station_in`. All that is wrong is kept.
+/// Reads everything except `station_in`. Keeps all errors.
 void read_line(const world::YamlFields& fields, models::imported::Line& line, world::Complaints& complaints);
 void read_policy(const world::YamlFields& fields, MapPolicy& policy, world::Complaints& complaints);
-/// The name of the register that holds the station number.
+/// Returns the name of the register that holds the station number.
 std::string read_station_register(const world::YamlFields& field, const Binder& binder,
                                   const models::imported::Description& description);
 

@@ -1,4 +1,4 @@
-// One row of a list of registers: its cells by column, and the register that they mean.
+// One row of a list of registers: its cells by column, and the register that they describe.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// What a list may say of a register; `left_out`: for people only.
+/// The columns of a list; `left_out` is only for people.
 enum class Column : std::uint8_t {
   table,
   address,
@@ -47,21 +47,21 @@ inline constexpr std::array<std::pair<std::string_view, Column>, 22> kHeadings{{
     {"section", Column::left_out},
 }};
 
-/// Nothing if there is no such column. Case does not matter.
+/// Returns nothing if there is no such column. Case does not matter.
 std::optional<Column> column_called(std::string_view heading);
 
 class ListRow {
  public:
-  /// All must outlive it. `lines_before` the list in its file.
+  /// All must outlive it. `lines_before` is the number of lines before the list in its file.
   ListRow(const CsvRow& row, const std::vector<Column>& columns, const std::string& file, int lines_before);
 
   std::string text(Column column) const;
   bool has(Column column) const { return !text(column).empty(); }
   int line() const { return row_.line + lines_before_; }
-  /// Throws FileError, at the column's cell.
+  /// Throws FileError at the column's cell.
   [[noreturn]] void fail(Column column, const std::string& what) const;
   bool yes_or_no(Column column) const;
-  /// A number, as the type has it.
+  /// Returns a number as a value of that type.
   Value value(Column column, const std::string& word, Type type) const;
 
  private:
@@ -71,7 +71,7 @@ class ListRow {
   std::array<const CsvCell*, kColumns> cells_{};
 };
 
-/// Throws FileError for the first thing that is wrong.
+/// Throws FileError for the first mistake.
 models::imported::ListedRegister register_of(const ListRow& row);
 
 }  // namespace understudy::emulator::model_file

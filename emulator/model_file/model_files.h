@@ -1,4 +1,4 @@
-// What makes models of files: command_line hands it down with the list of the models.
+// Makes models from files. The command line passes it on with the list of the models.
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ namespace understudy::emulator::model_file {
 
 class DescribedModels final : public ModelFiles {
  public:
-  /// `house`: those that have their names already.
+  /// `house` are the built-in models, whose names are taken.
   explicit DescribedModels(ModelList house);
   ~DescribedModels() override;
 

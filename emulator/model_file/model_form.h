@@ -1,4 +1,4 @@
-// What a model file may say (docs/import.md): its keys, and the forms of their values.
+// Declares the keys of a model file (docs/import.md) and the forms of their values.
 #pragma once
 
 #include <array>
@@ -83,7 +83,7 @@ inline constexpr std::array kAxisInputKeys{
     KeyRow{"alarm", "The input to which the drive's alarm is wired.", &world::kText}};
 inline constexpr Form kAxisInputsForm = world::keys_form(kAxisInputKeys);
 
-/// In the order of imported::Number, then Command, then View, then the rest.
+/// The keys are in the order of imported::Number, then Command, then View, then the rest.
 inline constexpr std::array kAxisKeys{
     KeyRow{"target", "Where `start` goes to: a register, or a number.", &world::kText},
     KeyRow{"distance", "How far `start_relative` goes.", &world::kText},

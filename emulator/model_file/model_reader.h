@@ -1,4 +1,4 @@
-// A model file (YAML, docs/import.md) into a description.
+// Reads a model file (YAML, docs/import.md) into a description.
 #pragma once
 
 #include <functional>
@@ -11,9 +11,9 @@
 
 namespace understudy::emulator::model_file {
 
-/// `name` stands for the file in messages; the list's path is relative to its folder, and refused where
-/// `may_read` is false. `files` gets the list that was read. The description's text has all in itself, the
-/// list as well: reading that gives the same model. Throws FileError: everything that is wrong.
+/// `name` stands for the file in messages. The list's path is relative to its folder, and refused if
+/// `may_read` is false. `files` receives the list that was read. The description's text is complete,
+/// including the list: reading it gives the same model. Throws FileError with all mistakes.
 models::imported::Description read_model(const std::string& text, const std::string& name, bool may_read,
                                          std::vector<FileClaim>& files);
 

@@ -1,5 +1,5 @@
-// A list of registers (docs/import.md): CSV with the columns of `understudy describe MODEL registers --format
-// csv`.
+// Reads a list of registers (docs/import.md): CSV with the columns of `understudy describe MODEL registers
+// --format csv`.
 #pragma once
 
 #include <string>
@@ -10,25 +10,25 @@
 
 namespace understudy::emulator::model_file {
 
-/// Where a list stands: in a file of its own, or inside another one, whose line `lines_before` it follows.
+/// The place of a list: a file of its own, or another file, in which it follows line `lines_before`.
 struct ListPlace {
   std::string file;
   int lines_before = 0;
 };
 
-/// The registers of a list, in its order. A register map can be made of them: no two share an address or a
-/// name, and values suit their types. Everything that is wrong is kept, at its line and column; such a row is
+/// Returns the registers of a list, in its order. They are fit for a register map: no two share an address
+/// or a name, and values suit their types. Keeps all errors with line and column; the rows concerned are
 /// left out.
 std::vector<models::imported::ListedRegister> read_register_list(const std::string& text,
                                                                  const ListPlace& place,
                                                                  world::Complaints& complaints);
 
-/// "READY, 4-7 STATE": bits with names, as a list has them. Throws std::invalid_argument: what is wrong, and
-/// what was expected.
+/// Parses named bits of a list: "READY, 4-7 STATE". Throws std::invalid_argument with what is wrong and what
+/// was expected.
 std::vector<models::imported::BitName> parse_bits(const std::string& text, Type type);
-/// No two have one bit or one name. Throws likewise.
+/// Requires that no two share a bit or a name. Throws std::invalid_argument.
 void demand_apart(const std::vector<models::imported::BitName>& all);
-/// The bits that one name stands for: "4", "4-7". Throws likewise.
+/// Parses the bits of one name: "4", "4-7". Throws std::invalid_argument.
 models::imported::BitName bits_called(const std::string& name, const std::string& bits, Type type);
 
 }  // namespace understudy::emulator::model_file

@@ -1,4 +1,5 @@
-// The files that `understudy import` writes for a list of registers: a model file and a bench to go on from.
+// Makes the files that `understudy import` writes for a list of registers: a model file and a bench to start
+// from.
 #pragma once
 
 #include <string>
@@ -8,15 +9,15 @@
 
 namespace understudy::emulator::model_file {
 
-/// The registers of a list that stands alone. Throws FileError: everything that is wrong.
+/// Returns the registers of a list in a file of its own. Throws FileError with all mistakes.
 std::vector<models::imported::ListedRegister> read_list_file(const std::string& text,
                                                              const std::string& path);
 
-/// A model file: the list by its path, the line and the map with what is usual, and an axis in comments, with
-/// the registers of the list that by their names may be the ones.
+/// Returns a model file: the path of the list, usual settings of line and map, and an axis in comments, with
+/// registers of the list whose names suggest their meaning.
 std::string starter_model(const std::vector<models::imported::ListedRegister>& registers,
                           const std::string& name, const std::string& list_path);
-/// A bench of one device of it, whose port is NAME.port.
+/// Returns a bench with one device of that model. Its port is NAME.port.
 std::string starter_bench(const std::string& name, const std::string& model_path);
 
 }  // namespace understudy::emulator::model_file

@@ -1,4 +1,4 @@
-// What a model file says of terminals, and of values without an axis.
+// Reads the terminals of a model file, and values without an axis.
 #pragma once
 
 #include "emulator/model_file/binder.h"
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// `inputs`, or behind them `outputs`. All that is wrong is kept, as by the others.
+/// Reads `inputs`, or `outputs` that follow them. Like the other readers it keeps all errors.
 void read_terminals(const world::YamlFields& fields, bool are_inputs, models::imported::Description& made,
                     Binder& binder, world::Complaints& complaints);
 void read_followings(const world::YamlFields& fields, models::imported::Description& made, Binder& binder,
@@ -18,8 +18,8 @@ void read_comparisons(const world::YamlFields& fields, models::imported::Descrip
 void read_momentary(const world::YamlFields& field, models::imported::Description& made, const Binder& binder,
                     world::Complaints& complaints);
 
-/// Reports what only the whole can tell: commands in registers that show something else, relations of
-/// relations, and the like.
+/// Reports errors that only the whole file can show: commands in registers that show something else,
+/// relations of relations, and the like.
 void check_bindings(const world::YamlFields& root, const models::imported::Description& made,
                     world::Complaints& complaints);
 

@@ -1,6 +1,6 @@
-// The live page: looks at running benches through their control sockets and shows them to browsers
-// (docs/page.md). It asks each socket at most 30 times a second, once for all browsers, and whatever becomes
-// of it the bench goes on.
+// The live page: it observes running benches through their control sockets and shows them in browsers
+// (docs/page.md). It asks each socket at most 30 times a second, once for all browsers. The bench runs on if
+// the page fails.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,7 @@ struct PageOptions {
   std::vector<std::string> sockets;  // control sockets, one a bench
   std::vector<std::string> hosts;    // names of this machine besides those of the loopback
   bool is_read_only = false;
-  std::string folder;  // the page's files are taken from there instead; empty: those of the program
+  std::string folder;  // a folder with the page's files; empty: those in the program
   WebLimits limits{};
   std::size_t browsers = 16;  // with the token
 };
@@ -39,7 +39,7 @@ class Page final : private WebEvents {
   Page(const Page&) = delete;
   Page& operator=(const Page&) = delete;
 
-  /// Where a browser finds it, with the token.
+  /// Returns the URL for a browser, with the token.
   std::string address() const;
   std::uint16_t port() const { return web_.port(); }
   const std::string& token() const { return token_; }

@@ -1,5 +1,5 @@
-// A bench as the page sees it: what its control socket was last heard to say, and who wants to know what of
-// it.
+// A bench as the page knows it: the latest answers of its control socket, and which browser wants which of
+// them.
 #pragma once
 
 #include <chrono>
@@ -19,13 +19,13 @@
 
 namespace understudy::emulator::page {
 
-/// What a browser wants of a bench, and what it has been sent of it.
+/// What a browser wants of a bench, and what it has been sent.
 struct Watching {
   std::vector<std::string> names;
   bool frames = false;
   bool events = false;
   bool status = false;
-  // Sent so far; `seen` counts looks.
+  // Progress of sending; `seen` counts looks.
   std::uint64_t seen = 0;
   std::uint64_t epoch = 0;
   std::uint64_t next_frame = 0;
@@ -35,11 +35,11 @@ struct Watching {
 
 class PageBench {
  public:
-  /// How often the socket is asked at most.
+  /// The shortest time between two requests to the socket.
   static constexpr std::chrono::milliseconds kTurn{34};
   static constexpr std::chrono::milliseconds kRetry{500};  // for one that does not answer
   static constexpr std::chrono::milliseconds kStatus{500};
-  static constexpr std::chrono::milliseconds kPatience{2'000};  // then it is said to be silent
+  static constexpr std::chrono::milliseconds kPatience{2'000};  // after this it is reported as silent
   static constexpr std::size_t kFramesKept = 1024;
   static constexpr std::size_t kAsksATurn = 16;
   static constexpr std::size_t kMostNames = 4'000;  // of all browsers together
@@ -49,17 +49,17 @@ class PageBench {
   enum class State : std::uint8_t { unknown, there, silent, gone };
 
   struct Hears {
-    std::function<void()> looked;  // there is something new
+    std::function<void()> looked;  // called when there is something new
     std::function<void()> state_changed;
   };
   PageBench(Web& web, std::string socket, Hears hears);
 
   const std::string& socket() const { return socket_; }
   State state() const { return state_; }
-  /// Grows whenever another daemon, or the same one anew, answers: numbers of frames and events begin again.
+  /// Grows when another daemon, or a restarted one, answers: numbers of frames and events begin again.
   std::uint64_t epoch() const { return epoch_; }
 
-  /// From now on this is looked at. Nobody watches: it is left alone.
+  /// What is observed from now on. If no browser watches, the bench is left alone.
   struct Wanted {
     std::set<std::string> names;
     bool frames = false;
@@ -69,24 +69,24 @@ class PageBench {
   };
   void want(Wanted wanted);
 
-  /// A message of a browser's, at the next turn; a line of JSON. Nothing: nobody answers.
+  /// Passes on a browser's message, a line of JSON, at the next turn. The answer is nothing if the bench
+  /// does not answer.
   void ask(std::string message, ControlWire::Answered answered);
 
-  /// What has come since the browser was last sent something, as the members of a JSON object; empty if
-  /// nothing has.
+  /// Returns everything new for a browser, as the members of a JSON object, or an empty text.
   std::string news_for(Watching& watching) const;
 
  private:
   struct Known {
     std::string text = "null";  // as JSON
-    std::uint64_t changed = 0;  // in which look
+    std::uint64_t changed = 0;  // the look in which it changed
   };
   struct Numbered {
     std::uint64_t number = 0;
     std::string text;
   };
 
-  /// Names of one message. Once the daemon keeps them, they are asked for by its number.
+  /// The names of one message. Once the daemon keeps them, they are requested by their number.
   struct NameList {
     std::vector<std::string> names;
     std::optional<std::uint64_t> look;
@@ -123,11 +123,11 @@ class PageBench {
   std::deque<Numbered> events_;
   std::uint64_t next_frame_ = 0;
   std::uint64_t next_event_ = 0;
-  std::uint64_t frames_from_ = 0;  // what has a lower number was before the world was restored
+  std::uint64_t frames_from_ = 0;  // frames with a lower number are from before a restore
   std::uint64_t events_from_ = 0;
   std::string status_;
   std::uint64_t status_changed_ = 0;
-  std::uint64_t who_ = 0;       // which process answers
+  std::uint64_t who_ = 0;       // the process that answers
   std::uint64_t restores_ = 0;  // of its world
 
   struct Ask {
@@ -137,8 +137,9 @@ class PageBench {
   std::deque<Ask> asks_;
   std::map<std::uint64_t, std::unique_ptr<ControlWire>> ask_wires_;  // one for each that is under way
   std::uint64_t last_ask_ = 0;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  // for what comes later
-  std::unique_ptr<ControlWire> wire_;                           // for looks
+  std::shared_ptr<bool> alive_ =
+      std::make_shared<bool>(true);    // tells later callbacks whether this object still exists
+  std::unique_ptr<ControlWire> wire_;  // for looks
 };
 
 }  // namespace understudy::emulator::page

@@ -1,4 +1,4 @@
-// What browsers say (docs/page.md): all of it is judged here, before anything is done with it.
+// Parses and checks messages of browsers (docs/page.md) before anything is done with them.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace understudy::emulator::page {
 
 using Json = nlohmann::ordered_json;
 
-/// What a browser did wrong; one line.
+/// Reports a browser's mistake in one line.
 struct BrowserError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -20,7 +20,7 @@ struct BrowserError : std::runtime_error {
 struct BrowserMessage {
   enum class What : std::uint8_t { watch, ask } what = What::watch;
   std::size_t bench = 0;
-  // watch: none of it means nothing more.
+  // For watch; without fields it ends the watching.
   bool watches = false;
   std::vector<std::string> names{};
   bool frames = false;
@@ -35,11 +35,11 @@ struct BrowserMessage {
 /// Throws BrowserError.
 BrowserMessage parse_browser_message(std::string_view text, std::size_t benches, bool is_read_only);
 
-/// The token of a first message; empty if it has none.
+/// Returns the token of a first message, or an empty text.
 std::string token_of(std::string_view text);
 
-/// Why a message for the control socket is not passed on; empty: it is. Files of the machine are nobody's
-/// business here, so one that names a file is refused.
+/// Returns why a message for the control socket is not passed on, or an empty text. Messages that name a
+/// file are refused, because browsers must not reach the machine's files.
 std::string why_not_sent(const Json& message, bool is_read_only);
 
 }  // namespace understudy::emulator::page

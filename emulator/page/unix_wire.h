@@ -1,4 +1,4 @@
-// A control socket as web.cpp asks it. Included there only: Asio is slow to compile.
+// A control socket for web.cpp, which alone includes this: Asio is slow to compile.
 #pragma once
 
 #include <sys/un.h>
@@ -76,8 +76,8 @@ class UnixWire final : public ControlWire {
           });
     }
 
-    /// None of them is answered; the next one connects again. Never from within ask(): the caller is not
-    /// done.
+    /// Drops all unanswered messages; the next message connects again. It must not be called from within
+    /// ask(), because the caller is not done.
     void fail() {
       boost::system::error_code ignored;
       socket.close(ignored);

@@ -1,6 +1,5 @@
-// The page's way to browsers and to control sockets: HTTP and WebSocket on one port, lines of text on Unix
-// sockets. One thread. What the messages say is known elsewhere (page.h); what a request may look like is
-// known in access.h.
+// Connects the page to browsers and to control sockets: HTTP and WebSocket on one port, lines of text on
+// Unix sockets, one thread. page.h interprets the messages; access.h decides which requests are accepted.
 //
 // Boost.Beast is slow to compile, so only web.cpp includes it.
 #pragma once
@@ -19,29 +18,29 @@
 
 namespace understudy::emulator::page {
 
-/// The port cannot be opened: one line.
+/// Thrown if the port cannot be opened. The message is one line.
 struct WebError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A browser's WebSocket, while it is open; numbers are never used again.
+/// A browser's WebSocket while it is open. Numbers are never reused.
 using BrowserId = std::uint64_t;
 
-/// A file that browsers may have.
+/// A file that browsers may request.
 struct WebFile {
   std::string type;  // "text/html; charset=utf-8"
   std::string bytes;
 };
 
-/// What comes of what browsers do.
+/// Receives events of browsers.
 class WebEvents {
  public:
   virtual std::optional<WebFile> file(std::string_view path) = 0;
   virtual void opened(BrowserId browser) = 0;
   virtual void heard(BrowserId browser, std::string_view text) = 0;
-  /// Also after close().
+  /// Also called after close().
   virtual void closed(BrowserId browser) = 0;
-  /// Everything that was sent is on its way.
+  /// All queued data has been sent.
   virtual void drained(BrowserId browser) = 0;
 
  protected:
@@ -58,10 +57,11 @@ struct WebLimits {
   std::chrono::milliseconds silence{30'000};  // of a browser that does not even answer pings
 };
 
-/// A control socket, connected when it is first asked. Replies come in the order of the messages.
+/// A control socket, connected on first use. Replies come in the order of the messages.
 class ControlWire {
  public:
-  /// Nothing: nobody answers, or it broke off. Never called once the wire is gone.
+  /// The reply is nothing if the socket does not answer or has broken off. It is never called after the wire
+  /// is destroyed.
   using Answered = std::function<void(std::optional<std::string> reply)>;
   virtual ~ControlWire() = default;
   virtual void ask(std::string message, Answered answered) = 0;
@@ -76,20 +76,20 @@ class Web {
   Web& operator=(const Web&) = delete;
 
   std::uint16_t port() const;
-  /// Whose requests are served (access.h). None before it is set.
+  /// Sets whose requests are served (access.h). Before that none are.
   void admit(WebAccess access);
-  /// Until stop(), or SIGINT, SIGTERM, SIGHUP where it watches them.
+  /// Runs until stop(), or SIGINT, SIGTERM or SIGHUP if it watches signals.
   void run(bool watch_signals);
-  /// From any thread.
+  /// May be called on any thread.
   void stop();
 
-  /// Nobody takes its place any more. Before that it is a stranger, as every connection is at first: of those
-  /// there is a bounded number, and the newest one takes the place of the oldest.
+  /// Marks a browser as authenticated: its place can no longer be taken. At first every connection is
+  /// unauthenticated; there is a bounded number of these, and the newest one takes the place of the oldest.
   void welcome(BrowserId browser);
   void send(BrowserId browser, std::shared_ptr<const std::string> text);
-  /// Bytes that were sent and are not on their way yet.
+  /// Returns the number of bytes that are queued and not sent yet.
   std::size_t waiting(BrowserId browser) const;
-  /// Says why, and closes. Harmless for one that is gone.
+  /// Sends the reason, and closes. Has no effect on a browser that has gone.
   void close(BrowserId browser, std::string_view why);
   void after(std::chrono::milliseconds time, std::function<void()> act);
   std::unique_ptr<ControlWire> wire(const std::string& socket);

@@ -1,4 +1,4 @@
-// The page's own files, which the build puts into the program (embed.cmake).
+// The page's own files, which the build embeds in the program (embed.cmake).
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ struct EmbeddedFile {
 };
 std::span<const EmbeddedFile> embedded_files();
 
-/// By the ending of a name: "text/javascript; charset=utf-8".
+/// Returns the type for the ending of a name: "text/javascript; charset=utf-8".
 std::string_view type_of(std::string_view name);
 
 }  // namespace understudy::emulator::page

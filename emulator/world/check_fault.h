@@ -1,4 +1,4 @@
-// Whether a world, or the world that a bench would make, can have a fault.
+// Checks whether a world, or the world that a bench would make, can have a fault.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace understudy::emulator::world {
 
-/// Throws NameError for one that it cannot have: a condition that it does not understand, noise on an encoder
+/// Throws NameError for an impossible fault, such as a condition with unknown names, or noise on an encoder
 /// that does not exist.
 void check_fault(const Inventory& inventory, const Fault& fault);
-/// Checks only the condition: throws NameError for one that it does not understand.
+/// Checks only the condition, and throws NameError if it cannot be understood.
 void check_condition(const Inventory& inventory, const std::string& when);
-/// The same for use: ExpressionError, or what the names throw.
+/// Parses a condition for use. Throws ExpressionError, or the errors of `names`.
 Expression parse_condition(const std::string& text, const NameResolver& names);
 
 }  // namespace understudy::emulator::world

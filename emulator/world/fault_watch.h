@@ -1,5 +1,5 @@
-// Looks after the faults of a world that wait for something: stations ask it about frames, the world asks it
-// about time. There is none if nothing waits.
+// Watches the faults of a world that wait for something: stations ask it about frames, the world about time.
+// It does not exist while no fault waits.
 #pragma once
 
 #include <map>
@@ -20,16 +20,16 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
  public:
   using Faults = std::map<std::size_t, ArmedFault>;  // by number
 
-  /// All must outlive it. The faults must be possible in this world (check_fault); when faults come or go,
-  /// make a new one.
+  /// All must outlive it. The faults must be possible in this world (check_fault). When a fault is added or
+  /// removed, make a new watch.
   FaultWatch(World& world, Faults& faults, std::uint64_t seed);
 
   // --- time ------------------------------------------------------------------------------------
-  /// When look() wants to be called next by the clock, as is_tick = false; kForever if it does not.
+  /// Returns when look() must be called next between ticks (is_tick = false), or kForever.
   SimTime next_moment() const;
-  /// The first tick after `done` at whose end it wants to be called.
+  /// Returns the first tick after `done` at whose end look() must be called.
   Tick next_tick(Tick done) const;
-  /// Notes in its course what has begun or ended by now.
+  /// Records which faults have begun or ended by now.
   void look(SimTime now, bool is_tick);
   bool has_news() const;
 
@@ -55,7 +55,7 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
   std::map<std::string, Expression> conditions_;
 };
 
-/// What is wrong with a machine's encoder at the end of `tick`, in counts.
+/// Returns the error of a machine's encoder at the end of `tick`, in counts.
 std::int64_t encoder_noise_counts(const Fault& fault, Tick tick);
 
 }  // namespace understudy::emulator::world

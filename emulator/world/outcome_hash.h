@@ -1,5 +1,6 @@
-// A hash of all that a world says: every byte on every line with its time, in both directions, the pulses of
-// every axis and every output in every tick, whatever its kind. Two runs with one hash did the same.
+// Hashes everything that a world outputs: every byte on every line with its time, in both directions, and
+// the pulses of every axis and every output of any kind in every tick. Two runs with the same hash behaved
+// the same.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace understudy::emulator::world {
 
 class OutcomeHash final : public TickWatcher {
  public:
-  /// Watches from this moment on; the world must outlive it.
+  /// Starts at this moment. The world must outlive it.
   explicit OutcomeHash(World& world);
   ~OutcomeHash() override;
   OutcomeHash(const OutcomeHash&) = delete;
@@ -20,12 +21,12 @@ class OutcomeHash final : public TickWatcher {
 
   void on_tick(Tick tick) override;
   std::uint64_t value() const { return hash_; }
-  /// Goes on from a value that was there before.
+  /// Continues from a value that an earlier hash had.
   void restore(std::uint64_t value) { hash_ = value; }
 
  private:
   class Ear;
-  /// Outputs that are neighbours in a model's table.
+  /// Neighbouring outputs in a model's table.
   struct Outputs {
     TerminalRow::Kind kind = TerminalRow::Kind::digital_out;
     int first = 0;

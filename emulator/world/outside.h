@@ -1,5 +1,6 @@
-// What reaches a world from outside, except what hosts do on its lines (pty/line_observer.h): for recorders.
-// Given to a world of the same bench at the same simulated times, it makes the same things happen.
+// Reports everything that reaches a world from outside, except what hosts do on its lines
+// (pty/line_observer.h), for recorders. If it is repeated in a world of the same bench at the same simulated
+// times, the same things happen.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +19,16 @@ class OutsideListener {
   virtual void on_power(std::size_t device, bool on) = 0;
   virtual void on_inject(const Fault& fault) = 0;
   virtual void on_clear_fault(std::size_t number) = 0;
-  /// A register written without the line.
+  /// A register was written without using the line.
   virtual void on_write(std::size_t device, const PreparedWrite& write) = 0;
-  /// A value given by name to a device without registers.
+  /// A device without registers was given a value by name.
   virtual void on_assign(std::size_t device, std::string_view name, double value) = 0;
-  /// It has been given to the device, which took it or not.
+  /// The program was given to the device, which took it or refused it.
   virtual void on_program(std::size_t device, std::string_view text, bool is_refused) = 0;
-  /// A command by its name, past the line.
+  /// A command was given by its name, without using the line.
   virtual void on_command(std::size_t device, std::string_view text) = 0;
-  /// A fault of the machine or of a device begins or ends. It follows from the rest: not for recordings.
+  /// A fault of the machine or of a device begins or ends. It follows from other events, so recordings do
+  /// not need it.
   virtual void on_fault(std::size_t /*number*/, bool /*in_force*/) {}
 };
 

@@ -1,9 +1,9 @@
-// The state of a running world as a value: saved and restored in memory, hashed. It can also be restored into
-// another world of the same bench. For a file see snapshot_file.h.
+// The state of a running world as a value, which is saved and restored in memory, and hashed. It can also be
+// restored into another world of the same bench. snapshot_file.h stores it in a file.
 //
-// A world that is restored goes on as it did after it was saved: the same things from outside at the same
-// times make the same states and the same bytes on its lines. Not to be called from within
-// World::advance_to(), that is by those who watch it.
+// A restored world continues as the saved one did: the same outside events at the same times lead to the
+// same states and the same bytes on its lines. These functions must not be called from within
+// World::advance_to(), that is by watchers.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct WorldState {
   struct Part {
     std::string name;  // "world", "device feeder", "line rs485", "edge"
     std::vector<std::byte> bytes;
-    SharedTexts texts{};  // shared with the world that was saved; `bytes` has their digests
+    SharedTexts texts{};  // shared with the saved world; `bytes` has their digests
     bool operator==(const Part& other) const {
       return name == other.name && texts == other.texts && bytes.size() == other.bytes.size() &&
              (bytes.empty() || std::memcmp(bytes.data(), other.bytes.data(), bytes.size()) == 0);
@@ -36,27 +36,26 @@ struct WorldState {
   bool operator==(const WorldState&) const = default;
 };
 
-/// The part that decides nothing of what the model does: bytes that a host has not taken yet, how ticks were
-/// crossed.
+/// The part that does not affect the model: bytes that a host has not taken yet, and how ticks were skipped.
 inline constexpr std::string_view kEdgePart = "edge";
 
 WorldState save(const World& world);
 
-/// Reads a state; calling the result, as often as you like, puts the world into it and does not throw. Throws
-/// StateError "part: what is wrong" if it is not a state of such a world. Watchers, observers and the
-/// listener stay as they are. The world must outlive it.
+/// Reads a state. Calling the result, as often as you like, puts the world into it and does not throw.
+/// Throws StateError "part: what is wrong" if such a world cannot be in it. Watchers, observers and the
+/// listener stay. The world must outlive the result.
 std::function<void()> read_state(World& world, const WorldState& state);
 
-/// Like the above, at once; if it throws, nothing has changed.
+/// Reads a state and puts it in force at once. If it throws, nothing has changed.
 void restore(World& world, const WorldState& state);
 
-/// "feeder.axes[0].motor.travel_pulses: 12 against 13", "rs485.feeder.counters.replies: 1 against 2": the
-/// first field by which two states of such a world differ, by its path and name; empty if none does. Throws
-/// StateError for what cannot be read as such a one.
+/// Returns the first field in which two states of such a world differ, by path and name:
+/// "feeder.axes[0].motor.travel_pulses: 12 against 13", "rs485.feeder.counters.replies: 1 against 2". Empty
+/// if they are equal. Throws StateError if either cannot be read.
 std::string difference(const World& world, const WorldState& a, const WorldState& b);
 
-/// A hash of everything that decides what the model does, and of nothing else: not of bytes that a host has
-/// not taken yet, nor of whether quiet ticks were crossed in bulk, nor of counts of that.
+/// Returns a hash of everything that affects the model and of nothing else: not of bytes that a host has not
+/// taken yet, nor of whether quiet ticks were skipped in bulk, nor of counts of that.
 std::uint64_t hash(const World& world);
 
 }  // namespace understudy::emulator::world

@@ -1,5 +1,5 @@
 // Snapshots as text: a world's state in a JSON file. It belongs to the version of the program that wrote it
-// and to its world's bench; all others refuse it.
+// and to the bench of its world; others refuse it.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,20 @@
 
 namespace understudy::emulator::world {
 
-/// A snapshot that cannot be used: one line, "field: what is wrong; what was expected".
+/// Reports a snapshot that cannot be used, as one line: "field: what is wrong; what was expected".
 struct SnapshotError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Of all that the world's state does not hold. The memories that it began with do not count, because the
-/// state has its own.
+/// Returns a hash of everything in a bench that is not in the world's state. Initial memories do not count,
+/// because the state has its own.
 std::uint64_t bench_hash(const Bench& bench);
 
-/// In place of bench_hash(): of a state within a recording, whose header has the bench.
+/// Replaces bench_hash() in a state within a recording, whose header has the bench.
 inline constexpr std::uint64_t kBenchOfRecording = 0;
 
 std::string to_text(const WorldState& state, std::uint64_t bench);
-/// Throws SnapshotError for text that is torn, changed or not a snapshot, or belongs to another version or
-/// bench.
+/// Throws SnapshotError for text that is cut off, changed, not a snapshot, or of another version or bench.
 WorldState parse_snapshot(const std::string& text, std::uint64_t bench);
 
 }  // namespace understudy::emulator::world

@@ -1,4 +1,4 @@
-// What the state of a world consists of, for snapshot.cpp (base/state/fields.h), in the order of the bytes.
+// Lists the fields of a world's state for snapshot.cpp (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include "base/state/fields.h"
@@ -137,7 +137,7 @@ struct StateOf<emulator::world::PlantAxis::State> {
                                            field("ticks_to_turn", &Value::ticks_to_turn)};
 };
 
-/// A world's own; its devices, machines and lines are parts by themselves.
+/// The world's own state. Its devices, machines and lines are separate parts.
 template <>
 struct StateOf<emulator::world::World> {
   using Value = emulator::world::World;
@@ -151,9 +151,9 @@ struct StateOf<emulator::world::World> {
                                            field("done", &Value::done_),
                                            field("input_turns", &Value::input_turns_)};
   static constexpr std::size_t members = 27;
-  /// What it is made of, who looks at it, and how ticks were run.
+  /// Members for setup, for observers, and for how ticks were run.
   static constexpr std::size_t apart = 18;
-  static void name_all(Value& all) {  // does not compile if there are others
+  static void name_all(Value& all) {  // does not compile if a member is missing
     [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, driven_axes, contacts,
                             told_edges, input_turns, sent_pulses, inputs, supplies, wires, watchers,
                             stops_here, listener, faults, next_fault, fault_watch, seed, disturbed, now, done,
@@ -164,7 +164,7 @@ struct StateOf<emulator::world::World> {
   static pty::Line& line(Value& world, std::size_t number) { return world.lines_[number]->line; }
   static auto& ticks(auto& world) { return world.ticks_; }
   static void rearm(Value& world) { world.arm_faults(); }
-  /// When all of it is restored.
+  /// Called when all parts are restored.
   static void tell(Value& world) {
     for (std::size_t d = 0; d < world.devices_.size(); ++d) world.tell_edges_anew(d);
   }

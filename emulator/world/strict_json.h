@@ -1,5 +1,6 @@
-// JSON, stricter than its library, which silently keeps the last of two equal keys and follows brackets as
-// deep as memory allows. Only files that read JSON include this: the library is slow to compile.
+// Parses JSON more strictly than its library, which silently keeps the last of two equal keys and follows
+// brackets as deep as memory allows. Only files that read JSON include this, because the library is slow to
+// compile.
 #pragma once
 
 #include <climits>
@@ -12,13 +13,13 @@
 
 namespace understudy::emulator::world {
 
-/// Text that is nested deeper than anything we write.
+/// Thrown for text that is nested deeper than anything we write.
 struct TooDeepJson : std::runtime_error {
   TooDeepJson() : std::runtime_error("is nested deeper than anything that is written") {}
 };
 
-/// Throws what `twice` makes of a key that appears twice in one object, TooDeepJson where more than `deepest`
-/// objects and lists are open, and nlohmann's own exceptions for text that is not JSON.
+/// Throws the result of `twice` for a key that appears twice in one object, TooDeepJson if more than
+/// `deepest` objects and lists are open, and nlohmann's own exceptions for text that is not JSON.
 template <typename Json, typename Twice>
 Json parse_strict_json(std::string_view text, const Twice& twice, int deepest = INT_MAX) {
   std::vector<std::set<std::string>> keys;  // of the objects that are open

@@ -1,4 +1,4 @@
-// docs/fidelity/MODEL.md: how faithful a model is, made from its tables.
+// Makes docs/fidelity/MODEL.md, which tells how faithful a model is, from the model's tables.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace understudy::emulator {
 
-/// The page as Markdown: choices, then what is not modelled.
+/// Returns the page as Markdown: the choices, then what is not modelled.
 std::string fidelity_page(const Model& model);
 
 }  // namespace understudy::emulator

@@ -1,4 +1,4 @@
-// A sheet: columns and rows of text, and the four formats that `describe` prints.
+// A sheet has columns and rows of text, and prints in the four formats of `describe`.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ struct Sheet {
 enum class SheetFormat { table, csv, json, markdown };
 std::optional<SheetFormat> parse_sheet_format(std::string_view name);
 
-/// The sheet as text, its last line ended. JSON is an array of objects, one a row; a column of decimal
-/// numbers holds numbers there, and null where it is empty.
+/// Returns the sheet as text with a final line end. JSON is an array of objects, one for each row; a column
+/// of decimal numbers holds numbers there, and null for an empty cell.
 std::string format_sheet(const Sheet& sheet, SheetFormat format);
 
 }  // namespace understudy::emulator

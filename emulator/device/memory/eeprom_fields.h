@@ -1,4 +1,4 @@
-// What the state of an EEPROM consists of (base/state/fields.h), in the order of the bytes.
+// Lists the fields of an EEPROM's state (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include "base/state/fields.h"
@@ -25,7 +25,7 @@ struct StateOf<emulator::Eeprom> {
                 field("jobs", &Value::jobs_),       field("rewriting", &Value::rewriting_),
                 field("done_at", &Value::done_at_), field("revision", &Value::revision_)};
   static constexpr std::size_t members = 6;
-  static void name_all(Value& all) {  // does not compile if there are others
+  static void name_all(Value& all) {  // does not compile if a member is missing
     [[maybe_unused]] auto& [done_at, revision, kept, slots, jobs, rewriting] = all;
   }
 };

@@ -1,4 +1,5 @@
-// The part of a device that survives power-off. A facet: Device::memory() is null if a device keeps nothing.
+// The part of a device that survives power-off. This is a facet: Device::memory() is null if a device has no
+// such memory.
 #pragma once
 
 #include <cstdint>
@@ -14,32 +15,34 @@ namespace understudy::emulator {
 
 class KeptMemory {
  public:
-  /// To and from the form in files (from: only without power). Throws NvError for what it cannot hold.
+  /// Convert to and from the form in files. load_nv() requires that the power is off. Throws NvError for an
+  /// image that the device cannot hold.
   NvImage nv_image() const { return kept_now()(); }
   void load_nv(const NvImage& image);
-  /// What it keeps at this moment. Whoever has that may make the image later, in another thread, and when the
-  /// device is gone: taking it copies numbers and shares texts, making the image is what takes time.
+  /// Takes the memory's content at this moment. The result can make the image later, in another thread, even
+  /// when the device is gone. Taking it is quick (it copies numbers and shares texts); making the image
+  /// takes time.
   LateImage kept_now() const;
 
-  /// The named texts that it keeps; null for most. They are in its images without more ado.
+  /// Returns the named texts in the memory, or null for most devices. Images include them automatically.
   virtual TextBlocks* text_blocks() { return nullptr; }
   virtual const TextBlocks* text_blocks() const { return nullptr; }
 
-  /// Changes whenever what would survive a power failure now may have changed.
+  /// Changes whenever the content that would survive a power failure may have changed.
   virtual std::uint64_t kept_revision() const = 0;
-  /// Keeps all that waits to be kept at once, as if its time had passed.
+  /// Stores all waiting writes at once, as if their time had passed.
   virtual void settle_memory() = 0;
 
  protected:
-  /// Of the model and the firmware that its images name.
+  /// Takes the model and the firmware for its images.
   KeptMemory(std::string_view model_name, Firmware firmware) : model_name_(model_name), firmware_(firmware) {}
   ~KeptMemory() = default;
 
-  /// What puts all that is kept now, but for text_blocks(), into an image that has the model and the firmware
-  /// already. It refers to nothing of the device.
+  /// Returns a function that writes the present content, except text_blocks(), into an image that has model
+  /// and firmware already. The function refers to nothing in the device.
   virtual std::function<void(NvImage&)> memory_writer() const = 0;
-  /// The reverse, without power: what the image does not name has the factory's value. If it throws (NvError:
-  /// it cannot hold that), nothing has changed.
+  /// Reads an image while the power is off. Entries that the image does not name get the factory's value.
+  /// Throws NvError if it cannot hold the image; then nothing has changed.
   virtual void read_memory(const NvImage& image) = 0;
 
  private:

@@ -1,5 +1,5 @@
-// What is wrong with one entry of an NV image. Whoever wants to know all that is wrong takes it away, and
-// asks again.
+// Reports one wrong entry of an NV image. To find all wrong entries, remove the reported one and check
+// again.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,13 @@ struct NvEntryError : NvError {
   List list;
   std::string kind;       // of blocks
   std::string name;       // of blocks: none where all of their kind are meant
-  std::string complaint;  // for messages that say already which entry it is
+  std::string complaint;  // for messages that name the entry already
 };
 
-/// Of a value: "registers: " or "reals: ", and why it is refused.
+/// Makes the error for a refused value: "registers: " or "reals: ", then the reason.
 NvEntryError refused_value(NvEntryError::List list, const std::string& name, const std::string& why);
 
-/// Takes away what was refused. Whether it was there.
+/// Removes the refused entry. Returns true if it was there.
 bool take_away(const NvEntryError& refused, NvImage& image);
 
 }  // namespace understudy::emulator

@@ -1,5 +1,5 @@
-// NV images on disk. A file is replaced as a whole by one that has been written beside it, so that a reader
-// finds the old image or the new one, whenever the writer dies.
+// Stores NV images on disk. A file is replaced as a whole by a new one written beside it, so a reader finds
+// either the old image or the new one, even if the writer is killed.
 #pragma once
 
 #include <chrono>
@@ -17,33 +17,34 @@
 
 namespace understudy::emulator {
 
-/// What is wrong with the image of a file, as "path:line: field: what is wrong".
+/// Converts the error of an image to a message for its file: "path:line: field: what is wrong".
 FileError::Complaint complaint_of(const NvError& wrong, const std::string& path);
 
-/// Nothing if there is no file. Throws FileError "path:line: field: what is wrong"; the file is left as it
-/// is.
+/// Returns nothing if the file does not exist. Throws FileError "path:line: field: what is wrong"; the file
+/// stays as it is.
 std::optional<NvImage> read_nv_file(const std::string& path);
 
-/// Writes images for an owner that may not wait: a helper thread does it.
+/// Writes images in a helper thread, for an owner that must not wait.
 class NvWriter {
  public:
-  /// Of images for one file that follow each other sooner than this, only the last is written.
+  /// If several images for one file arrive within this time, only the last is written.
   static constexpr std::chrono::milliseconds kCoalesce{100};
 
   NvWriter();
-  ~NvWriter();  // writes what waits
+  ~NvWriter();  // writes what is waiting
   NvWriter(const NvWriter&) = delete;
   NvWriter& operator=(const NvWriter&) = delete;
 
   /// Takes the file's new contents.
   void write(const std::string& path, std::string contents);
-  /// Like the above; the helper thread makes the image, and its text.
+  /// Like the above; the helper thread makes the image and its text.
   void write(const std::string& path, LateImage image);
-  /// Waits until everything taken is on the disk, or was refused by it.
+  /// Waits until every image taken is on the disk or has failed.
   void flush();
-  /// Nothing waits, nothing is being written, and there is no news.
+  /// Returns true if nothing waits, nothing is being written, and there is no news.
   bool is_idle() const;
-  /// News since the last call: a line when a file cannot be written, and one when it can again.
+  /// Returns the news since the last call: one line when a file cannot be written, and one when it can
+  /// again.
   std::vector<std::string> take_news();
 
  private:
@@ -57,10 +58,10 @@ class NvWriter {
   std::map<std::string, Contents> waiting_;  // by path
   std::vector<std::string> news_;
   bool is_busy_ = false;
-  bool is_hurried_ = false;  // somebody waits: do not wait for more
+  bool is_hurried_ = false;  // flush() waits: write without delay
   bool is_finishing_ = false;
   std::map<std::string, bool> has_failed_;  // of the helper thread
-  std::thread thread_;                      // last: it uses all the others
+  std::thread thread_;                      // declared last: it uses all the others
 };
 
 }  // namespace understudy::emulator

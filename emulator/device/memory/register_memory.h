@@ -1,4 +1,4 @@
-// Registers that survive power-off, as the image of a memory has them.
+// Converts between persistent registers and the image of a memory.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,19 @@
 
 namespace understudy::emulator {
 
-/// Throws StateError unless each register of a restored image, and of what is kept, holds what it may: the
-/// same that a write, or an image of a memory, may bring there.
+/// Throws StateError unless each register of a restored image, and of the stored values, has a value that a
+/// write or a memory image may give it.
 void check_restored_registers(const RegisterBank& bank, std::span<const std::uint32_t> image,
                               std::span<const std::uint32_t> kept);
 
-/// What adds the registers that are kept now and differ from the factory's values. `kept` has one value for
-/// each slot; those of registers that are not kept mean nothing. Of `bank` only the map must outlive it.
+/// Returns a function that adds the stored registers that differ from the factory's values to an image.
+/// `kept` has one value for each slot; those of registers that are not persistent are ignored. Only the map
+/// of `bank` must outlive the function.
 std::function<void(NvImage&)> registers_writer(const RegisterBank& bank, std::span<const std::uint32_t> kept);
 
-/// The reverse, one value for each slot: what the image does not name has the factory's value. `newest` is
-/// the model's newest firmware: an update leaves the memory as it is, so it may hold registers of any. Throws
-/// NvError for what is not in such a memory.
+/// Returns one value for each slot. Registers that the image does not name get the factory's value. `newest`
+/// is the model's newest firmware: an update leaves the memory as it is, so it may hold registers of any
+/// version. Throws NvError for entries that such a memory cannot have.
 std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImage& image, Firmware newest);
 
 }  // namespace understudy::emulator

@@ -1,5 +1,5 @@
-// Named texts that a device keeps at once, such as its files, recipes and macros. A value; copies share the
-// texts. What kinds there are and what fits in them is data of the model.
+// Named texts that a device stores at once, such as its files, recipes and macros. It is a value; copies
+// share the texts. The model's table tells which kinds there are and what fits in them.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,9 @@ struct BlockKind {
   std::string_view name;    // "files": a key of the image
   std::size_t most = 0;     // entries
   std::size_t longest = 0;  // bytes of one
-  /// Why an entry cannot have that name; empty if it can. Null: any name.
+  /// Returns why an entry cannot have that name, or an empty text if it can. Null: any name is allowed.
   std::string (*why_not_called)(const std::string& name) = nullptr;
-  /// What is wrong with a text, "line 3: ..."; empty if nothing is. Null: any text.
+  /// Returns what is wrong with a text, "line 3: ...", or an empty text. Null: any text is allowed.
   std::string (*why_not_text)(const std::string& text) = nullptr;
 };
 
@@ -33,22 +33,22 @@ class TextBlocks {
 
   std::span<const BlockKind> kinds() const { return kinds_; }
   const NamedBlocks& all() const { return all_; }
-  /// The same, as they are now; made once for each change, and never changed.
+  /// Returns the present texts as an object that never changes. It is made once for each change.
   std::shared_ptr<const NamedBlocks> shared() const;
-  /// Null if there is none.
+  /// Returns null if there is no such text.
   const SharedText* find(std::string_view kind, std::string_view name) const;
 
-  /// Puts a text there and returns "", or why it cannot be there: then nothing has changed. The same text
-  /// again changes nothing.
+  /// Stores a text and returns "", or returns why it is refused; then nothing has changed. Storing the same
+  /// text again changes nothing.
   std::string put(std::string_view kind, const std::string& name, SharedText text);
-  /// Whether it was there.
+  /// Returns true if there was such a text.
   bool erase(std::string_view kind, std::string_view name);
-  /// Throws NvError, "blocks: files: 'A': what is wrong", for blocks that do not fit; with the line of the
-  /// file that they are from where that is known.
+  /// Throws NvError, "blocks: files: 'A': what is wrong", for blocks that do not fit, with the line of their
+  /// file if it is known.
   void check(const NamedBlocks& blocks, const BlockLines& lines = {}) const;
-  /// All at once, after check().
+  /// Replaces all texts. The caller has called check().
   void replace(const NamedBlocks& blocks);
-  /// Grows with everything that changes.
+  /// Grows with every change.
   std::uint64_t revision() const { return revision_; }
 
   bool operator==(const TextBlocks& other) const {
@@ -68,7 +68,7 @@ class TextBlocks {
   std::uint64_t revision_ = 0;
   NamedBlocks all_;  // kinds without entries are left out
   std::span<const BlockKind> kinds_;
-  mutable std::shared_ptr<const NamedBlocks> shared_;  // `all_` at this revision, once somebody asked for it
+  mutable std::shared_ptr<const NamedBlocks> shared_;  // `all_` at this revision, made on the first request
 };
 
 }  // namespace understudy::emulator
@@ -81,8 +81,8 @@ struct StateOf<emulator::TextBlocks> {
   static constexpr auto fields =
       FieldList{field("blocks", &Value::all_), field("revision", &Value::revision_)};
   static constexpr std::size_t members = 4;
-  static constexpr std::size_t apart = 2;  // the model's table, and what is made of the blocks
-  static void name_all(Value& all) {       // does not compile if there are others
+  static constexpr std::size_t apart = 2;  // the model's table, and values derived from the blocks
+  static void name_all(Value& all) {       // does not compile if a member is missing
     [[maybe_unused]] auto& [revision, blocks, kinds, shared] = all;
   }
 };

@@ -1,6 +1,6 @@
-// What a device that speaks Modbus offers beside its registers: which addresses it listens to, and
-// whether it refuses, and that it counts what was wrong. A facet: Device::modbus() is null where a device
-// speaks something else.
+// The Modbus side of a device beside its registers: the addresses it responds to, whether it answers
+// refusals, and its notice of receive errors. This is a facet: Device::modbus() is null if a device uses
+// another protocol.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,26 @@
 
 namespace understudy::emulator {
 
-/// Frames of Modbus RTU.
+/// Modbus RTU frames.
 inline constexpr Protocol kModbusRtu{"Modbus"};
 
-/// What a station does with a frame that carries some address.
+/// A station's reaction to the address of a frame.
 enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };
 
 class ModbusStation {
  public:
   virtual Addressing addressing(std::uint8_t address) const = 0;
-  /// Of those of its model.
+  /// Returns true if the device has this function of its model.
   virtual bool knows(std::uint8_t /*function*/) const { return true; }
-  /// The silence that ends a frame for it; the model's is the usual one.
+  /// Returns the silence that ends a frame. `usual` is the model's.
   virtual pty::SimTime end_silence(pty::SimTime usual) const { return usual; }
-  /// How long after that silence it replies.
+  /// Returns the delay of a reply after that silence.
   virtual pty::SimTime reply_delay() const { return pty::SimTime{0}; }
-  /// Whether a request that it refuses gets an exception, or no answer.
+  /// Returns true if the device answers refused requests with an exception; otherwise it does not answer
+  /// them.
   virtual bool answers_refusals() const { return true; }
-  /// What came in by that port was not a frame; it gets no answer. Only while the device has power.
+  /// Notes that characters at that port were not a frame; they get no answer. Called only while the device
+  /// has power.
   virtual void receive_failed(std::size_t /*port*/, pty::ReceiveError /*error*/) {}
 
  protected:

@@ -1,5 +1,4 @@
-// What reading and writing share (access.h): what a register holds at this moment, and why it cannot be
-// had.
+// Code shared by reading and writing (access.h): a register's present content, and why it is not available.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +33,8 @@ inline std::uint16_t word_of(std::uint32_t bits, Place::Part part) {
   return static_cast<std::uint16_t>(part == Place::Part::high ? bits >> 16 : bits);
 }
 
-/// Reading back what was written misses nothing; reading what the controller should say by itself does.
+/// Warns about an unmodelled register that the controller itself should set. Reading back a written value
+/// needs no warning.
 inline void mention_if_missed(const RegisterBank& bank, const Place& place) {
   if (!place.row->unmodelled.empty() && place.row->access == Access::read)
     bank.mention_unmodelled(*place.row);
@@ -44,7 +44,7 @@ inline Objection objection(Refusal refusal, Cause cause, std::size_t address) {
   return {refusal, cause, static_cast<std::uint16_t>(address)};
 }
 
-/// What the device itself says to a request, with its own number for the reason.
+/// Converts the device's own answer to a request, with its number for the reason.
 inline Objection objection_of(const DeviceAnswer& answer, const RegisterRequest& request) {
   const auto because = [&](Cause cause) {
     return Objection{answer.refusal, cause, request.first, answer.reason};
@@ -59,17 +59,17 @@ inline Objection objection_of(const DeviceAnswer& answer, const RegisterRequest&
   return {};
 }
 
-/// Whether it takes a request that is good so far.
+/// Asks the device whether it takes a request that is good so far.
 inline Objection admission(const RegisterBank& bank, const RegisterRequest& request, Checked checked) {
   return objection_of(bank.admits(request, checked), request);
 }
 
-/// Whether a write to where nothing is goes nowhere, rather than being refused.
+/// Returns true if writes to unmapped addresses are ignored rather than refused.
 inline bool swallows_writes_to_nothing(const RegisterBank& bank) {
   return bank.map_policy().unmapped == MapPolicy::Unmapped::reads_zero;
 }
 
-/// Whether a request that begins or ends with this word cuts its register in half.
+/// Returns true if a request that begins or ends with this word cuts its register in half.
 inline bool is_cut(const Place& place, bool is_first, bool is_last, bool low_word_first) {
   if (place.part == Place::Part::whole) return false;
   return place.is_second_word(low_word_first) ? is_first : is_last;

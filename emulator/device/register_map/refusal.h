@@ -1,5 +1,5 @@
-// Why a request for registers was not carried out: coarse, as a protocol answers it, and in detail, as a
-// device may keep it.
+// Reasons why a request for registers was not carried out: coarse ones that a protocol answers, and detailed
+// ones that a device may record.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace understudy::emulator {
 
-/// Each protocol translates it (Modbus: an exception code).
+/// The coarse reason. Each protocol translates it (Modbus: an exception code).
 enum class Refusal : std::uint8_t {
   none,
   no_register,  // nothing at that address, a register cut in half where that is not allowed,
@@ -21,12 +21,13 @@ enum class Cause : std::uint8_t {
   none,
   unknown_function,
   bad_count,    // none, or more than a request may have
-  bad_length,   // the byte count or the length of the frame is not what the count says
+  bad_length,   // the byte count or the frame's length does not match the count
   no_register,  // a hole, or beyond the table
   read_only,
   write_only,
   cut_pair,     // half of a 32-bit register
-  cut_message,  // a window not from its first word on, beyond its end, or together with others
+  cut_message,  // a write to a window that does not start at its first word, passes its end, or includes
+                // others
   out_of_range,
   bad_bit,      // a single bit that is given neither 0x0000 nor 0xFF00
   bad_message,  // a window's reader refused it
@@ -34,7 +35,7 @@ enum class Cause : std::uint8_t {
   failure,
 };
 
-/// What the device itself says to a request, with the number that it has for the reason, where it has one.
+/// The device's own answer to a request, with its number for the reason if it has one.
 struct DeviceAnswer {
   constexpr DeviceAnswer(Refusal given, int number = 0)  // NOLINT(google-explicit-constructor): `return busy`
       : refusal(given), reason(static_cast<std::uint16_t>(number)) {}
@@ -43,23 +44,23 @@ struct DeviceAnswer {
   std::uint16_t reason = 0;  // the device's own; 0: it has none
 };
 
-/// A refusal with its cause, and the address at which it was found.
+/// A refusal with its cause and the address where it was found.
 struct Objection {
   Refusal refusal = Refusal::none;
   Cause cause = Cause::none;
   std::uint16_t address = 0;
-  std::uint16_t reason = 0;  // as the device numbers it (DeviceAnswer), where it was the device that refused
+  std::uint16_t reason = 0;  // the device's number (DeviceAnswer), if the device refused
 
   explicit operator bool() const { return refusal != Refusal::none; }
   bool operator==(const Objection&) const = default;
 };
 
-/// A request that was answered with an exception, as the device hears of it.
+/// A request that was answered with an exception, as reported to the device.
 struct RefusedRequest {
   std::uint8_t function = 0;
   std::uint16_t first = 0;  // address and count as they were asked for; 0 where the request has none, or is
   std::size_t count = 0;    // too short to say so
-  int exception = 0;        // what was answered
+  int exception = 0;        // the exception code in the answer
   Objection objection{};    // why
 };
 

@@ -1,5 +1,6 @@
-// A device's registers, for everything that reads and writes them (access.h): the wire, the control socket,
-// scenarios, the device's own program. A facet: Device::register_bank() is null where a device has none.
+// A device's registers, for everyone who reads and writes them (access.h): the wire, the control socket,
+// scenarios, and the device's own program. This is a facet: Device::register_bank() is null if a device has
+// none.
 #pragma once
 
 #include <cstddef>
@@ -13,69 +14,71 @@
 
 namespace understudy::emulator {
 
-/// A request for consecutive registers or bits that the map has found good.
+/// A request for consecutive registers or bits that the map has accepted.
 struct RegisterRequest {
   Table table = Table::holding;
   std::uint16_t first = 0;
   std::size_t count = 0;
-  std::span<const std::uint16_t> words{};  // that it writes, a bit each in tables of bits; none: it reads
-  bool is_single = false;                  // by a function that writes one register or bit
+  std::span<const std::uint16_t>
+      words{};             // the words to write, or one bit a word in tables of bits; empty: a read
+  bool is_single = false;  // by a function that writes one register or bit
   bool is_write() const { return !words.empty(); }
 };
 
-/// How much of a request has been found good. A write is shown twice, a read once.
+/// How much of a request is checked. The device is asked twice about a write, once about a read.
 enum class Checked : std::uint8_t { addresses, everything };
 
 class RegisterBank {
  public:
   const RegisterMap& map() const { return map_; }
-  /// What the device has at an address, or by a name, in its firmware.
+  /// Returns the place at an address, in the device's firmware. find() does so for a name.
   Place at(Table table, std::uint16_t address) const {
     return map_.at(table, address, map_firmware_, low_word_first());
   }
-  /// The same for many: `low_word_first` as the device has it at this moment.
+  /// Like the above, for many addresses: `low_word_first` is the device's present order of words.
   Place at(Table table, std::uint16_t address, bool low_word_first_now) const {
     return map_.at(table, address, map_firmware_, low_word_first_now);
   }
   std::optional<NamedPlace> find(std::string_view name) const { return map_.find(name, map_firmware_); }
-  /// Why find() found nothing, as one line.
+  /// Returns one line that explains why find() found nothing.
   std::string why_not(std::string_view name) const { return map_.why_not(name, map_firmware_); }
   bool has_row(const RegisterRow& row) const { return map_firmware_ >= row.since; }
 
-  /// The map's answer, or this device's own.
+  /// Returns the map's policy, or this device's own.
   virtual const MapPolicy& map_policy() const { return map_.policy(); }
   virtual bool low_word_first() const { return map_.policy().low_word_first; }
-  /// One slot for each register, as the map numbers them.
+  /// Returns the register image: one slot for each register, as the map numbers them.
   virtual std::span<std::uint32_t> image() = 0;
   virtual std::span<const std::uint32_t> image() const = 0;
-  /// Whether a register survives power-off.
+  /// Returns true if a register survives power-off.
   virtual bool keeps(const RegisterRow& row) const { return row.persistent; }
 
-  /// Whether the device takes a request that is good so far: it may be busy, or fail. Asked before anything
-  /// is stored, of requests from outside; it is not asked about what it writes itself.
+  /// Returns whether the device takes a request that is good so far; it may be busy, or fail. Asked before
+  /// anything is stored, for requests from outside but not for the device's own writes.
   virtual DeviceAnswer admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
     return Refusal::none;
   }
-  /// Whether a write is one message to the device although it begins in no window (see row.h). Asked before
-  /// what it writes is looked up, so registers that can only be read may be among it.
+  /// Returns true if the device takes a write as one message although it begins in no window (see row.h).
+  /// Asked before the registers are looked up, so read-only registers may be among them.
   virtual bool takes_whole(const RegisterRequest& /*request*/) const { return false; }
-  /// Takes it, once admits() has; or refuses it, and has changed nothing.
+  /// Takes the message after admits() has agreed, or refuses it without changing anything.
   virtual DeviceAnswer take_whole(const RegisterRequest& /*request*/) { return Refusal::none; }
-  /// Whether a message may also begin behind its window's first word: the device keeps such a part.
+  /// Returns true if a message may begin behind its window's first word, because the device accepts such a
+  /// part.
   virtual bool takes_parts() const { return false; }
-  /// Asked of each register of a good write before anything is stored, in ascending order: whether the device
-  /// makes something else of it. Then it is not stored, and has no effect.
+  /// Asked for each register of a good write in ascending order, before anything is stored. If it returns
+  /// true, the device uses the value in its own way: it is not stored and has no effect.
   virtual bool diverts(const Place& /*place*/, std::uint32_t /*bits*/) { return false; }
-  /// Its station has answered a request that reads: what was to be read once is gone now.
+  /// The station has answered a read request. Registers that can be read only once are cleared now.
   virtual void read_answered(const RegisterRequest& /*request*/) {}
-  /// Its station has answered a request with an exception.
+  /// The station has answered a request with an exception.
   virtual void exception_answered(const RefusedRequest& /*request*/) {}
 
   /// Called for each register of the image that a request has written, after its effect.
   virtual void register_written(const RegisterRow& row, std::size_t slot) = 0;
   /// Called after a write request has been stored and all its effects have run.
   virtual void registers_written() {}
-  /// Tells the user, once for each row, that something is not modelled.
+  /// Warns the user, once for each row, that it is not modelled.
   virtual void mention_unmodelled(const RegisterRow& row) const = 0;
 
  protected:
@@ -87,7 +90,7 @@ class RegisterBank {
   Firmware map_firmware_;
 };
 
-/// The registers of a device of type `D`: rows whose functions take that type find it here (row.h).
+/// The registers of a device of type `D`. Row functions that take a `D` find the device here (row.h).
 template <typename D>
 class RegisterBankOf : public RegisterBank {
  public:

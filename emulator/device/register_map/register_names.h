@@ -1,5 +1,5 @@
-// What the registers of a model's rows are called, and which of them a name means. A row names thousands by
-// one pattern ("D{}"): names are found by it, and written down nowhere.
+// Finds the registers of a model's rows by name. One pattern of a row ("D{}") names thousands of registers,
+// so names are computed from patterns and never stored.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,12 @@
 
 namespace understudy::emulator {
 
-/// Of a 32-bit register, whose halves have names as well.
+/// The parts of a 32-bit register. Its halves have names as well.
 enum class RegisterPart : std::uint8_t { whole, low, high };
 
 class RegisterNames {
  public:
-  /// The rows outlive it.
+  /// The rows must outlive it.
   explicit RegisterNames(std::span<const RegisterRow> rows);
 
   struct Named {
@@ -30,17 +30,17 @@ class RegisterNames {
   };
   std::optional<Named> find(Table table, std::string_view name) const;
 
-  /// Every name, in the order of the rows.
+  /// Calls `act` for every name, in the order of the rows.
   void for_each(const std::function<void(const Named& named, const std::string& name)>& act) const;
-  /// Throws std::logic_error if two registers of a table have one name. That takes as long as looking all of
-  /// them up: for what is made of a user's file, and for tests of our own rows.
+  /// Throws std::logic_error if two registers of a table have the same name. It takes as long as looking up
+  /// all names; it is for models of a user's file, and for tests of our own rows.
   void demand_distinct() const;
 
-  /// "MAIN_LINE" + number + "_CMD": a row's register by one of its patterns.
+  /// Returns the name of a row's register by one of its patterns: "MAIN_LINE" + number + "_CMD".
   static std::string name_of(const RegisterRow& row, int index, std::string_view pattern);
 
  private:
-  /// By what a name begins with: all before the "{}", or all of it.
+  /// A pattern is sorted by the beginning of its names: the part before "{}", or the whole.
   struct Pattern {
     std::uint32_t hash = 0;
     std::uint32_t next = 0;  // of those in the same bucket, counted from 1; 0: none

@@ -1,5 +1,5 @@
-// The vocabulary a model declares its registers in: one row for each register (or a range of similar ones),
-// in the manual's order and spelling. Everything else about registers is read from these rows.
+// The vocabulary in which a model declares its registers: one row for each register (or a range of similar
+// ones), in the manual's order and spelling. Everything else about registers is derived from these rows.
 #pragma once
 
 #include <bit>
@@ -18,25 +18,26 @@ class RegisterBankOf;
 
 enum class Table : std::uint8_t { holding, input, coil, discrete };
 enum class Access : std::uint8_t { read, write, read_write };
-/// `bit`: of coils and discrete inputs, one for each address. `f32`: an IEEE 754 single.
+/// `bit` is for coils and discrete inputs, one for each address. `f32` is an IEEE 754 single.
 enum class Type : std::uint8_t { u16, s16, u32, s32, bit, f32 };
 
-/// Wide enough for every type's value. A real is its 32 bits: real_of(), value_of_real().
+/// Wide enough for the values of every type. A real is stored as its 32 bits: see real_of() and
+/// value_of_real().
 using Value = std::int64_t;
 
-/// A firmware version in hundredths: 1.52 is 152. 0 as "since": from the first on.
+/// A firmware version in hundredths: 1.52 is 152. As "since", 0 stands for the first version.
 using Firmware = std::uint16_t;
 
 constexpr bool is_32_bit(Type type) { return type == Type::u32 || type == Type::s32 || type == Type::f32; }
 constexpr bool is_signed(Type type) { return type == Type::s16 || type == Type::s32 || type == Type::f32; }
-/// In bits: 1, 16 or 32.
+/// Returns the width in bits: 1, 16 or 32.
 constexpr int width_of(Type type) { return type == Type::bit ? 1 : is_32_bit(type) ? 32 : 16; }
 constexpr bool is_table_of_bits(Table table) { return table == Table::coil || table == Table::discrete; }
 
 constexpr float real_of(Value value) { return std::bit_cast<float>(static_cast<std::uint32_t>(value)); }
 constexpr Value value_of_real(float real) { return std::bit_cast<std::uint32_t>(real); }
 
-/// The low bits of a value, as a signed or unsigned quantity of the type.
+/// Returns the low bits as a signed or unsigned value of the type.
 constexpr Value value_of(std::uint32_t bits, Type type) {
   switch (type) {
     case Type::u16: return static_cast<std::uint16_t>(bits);
@@ -49,7 +50,7 @@ constexpr Value value_of(std::uint32_t bits, Type type) {
   return 0;
 }
 
-/// What a type can hold; of reals, their bits.
+/// The limits of a type; for reals, as their bits.
 struct TypeLimits {
   Value lowest = 0;
   Value highest = 0;
@@ -66,34 +67,34 @@ constexpr TypeLimits limits_of(Type type) {
   return {};
 }
 
-/// Which register of a row is meant, as its functions see it.
+/// The register of a row that a row's function is called for.
 struct Cell {
-  int argument = 0;       // what the row was declared with, an axis for example
+  int argument = 0;       // declared with the row, for example an axis
   int index = 0;          // 0 .. count-1
-  int axis = 0;           // of a row for several axes: which one, counted as the device counts them
-  bool high_half = true;  // a write: the high word came with it (always so for 16-bit registers)
+  int axis = 0;           // if the row is for several axes: the device's number of the axis
+  bool high_half = true;  // in a write: the high word is included (always true for 16-bit registers)
 };
 
-/// When what a reader gives may be another although nobody writes it. Whoever sleeps over ticks goes by it: a
-/// program that has looked at a value need look again in these ticks only.
+/// When the value of a reader may change without a write. A program that waits for a value is evaluated
+/// again only in these ticks.
 enum class Varies : std::uint8_t {
-  in_ticks,      // in ticks that are run as they are, or by what comes from outside
-  while_moving,  // with the pulses of an axis: in ticks that only count on as well (Device::cross_to)
+  in_ticks,      // in ticks that are run in full, or by outside events
+  while_moving,  // with the pulses of an axis, so also in ticks that Device::cross_to makes up
   with_time,     // by the clock alone, at the ticks that `changes_at` gives
 };
 
-/// The present value, if it is not simply the stored one.
+/// Returns the present value, if it is not simply the stored one.
 using Reader = Value (*)(const RegisterBank& bank, Cell cell);
-/// The first tick after `done` at which the value may be another although nothing happens: it tells time.
-/// kNever if that is not so now.
+/// Returns the first tick after `done` at which the value may change with time alone, or kNever if it does
+/// not depend on time now.
 using NextChange = Tick (*)(const RegisterBank& bank, Cell cell, Tick done);
-/// What a write does beyond storing. Runs after the whole request is stored, in ascending order.
+/// Does what a write does beyond storing. Effects run in ascending order, after the whole request is stored.
 using Effect = void (*)(RegisterBank& bank, Cell cell, Value value);
-/// Takes the words that one request has written to a window, or refuses them and has changed nothing.
+/// Takes the words that one request has written to a window, or refuses them without changing anything.
 using Message = DeviceAnswer (*)(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words);
 
-/// A model's functions take its own device, of which the bank that they are called for is a part
-/// (register_bank.h). `D` may be incomplete where the rows stand.
+/// Adapts a model's functions. They take their own device, which contains the bank that they are called for
+/// (register_bank.h). `D` may be incomplete at the rows.
 template <auto function>
 struct Handler;
 template <typename D, Value (*function)(const D&, Cell)>
@@ -127,7 +128,7 @@ struct Handler<function> {
   }
 };
 
-/// Bits of a register that have a name: "STATUS.READY".
+/// A named group of bits in a register: "STATUS.READY".
 struct BitField {
   int bit = 0;  // the lowest of them
   std::string_view name;
@@ -155,28 +156,28 @@ constexpr BitField bits(int lowest, std::string_view name, int width = 1) {
 struct RegisterRow {
   std::uint16_t address = 0;
   std::string_view name;   // as the manual prints it, without _L/_RegL; "{}" stands for the number
-  std::string_view alias;  // a second spelling of the manual, or a name that only the first register of
-                           // several has besides; empty if there is none
+  std::string_view alias;  // a second spelling in the manual, or an additional name of the first of several
+                           // registers; empty if there is none
   Type type = Type::u16;
   Access access = Access::read_write;
   Table table = Table::holding;
 
-  bool ranged = false;  // whether the manual gives a range
+  bool ranged = false;  // the manual gives a range
   Value min = 0;
   Value max = 0;
   std::string_view unit;
   Value factory = 0;
   bool persistent = false;
   bool needs_no_time = false;               // to be kept: a battery or an FRAM holds it, not an EEPROM
-  std::uint32_t stored_bits = 0xFFFF'FFFF;  // what the register really holds of a written value
+  std::uint32_t stored_bits = 0xFFFF'FFFF;  // the bits of a written value that the register stores
 
   int count = 1;   // a range of `count` registers, `stride` addresses apart,
-  int stride = 1;  // whose names carry first_number, first_number + 1, ...
+  int stride = 1;  // between numbers in names: first_number, first_number + stride, ...
   int first_number = 0;
   int number_step = 1;
   std::span<const std::string_view> labels{};  // or these, one each: the axes' names, for example
   int first_axis = 0;                          // the axis of the first of them
-  std::string_view low_half = "_L";            // what the manual appends to the halves of a 32-bit register
+  std::string_view low_half = "_L";            // the manual's endings for the halves of a 32-bit register
   std::string_view high_half = "_H";
 
   Firmware since = 0;
@@ -184,15 +185,16 @@ struct RegisterRow {
 
   int argument = 0;
   Reader reader = nullptr;
-  Varies varies = Varies::in_ticks;  // what the reader gives
-  NextChange next_change = nullptr;  // of what tells time
+  Varies varies = Varies::in_ticks;  // when the reader's value may change
+  NextChange next_change = nullptr;  // if the value depends on time
   Effect effect = nullptr;
-  bool is_view = false;  // of other state: no slot in the image, and not kept; without a reader `factory`
+  bool is_view = false;  // shows other state: no slot in the image, not persistent; without a reader its
+                         // value is `factory`
   std::span<const BitField> fields{};
   Message message = nullptr;    // a window: takes what one request writes from its first word on,
   int least_words = 1;          // this many words or more, as one message
-  bool acts_on_zero = true;     // false: a trigger, for which a written 0 does nothing
-  std::string_view unmodelled;  // what is missing, if the register only stores and reads back
+  bool acts_on_zero = true;     // false: a trigger, for which a written 0 has no effect
+  std::string_view unmodelled;  // if the register only stores and reads back: what is missing
 
   // --- how a row is written down ---------------------------------------------------------------
   constexpr RegisterRow& also(std::string_view other_spelling) {
@@ -213,7 +215,7 @@ struct RegisterRow {
     factory = value;
     return *this;
   }
-  /// Kept at once: in battery RAM or FRAM.
+  /// The register is stored at once, in battery RAM or FRAM.
   constexpr RegisterRow& kept_at_once() {
     needs_no_time = true;
     return kept();
@@ -232,19 +234,19 @@ struct RegisterRow {
     first_number = number_of_first;
     return *this;
   }
-  /// The same where numbers go up in other steps: D8100, D8200, ...
+  /// Like numbered(), with another step between numbers: D8100, D8200, ...
   constexpr RegisterRow& numbered_by(int step) {
     number_step = step;
     return *this;
   }
-  /// One for each axis, `apart` addresses apart; "{}" in the name stands for the axis. `first`: the number of
-  /// the first of these axes, where the row is not for all of the device's.
+  /// Declares one register for each axis, `apart` addresses apart; "{}" in the name stands for the axis.
+  /// `first` is the number of the first of these axes, if the row is not for all axes of the device.
   constexpr RegisterRow& each(std::span<const std::string_view> axes, int apart, int first = 0) {
     labels = axes;
     first_axis = first;
     return times(static_cast<int>(axes.size()), apart, 0);
   }
-  /// Like range(), of a real.
+  /// Like range(), for a real.
   constexpr RegisterRow& real_range(float low, float high) {
     return range(value_of_real(low), value_of_real(high));
   }
@@ -264,24 +266,24 @@ struct RegisterRow {
     argument = with_argument;
     return *this;
   }
-  /// Its reader tells time: the value changes while nothing happens, at these ticks.
+  /// The reader's value depends on time: it changes by itself at these ticks.
   template <auto function>
   constexpr RegisterRow& changes_at() {
     next_change = Handler<function>::call;
     return *this;
   }
-  /// A view of other state, by a reader; writes reach that state by the effect.
+  /// The register is a view of other state: a reader shows it, and an effect passes writes on to it.
   template <auto function, Varies when>
   constexpr RegisterRow& shows(int with_argument = 0) {
     is_view = true;
     return reads<function, when>(with_argument);
   }
-  /// A view that never changes.
+  /// The register is a view with a constant value.
   constexpr RegisterRow& always(Value value) {
     is_view = true;
     return from_factory(value);
   }
-  /// A view whose bits are other state.
+  /// The register is a view whose bits are other state.
   constexpr RegisterRow& shows_bits(std::span<const BitField> of_it, int with_argument = 0) {
     is_view = true;
     return with_bits(of_it, with_argument);
@@ -302,7 +304,7 @@ struct RegisterRow {
     acts_on_zero = false;
     return does<function>(with_argument);
   }
-  /// Of its reader, or of a field's.
+  /// Returns true if its reader, or that of a field, varies with the pulses of an axis.
   constexpr bool moves() const {
     bool does = varies == Varies::while_moving;
     for (const BitField& field : fields) does = does || field.varies == Varies::while_moving;
@@ -343,7 +345,7 @@ constexpr RegisterRow discrete(std::uint16_t address, std::string_view name) {
   return reg(Table::discrete, address, name, Type::bit, Access::read);
 }
 
-/// Words that one request writes as one message. "{}" in the name stands for the word's number.
+/// Declares words that one request writes as one message. "{}" in the name stands for the word's number.
 template <auto function>
 constexpr RegisterRow window(std::uint16_t address, std::string_view name, int words, int least = 1) {
   RegisterRow row = reg(address, name, Type::u16, Access::write);
@@ -353,14 +355,15 @@ constexpr RegisterRow window(std::uint16_t address, std::string_view name, int w
   return row.times(words, 1, 0);
 }
 
-/// What a model answers where the map or the Modbus standard leaves it open.
+/// The model's answers where the map or the Modbus standard leaves them open.
 struct MapPolicy {
-  /// `holes_read_zero`: before the last register of a table; beyond it and for writes it is refused.
+  /// `holes_read_zero` is for addresses before the last register of a table; reads beyond it, and writes,
+  /// are refused.
   enum class Unmapped : std::uint8_t { refused, reads_zero, holes_read_zero } unmapped = Unmapped::refused;
   enum class WriteOnly : std::uint8_t { reads_zero, refused } write_only = WriteOnly::reads_zero;
   enum class ReadOnly : std::uint8_t { refused, ignores_writes } read_only = ReadOnly::refused;
-  /// Half of a 32-bit register alone: taken whatever the whole becomes, judged with the other half as it is,
-  /// never taken, or (of the low half) taken as the whole, with its sign.
+  /// A write of half a 32-bit register alone is accepted whatever the whole becomes, judged together with
+  /// the other half as it is, never accepted, or (for the low half) accepted as the whole, with its sign.
   enum class Halves : std::uint8_t {
     may_be_written_alone,
     judged_with_the_other,
@@ -371,17 +374,17 @@ struct MapPolicy {
     may_be_read_alone,
     come_whole
   } read_halves = ReadHalves::may_be_read_alone;
-  /// How a request is refused that cuts a register where that may not be.
+  /// The refusal of a request that cuts a register where that is not allowed.
   Refusal cut_pair = Refusal::no_register;
-  /// `stored`: as it comes, and limited where it is used: the range is what the manual says.
+  /// `stored`: the value is stored as it is and limited on use; the range is the manual's.
   enum class OutOfRange : std::uint8_t { refused, clamped, stored } out_of_range = OutOfRange::refused;
-  /// What a request with a value out of range leaves behind: nothing, or the registers before that one.
+  /// What a request with one value out of range leaves written: nothing, or the registers before that one.
   enum class Partly : std::uint8_t { never, up_to_the_refused } partly = Partly::never;
-  /// Whether the registers of one request take effect once all of them are stored, or each in its turn.
+  /// Whether registers of one request take effect after all of them are stored, or one by one.
   enum class Effects : std::uint8_t { after_all, one_by_one } effects = Effects::after_all;
   bool low_word_first = true;
-  /// The holding register that a device keeps the order in, where it may change: 1, the low word first. For
-  /// hosts of ours; the device says what is in force (RegisterBank::low_word_first).
+  /// The holding register that sets the order of words, if it can change; 1 is low word first. It is for our
+  /// own hosts; the device tells the order in force (RegisterBank::low_word_first).
   std::string_view word_order_in{};
 };
 

@@ -1,4 +1,4 @@
-// What a row of a register map cannot be, whatever the other rows are.
+// Checks that a row of a register map is consistent in itself.
 #pragma once
 
 #include "emulator/device/register_map/row.h"

@@ -1,5 +1,5 @@
-// What a device that is spoken to in lines of text offers: it hears whole lines, and what it says is taken
-// from it as text. It does not know the bytes on the wire, a descriptor, or when its text is sent.
+// The interface of a device with a text protocol: it receives whole lines, and its replies are taken from it
+// as text. It does not know the bytes on the wire, a descriptor, or when its text is sent.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace understudy::emulator {
 
-/// Lines of text.
+/// The protocol of text lines.
 inline constexpr Protocol kTextLines{"text"};
 
-/// How it listens at this moment; asked for each character.
+/// The rules for receiving at this moment. They are asked for each character.
 struct TextRules {
-  bool echo = false;               // each character is sent back as it is heard, and BS and DEL edit
-  std::size_t longest_line = 127;  // characters; of a longer line it learns only that there was one
+  bool echo = false;               // each received character is sent back, and BS and DEL edit
+  std::size_t longest_line = 127;  // in characters; the device is only told that there was a longer line
   bool line_feed_ends = true;      // an LF alone ends a line; false: LFs are ignored
-  bool has_flow_control = false;   // XOFF from the host holds what is said back, XON lets it go on
+  bool has_flow_control = false;   // XOFF from the host holds replies back, XON releases them
   std::string_view echoed_end = "\r\n";
 };
 
@@ -28,23 +28,24 @@ class TextSpeaker {
   virtual TextRules text_rules() const { return {}; }
 
   // --- what it hears, while it has power -------------------------------------------------------
-  /// A line, without its end; it may be empty, and hold any byte but CR, LF and what steers the flow. What it
-  /// has to say to that is taken right afterwards, as the answer; what comes later is unasked.
+  /// Receives a line without its line end. It may be empty, and may contain any byte except CR, LF and flow
+  /// control. The reply is taken right afterwards; text that the device produces later is unsolicited.
   virtual void hear_line(std::string_view line) = 0;
-  /// A line that was too long.
+  /// Receives a line that was too long.
   virtual void hear_overlong() = 0;
-  /// ESC, without any line's end. The unfinished line is forgotten.
+  /// Receives ESC without a line end. The unfinished line is forgotten.
   virtual void hear_escape() {}
 
-  /// A line that comes past the line, by hand: its answer is what this returns, and nothing is said. Refused
-  /// as busy where the device would not take a line for a command just now.
+  /// Takes a command that bypasses the line, and returns its answer without sending anything. The answer is
+  /// busy if the device would not take a line as a command at this moment.
   virtual DeviceAnswer take_command(std::string_view /*line*/) { return Refusal::failure; }
 
   // --- what it says ------------------------------------------------------------------------------
-  /// Asked after anything that may have made it speak: a line, a tick, an act from outside.
+  /// Returns true if there is text to send. Asked after anything that may produce text: a line, a tick, an
+  /// act from outside.
   virtual bool has_speech() const = 0;
-  /// All that it has to say, line ends included; afterwards it has nothing to say. Every text is sent from
-  /// the moment at which it is taken, in the wire's time.
+  /// Returns all text to send, line ends included, and clears it. Sending starts when the text is taken, in
+  /// the wire's time.
   virtual std::string take_speech() = 0;
 
  protected:

@@ -1,4 +1,4 @@
-// What is wrong with a host's manners, counted.
+// Problems in a host's use of the line, counted.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 namespace understudy::emulator::play {
 
 enum class Manner : std::uint8_t {
-  too_soon,     // a request began before the line had been silent for long enough
+  too_soon,     // a request began before the line had been silent long enough
   not_waited,   // a request began before the answer to the one before came
   gap,          // a pause within a frame
-  absent,       // a request to a station that is not there
-  read_only,    // a write to what can only be read
+  absent,       // a request to a station that does not exist
+  read_only,    // a write to a read-only register
   eeprom_wear,  // a register that is kept in EEPROM, changed again and again
 };
 
@@ -36,7 +36,7 @@ struct Finding {
   }
 };
 
-/// What a finding is about: a station's number, a register's name; empty for the line as a whole.
+/// Findings by rule and subject: a station's number, or a register's name; empty for the whole line.
 using Findings = std::map<std::pair<Manner, std::string>, Finding>;
 
 }  // namespace understudy::emulator::play

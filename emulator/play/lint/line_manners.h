@@ -1,4 +1,4 @@
-// Listens to one line and judges how its host behaves. It only listens: the line does the same without it.
+// Judges how the host of one line behaves. It only listens, so the line does the same without it.
 #pragma once
 
 #include <optional>
@@ -19,15 +19,15 @@ class LineManners final : public pty::LineObserver {
   LineManners(const LineManners&) = delete;
   LineManners& operator=(const LineManners&) = delete;
 
-  /// The line was put into another state: what was on it is forgotten.
+  /// The line was put into another state: forgets the traffic so far.
   void begin_anew();
   const Findings& findings() const { return findings_; }
-  /// How long the line must be silent before a request, and may be silent within one; neither if bytes take
-  /// no time.
+  /// The silences that the line must have before a request, and may have within one. Neither is checked if
+  /// bytes take no time.
   SimTime silence() const { return silence_; }
   SimTime longest_gap() const { return longest_gap_; }
 
-  /// What a request writes: words, or bits.
+  /// The words or bits that a request writes.
   struct Written {
     Table table = Table::holding;
     int first = 0;
@@ -48,7 +48,7 @@ class LineManners final : public pty::LineObserver {
   struct Character {
     std::uint64_t number = 0;
     SimTime start{0};
-    SimTime idle{0};  // how long nothing was on the line before it; negative if something still was
+    SimTime idle{0};  // the silence before it; negative if the line was still busy
   };
   /// The last request, until it is answered.
   struct Asked {
@@ -61,7 +61,7 @@ class LineManners final : public pty::LineObserver {
 
   bool has_time() const { return options_.timing == pty::Timing::wire; }
   Finding& find(Manner manner, std::string subject = {}) { return findings_[{manner, std::move(subject)}]; }
-  /// `command`: what the frame means, where that has a name.
+  /// `command` is the meaning of the frame, if it has a name.
   void judge_times(std::span<const Character> frame, const std::string& command);
   void judge_request(std::span<const std::uint8_t> frame, SimTime at, const std::string& command);
   void judge_write(const Device& device, const Written& write, SimTime at);

@@ -1,4 +1,4 @@
-// How the hosts on a world's lines behave: what works here, or only just works, and would go wrong with a
+// Checks how hosts behave on a world's lines: behaviour that works here, or only just, but would fail with a
 // real controller. It listens as long as it lives, and reports once, at the end.
 #pragma once
 
@@ -16,12 +16,12 @@ class Lint final : public Onlooker {
   /// The world must outlive it.
   explicit Lint(world::World& world);
 
-  /// A line of text for each finding, with its count and its first moment, in the order of the bench's lines;
-  /// none if all is well.
+  /// Returns one line of text for each finding, with its count and its first moment, in the order of the
+  /// bench's lines. Empty if there are none.
   std::vector<std::string> findings() const;
 
   void world_restored(std::size_t steps) override;
-  /// Into ScenarioResult::manners.
+  /// Writes ScenarioResult::manners.
   void finish(ScenarioResult& result) override { result.manners = findings(); }
 
  private:

@@ -1,5 +1,5 @@
-// A scenario that is played on a bench beside the program that is the host on its lines: what it does from
-// outside, and what it demands of the world in the meantime.
+// Plays a scenario on a bench whose lines belong to another host program: it acts on the world from outside,
+// and checks it meanwhile.
 #pragma once
 
 #include <atomic>
@@ -18,27 +18,27 @@
 
 namespace understudy::emulator::play {
 
-/// The one scenario of a file, for that bench. Throws FileError, also if a step belongs to the host (it uses
-/// a line), or would disturb somebody else's world (it goes back in time).
+/// Loads the only scenario of a file for that bench. Throws FileError, also if a step belongs to the host
+/// because it uses a line, or would disturb the world of another program because it goes back in time.
 Scenario load_companion(ModelList models, const std::string& path, const world::Bench& bench,
                         const std::string& save_below = "");
 
 class Companion {
  public:
-  /// Begins once the daemon runs. `over` is called at the end, on the daemon's thread; if the daemon ends
-  /// before that, the play was abandoned. The scenario must outlive this, and nobody may touch the world
-  /// while this exists.
+  /// Starts when the daemon runs. `over` is called at the end, on the daemon's thread; if the daemon ends
+  /// first, the scenario is abandoned. The scenario must outlive this object, and the world must not be used
+  /// elsewhere while it exists.
   Companion(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over);
   ~Companion() { thread_.join(); }
   Companion(const Companion&) = delete;
   Companion& operator=(const Companion&) = delete;
 
-  /// Makes it end soon.
+  /// Asks the scenario to end soon.
   void give_up() { given_up_ = true; }
 
   // --- after it is over
   bool was_given_up() const { return was_given_up_; }
-  /// Throws what playing threw.
+  /// Throws the exception that ended the scenario, if there was one.
   const std::vector<ScenarioResult>& results() const;
 
  private:

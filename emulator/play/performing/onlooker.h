@@ -1,5 +1,5 @@
-// Who looks on while a scenario is played, for something that is said afterwards: a report, the host's
-// manners. The play is the same with or without it.
+// Observes a scenario for something that is made afterwards, such as a report or the findings about a host.
+// The scenario runs the same with or without it.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@ namespace understudy::emulator::play {
 class Onlooker {
  public:
   virtual ~Onlooker() = default;
-  /// The world was put into another state, after this many steps: time may have gone back, and the lines are
-  /// hearing something else.
+  /// The world was put into another state, after this many steps: time may have gone back, and the state of
+  /// the lines has changed.
   virtual void world_restored(std::size_t steps) = 0;
   virtual void step_over() {}
-  /// The play is over. What was seen goes into its result.
+  /// The scenario is over. Writes the observations into its result.
   virtual void finish(ScenarioResult& result) = 0;
 };
 
-/// One for each scenario and each branch; the world outlives it.
+/// Called for each scenario and each branch. The world outlives the result.
 using OnlookerMaker = std::function<std::unique_ptr<Onlooker>(world::World&)>;
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// Performs a scenario's steps, one by one, on one stage, with all that looks on meanwhile.
+// Executes a scenario's steps one by one on one stage, with all observers.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@
 
 namespace understudy::emulator::play {
 
-/// Why a step has failed; `what`, `expected`, `came` and `details` as in Failure.
+/// The reason why a step has failed. `what`, `expected`, `came` and `details` are as in Failure.
 struct StepError : std::runtime_error {
   StepError(const std::string& what_is_wrong, std::string what_was_expected = {}, std::string what_came = {},
             std::vector<std::string> further_details = {})
@@ -38,7 +38,7 @@ struct StepError : std::runtime_error {
 
 class Performance {
  public:
-  /// A state between two steps, from which another performance of the same scenario can go on.
+  /// A state between two steps, from which another performance of the same scenario can continue.
   struct Checkpoint {
     world::WorldState world;
     std::vector<SpanWatch::Span> spans;
@@ -50,26 +50,26 @@ class Performance {
     std::uint64_t hash = 0;
   };
 
-  /// The scenario must outlive it. `with_hash`: outcome_hash() is kept, which takes time.
+  /// The scenario must outlive it. `with_hash` keeps outcome_hash(), which takes time.
   Performance(const Scenario& scenario, std::unique_ptr<Stage> stage, bool with_hash);
   ~Performance();
   Performance(const Performance&) = delete;
   Performance& operator=(const Performance&) = delete;
 
-  /// Plays the first of `steps`, which is neither a snapshot, nor a restore, nor a fork. Those after it show
-  /// what will be waited for.
+  /// Executes the first of `steps`, which must not be a snapshot, a restore or a fork. The steps behind it
+  /// show what will be waited for.
   std::optional<Failure> play(std::span<const Step> steps);
 
   Checkpoint save();
   void restore(const Checkpoint& checkpoint);
 
   SimTime now() { return stage_->now(); }
-  /// As Stage has it.
+  /// See Stage::with_world().
   void with_world(const std::function<void(world::World&)>& act) { stage_->with_world(act); }
   std::uint64_t outcome_hash();
 
  private:
-  /// What looks at the world.
+  /// The observers of the world.
   struct Eyes {
     Eyes(world::World& of, bool with_hash);
     world::World& world;
@@ -83,10 +83,10 @@ class Performance {
   struct Place {
     std::size_t line = 0;
     int station = 0;
-    std::string on_line{};  // " on line rs485", for messages, where the device is on several
+    std::string on_line{};  // " on line rs485", for messages, if the device is on several lines
   };
 
-  // performance_line.cpp: over the line
+  // Steps that use the line are in performance_line.cpp.
   void perform(const WriteStep& step);
   void perform(const CommandStep& step);
   void perform(const ExpectStep& step);
@@ -95,14 +95,14 @@ class Performance {
   /// Reads the words of each target, one after the other.
   std::vector<std::vector<std::uint16_t>> read_over_line(const std::vector<Target>& targets,
                                                          const Answer& answer, const Via& via);
-  /// Where a device is spoken to, by the station number that it has at this moment.
+  /// Returns the line and the present station number of a device.
   Place spoken_to(std::size_t device, const Via& via);
   void demand(const HostReply& reply, const Answer& answer, const std::string& what);
   void demand_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,
                       const std::string& what);
   std::vector<Words> words_of_all(const std::vector<Target>& targets, std::vector<bool>& low_word_first);
 
-  // performance_time.cpp: what passes time, or looks at every tick
+  // Steps that wait, or check every tick, are in performance_time.cpp.
   void perform(const WaitStep& step);
   void perform(const AdvanceStep& step);
   void perform(const AssertStep& step);
@@ -112,15 +112,15 @@ class Performance {
   void perform(const SayStep&) {}
   Tick wait_for(const WaitStep& step);
   Tick poll_for(const WaitStep& step);
-  /// Runs to that time, or to the tick at which a span is broken.
+  /// Runs to that time, or to the tick at which a span is violated.
   void pass_time(SimTime until);
-  /// The moment this long after now. Throws StepError if that is beyond the end of time.
+  /// Returns the moment that long after now. Throws StepError if it is beyond the end of time.
   SimTime moment_in(SimTime duration);
   Tick last_write();
   void begin_history(const std::string& condition, const ConditionHistory::State& past = {});
   void end_histories();
 
-  // performance_outside.cpp: what is done to the bench
+  // Steps that act on the bench are in performance_outside.cpp.
   void perform(const InputStep& step);
   void perform(const TurnStep& step);
   void perform(const InjectStep& step);
@@ -129,7 +129,7 @@ class Performance {
   void perform(const ProgramStep& step);
   void perform(const MemoryStep& step);
 
-  // The run does these (run.h).
+  // The run executes these (run.h).
   void perform(const SnapshotStep&) {}
   void perform(const RestoreStep&) {}
   void perform(const ForkStep&) {}
@@ -139,12 +139,12 @@ class Performance {
 
   std::unique_ptr<Stage> stage_;
   const world::Bench& bench_;
-  std::vector<std::vector<std::size_t>> lines_;  // on which each device is
+  std::vector<std::vector<std::size_t>> lines_;  // the lines of each device
   std::unique_ptr<Eyes> eyes_;
   bool keeps_peaks_ = false;
   const Step* step_ = nullptr;                               // the one that is played
   std::vector<std::pair<std::string, std::size_t>> faults_;  // by their names, with the world's numbers
-  Tick last_write_ = 0;  // of a checkpoint, while nothing was written since
+  Tick last_write_ = 0;                                      // at a checkpoint, until the next write
 };
 
 }  // namespace understudy::emulator::play

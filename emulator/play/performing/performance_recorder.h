@@ -1,4 +1,4 @@
-// Records a play, so that it can be run again: `understudy replay`.
+// Records a scenario's run, so that `understudy replay` can repeat it.
 #pragma once
 
 #include <memory>
@@ -9,18 +9,17 @@
 
 namespace understudy::emulator::play {
 
-/// A recording cannot go back in time. When the play returns to an earlier state, or is a branch that begins
-/// in one, the recording starts again from that state's snapshot, so it always leads from there to the play's
-/// end.
+/// A recording cannot go back in time. When the scenario returns to an earlier state, or is a branch that
+/// begins in one, the recording starts again from that state's snapshot. So it always leads from there to
+/// the end.
 class PerformanceRecorder final : public Onlooker {
  public:
-  /// Begins with the header for the world's power-up. The file remains until somebody else removes it. Throws
-  /// GrowingFileError.
+  /// Begins with the header for the world's power-up. The caller removes the file. Throws GrowingFileError.
   PerformanceRecorder(world::World& world, world::RecordingHeader header, std::string path);
 
   void world_restored(std::size_t steps) override;
   void step_over() override;
-  /// Into ScenarioResult::recording. Throws GrowingFileError where it has not become whole.
+  /// Writes ScenarioResult::recording. Throws GrowingFileError if the recording is incomplete.
   void finish(ScenarioResult& result) override;
 
  private:

@@ -1,6 +1,6 @@
-// What is played: scenario files with all their cases, and which of them, in order. Files are read and
-// checked before anything is played; but cases are held only if there are few, and read again when their turn
-// comes.
+// The cases of a run: scenario files with all their cases, and which of them are run, in order. Files are
+// read and checked before anything runs. Cases are kept only if there are few; otherwise they are read again
+// in their turn.
 #pragma once
 
 #include <cstdint>
@@ -21,22 +21,22 @@
 
 namespace understudy::emulator::play {
 
-/// Which part of a suite: the first, and each `of`th after it, for number 1.
+/// A part of a suite: number 1 has the first case and each `of`th case after it.
 struct Shard {
   std::uint64_t number = 1;
   std::uint64_t of = 1;
 };
-/// Reads "2/4"; nothing if the text is something else.
+/// Reads "2/4". Returns nothing for any other text.
 std::optional<Shard> parse_shard(std::string_view text);
 
-/// Whether a case is meant: the pattern (`*`, `?`, `[abc]`) matches its name, or is its identity.
+/// Returns true if the pattern (`*`, `?`, `[abc]`) matches the case's name, or is its identity.
 bool is_meant(const std::string& pattern, const std::string& name, std::uint64_t identity);
 
 class Playbill {
  public:
   Playbill(ModelList models, ReadingOptions options);
 
-  /// Adds a file, and lets `look` see the cases that are checked beforehand. Throws FileError.
+  /// Adds a file, and passes the cases that are checked in advance to `look`. Throws FileError.
   void add(const std::string& path, const std::function<void(const Scenario&)>& look);
 
   std::size_t files() const { return files_.size(); }
@@ -44,7 +44,7 @@ class Playbill {
   bool is_varied(std::size_t file) const { return files_[file].is_varied; }
   std::uint64_t cases_of(std::size_t file) const { return files_[file].size; }
   std::uint64_t cases() const;
-  /// A hash of all that a file is read from.
+  /// Returns a hash of everything that a file is read from.
   std::uint64_t made_of(std::size_t file) const { return files_[file].made_of; }
 
  private:
@@ -64,18 +64,19 @@ class Playbill {
   std::vector<File> files_;
   std::size_t held_ = 0;                         // cases, of all files
   std::map<std::string, std::uint64_t> hashes_;  // of files, by path
-  // What cases that nobody has listed save: hashes of paths, and of the case.
+  // The files that unlisted cases save: hashes of paths, and of the case.
   mutable std::mutex saved_mutex_;
   mutable std::unordered_map<std::uint64_t, std::uint64_t> saved_;
 };
 
-/// Reads the cases of a playbill. Each thread has its own.
+/// Reads the cases of a playbill. Each thread has its own reader.
 class CaseReader {
  public:
   explicit CaseReader(const Playbill& bill);
-  /// Throws FileError for a case that was not among those that were checked, or a file that has changed.
+  /// Throws FileError for a case that is wrong but was not among the checked ones, or for a file that has
+  /// changed.
   std::shared_ptr<const Scenario> read(const Ticket& ticket);
-  // Without reading all of it.
+  // Returns the name without reading all of the case.
   std::string name_of(const Ticket& ticket);
   Case case_of(const Ticket& ticket);
 
@@ -87,13 +88,13 @@ class CaseReader {
   std::unique_ptr<ScenarioFile> open_;
 };
 
-/// Those cases of a playbill that are meant, and of these one shard, in order.
+/// The cases of a playbill that match a pattern, and of these one shard, in order.
 class Selection {
  public:
-  /// An empty pattern means all.
+  /// An empty pattern matches all.
   Selection(const Playbill& bill, std::string pattern, Shard shard);
   std::optional<Ticket> next();
-  /// How many next() gives in all. With a pattern they are counted one by one.
+  /// Returns how many cases next() gives in all. With a pattern they are counted one by one.
   static std::uint64_t count(const Playbill& bill, const std::string& pattern, Shard shard);
 
  private:
@@ -102,7 +103,7 @@ class Selection {
   Shard shard_;
   CaseReader reader_;
   Ticket at_;
-  std::uint64_t meant_ = 0;  // so far
+  std::uint64_t meant_ = 0;  // matches so far
 };
 
 }  // namespace understudy::emulator::play

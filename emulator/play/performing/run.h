@@ -1,4 +1,4 @@
-// Plays scenarios (docs/scenarios.md says what each step means). Time is simulated, on whatever stage.
+// Runs scenarios (docs/scenarios.md defines each step). Time is simulated on any stage.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,11 @@
 
 namespace understudy::emulator::play {
 
-/// A stage with the scenario's bench at its power-up. May be called more than once: each branch of a fork
-/// gets its own stage.
+/// Makes a stage with the scenario's bench at its power-up. It may be called more than once, because each
+/// branch of a fork gets its own stage.
 using StageMaker = std::function<std::unique_ptr<Stage>(const Scenario&)>;
 
-/// A stage in free time, with the scenario's bench and gap.
+/// Returns a stage in virtual time with the scenario's bench and gap.
 std::unique_ptr<Stage> make_free_stage(const Scenario& scenario);
 
 struct RunOptions {
@@ -25,9 +25,9 @@ struct RunOptions {
   std::vector<OnlookerMaker> onlookers{};
 };
 
-/// The scenario's own result, then those of its branches in the order in which they are written. A step that
-/// fails is the last one of its result. What is not the scenario's fault (a port that cannot be opened) is
-/// thrown.
+/// Returns the scenario's own result, then those of its branches in the order of the file. A step that fails
+/// is the last one of its result. Errors that are not the scenario's (such as a port that cannot be opened)
+/// are thrown.
 std::vector<ScenarioResult> run_scenario(const Scenario& scenario, const RunOptions& options = {});
 
 }  // namespace understudy::emulator::play

@@ -1,6 +1,5 @@
-// Plays many cases, one after the other, on several threads. Worlds share nothing, so neither the results nor
-// their order depend on the threads. Only the cases that are being played, and a few that are over, are held:
-// there may be any number.
+// Runs many cases on several threads. Worlds share nothing, so neither the results nor their order depend on
+// the threads. Only the running cases and a few finished ones are in memory, so there may be any number.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +11,20 @@
 
 namespace understudy::emulator::play {
 
-/// A case of a file of a playbill.
+/// Identifies a case of a file of a playbill.
 struct Ticket {
   std::size_t file = 0;
   std::uint64_t number = 0;
   friend bool operator==(const Ticket&, const Ticket&) = default;
 };
 
-/// The next case to play, or nothing. One call at a time, on any thread.
+/// Returns the next case to run, or nothing. It may be called on any thread, one call at a time.
 using NextTicket = std::function<std::optional<Ticket>()>;
-/// Plays a case.
+/// Runs a case.
 using Play = std::function<std::vector<ScenarioResult>(const Ticket&)>;
 
-/// Plays all on `jobs` threads, each with a Play of its own, made on that thread. `tell` gets the results of
-/// each case, in order, on the calling thread. What a Play throws comes out here, after the results of all
+/// Runs all cases on `jobs` threads. Each thread makes its own Play. `tell` receives the results of each
+/// case, in order, on the calling thread. An exception of a Play is thrown here, after the results of all
 /// cases before that one.
 void run_suite(const NextTicket& next, const std::function<Play()>& make_play, int jobs,
                const std::function<void(const Ticket&, std::vector<ScenarioResult>)>& tell);

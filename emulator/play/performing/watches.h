@@ -1,4 +1,4 @@
-// What looks at a world at every tick while a scenario is played.
+// Watches a world at every tick while a scenario runs.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace understudy::emulator::play {
 
-/// The spans of `always` and `never` that are open. An expression without a result breaks its span as well.
+/// The open spans of `always` and `never`. An expression without a result violates its span, too.
 class SpanWatch final : public world::TickWatcher {
  public:
   struct Span {
@@ -28,7 +28,7 @@ class SpanWatch final : public world::TickWatcher {
     std::vector<std::string> state;
   };
 
-  /// `describe` returns the state around a violation. All must outlive this.
+  /// `describe` returns the state around a violation. All arguments must outlive this object.
   SpanWatch(const world::World& world, const world::Probes& values,
             std::vector<std::string> (*describe)(const world::World&))
       : world_(world), values_(values), describe_(describe) {}
@@ -40,7 +40,7 @@ class SpanWatch final : public world::TickWatcher {
   bool close(const std::string& name);
 
   bool is_empty() const { return spans_.empty(); }
-  /// The first violation; nothing is looked at after it.
+  /// Returns the first violation. Nothing is checked after it.
   const std::optional<Violation>& violation() const { return violation_; }
 
   const std::vector<Span>& save() const { return spans_; }
@@ -54,12 +54,12 @@ class SpanWatch final : public world::TickWatcher {
   std::optional<Violation> violation_;
 };
 
-/// At which ticks a condition held, from the moment when this is added to the world.
+/// Records the ticks at which a condition was true, from the moment when it is added to the world.
 class ConditionHistory final : public world::TickWatcher {
  public:
-  /// What it has seen so far, as a value.
+  /// Its observations so far, as a value.
   struct State {
-    std::vector<Tick> changes;  // it holds from the first one, does not hold from the second one, and so on
+    std::vector<Tick> changes;  // true from the first tick, false from the second one, and so on
     Tick last = 0;
   };
 
@@ -69,7 +69,7 @@ class ConditionHistory final : public world::TickWatcher {
 
   void on_tick(Tick tick) override;
   Tick next_look(Tick done) const override { return values_.next_change(condition_, done); }
-  /// The first tick from `begin` on at which it held.
+  /// Returns the first tick from `begin` on at which the condition was true.
   std::optional<Tick> first_from(Tick begin) const;
 
   const State& save() const { return state_; }

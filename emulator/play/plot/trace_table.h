@@ -1,4 +1,4 @@
-// A trace as it is read back, from CSV or VCD, as this program writes them.
+// Reads traces from CSV or VCD, in the form that this program writes.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,12 @@ struct TraceTable {
   std::vector<std::vector<double>> columns;  // one a name, each as long as `ticks`
 };
 
-/// Both throw FileError, with the line.
+/// Both throw FileError with the line.
 TraceTable parse_csv_trace(std::string_view text, const std::string& name);
 TraceTable parse_vcd_trace(std::string_view text, const std::string& name);
 
-/// By its ending, .csv or .vcd. Throws FileError, also if the file cannot be read or has no rows.
+/// Chooses the format by the file's ending, .csv or .vcd. Throws FileError, also if the file cannot be read
+/// or has no rows.
 TraceTable read_trace(const std::string& path);
 
 }  // namespace understudy::emulator::play

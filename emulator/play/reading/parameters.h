@@ -1,5 +1,5 @@
-// What ${...} stands for in a scenario file: parameters and the variables of loops, by name, as text; and
-// small sums over them: ${speed}, ${speed * 2}, ${takes + 5ms}. `$${` is a plain `${`.
+// Replaces ${...} in a scenario file by parameters and loop variables, or by small expressions of them:
+// ${speed}, ${speed * 2}, ${takes + 5ms}. `$${` stands for a plain `${`.
 #pragma once
 
 #include <map>
@@ -15,20 +15,20 @@ namespace understudy::emulator::play {
 class Parameters final : public world::ScalarRule {
  public:
   Parameters() = default;
-  /// The parameters of `outer`, which must outlive it, and some more.
+  /// Has the parameters of `outer`, which must outlive it, and its own.
   explicit Parameters(const Parameters& outer) : outer_(&outer) {}
   Parameters& operator=(const Parameters&) = delete;
 
-  /// Throws NameError if it is not a name, or if that name is taken.
+  /// Throws NameError if the name is not valid, or is taken.
   void define(const std::string& name, const std::string& value);
   /// Throws NameError or ExpressionError.
   std::string apply(const std::string& written) const override;
 
-  /// Null if there is none.
+  /// Returns null if there is no such parameter.
   const std::string* find(std::string_view name) const;
   std::vector<std::string> names() const;
   bool was_used(const std::string& name) const { return used_.contains(name); }
-  /// Those of its own that a text uses. Throws as apply() does.
+  /// Returns which of its own parameters a text uses. Throws as apply() does.
   std::set<std::string, std::less<>> used_in(const std::string& written) const;
 
  private:

@@ -1,5 +1,4 @@
-// What a scenario file may say, but for the kinds of its steps (step_rows.h): its keys, and the forms of
-// their values.
+// Declares the keys of a scenario file and the forms of their values. step_rows.h has the kinds of steps.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What is odd about a scenario, though it can be played: about the programs of its bench and of its steps.
+// Warns about a scenario that can run but looks wrong, in the programs of its bench and of its steps.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::play {
 
-/// In the order of the bench and of the steps.
+/// Returns the warnings in the order of the bench and of the steps.
 std::vector<FileError::Complaint> warnings_of(const Scenario& scenario);
 
 }  // namespace understudy::emulator::play

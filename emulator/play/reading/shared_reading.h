@@ -1,4 +1,4 @@
-// What the scenarios of one run have read already. Many name the same bench and the same files of steps; each
+// Shares files among the scenarios of one run. Many name the same bench and the same files of steps; each
 // file is read, and the bench checked, only once.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace understudy::emulator::play {
 struct SharedReading {
   ModelList models;                                   // that devices may be of
   std::map<std::string, world::Bench> benches;        // by path, as it is spelled in messages
-  std::map<std::string, world::YamlFields> included;  // the steps of a file, likewise
+  std::map<std::string, world::YamlFields> included;  // the steps of a file, by its path
 };
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// What the values of steps look like.
+// Declares the forms of the values of steps.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The readers of single kinds of steps, for the table of step_rows.cpp.
+// The readers of single kinds of steps, for the table in step_rows.cpp.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,19 @@ namespace understudy::emulator::play {
 
 class StepsReader;
 
-// line_steps.cpp
+// These are in line_steps.cpp.
 void read_write(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_command(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_expect(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_send(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 
-// text_steps.cpp
+// These are in text_steps.cpp.
 void read_send_text(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_hear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
-/// The line that a step names, or the only one.
+/// Returns the line that a step names, or the only one.
 std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value);
 
-// truth_steps.cpp
+// These are in truth_steps.cpp.
 void read_wait(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_advance(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_assert(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
@@ -33,7 +33,7 @@ void read_end(StepsReader& reader, const world::YamlFields& step, const world::Y
 void read_reset(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_say(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 
-// outside_steps.cpp
+// These are in outside_steps.cpp.
 void read_inputs(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_turn(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_inject(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
@@ -43,7 +43,7 @@ void read_program(StepsReader& reader, const world::YamlFields& step, const worl
 void read_memory(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_save(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 
-// course_steps.cpp
+// These are in course_steps.cpp.
 void read_snapshot(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_restore(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_fork(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);

@@ -1,5 +1,5 @@
-// The kinds of steps, a row each: how a file spells it, what it is for, what its value looks like and who
-// reads it. A new kind is a row here, a struct in scenario.h, and what a performance does for it.
+// The kinds of steps, a row each: its spelling in a file, its purpose, the form of its value, and its
+// reader. A new kind needs a row here, a struct in scenario.h, and its code in a performance.
 #pragma once
 
 #include <array>
@@ -18,15 +18,15 @@ class StepsReader;
 
 struct StepRow {
   world::KeyRow key;
-  /// Adds the step that `value` describes. It stands in the map `step`, which may have no other keys than
-  /// those of `beside`.
+  /// Adds the step that `value` describes. Its map `step` may have no other keys than those of `beside`.
   void (*read)(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
   std::span<const world::KeyRow> beside{};
-  /// If it cannot be read: whether other steps may need a name that it would have given, or it one of theirs.
+  /// Tells, for a step that cannot be read, whether other steps may need a name that it defines, or it needs
+  /// one of theirs.
   enum class Names : std::uint8_t { none, gives, wants } names = Names::none;
 };
 
-/// In the order of the documentation.
+/// Returns the rows in the order of the documentation.
 std::span<const StepRow> step_rows();
 
 inline constexpr std::array kIncludedKeys{

@@ -1,5 +1,5 @@
-// Turns the steps of a scenario file into the list that is played: loops, tables and includes are unrolled,
-// and everything is checked on the way.
+// Turns the steps of a scenario file into the list that is run. Loops, tables and includes are unrolled, and
+// everything is checked on the way.
 #pragma once
 
 #include <string>
@@ -17,11 +17,12 @@
 
 namespace understudy::emulator::play {
 
-/// What the cases of a file share.
+/// State that the cases of a file share.
 struct FileReading {
-  static constexpr int kMostSteps = 100'000;                        // of all cases
-  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of what they say and send
-  static constexpr int kDeepest = 32;                               // loops, forks and includes in each other
+  static constexpr int kMostSteps = 100'000;  // of all cases
+  static constexpr std::size_t kMostBytes = std::size_t{64}
+                                            << 20;  // the limit for the bytes of their texts and messages
+  static constexpr int kDeepest = 32;               // loops, forks and includes in each other
   int steps = 0;
   std::size_t bytes = 0;
   SharedReading& shared;
@@ -29,7 +30,7 @@ struct FileReading {
 
 struct StepRow;
 
-/// A time to wait for something.
+/// Reads the time limit of a wait.
 inline SimTime read_within(const world::YamlFields& field) {
   const SimTime within = field.duration();
   if (within <= SimTime{0}) field.fail("takes no time; expected some");
@@ -40,22 +41,22 @@ class StepsReader {
  public:
   StepsReader(const Trial& trial, FileReading& file, const std::string& path);
 
-  /// Throws a list of everything that is wrong with them.
+  /// Throws all mistakes in the steps.
   Steps read(const world::YamlFields& list, const Parameters& parameters);
 
   // --- for the readers of single kinds of steps (step_rows.h) ------------------------------------
   const Trial& trial() const { return trial_; }
   const Parameters& parameters() const { return *parameters_; }
   Story& story() { return story_; }
-  /// A file that a step is read from.
+  /// Notes a file that a step is read from.
   void add_file(const std::string& path, const std::string& what) { files_.push_back({path, what}); }
   const std::vector<FileClaim>& files() const { return files_; }
-  /// A file that a step writes when it is played, and where that is said.
+  /// Notes a file that a step will write, and the position in the scenario that says so.
   void add_saved(const std::string& path, const world::YamlFields& field) {
     saved_.emplace_back(path, field);
   }
   const std::vector<std::pair<std::string, world::YamlFields>>& saved() const { return saved_; }
-  /// Adds a step; `text` says what it does.
+  /// Adds a step. `text` describes it.
   template <typename What>
   void add(const world::YamlFields& where, const std::string& text, What what) {
     count(where);
@@ -63,12 +64,12 @@ class StepsReader {
         {.file = where.file(), .line = where.line(), .text = one_line(text), .what = std::move(what)});
     count_bytes(where, into_->back());
   }
-  /// Adds the steps of a list at this place, with other parameters.
+  /// Adds the steps of a list at this position, with other parameters.
   void read_here(const world::YamlFields& list, const Parameters& parameters);
-  /// Reads the steps of a list from the story so far, which goes on as if they had not been there.
+  /// Reads the steps of a branch, which continue the story so far. Afterwards the story is as it was before.
   Steps read_branch(const world::YamlFields& list);
   void read_included(const world::YamlFields& field);
-  /// Whether a step could not be read: another round of a loop would only repeat the complaint.
+  /// Returns true if a step could not be read. Another round of a loop would only repeat the error.
   bool has_complaints() const { return complaints_.count() > 0; }
 
  private:

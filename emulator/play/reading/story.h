@@ -1,4 +1,4 @@
-// What the steps so far have made that later steps may name.
+// Names that earlier steps have defined and later steps may use.
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::play {
 
-/// What holds at one moment, and again after a restore.
+/// The names that are valid at one moment, and again after a restore to it.
 struct StoryMoment {
   std::vector<std::string> faults;  // in force
   std::vector<std::string> spans;   // open

@@ -1,4 +1,4 @@
-// A world of the bench in which nothing happens: a scenario's names, conditions and values are checked in it
+// A world of the bench in which nothing happens. A scenario's names, conditions and values are checked in it
 // before any of them is used.
 #pragma once
 
@@ -15,37 +15,38 @@ namespace understudy::emulator::play {
 
 class Trial {
  public:
-  /// Throws SettingError, NvError or ProgramError for what the models refuse.
+  /// Throws SettingError, NvError or ProgramError if a model refuses something.
   explicit Trial(const world::Bench& bench);
 
   const world::Bench& bench() const { return bench_; }
   const world::KnownDevices& known() const { return world_.known(); }
 
-  // Each of these returns what a field says, or complains about it.
+  // Each of these returns the meaning of a field, or throws an error about it.
   std::size_t device(const world::YamlFields& field, const std::string& name) const;
   std::size_t line(const world::YamlFields& field, const std::string& name) const;
-  /// A register or a number, as a key or in an expression.
+  /// Reads a register or a number, as a key or in an expression.
   Target target(const world::YamlFields& field, const std::string& written) const;
-  /// An expression that is true or false.
+  /// Reads an expression that is true or false.
   std::string condition(const world::YamlFields& field) const;
-  /// One that can change: it names something.
+  /// Reads an expression that can change because it contains a name.
   std::string changing_condition(const world::YamlFields& field) const;
-  /// One that a host could evaluate by reading registers; the devices that have them.
+  /// Requires an expression that a host could evaluate by reading registers. Returns the devices of these
+  /// registers.
   std::vector<std::size_t> demand_registers_only(const world::YamlFields& field) const;
-  /// The line that a field names, on which all of these devices are.
+  /// Returns the line that a field names. All of these devices must be on it.
   std::size_t line_of_all(const world::YamlFields& field, const std::vector<std::size_t>& devices) const;
-  /// A value to be written to a register. It may be out of the register's range if the write is to be refused
-  /// (`is_refused`).
+  /// Reads a value to be written to a register. It may be out of the register's range if the write is to be
+  /// refused (`is_refused`).
   std::string value_to_write(const world::YamlFields& field, const Target& target, bool is_refused) const;
-  /// A command that has a name there.
+  /// Requires a named command of that device.
   void demand_command(const world::YamlFields& field, std::size_t device) const;
   world::Tolerance value_to_expect(const world::YamlFields& field, const Target& target) const;
-  /// Text for a device: a program, or an image of its memory.
+  /// These check a text for a device: a program, or an image of its memory.
   void demand_program(const world::YamlFields& field, std::size_t device, const std::string& text,
                       const std::string& name) const;
-  /// A fault that this world can have: what it waits for exists. `other_key` is for others.
+  /// Reads a fault that this world can have. `other_key` is left to other readers.
   world::Fault fault(const world::YamlFields& field, std::string_view other_key) const;
-  /// The fault `turn` at a place that `field` names, in a time that `in` says (null: none).
+  /// Reads the fault `turn` at a place that `field` names, with the time in `in` (null: at once).
   world::Fault turn(const world::YamlFields& field, const world::YamlFields* in,
                     const std::string& place) const;
   void demand_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const;

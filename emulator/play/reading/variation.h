@@ -1,5 +1,5 @@
-// What one entry of `vary` makes of a parameter: listed values, a range, or values that are drawn. Asked by
-// number, so that a million values take no more room than one.
+// One entry of `vary`, which gives values to a parameter: listed values, a range, or drawn values. Values
+// are computed by number, so that a million values take no more memory than one.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,26 @@
 
 namespace understudy::emulator::play {
 
-/// The number-th of 0 to count-1 in an order that depends on the seed alone: each comes once, and nothing is
-/// held.
+/// Returns the element with that number of a permutation of 0 to count-1 that depends only on the seed. It
+/// needs no memory.
 std::uint64_t shuffled(std::uint64_t number, std::uint64_t count, std::uint64_t seed);
 
 class Variation {
  public:
-  /// `seed`: for values that are drawn, where the entry has none of its own, or `overrides` that. Throws
+  /// `seed` is used for drawn values if the entry has no seed of its own, or if `overrides` is true. Throws
   /// FileError.
   Variation(const world::YamlFields& field, std::string name, std::uint64_t seed, bool overrides);
 
   const std::string& name() const { return name_; }
   const world::YamlFields& field() const { return field_; }
-  /// How many values are multiplied with those of other parameters.
+  /// Returns how many values are combined with those of other parameters.
   std::uint64_t count() const { return count_; }
   std::string value(std::uint64_t number) const;
-  /// It multiplies nothing: one value is drawn for each case, by a hash of the case's other values.
+  /// Returns true if the entry is not combined: one value is drawn for each case, by a hash of the case's
+  /// other values.
   bool is_free() const { return is_free_; }
   std::string drawn_for(std::uint64_t hash) const;
-  /// Somebody has written each of them down.
+  /// Returns true if each value is written in the file.
   bool is_listed() const { return !listed_.empty() && !is_drawn_; }
 
  private:

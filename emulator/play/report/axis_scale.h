@@ -1,4 +1,4 @@
-// The scale of a picture's axis: the round numbers along it.
+// Chooses the scale of a picture's axis, and the round numbers along it.
 #pragma once
 
 #include <string>
@@ -13,15 +13,15 @@ struct AxisScale {
   int decimals = 0;           // that the marks need
 };
 
-/// From the least to the greatest value, and a little beyond so that lines do not touch the frame, with at
-/// most this many marks (2 or more). A value that does not vary is in the middle.
+/// Returns a scale from the least to the greatest value, and a little beyond so that lines do not touch the
+/// frame, with at most this many marks (at least 2). A constant value is in the middle.
 AxisScale scale_for(double least, double greatest, int most_marks);
 /// Like the above, from exactly the least to exactly the greatest value.
 AxisScale exact_scale_for(double low, double high, int most_marks);
 
-/// "32000", "10666.67": whole numbers as they are, others with seven digits.
+/// Returns "32000" or "10666.67": whole numbers in full, others with seven digits.
 std::string plain_number(double value);
-/// With this many decimals.
+/// Returns the number with this many decimals.
 std::string fixed_number(double value, int decimals);
 
 }  // namespace understudy::emulator::play

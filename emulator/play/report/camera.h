@@ -1,4 +1,4 @@
-// Takes the footage of a play.
+// Records the footage of a scenario's run.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ class Camera final : public Onlooker, private world::TickWatcher {
   Camera& operator=(const Camera&) = delete;
 
   void world_restored(std::size_t steps) override;
-  /// Into ScenarioResult::footage.
+  /// Writes ScenarioResult::footage.
   void finish(ScenarioResult& result) override;
 
  private:
@@ -44,7 +44,8 @@ class Camera final : public Onlooker, private world::TickWatcher {
   world::Probes probes_;
   std::vector<Sight> sights_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line
-  std::vector<std::vector<std::uint8_t>> requests_;           // by line: what a reply is read by
+  std::vector<std::vector<std::uint8_t>>
+      requests_;  // by line: the requests, which are needed to decode replies
   Scene scene_;
   Footage footage_;
 };

@@ -1,5 +1,5 @@
-// One signal over time in a bounded number of points, however long it goes on: if there are too many values,
-// the first, the least, the greatest and the last of each stretch of time are kept, each at its own time.
+// One signal over time in a bounded number of points. If there are too many values, the first, the least,
+// the greatest and the last of each stretch of time are kept, each at its own time.
 #pragma once
 
 #include <cstddef>
@@ -19,15 +19,15 @@ class Envelope {
 
   explicit Envelope(std::size_t most_stretches = 600) : most_stretches_(most_stretches) {}
 
-  /// Ticks ascend; an earlier one, or the last one again, is left out.
+  /// Adds a value. Ticks ascend; a value at an earlier tick, or at the last one again, is ignored.
   void add(Tick tick, double value);
-  /// The last value again, at every tick up to `last`. Costs as many steps as there are stretches in it.
+  /// Repeats the last value at every tick up to `last`. The cost is one step for each stretch.
   void stay(Tick last);
 
-  /// In the order of time. Where a value stays the same for a while only its first and last points are kept,
-  /// so a line from point to point is what was added, or encloses it.
+  /// Returns the points in the order of time. While a value stays the same only its first and last points
+  /// are kept. A line through the points is the signal, or encloses it.
   std::vector<Point> points() const;
-  /// Whether it ever had two values.
+  /// Returns true if there were at least two different values.
   bool varies() const { return !stretches_.empty() && least_ != greatest_; }
   double least() const { return least_; }
   double greatest() const { return greatest_; }
@@ -44,7 +44,7 @@ class Envelope {
   std::size_t most_stretches_;
   Tick origin_ = 0;                 // where the first stretch begins
   Tick length_ = 1;                 // of each stretch
-  std::vector<Stretch> stretches_;  // some may be missing: nothing was added then
+  std::vector<Stretch> stretches_;  // stretches in which nothing was added may be missing
   double least_ = 0;
   double greatest_ = 0;
 };

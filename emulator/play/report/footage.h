@@ -1,4 +1,4 @@
-// What was seen while a scenario was played, as a value: signals over time, and the frames on its lines.
+// Observations of a scenario's run as a value: signals over time, and the frames on its lines.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct SeenSignal {
     speed,     // by plan, in pulses a second
     duty,      // of an axis that drives by PWM, in percent
     voltage,   // of an analog input or output, in volts
-    level,     // of an analog input without a unit, a group of terminals, a count
+    level,     // an analog input without a unit, a group of terminals, or a count
     bit,       // an input, an output, a switch, power
   } kind = Kind::bit;
   struct Point {
@@ -37,17 +37,17 @@ struct SeenFrame {
   bool is_from_host = true;
   std::string text;        // decoded
   std::string bytes;       // "01 03 00 00"
-  std::string remark;      // "dropped: bad CRC"; empty if there is nothing to say
-  bool is_struck = false;  // by a fault; without bytes: one that was dropped, or already seen
+  std::string remark;      // "dropped: bad CRC"; empty if there is no remark
+  bool is_struck = false;  // by a fault; without bytes: on a message that was dropped or seen before
 };
 
-/// A stretch of the play in which time only goes forward: each `restore` begins another one.
+/// A part of the run in which time only goes forward. Each `restore` begins another one.
 struct Scene {
   std::size_t first_step = 0;  // of the result's
   SimTime begin{0};
   SimTime end{0};
   std::vector<SeenSignal> signals;
-  std::vector<SeenFrame> frames;  // in the order of time, the first and the last ones if there were many
+  std::vector<SeenFrame> frames;  // in the order of time; the first and the last ones if there were many
   std::size_t frames_left_out = 0;
   std::size_t left_out_at = 0;  // before this one
 };

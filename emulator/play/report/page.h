@@ -9,10 +9,10 @@
 
 namespace understudy::emulator::play {
 
-/// Results as one HTML page that needs nothing else, neither files nor a network: a list of the scenarios,
-/// then for each one why it failed, pictures of what moved and switched (where the result has footage), its
-/// steps with their times and frames. Equal results make equal pages. `version`: of the program. `all`: of
-/// how many results these are a part.
+/// Returns the results as one HTML page that needs neither files nor a network: a list of the scenarios,
+/// then for each one the reason of its failure, pictures of motion and signals (if the result has footage),
+/// and its steps with their times and frames. Equal results make equal pages. `version` is the program's.
+/// `all` counts the results of which these are a part.
 std::string report_page(std::span<const ScenarioResult> results, std::string_view version,
                         const Tally* all = nullptr);
 

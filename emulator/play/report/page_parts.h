@@ -1,4 +1,4 @@
-// What all report pages have in common.
+// The parts that all report pages share.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// A scene as a picture: what moved, how fast, and what switched, over time.
+// Draws a scene: positions, speeds and digital signals over time.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ struct PictureMarks {
   std::span<const StepResult> steps;  // those of the scene
   std::size_t first_number = 1;       // of them
   std::optional<SimTime> failed_at;
-  std::string_view of;  // what is shown, for screen readers: the scenario's name
+  std::string_view of;  // the scenario's name, for screen readers
 };
 
-/// As an SVG element, with the classes that page_parts.h styles; empty if nothing in the scene varies, unless
-/// it failed. Each line has its data in `points`, as milliseconds since `data-begin` of the whole and amounts
-/// beyond its own `data-base`, so that the value shown under the pointer is exact.
+/// Returns an SVG element with the classes that page_parts.h styles. Empty if nothing in the scene varies,
+/// unless it failed. Each line has its data in `points`, as milliseconds since `data-begin` of the whole and
+/// amounts beyond its own `data-base`, so that the value shown under the pointer is exact.
 std::string picture(const Scene& scene, const PictureMarks& marks);
 
 }  // namespace understudy::emulator::play

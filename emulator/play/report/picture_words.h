@@ -1,4 +1,4 @@
-// What a picture shows, in words, for those who cannot see it.
+// Describes a picture in words, for readers who cannot see it.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace understudy::emulator::play {
 
-/// One line: "a move: what moved and switched, from 0s to 3.2s".
+/// Returns one line: "a move: what moved and switched, from 0s to 3.2s".
 std::string picture_name(const Scene& scene, std::string_view of);
 
-/// Each signal that varies, with its extremes and its last value, and when the play failed.
+/// Returns each signal that varies, with its extremes and its last value, and the time of a failure.
 std::string picture_words(const Scene& scene, std::optional<SimTime> failed_at);
 
 }  // namespace understudy::emulator::play

@@ -1,5 +1,5 @@
-// Failures by kind: a thousand cases that fail for one reason are one thing to look at. Two failures are of
-// one kind if the same step failed with the same words, whatever the numbers and bytes in them.
+// Groups failures by kind: a thousand cases that fail for one reason are one thing to look at. Two failures
+// are of one kind if the same step failed with the same words, ignoring numbers and bytes.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace understudy::emulator::play {
 
-/// "grid.yaml:17: feeder.Cord_A is #; expected #"; empty if it did not fail.
+/// Returns "grid.yaml:17: feeder.Cord_A is #; expected #", or an empty text if it did not fail.
 std::string kind_of_failure(const ScenarioResult& result);
 
 class FailureKinds {
  public:
-  static constexpr std::size_t kMost = 1000;  // those beyond are counted, and not told apart
+  static constexpr std::size_t kMost = 1000;  // failures of further kinds are counted, but not distinguished
 
   struct Kind {
     std::string text;
@@ -25,9 +25,9 @@ class FailureKinds {
     std::uint64_t varied = 0;  // of these, cases that `vary` made
   };
 
-  /// Counts it. The kind it is of; null if there were too many before.
+  /// Counts a failure and returns its kind, or null if there are too many kinds already.
   const Kind* add(const ScenarioResult& result);
-  /// In the order of their first ones.
+  /// Returns the kinds in the order of their first failures.
   const std::vector<Kind>& all() const { return kinds_; }
   std::uint64_t others() const { return others_; }
 

@@ -15,16 +15,16 @@
 
 namespace understudy::emulator::play {
 
-/// Results as JUnit XML: a test suite for each file, a test case for each scenario or branch. Times are
-/// simulated seconds; the steps and the lint's findings are in system-out. Of cases that `vary` made, it is
-/// left out where they passed, or failed like one before.
-/// The counts stand in front of what they count, so results wait in a file that has no name.
+/// Writes results as JUnit XML: a test suite for each file, a test case for each scenario or branch. Times
+/// are simulated seconds; the steps and the lint's findings are in system-out. Cases from `vary` have no
+/// system-out if they passed, or failed like an earlier case. JUnit puts counts in front of the results, so
+/// results wait in an unnamed file.
 class Junit {
  public:
-  /// Throws std::system_error if there is no room for them.
+  /// Throws std::system_error if there is no room for the results.
   Junit();
   void add(const ScenarioResult& result);
-  /// Gives the whole text away, piece by piece.
+  /// Passes the whole text to `take`, piece by piece.
   void write(const std::function<void(std::string_view)>& take);
 
  private:
@@ -48,7 +48,8 @@ class Junit {
 
 std::string junit_text(std::span<const ScenarioResult> results);
 
-/// For XML, in attributes as well: what XML cannot hold (control characters, broken UTF-8) becomes U+FFFD.
+/// Escapes a text for XML, also in attributes. Characters that XML cannot hold (control characters, broken
+/// UTF-8) become U+FFFD.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace understudy::emulator::play

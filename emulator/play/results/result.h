@@ -1,4 +1,4 @@
-// The outcome of playing a scenario, as a value: for a terminal, for JUnit, for a report.
+// The result of a scenario as a value, for a terminal, for JUnit, or for a report.
 #pragma once
 
 #include <cstdint>
@@ -34,29 +34,30 @@ struct Failure {
   std::vector<std::string> state{};    // of the devices and machines
 };
 
-/// Of a scenario, or of one of its branches.
+/// The result of a scenario, or of one of its branches.
 struct ScenarioResult {
   enum class Verdict : std::uint8_t {
     passed,
     failed,
-    not_reached,  // a branch whose fork was not played, as a step before it failed
+    not_reached,  // a branch whose fork was not reached, because an earlier step failed
   } verdict = Verdict::passed;
-  std::string name{};  // "a move takes its time", a branch "a move takes its time / with a stall"
+  std::string name{};  // "a move takes its time"; for a branch "a move takes its time / with a stall"
   std::string file{};
-  std::vector<StepResult> steps{};   // the last one is the one that failed; for a branch, only its own steps
-  std::optional<Failure> failure{};  // if it failed
-  SimTime simulated{0};              // how long it was played; for a branch, from its fork on
-  std::uint64_t outcome_hash = 0;    // of all output, if that was asked for (outcome_hash.h)
+  std::vector<StepResult> steps{};           // the failed step is the last; a branch has only its own steps
+  std::optional<Failure> failure{};          // if it failed
+  SimTime simulated{0};                      // how long it was played; for a branch, from its fork on
+  std::uint64_t outcome_hash = 0;            // of all output, if that was asked for (outcome_hash.h)
   std::shared_ptr<const Footage> footage{};  // of a report, if one was asked for
-  std::vector<std::string> manners{};        // what a lint has found, if one was asked for; single lines
+  std::vector<std::string> manners{};        // findings of a lint, if it was requested; single lines
   std::string recording{};                   // its path, if one was made; of a trace and a capture as well
   std::string trace{};
   std::string capture{};
   Case which{};  // of its file
   std::uint64_t seed = 0;
-  std::string branch{};  // "with a stall"; of one inside another "with a stall / again"; empty: the scenario
-  bool is_unreadable = false;  // the case was not played: what is wrong with it is its failure
-  std::string like{};          // it failed as this one did before, whose recording was kept
+  std::string
+      branch{};  // "with a stall"; for a nested branch "with a stall / again"; empty: the scenario itself
+  bool is_unreadable = false;  // the case could not be read and did not run; its failure has the reason
+  std::string like{};          // the earlier case that failed in the same way and whose recording was kept
 };
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// Results for people.
+// Formats results for people.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace understudy::emulator::play {
 
-/// "3.061338541": exact.
+/// Returns exact seconds: "3.061338541".
 std::string seconds_text(SimTime time);
 
-/// "ok    feed.yaml: a move takes its time (3.06s)".
+/// Returns "ok    feed.yaml: a move takes its time (3.06s)".
 std::string verdict_line(const ScenarioResult& result);
-/// A line for each step: when it began and ended, where it is in the file, what it does.
+/// Returns a line for each step: when it began and ended, its position in the file, its text.
 std::vector<std::string> step_lines(const ScenarioResult& result);
-/// What failed, what was expected, what came, the last frames and the state around it; empty if nothing
-/// failed.
+/// Returns the failed step, expectation and observation, the last frames, and the state around it. Empty if
+/// nothing failed.
 std::vector<std::string> failure_lines(const ScenarioResult& result);
 
-/// How many results there were of each kind, without holding them.
+/// Counts results of each kind, without keeping them.
 struct Tally {
   std::uint64_t passed = 0;
   std::uint64_t failed = 0;
@@ -33,7 +33,7 @@ struct Tally {
   void add(const ScenarioResult& result);
 };
 
-/// "12 passed, 1 failed, 2 not reached; 48.3s simulated".
+/// Returns "12 passed, 1 failed, 2 not reached; 48.3s simulated".
 std::string summary_line(const Tally& tally);
 std::string summary_line(std::span<const ScenarioResult> results);
 

@@ -1,4 +1,4 @@
-// Which words of a device the names mean, and how to read or write them in as few requests as possible:
+// Finds the words of a device that names refer to, and the fewest requests that read or write them:
 // neighbours share one.
 #pragma once
 
@@ -24,46 +24,49 @@ struct Words {
   int end() const { return first + count; }
 };
 
-/// Whether one bit of a register is meant: the other bits are read before it is written.
+/// Returns true if the target is one bit of a register: its other bits are read before it is written.
 inline bool is_bit(const Target& target) { return target.place && target.place->bit >= 0; }
 
-/// The table that a target is in.
+/// Returns the table of a target.
 Table table_of(const Target& target);
-/// Whether there is a function that writes to it.
+/// Returns true if there is a function that writes to the target's table.
 bool can_be_sent(const Target& target);
 
-/// Where a target lies. `low_word_first`: as its device has it at this moment. A bit lies where its register
-/// does.
+/// Returns the words of a target. `low_word_first` is the device's present order of words. For a bit these
+/// are the words of its register.
 Words words_of(const Target& target, bool low_word_first);
 
-/// A request, and which of the entries it is for.
+/// A request, and the entries that it is for.
 struct Request {
   Words words;
   std::vector<std::size_t> entries;
 };
 
-/// In the order of the entries; an entry joins the request before it if its words follow those, or are among
-/// them.
+/// Returns requests in the order of the entries. An entry joins the request before it if its words follow
+/// those, or are among them.
 std::vector<Request> read_requests(std::span<const Words> entries);
-/// For writing: an entry joins only if its words follow, and never if it `stands_alone`.
+/// Like read_requests(), for writing: an entry joins only if its words follow, and never if it
+/// `stands_alone`.
 std::vector<Request> write_requests(std::span<const Words> entries,
                                     const std::function<bool(std::size_t)>& stands_alone);
 
-/// What can be sent to a target, and what can come back from it. A word by its number has no sign.
+/// The limits of values that can be written to a target or read from it. A word addressed by its number is
+/// unsigned.
 struct Limits {
   Value low = 0;
   Value high = 0;
 };
 Limits limits_of(const Target& target);
 
-/// A register's value as a number, a real one's too; none where the bits of a real are not a number.
+/// Returns a register's value as a number, also a real one. Nothing if the bits of a real are not a number.
 std::optional<world::Number> number_of(const Target& target, Value value);
-/// The value that a number is there; none: a fraction for a whole number, or more than a single can hold.
+/// Returns the value for a number. Nothing for a fraction if the target is whole, or if it exceeds single
+/// precision.
 std::optional<Value> value_for(const Target& target, world::Number number);
 
-/// What the words of a target say.
+/// Returns the value in the words of a target.
 Value value_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first);
-/// The words that set a target, or one bit of it, to a value: `present` is what they hold now. Throws
+/// Returns the words that set a target, or one bit of it, to a value. `present` are its words now. Throws
 /// NameError for a value that does not fit.
 std::vector<std::uint16_t> words_with(const Target& target, Value value, bool low_word_first,
                                       std::span<const std::uint16_t> present = {});

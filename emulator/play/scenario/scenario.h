@@ -1,6 +1,5 @@
-// A scenario: a bench and the steps of a play on it, checked against each other. Made by scenario_file.h,
-// played by run.h. Loops, tables of cases, includes and parameters are gone by then: what is left is a
-// list.
+// A scenario is a bench with steps to run on it, checked against each other. scenario_file.h makes it, run.h
+// runs it. Loops, tables of cases, includes and parameters are resolved already: what is left is a list.
 #pragma once
 
 #include <cstdint>
@@ -32,19 +31,20 @@ struct Target {
   bool is_value = false;         // of a device without registers: looked at past the line
 };
 
-/// How a device must answer each request of a step: done, an exception, or nothing.
+/// How a device must answer each request of a step: normally, with an exception, or not at all.
 struct Answer {
   std::optional<int> exception{};
-  std::optional<SimTime> silence{};  // for how long nothing may come
+  std::optional<SimTime> silence{};  // how long no answer may come
   bool is_good() const { return !exception && !silence; }
 };
 
-/// On which line a step speaks to its devices, `via: LINE` beside it; none: on the first that each is on.
+/// The line on which a step talks to its devices (`via: LINE` beside the step); none: the first line of
+/// each.
 using Via = std::optional<std::size_t>;
 
-/// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 }, and exception: 3 beside it where the
-/// device is to refuse, or reply: nothing where no answer may come. Over the line, in this order; ascending
-/// neighbours share a request.
+/// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 }, with exception: 3 if the device must
+/// refuse, or reply: nothing if it must not answer. Writes over the line in this order; ascending neighbours
+/// share a request.
 struct WriteStep {
   struct Entry {
     Target target;
@@ -55,7 +55,8 @@ struct WriteStep {
   Via via{};
 };
 
-/// expect: { feeder.Cord_A: 32000, feeder.STATUS.4: 0 }, read over the line; exception, reply: as for write.
+/// expect: { feeder.Cord_A: 32000, feeder.STATUS.4: 0 } reads over the line. exception and reply are as for
+/// write.
 struct ExpectStep {
   struct Entry {
     Target target;
@@ -66,8 +67,8 @@ struct ExpectStep {
   Via via{};
 };
 
-/// command: { cell: "MOVE X 1000" }: what a model calls a message through its window, in one request each;
-/// exception, reply: as for write.
+/// command: { cell: "MOVE X 1000" } sends the model's commands through its window, in one request each.
+/// exception and reply are as for write.
 struct CommandStep {
   struct Entry {
     std::size_t device = 0;
@@ -83,7 +84,7 @@ struct WaitStep {
   std::string until;
   SimTime within{0};
   std::optional<world::Tolerance> takes;
-  /// The names in `until` are read over the line this often; without it every tick is looked at.
+  /// How often the names in `until` are read over the line; without it every tick is checked.
   std::optional<SimTime> poll;
   Via via{};  // where they are read
 };
@@ -92,13 +93,13 @@ struct AdvanceStep {
   SimTime by{0};
 };
 
-/// assert: EXPRESSION, or a list of them: the truth at this moment, without the line.
+/// assert: EXPRESSION, or a list of them: checks the present values without using the line.
 struct AssertStep {
   std::vector<std::string> expressions;
 };
 
-/// always: or never: { what: EXPRESSION, name: NAME }, or the expression alone: holds at every tick from now
-/// on, until end: NAME or the end of the scenario.
+/// always: or never: { what: EXPRESSION, name: NAME }, or only the expression. It is checked at every tick
+/// from now on, until end: NAME or the end of the scenario.
 struct SpanStep {
   std::string expression;
   bool never = false;
@@ -113,7 +114,7 @@ struct InputStep {
   std::vector<world::InputSetup> inputs;
 };
 
-/// turn: { mill.MPG: 400, in: 2s }: hand wheels, and what else is counted
+/// turn: { mill.MPG: 400, in: 2s } turns hand wheels and other counted inputs.
 struct TurnStep {
   std::vector<world::Fault> turns;
 };
@@ -134,8 +135,8 @@ struct PowerStep {
   std::vector<std::pair<std::size_t, To>> devices;
 };
 
-/// send: { line: rs485, bytes: 01 03 00 01 00 01 D5 CA, reply: 01 03 02 C0 01 29 84, within: 100ms }; reply:
-/// nothing, where no byte may come in that time; without reply whatever comes is taken.
+/// send: { line: rs485, bytes: 01 03 00 01 00 01 D5 CA, reply: 01 03 02 C0 01 29 84, within: 100ms }. With
+/// reply: nothing, no byte may come in that time; without reply any bytes are accepted.
 struct SendStep {
   std::size_t line = 0;
   std::vector<std::uint8_t> bytes;
@@ -143,13 +144,13 @@ struct SendStep {
   SimTime within = std::chrono::milliseconds(500);
 };
 
-/// send: { line: serial, text: "?PE", reply: "100", within: 100ms }: a line of text, without its end; reply:
-/// one line, or a list of them, or nothing, where none may come in that time; without reply the device only
-/// hears it. hear: { line: serial, text: "DONE", within: 2s }: lines that it sends unasked, since the last
-/// `send`.
+/// send: { line: serial, text: "?PE", reply: "100", within: 100ms } sends a line of text, given without its
+/// line end. reply is one line, or a list of them, or nothing if none may come in that time; without reply
+/// any answer is accepted. hear: { line: serial, text: "DONE", within: 2s } expects lines that the device
+/// sends unasked since the last `send`.
 struct TextStep {
   std::size_t line = 0;
-  std::optional<std::string> text;                // none: only heard
+  std::optional<std::string> text;                // none: only receives
   std::optional<std::vector<std::string>> lines;  // empty: nothing may come
   SimTime within = std::chrono::milliseconds(500);
 };
@@ -159,12 +160,12 @@ struct ProgramStep {
   std::size_t device = 0;
   std::string text;
   std::string file;                      // for messages
-  std::optional<std::string> refused{};  // it must be; what is said of it has this in it
-  bool asks = true;                      // whether it is taken; else either will do
+  std::optional<std::string> refused{};  // it must be refused, with a reason that contains this text
+  bool asks = true;  // the step fails if the program is refused; otherwise both are accepted
 };
 
-/// memory: { feeder: after.json }: the device's non-volatile memory must be what the file says; save: writes
-/// the file.
+/// memory: { feeder: after.json }: the device's non-volatile memory must equal the file; save: writes the
+/// file.
 struct MemoryStep {
   enum class What : std::uint8_t { expect, save } what = What::expect;
   std::size_t device = 0;
@@ -179,8 +180,8 @@ struct RestoreStep {
   std::string name;
 };
 
-/// fork: { NAME: [ steps ], NAME: [ steps ] }: each continuation begins from the state at this moment; the
-/// steps that follow the fork go on from it as well.
+/// fork: { NAME: [ steps ], NAME: [ steps ] }: each branch begins in the state at this moment; the steps
+/// behind the fork also continue from it.
 struct ForkStep {
   struct Branch {
     std::string name;
@@ -189,25 +190,25 @@ struct ForkStep {
   std::vector<Branch> branches;
 };
 
-/// reset: peaks: the greatest speeds and accelerations are counted anew
+/// reset: peaks starts the greatest speeds and accelerations again.
 struct ResetPeaksStep {};
 
-/// say: TEXT, for whoever reads along
+/// say: TEXT is a message for the reader.
 struct SayStep {
   std::string text;
 };
 
 struct Step {
-  std::string file;  // where it stands
+  std::string file;  // its position
   int line = 0;
-  std::string text;  // what it does, on one line: "write feeder.Aaxis_SVON=1"
+  std::string text;  // its description, on one line: "write feeder.Aaxis_SVON=1"
   std::variant<WriteStep, CommandStep, ExpectStep, WaitStep, AdvanceStep, AssertStep, SpanStep, EndSpanStep,
                InputStep, TurnStep, InjectStep, ClearStep, PowerStep, SendStep, TextStep, ProgramStep,
                MemoryStep, SnapshotStep, RestoreStep, ForkStep, ResetPeaksStep, SayStep>
       what;
 };
 
-/// One case of a scenario file: a file with a table of cases makes one for each row.
+/// One case of a scenario file. A file with a table of cases makes one for each row.
 struct Scenario {
   std::string name;  // with the case's parameters: "a move takes its time (speed=200)"
   std::string file;

@@ -1,4 +1,4 @@
-// The names that a scenario of one bench may use.
+// Lists the names that a scenario of one bench may use.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace understudy::emulator::play {
 
 struct NameList {
   std::vector<std::string> names;
-  /// Of names that are too many to list, such as addresses and numbers of bits: regular expressions (ECMA).
+  /// Regular expressions (ECMA) for names that are too many to list, such as addresses and numbers of bits.
   std::vector<std::string> patterns;
 };
 
-/// Each with its device in front, and without it where there is only one device. A name of a device without
-/// registers is any word: only the running device knows them.
+/// Each name has its device in front, and also appears without it if there is only one device. For a device
+/// without registers any word is allowed, because only the running device knows its names.
 NameList bench_names(const world::Bench& bench, world::Form::Of sort);
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// The forms of files as JSON Schema (draft 7), which editors check and complete YAML files by.
+// Writes the forms of files as JSON Schema (draft 7), with which editors check and complete YAML files.
 #pragma once
 
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace understudy::emulator::play {
 
-/// Of bench files and of scenario files, as text. What the memories of these models can hold is listed.
+/// Returns the schema of bench files and of scenario files. It lists the memory contents of these models.
 std::string bench_schema(ModelList models);
 std::string scenario_schema(ModelList models);
-/// Of files of another kind, which have these keys.
+/// Returns the schema of another kind of file, which has these keys.
 std::string file_schema(const std::string& title, std::span<const world::KeyRow> keys);
-/// Of the scenarios of one bench: where its devices, lines, axes, inputs and registers are named, other names
-/// do not suit. Conditions are texts, which only `check` understands.
+/// Returns the schema of scenarios for one bench: it accepts only the names of its devices, lines, axes,
+/// inputs and registers. Conditions are plain texts, which only `check` understands.
 std::string scenario_schema(ModelList models, const world::Bench& bench);
 
 }  // namespace understudy::emulator::play

@@ -1,6 +1,6 @@
-// A stage in free time: simulated time passes as fast as it can, and the host is on the line itself. It is a
-// correct Modbus RTU master: a silence of t3.5 before each frame (and what the scenario adds to it), no gap
-// within one; a reply is over when it is complete, or when t3.5 of silence follow its last byte.
+// A stage in virtual time: simulated time passes as fast as it can, and the host is on the line itself. It
+// is a correct Modbus RTU master: it leaves a silence of t3.5 before each frame (plus the scenario's gap)
+// and no gap within one. A reply ends when it is complete, or when t3.5 of silence follow its last byte.
 #pragma once
 
 #include <chrono>
@@ -16,16 +16,16 @@ namespace understudy::emulator::play {
 struct FreeStageOptions {
   SimTime gap{0};                                    // beyond t3.5
   SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
-  std::function<void(const std::string&)> log = {};  // what devices and lines have to say
+  std::function<void(const std::string&)> log = {};  // receives messages of devices and lines
 };
 
-/// t3.5, rounded up to a nanosecond: 3.5 characters, and 1.75 ms above 19200 baud (MODBUS over Serial Line
-/// V1.02, 2.5.1.1).
+/// Returns t3.5, rounded up to a nanosecond: 3.5 characters, or 1.75 ms above 19200 baud (MODBUS over Serial
+/// Line V1.02, 2.5.1.1).
 SimTime silence_between_frames(const pty::LineSettings& settings);
 
 class FreeStage final : public Stage {
  public:
-  /// A world at its power-up. Throws what World does.
+  /// Makes a world at its power-up. Throws the exceptions of World.
   FreeStage(const world::Bench& bench, FreeStageOptions options);
   ~FreeStage() override;
 
@@ -59,7 +59,7 @@ class FreeStage final : public Stage {
   world::World world_;
   FreeStageOptions options_;
   std::vector<std::unique_ptr<Host>> hosts_;  // one a line
-  const Host* writing_ = nullptr;             // whose write is being carried out
+  const Host* writing_ = nullptr;             // the host whose write is being carried out
   std::uint64_t requests_before_ = 0;         // of its stations
   Tick tick_of_last_write_ = 0;
 };

@@ -1,4 +1,4 @@
-// libmodbus as the master on a serial port: what a real host would see.
+// Uses libmodbus as the master on a serial port, as a real host would.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace understudy::emulator::play {
 
 class LibmodbusHost {
  public:
-  /// `timeout`: from a request's end to the first byte of its reply; `silence`: before each request. Throws
-  /// pty::PortError.
+  /// `timeout` is from a request's end to the first byte of its reply; `silence` is before each request.
+  /// Throws pty::PortError.
   LibmodbusHost(const std::string& port, const pty::LineSettings& settings, serve::WallTime timeout,
                 serve::WallTime silence);
   ~LibmodbusHost();
@@ -28,11 +28,12 @@ class LibmodbusHost {
   HostReply read(int station, Table table, std::uint16_t first, int count);
   HostReply write(int station, Table table, std::uint16_t first, std::span<const std::uint16_t> words);
   HostReply write_message(int station, std::uint16_t first, std::span<const std::uint16_t> words);
-  /// Raw bytes, without libmodbus; see Stage::exchange(). `sending`: how long they are on the line.
+  /// Exchanges raw bytes without libmodbus; see Stage::exchange(). `sending` is the time of the bytes on the
+  /// line.
   std::vector<std::uint8_t> exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
                                      serve::WallTime sending, serve::WallTime within);
 
-  /// Lines of text, without libmodbus; see Stage::converse().
+  /// Exchanges lines of text without libmodbus; see Stage::converse().
   std::vector<std::string> converse(const std::optional<std::string>& text, const world::LinesWanted& wanted,
                                     serve::WallTime sending, serve::WallTime within);
   void say(const std::string& text);

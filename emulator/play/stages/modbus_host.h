@@ -1,4 +1,4 @@
-// The frames that a Modbus RTU host sends, and what it makes of those that come back. No time, no line.
+// Makes the frames of a Modbus RTU host, and judges replies. It knows neither time nor lines.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,19 @@
 namespace understudy::emulator::play {
 
 std::vector<std::uint8_t> read_request(int station, Table table, std::uint16_t first, int count);
-/// Functions 05 and 06 for one coil or holding register, 0F and 10 for more. A word for each bit.
+/// Uses functions 05 and 06 for one coil or holding register, 0F and 10 for more. Each bit takes a word.
 std::vector<std::uint8_t> write_request(int station, Table table, std::uint16_t first,
                                         std::span<const std::uint16_t> words);
 
-/// Function 10, whatever the number of words.
+/// Uses function 10 for any number of words.
 std::vector<std::uint8_t> message_request(int station, std::uint16_t first,
                                           std::span<const std::uint16_t> words);
 
-/// How many bytes a host that has sent `request`, and has received `reply` so far, waits for.
+/// Returns how many bytes a host that has sent `request`, and has received `reply` so far, waits for.
 std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
-/// What `reply`, everything that came, means as the answer to a request of read_request() or write_request().
+/// Returns the meaning of `reply`, all bytes received, as the answer to a request of read_request() or
+/// write_request().
 HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
 }  // namespace understudy::emulator::play

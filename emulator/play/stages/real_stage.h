@@ -1,4 +1,4 @@
-// A stage in real time: the world of a daemon, which another thread runs, and libmodbus as the host on its
+// A stage in real time: the world of a daemon, which another thread runs, with libmodbus as the host on its
 // ports.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace understudy::emulator::play {
 
-/// Somebody has abandoned the play.
+/// Thrown when the scenario has been abandoned.
 struct StageGivenUp : std::runtime_error {
   StageGivenUp() : std::runtime_error("the play was given up") {}
 };
@@ -27,17 +27,17 @@ struct RealStageOptions {
   SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
   /// False: the hosts on its lines are other programs, and the stage has none.
   bool has_hosts = true;
-  /// Once it is true, everything that waits for time to pass throws StageGivenUp. So it does when the daemon
-  /// has ended, since time then stands still. Null: nobody gives up.
+  /// Once it is true, every wait throws StageGivenUp. Waits also throw it after the daemon has ended,
+  /// because time stops then. Null: the scenario is never abandoned.
   const std::atomic<bool>* given_up = nullptr;
 };
 
 class RealStage final : public Stage {
  public:
-  /// Another thread runs the daemon. Once the daemon has ended, for whatever reason, that thread must leave
-  /// the world alone as long as this stage lives. Throws pty::PortError.
+  /// Another thread runs the daemon. Once the daemon has ended, that thread must leave the world alone as
+  /// long as this stage lives. Throws pty::PortError.
   RealStage(serve::Daemon& daemon, RealStageOptions options);
-  /// Like the above, with its own daemon, which has been started.
+  /// Like the above, with a daemon of its own, which has been started.
   RealStage(std::unique_ptr<serve::DaemonThread> thread, RealStageOptions options);
   ~RealStage() override;
   RealStage(const RealStage&) = delete;
@@ -57,7 +57,7 @@ class RealStage final : public Stage {
   void with_world(const std::function<void(world::World&)>& act) override;
   bool run_until(const Awaited& awaited, SimTime deadline) override;
   void advance(SimTime by) override;
-  /// The tick at which run_until() found what it was looking for; only valid right after that.
+  /// After run_until(), returns the tick at which its condition was true; only valid right after that call.
   SimTime now() override;
   Tick tick_of_last_write() override;
 
@@ -67,20 +67,21 @@ class RealStage final : public Stage {
   LibmodbusHost& host(std::size_t line);
   SimTime time_to_send(std::size_t line, const std::string& text) const;
   void throw_if_given_up() const;
-  /// How long simulated time takes to get to `time`, by the wall clock; nothing while it stands.
+  /// Returns how long simulated time needs to reach `time`, by the wall clock, or nothing while the clock is
+  /// stopped.
   std::optional<serve::WallTime> wall_time_until(SimTime time);
 
   std::unique_ptr<serve::DaemonThread> own_;
   serve::Daemon& daemon_;
   RealStageOptions options_;
   std::unique_ptr<WriteClock> writes_;
-  std::vector<pty::LineOptions> lines_;  // as they are in the beginning; hosts do not follow a DIP switch
+  std::vector<pty::LineOptions> lines_;                // at the beginning; hosts do not follow a DIP switch
   std::vector<std::unique_ptr<LibmodbusHost>> hosts_;  // one a line
   std::optional<SimTime> found_at_;                    // by run_until(), and no time was let pass since
 };
 
-/// In real time, by the scenario's bench and gap, with ports of its own. The devices' memories begin as their
-/// files say, and never write those files.
+/// Makes a stage in real time with the scenario's bench and gap, and with ports of its own. The devices'
+/// memories begin as their files, but those files are never written.
 std::unique_ptr<Stage> make_real_stage(const Scenario& scenario);
 
 }  // namespace understudy::emulator::play

@@ -1,5 +1,4 @@
-// When the last write that a host made was carried out, whoever the host is: by what goes over the lines of a
-// world.
+// Records when the last write of any host was carried out, from the traffic on a world's lines.
 #pragma once
 
 #include <memory>
@@ -19,9 +18,9 @@ class WriteClock {
   WriteClock(const WriteClock&) = delete;
   WriteClock& operator=(const WriteClock&) = delete;
 
-  /// The tick that it acts from; 0 if there was none. Refused writes do not count.
+  /// Returns the tick from which it takes effect, or 0 if there was none. Refused writes do not count.
   Tick tick_of_last_write() const { return last_; }
-  /// The lines were put into another state: half-heard frames are forgotten.
+  /// The lines were put into another state: forgets partly received frames.
   void begin_anew();
 
  private:

@@ -1,4 +1,4 @@
-// A daemon's control socket.
+// Makes a daemon's control socket.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace understudy::emulator::serve {
 
-/// At `path`: throws ControlError if it cannot be opened there. Empty: at a path that no other daemon has
-/// (sockets.h); if it cannot be opened there, the log says so and the daemon goes on without a socket.
+/// Makes a socket at `path`; throws ControlError if it cannot be opened there. If `path` is empty, uses a
+/// path that no other daemon has (sockets.h); if that fails, logs it, and the daemon runs without a socket.
 DoorMaker control_door(const std::string& path = "");
 
 }  // namespace understudy::emulator::serve

@@ -1,4 +1,4 @@
-// Frames or events in a reply, one after the other.
+// Writes frames or events into a reply, one after the other.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,13 @@ class Listing {
  public:
   enum class What : std::uint8_t { frames, events };
 
-  /// From that number on. `is_raw`: frames with their bytes and latency.
+  /// Starts at that number. With `is_raw`, frames have their bytes and latency.
   Listing(Daemon& daemon, What what, std::uint64_t first, bool is_raw = false)
       : daemon_(daemon), what_(what), is_raw_(is_raw), next_(first) {}
 
-  /// Works on, and may have added one; false if there are none left, or enough for a reply.
+  /// Continues, and may add one entry. Returns false if none are left, or if the reply has enough.
   bool add_next(ReplyText& text);
-  /// The number to ask for then.
+  /// Returns the number for the next request.
   std::uint64_t next() const { return next_; }
 
  private:

@@ -1,4 +1,4 @@
-// The text of a reply, written member by member: one that is long need not be a tree of JSON first, nor be
+// Writes the text of a reply member by member, so that a long reply need not be a JSON tree first, nor be
 // made all at once.
 #pragma once
 
@@ -10,29 +10,29 @@
 
 namespace understudy::emulator::serve {
 
-/// As it stands in a reply. Names and programs come from outside and may not be UTF-8.
+/// Returns JSON as it appears in a reply. Names and programs come from outside and may not be UTF-8.
 std::string text_of(const Json& json);
 
 class ReplyText {
  public:
-  /// An object, which says that the message was obeyed.
+  /// Begins an object that says that the message was obeyed.
   ReplyText() : text_("{\"ok\":true") {}
 
-  /// A member of an object.
+  /// Adds a member to an object.
   void member(std::string_view key, const Json& value);
-  /// All members of another object.
+  /// Adds all members of another object.
   void members(const Json& object);
-  /// An element of a list.
+  /// Adds an element to a list.
   void element(const Json& value);
   void element(std::int64_t value);
-  /// Begins an object or a list, that is a member, or an element.
+  /// Begin an object or a list as a member, or as an element.
   void open_object(std::string_view key) { open(key, '{'); }
   void open_list(std::string_view key) { open(key, '['); }
   void open_object();
   void open_list();
   void close_object() { text_ += '}'; }
   void close_list() { text_ += ']'; }
-  /// The whole of it.
+  /// Returns the whole text.
   std::string take();
 
  private:

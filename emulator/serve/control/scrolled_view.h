@@ -1,4 +1,4 @@
-// A text that may be longer than the window that shows it: which part is visible, and the keys that move it.
+// Scrolls a text that may be longer than the window: which part is visible, and the keys that move it.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,17 @@ namespace understudy::emulator::serve {
 
 class ScrolledView {
  public:
-  /// Lines that are wider than the window are folded; if there are more than `rows`, the last row says which
-  /// ones are shown.
+  /// Returns the visible lines. Lines wider than the window are folded. If there are more than `rows`, the
+  /// last row tells which ones are shown.
   std::vector<std::string> fit(const std::vector<std::string>& lines, std::size_t rows, std::size_t columns);
-  /// Keys as a terminal sends them: arrows, j, k, Page Up, Page Down, space, b, Home, End, g, G. True for q.
+  /// Handles keys as a terminal sends them: arrows, j, k, Page Up, Page Down, space, b, Home, End, g, G.
+  /// Returns true for q.
   bool press(std::string_view keys);
 
  private:
   std::size_t top_ = 0;    // the first line that is shown
   std::size_t page_ = 0;   // how many of them have room, and
-  std::size_t total_ = 0;  // how many there are, when it was shown last
+  std::size_t total_ = 0;  // the number of lines when it was last shown
 };
 
 }  // namespace understudy::emulator::serve

@@ -1,5 +1,5 @@
 // The control socket: a Unix stream socket that only its owner may open. Each message is one line, and so is
-// its reply; messages.h knows what they say.
+// its reply. messages.h interprets them.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,8 @@
 
 namespace understudy::emulator::serve {
 
-/// The socket could not be opened: one line that names the path and what was expected.
+/// Thrown if the socket could not be opened. The message is one line that names the path and what was
+/// expected.
 struct ControlError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -28,7 +29,7 @@ class ControlServer final : public Door {
   using Reply = std::function<void(const std::string& line)>;  // may be called later, once
   using Handler = std::function<void(const std::string& line, const Reply& reply)>;
 
-  /// A dead socket at `path` is replaced; anything else there is left alone. Throws ControlError.
+  /// Replaces a dead socket at `path`, but nothing else. Throws ControlError.
   ControlServer(EventLoop& loop, std::string path, Handler handler);
   ~ControlServer() override;
   ControlServer(const ControlServer&) = delete;
@@ -53,11 +54,11 @@ class ControlServer final : public Door {
   std::map<int, std::shared_ptr<Client>> clients_;
 };
 
-/// Whether anybody listens at that path.
+/// Returns true if a process listens at that path.
 bool is_answered(const std::string& path);
 
-/// Sends one message and waits for its reply, without the line's end: as long as it takes, or at most this
-/// long. Throws ControlError.
+/// Sends one message and waits for its reply, at most this long if `patience` is given. Returns the reply
+/// without its line end. Throws ControlError.
 std::string ask_control(const std::string& path, const std::string& message,
                         std::optional<std::chrono::milliseconds> patience = {});
 

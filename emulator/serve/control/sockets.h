@@ -1,6 +1,5 @@
-// Where a user's daemons have their control sockets by default: side by side in a folder that only that user
-// may open, $XDG_RUNTIME_DIR/understudy or else /tmp/understudy-UID. Each is named after its process,
-// "1234.control".
+// The default places of control sockets: a folder that only the user may open, $XDG_RUNTIME_DIR/understudy
+// or else /tmp/understudy-UID. Each socket is named after its process, "1234.control".
 #pragma once
 
 #include <string>
@@ -8,14 +7,16 @@
 
 namespace understudy::emulator::serve {
 
-/// Made if it does not exist. Throws ControlError if it cannot be made, or if others could open it.
+/// Returns the folder, and makes it if it does not exist. Throws ControlError if it cannot be made, or if
+/// other users could open it.
 std::string control_folder();
 
-/// For a daemon of this process: a path in that folder that no other daemon has. Throws ControlError.
+/// Returns a path in that folder for a daemon of this process, which no other daemon has. Throws
+/// ControlError.
 std::string own_control_path();
 
-/// Those in that folder at which a daemon listens, in the order of their names. Sockets that killed daemons
-/// left behind are removed. Throws ControlError.
+/// Returns the sockets in that folder at which a daemon listens, in the order of their names. Removes
+/// sockets that killed daemons left. Throws ControlError.
 std::vector<std::string> live_control_sockets();
 
 }  // namespace understudy::emulator::serve

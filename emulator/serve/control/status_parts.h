@@ -1,5 +1,5 @@
-// How a bench is doing, part by part: a line, one of its stations, a device. Each is of one moment, which
-// lines and devices tell ("time_ns"); where the clock stands, all are of the same one.
+// The state of a bench in parts: a line, one of its stations, a device. Each part is of one moment, which
+// lines and devices give as "time_ns"; while the clock is stopped, all parts have the same.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class StatusParts {
  public:
   explicit StatusParts(Daemon& daemon) : daemon_(daemon) {}
 
-  /// Adds the members of an object, one after the other; false if there is nothing left.
+  /// Adds the members of an object, one after the other. Returns false if nothing is left.
   bool add_next(ReplyText& text);
 
  private:

@@ -1,5 +1,5 @@
-// A reply that is made in pieces. Devices wait while a reply is made: one that takes long pauses between its
-// parts, and goes on when what was due meanwhile is done (EventLoop::do_in_pieces).
+// A reply that is made in pieces. Devices wait while a reply is made, so a reply that takes long pauses
+// between its parts and continues when the work due meanwhile is done (EventLoop::do_in_pieces).
 //
 //   Telling list_message(Daemon& daemon, Json message) {
 //     const Pause pause(daemon);
@@ -11,8 +11,8 @@
 //     co_return text.take();
 //   }
 //
-// The world goes on in a pause: what must be of one moment is read between two of them. No pointer into what
-// may be gone then is kept across one.
+// The world runs during a pause, so data that must be of one moment is read between two pauses. Pointers to
+// objects that may disappear must not be kept across a pause.
 #pragma once
 
 #include <coroutine>
@@ -27,7 +27,8 @@ class Daemon;
 class Telling {
  public:
   struct promise_type {
-    // Declared, so that it is not made of a coroutine's arguments, as an aggregate would be.
+    // This constructor is declared so that it is not called with the coroutine's arguments, as an aggregate
+    // would be.
     promise_type() = default;
     Telling get_return_object() { return Telling(Handle::from_promise(*this)); }
     std::suspend_always initial_suspend() noexcept { return {}; }
@@ -47,7 +48,8 @@ class Telling {
     if (handle_) handle_.destroy();
   }
 
-  /// Goes on until it pauses or is done. True: the reply is there. Throws what the verb has thrown.
+  /// Continues until it pauses or is done. Returns true if the reply is complete. Throws the exceptions of
+  /// the verb.
   bool go_on() {
     handle_.resume();
     if (handle_.promise().error) std::rethrow_exception(handle_.promise().error);

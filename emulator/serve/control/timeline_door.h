@@ -1,4 +1,4 @@
-// The control socket of a recording: all messages, and two more that go to and fro in it (docs/control.md).
+// The control socket of a recording: all messages, and two more that move in its time (docs/control.md).
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace understudy::emulator::serve {
 
-/// The door of a daemon whose world is of the recording's bench and stands. It plays the recording once, as
-/// soon as the daemon runs, and goes to `at_first`. `path` as of control_door().
+/// Makes the door of a daemon whose world is of the recording's bench and whose clock is stopped. It plays
+/// the recording once, as soon as the daemon runs, and moves to `at_first`. `path` is as for control_door().
 DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
                         const std::vector<world::RecordedEvent>& events, SimTime end, SimTime at_first);
 

@@ -1,4 +1,4 @@
-// What `ctl get` and `ctl eval` print, made from the reply.
+// Makes the output of `ctl get` and `ctl eval` from the reply.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace understudy::emulator::serve {
 
-/// "feeder.Cord_A 32000", "time 3.05s": a line for each value of a reply to {"do":"get"}. Throws nlohmann's
-/// exceptions if it is not such a reply.
+/// Returns a line for each value of a reply to {"do":"get"}: "feeder.Cord_A 32000", "time 3.05s". Throws
+/// nlohmann's exceptions if it is not such a reply.
 std::vector<std::string> value_lines(const std::string& reply);
 
-/// The value in a reply to {"do":"eval"}.
+/// Returns the value in a reply to {"do":"eval"}.
 std::string value_text(const std::string& reply);
 
 }  // namespace understudy::emulator::serve

@@ -8,17 +8,18 @@
 
 namespace understudy::emulator::serve {
 
-/// Replies with the result of `make`, or with the reason why there is none; null means that there is no reply
-/// yet.
+/// Replies with the result of `make`, or with the reason why there is none. A null result means that the
+/// reply comes later.
 void answer(const ControlServer::Reply& reply, const std::function<Json()>& make);
 
 Telling status_message(Daemon& daemon, Json message);
-/// {"do":"identify"}: which daemon this is
+/// {"do":"identify"}: identifies the daemon.
 Json identify_message(Daemon& daemon, const Json& message);
-/// {"do":"frames","since":17}: those that went over the lines, from number 17 on; {"do":"frames","last":10}
+/// {"do":"frames","since":17}: frames on the lines from number 17 on; {"do":"frames","last":10}: the last
+/// ten.
 Telling frames_message(Daemon& daemon, Json message);
 
-/// {"do":"get","names":["feeder.Cord_A","feeder.A.position","time"]}: whatever conditions can name
+/// {"do":"get","names":["feeder.Cord_A","feeder.A.position","time"]}: all names that conditions may use.
 Telling get_message(Daemon& daemon, Json message);
 /// {"do":"eval","expression":"feeder.Cord_A / 3200"}
 Json eval_message(Daemon& daemon, const Json& message);
@@ -27,37 +28,37 @@ Json set_message(Daemon& daemon, const Json& message);
 
 /// {"do":"input","values":{"feeder.DIN_10":1,"feeder.AIN_A":"2.5V"}}
 Json input_message(Daemon& daemon, const Json& message);
-/// {"do":"turn","values":{"mill.MPG":400},"in":"2s"}; without a time at once
+/// {"do":"turn","values":{"mill.MPG":400},"in":"2s"}; without "in" at once.
 Json turn_message(Daemon& daemon, const Json& message);
 /// {"do":"command","device":"mill","text":"MOVE X 1000"}
 Json command_message(Daemon& daemon, const Json& message);
 /// {"do":"power","device":"feeder","to":"off"}, "on" or "cycle"
 Json power_message(Daemon& daemon, const Json& message);
-/// {"do":"program","device":"feeder","text":"..."}; without a text the reply brings the one there is
+/// {"do":"program","device":"feeder","text":"..."}; without "text" the reply has the present program.
 void program_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
-/// {"do":"inject","fault":{"lost_steps":"feeder.A","one_in":50}}, as a bench has it
+/// {"do":"inject","fault":{"lost_steps":"feeder.A","one_in":50}}; the fault is as in a bench.
 Json inject_message(Daemon& daemon, const Json& message);
-/// {"do":"clear","number":1}; without a number all of them
+/// {"do":"clear","number":1}; without a number it clears all.
 Json clear_message(Daemon& daemon, const Json& message);
 /// {"do":"list"}
 Json list_message(Daemon& daemon, const Json& message);
 
-/// {"do":"snapshot","file":"/tmp/homed.json"}: an absolute path. The file is written beside the daemon; the
-/// reply comes when it is there.
+/// {"do":"snapshot","file":"/tmp/homed.json"} needs an absolute path. A helper thread writes the file; the
+/// reply follows when it exists.
 void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
-/// {"do":"restore","file":"/tmp/homed.json"}. The file is read beside the daemon; the reply comes when the
-/// world is what it was.
+/// {"do":"restore","file":"/tmp/homed.json"}. A helper thread reads the file; the reply follows when the
+/// world has that state.
 void restore_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 
 /// {"do":"pause"}, {"do":"resume"}
 Json pause_message(Daemon& daemon, const Json& message);
 Json resume_message(Daemon& daemon, const Json& message);
-/// {"do":"advance","by":"250ms"}. The reply comes when simulated time is there.
+/// {"do":"advance","by":"250ms"}. The reply follows when simulated time has got there.
 void advance_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
-/// {"do":"step","ticks":10}: to the end of the tenth tick from now, where the clock stands.
+/// {"do":"step","ticks":10} runs to the end of the tenth tick from now. The clock must be stopped.
 void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
-/// {"do":"run-until","condition":"feeder.STATUS.4 == 0","within":"10s"}. The reply comes at the end of the
-/// first tick at which it is true, or when the time is over; "reached" says which.
+/// {"do":"run-until","condition":"feeder.STATUS.4 == 0","within":"10s"}. The reply follows at the end of the
+/// first tick at which it is true, or when the time is over; "reached" tells which.
 void run_until_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 
 }  // namespace understudy::emulator::serve

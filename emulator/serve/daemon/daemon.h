@@ -1,5 +1,5 @@
-// A world in touch with the outside: ports, control socket, pacing, signals. One thread, one event loop; it
-// wakes up for what is readable and for what is due, not for every tick.
+// Connects a world to the outside: ports, control socket, pacing, signals. It has one thread and one event
+// loop, which wakes up for readable descriptors and for events that are due, not for every tick.
 #pragma once
 
 #include <functional>
@@ -35,8 +35,8 @@ struct DaemonOptions {
   bool strict_framing = false;
   std::optional<SimTime> patience{};  // with half a frame; without it, as the speed has it
   bool enforce_settings = true;
-  DoorMaker door{};        // empty: nobody can ask it anything
-  std::string bench_path;  // the file that is served; empty if there is none
+  DoorMaker door{};        // empty: it accepts no control messages
+  std::string bench_path;  // the bench's file; empty if there is none
   bool watch_signals = true;
   std::string capture_path;  // empty: no capture
   std::string record_path;   // empty: no recording
@@ -44,12 +44,12 @@ struct DaemonOptions {
   std::string trace_path;  // .csv or .vcd; empty: no trace
   std::vector<std::string> trace_also;
   std::string version;  // of the program, for the recording
-  FileClaims files{};   // that no snapshot may replace; what the daemon opens itself is added
+  FileClaims files{};   // files that no snapshot may replace; the daemon adds those that it opens itself
 };
 
 class Daemon {
  public:
-  /// Opens everything, or throws an error that says why not (SettingError, PortError, ControlError,
+  /// Opens everything. Throws an error with the reason (SettingError, PortError, ControlError,
   /// CaptureError).
   Daemon(const world::Bench& bench, const DaemonOptions& options,
          std::function<void(const std::string&)> log);
@@ -59,59 +59,58 @@ class Daemon {
 
   /// Runs until SIGTERM, SIGINT or SIGHUP (if it watches signals), or stop().
   void run();
-  /// Ends run() soon. On the thread that runs it.
+  /// Ends run() soon. Must be called on the thread that runs it.
   void stop() { stopping_ = true; }
-  /// Has `act` called on the thread that runs the daemon, between two looks at the world. Call it from any
-  /// thread. `act` may put the world into another state; simulated time goes on from there. Once run() has
-  /// left, for whatever reason, nothing is called any more: what is still waiting is dropped, and this
-  /// returns false.
+  /// Calls `act` on the thread that runs the daemon, outside World::advance_to(). May be called on any
+  /// thread. `act` may put the world into another state; simulated time then continues from there. After
+  /// run() has ended nothing is called any more: waiting calls are dropped, and this returns false.
   bool post(std::function<void()> act);
-  /// Has `work` done on a helper thread, and posts its result. For work that would make the devices wait.
+  /// Runs `work` on a helper thread and posts its result. It is for work that would make the devices wait.
   void do_aside(std::function<std::function<void()>()> work);
-  /// Whether run() has left.
+  /// Returns true if run() has ended.
   bool is_over();
-  /// For other things to wait for.
+  /// The event loop, on which other parts can wait.
   EventLoop& loop() { return loop_; }
 
   world::World& world() { return world_; }
   const world::World& world() const { return world_; }
   const Pacer& pacer() const { return pacer_; }
   const std::vector<std::unique_ptr<Port>>& ports() const { return ports_; }
-  /// The path of its door; empty if it has none.
+  /// Returns the path of its door, or an empty text if it has none.
   const std::string& control_path() const;
   const std::string& bench_path() const { return bench_path_; }
-  /// The last frames that went over the lines.
+  /// The last frames on the lines.
   const world::FrameLog& frames() const { return frames_; }
-  /// What is there for those who look on.
+  /// Data for observers.
   Onlookers& onlookers() { return onlookers_; }
 
-  /// An advance that is under way ends here.
+  /// Pauses the clock. An advance in progress ends.
   void pause();
-  /// False while an advance is under way.
+  /// Returns false while an advance is in progress.
   bool resume();
-  /// How simulated time follows the wall clock from now on. False while an advance is under way. How long
-  /// half a frame is waited for stays as the speed at the beginning had it.
+  /// Sets how simulated time follows the wall clock from now on. Returns false while an advance is in
+  /// progress. How long an incomplete frame is waited for still depends on the initial speed.
   bool set_speed(const Speed& speed);
   bool is_advancing() const { return advance_done_ != nullptr; }
-  /// Moves simulated time on by `duration`, or to the end of the first tick at which `is_there` is true
-  /// (asked at the end of every tick), then calls `done`. Only if the clock stands; returns false otherwise,
-  /// or while another advance is under way.
+  /// Advances simulated time by `duration`, or to the end of the first tick at which `is_there` is true
+  /// (asked at the end of every tick), then calls `done`. Returns false if the clock is running, or while
+  /// another advance is in progress.
   bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there = {});
   /// Brings the world to the present moment, or as far as it gets in a few milliseconds.
   void catch_up();
-  /// Like catch_up(), but as far as it gets in a tenth of a second: for what is stamped with this moment.
+  /// Like catch_up(), but for up to a tenth of a second: for bytes that are stamped with this moment.
   void catch_up_for_bytes();
 
   /// The hash of the world's bench, for snapshots.
   std::uint64_t bench_hash() const { return bench_hash_; }
-  /// Other files that it reads and writes.
+  /// The other files that it reads and writes.
   FileClaims files() const;
-  /// Why the world cannot be put into another state now; empty if it can.
+  /// Returns why the world cannot be put into another state now, or an empty text.
   std::string_view why_no_restore() const;
-  /// Puts the world into another state; simulated time goes on from there, and the lines have the hosts that
-  /// are there now. If it throws (StateError), nothing has changed.
+  /// Puts the world into another state. Simulated time continues from there, and the lines have the hosts
+  /// that are there now. If it throws (StateError), nothing has changed.
   void restore(const world::WorldState& state);
-  /// Of the time before the present state, onlookers are told this and nothing else.
+  /// Replaces the frames and events before the present state that observers are shown.
   void tell_anew(std::vector<world::FrameLog::Frame> frames, std::vector<world::Event> events);
 
  private:
@@ -146,7 +145,7 @@ class Daemon {
   std::unique_ptr<world::RecordingSpool> recording_;
   std::unique_ptr<world::TraceFile> trace_;
   Pacer pacer_;
-  PrivateFolder private_folder_;  // for links that nobody asked for
+  PrivateFolder private_folder_;  // for links that the user did not ask for
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<std::unique_ptr<TcpDoor>> doors_;
   std::unique_ptr<Door> door_;
@@ -158,7 +157,7 @@ class Daemon {
   std::unique_ptr<HelperThread> helper_ = std::make_unique<HelperThread>();
   bool stopping_ = false;
   std::optional<WallTime> planned_;       // for when the loop meant to wake; judged once
-  std::optional<WallTime> behind_since_;  // since when it has worked to catch up; nothing: it has caught up
+  std::optional<WallTime> behind_since_;  // since when it has been catching up; nothing: it is up to date
 
   SimTime advance_target_{0};
   std::function<bool()> advance_is_there_;  // may be none

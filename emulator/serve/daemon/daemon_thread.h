@@ -1,4 +1,4 @@
-// A daemon that runs on its own thread.
+// Runs a daemon on its own thread.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace understudy::emulator::serve {
 
 class DaemonThread {
  public:
-  /// Opens everything; nothing runs yet. `options` must not watch signals, which come to the whole process.
+  /// Opens everything; nothing runs yet. `options` must not watch signals, which go to the whole process.
   DaemonThread(const world::Bench& bench, const DaemonOptions& options,
                std::function<void(const std::string&)> log)
       : daemon_(bench, options, std::move(log)) {}
@@ -23,7 +23,7 @@ class DaemonThread {
   void start() {
     thread_ = std::thread([this] { daemon_.run(); });
   }
-  /// Does what was posted; after that nothing runs any more.
+  /// Runs posted calls first; after that nothing runs any more.
   void stop() {
     if (!thread_.joinable()) return;
     daemon_.post([this] { daemon_.stop(); });

@@ -1,4 +1,4 @@
-// The way in for those who ask a daemon things: a control socket (control/control_door.h).
+// The interface of a daemon's entrance for requests: a control socket (control/control_door.h).
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@ class Daemon;
 class Door {
  public:
   virtual ~Door() = default;
-  /// Where it is in the file system.
+  /// Returns its path in the file system.
   virtual const std::string& path() const = 0;
 };
 
-/// Makes a door that lives as long as the daemon, served by its event loop; null if it could not, and `log`
-/// is told why.
+/// Makes a door that lives as long as the daemon and is served by its event loop. Returns null if it failed,
+/// with the reason in `log`.
 using DoorMaker =
     std::function<std::unique_ptr<Door>(Daemon& daemon, const std::function<void(const std::string&)>& log)>;
 

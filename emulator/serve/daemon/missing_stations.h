@@ -1,5 +1,5 @@
-// Says in the log that a host asks for a station that is not on the line: it gets no answer, and a host can
-// only say that time is over.
+// Logs that a host asks for a station that is not on the line. Such a request gets no answer, and the host
+// itself can only report a timeout.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class MissingStations {
   MissingStations(const world::World& world, std::function<void(const std::string&)> log)
       : world_(world), log_(std::move(log)) {}
 
-  /// Of each number it is said once, of a host that tries all of them a few times.
+  /// Logs each number once; if a host tries all of them, only a few.
   void look(const pty::CapturedPacket& packet);
 
  private:

@@ -1,4 +1,4 @@
-// Keeps the files of the devices' memories up to date with the simulated memories.
+// Keeps the memory files of devices up to date with the simulated memories.
 #pragma once
 
 #include <functional>
@@ -14,25 +14,25 @@
 
 namespace understudy::emulator::serve {
 
-/// Gives every device that has no file one in `folder`, which is made if it does not exist (if `folder` is
-/// empty they stay without), and reads the existing files into the settings. Throws FileError with all that
-/// is wrong with them, NvError where a file or the folder cannot be used, or std::system_error.
+/// Gives every device without a memory file one in `folder`, which is made if it does not exist (if `folder`
+/// is empty they have no file), and reads existing files into the settings. Throws FileError with all
+/// mistakes in the files, NvError if a file or the folder cannot be used, or std::system_error.
 void read_memories(world::Bench& bench, const std::string& folder);
 
 class NvKeeper {
  public:
-  /// The world that was made from the bench. Memories that differ from their files are written now. Throws
-  /// pty::PortError if another process keeps one of these files.
+  /// `world` was made from the bench. Memories that differ from their files are written now. Throws
+  /// pty::PortError if another process uses one of these files.
   NvKeeper(const world::Bench& bench, const world::World& world, std::function<void(const std::string&)> log);
-  ~NvKeeper();  // writes what has changed, and waits for it
+  ~NvKeeper();  // writes changes, and waits for them
   NvKeeper(const NvKeeper&) = delete;
   NvKeeper& operator=(const NvKeeper&) = delete;
 
-  /// Hands what has changed to the helper thread, at most once in NvWriter::kCoalesce.
+  /// Passes changes to the helper thread, at most once in NvWriter::kCoalesce.
   void look(WallTime now);
-  /// When it needs to look again, if there is something to hand over or a result to collect.
+  /// Returns when look() must be called again, if there are changes to pass on or results to collect.
   std::optional<WallTime> next_look() const;
-  /// The world has another state: whatever their revisions, the files do not match its memories.
+  /// The world has another state: the files must be written again, whatever the revisions of its memories.
   void world_restored();
 
  private:

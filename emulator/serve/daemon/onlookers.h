@@ -1,5 +1,5 @@
-// What a daemon has for those who look on, by the control socket: none of it is part of the world, and it
-// costs nothing while nobody asks.
+// A daemon's data for observers on the control socket. It is not part of the world and costs nothing while
+// no one asks.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,15 @@ struct Onlookers {
   Onlookers(world::World& world, const world::FrameLog& frames) : events(world, frames), names(world) {}
 
   world::EventLog events;
-  std::uint64_t restores = 0;  // how often the world was put into another state: what was told before is over
+  std::uint64_t restores =
+      0;  // how often the world was put into another state, which makes earlier reports invalid
   world::LookedNames names;
-  std::unique_ptr<world::Scope> scope;  // null: nobody has armed one
+  std::unique_ptr<world::Scope> scope;  // null: not armed
   struct Kept {
     SimTime at{0};
     world::WorldState state;
   };
-  std::map<std::string, Kept> snapshots;  // by name; gone with the daemon
+  std::map<std::string, Kept> snapshots;  // by name; they end with the daemon
 };
 
 }  // namespace understudy::emulator::serve

@@ -1,5 +1,6 @@
-// A command as a child process, in its own process group, so that everything it starts ends with it. If we
-// have the terminal, the group gets it meanwhile, as from a shell: Ctrl-C and Ctrl-Z reach the command.
+// Runs a command as a child process in its own process group, so that everything it starts ends with it. If
+// this process has the terminal, the group gets it meanwhile, as from a shell: Ctrl-C and Ctrl-Z reach the
+// command.
 #pragma once
 
 #include <sys/types.h>
@@ -15,7 +16,7 @@
 
 namespace understudy::emulator::serve {
 
-/// It could not be started: one line that names it and says why.
+/// Thrown if the command could not be started. The message is one line that names it and has the reason.
 struct ChildError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -25,29 +26,30 @@ struct ChildCommand {
   std::vector<std::pair<std::string, std::string>> environment;  // in addition to our own, or replacing them
 };
 
-/// One at a time: it looks after every child that this process has, and every orphan that it is given.
+/// Only one may exist at a time, because it waits for every child of this process and every orphan that it
+/// inherits.
 class Child {
  public:
   /// The time between asking a group to end and killing it.
   static constexpr WallTime kGrace = std::chrono::seconds(5);
 
-  /// Starts it; `over` is called once, when the command has ended and its whole group is gone. Throws
-  /// ChildError.
+  /// Starts the command. `over` is called once, when the command has ended and its whole group is gone.
+  /// Throws ChildError.
   Child(EventLoop& loop, const ParentSignals& signals, const ChildCommand& command,
         std::function<void()> over);
-  /// Kills whatever is left of the group.
+  /// Kills the remaining processes of the group.
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// To be called for SIGCHLD.
+  /// Must be called for SIGCHLD.
   void look_after_children();
-  /// Sends a signal to the group; what is still there after kGrace is killed.
+  /// Sends a signal to the group. Processes that still exist after kGrace are killed.
   void end_with(int signal_number);
 
-  /// What the command ended with: its exit code, or 128 + n if signal n ended it.
+  /// The exit code of the command, or 128 + n if signal n ended it.
   int exit_code() const { return exit_code_; }
-  /// It was asked to end, or ended by a signal, and not by itself.
+  /// Returns true if it was asked to end, or ended by a signal.
   bool was_ended() const { return was_asked_ || by_signal_; }
 
  private:
@@ -67,7 +69,7 @@ class Child {
   pid_t pid_ = -1;  // and the number of its group
   int terminal_ = -1;
   int timer_ = -1;
-  WallTime deadline_{0};  // when the group will be killed; 0: nobody has asked it to end
+  WallTime deadline_{0};  // when the group will be killed; 0: it was not asked to end
   bool has_ended_ = false;
   bool is_over_ = false;
   bool was_asked_ = false;

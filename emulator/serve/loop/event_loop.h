@@ -1,5 +1,5 @@
-// Waiting for descriptors and for a moment, on one thread: epoll in one small class. What must not wait
-// (ports, signals) comes first in every turn; after that, requests from others get a slice of time.
+// Waits for descriptors and for a moment, on one thread, with epoll. Urgent descriptors (ports, signals)
+// come first in every turn; after that, requests of others get a slice of time.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::serve {
 
-/// The wall clock of the edge: CLOCK_MONOTONIC. The model never sees it.
+/// Time of the wall clock: CLOCK_MONOTONIC. The model never sees it.
 using WallTime = std::chrono::nanoseconds;
 WallTime wall_now();
 
@@ -26,29 +26,29 @@ class EventLoop {
 
   /// `departed`: the other side of a socket has closed its sending half, or the connection is broken.
   enum Readiness : std::uint32_t { readable = 1, writable = 2, departed = 4 };
-  /// Of everything that is ready, what is `later` is called last, one after the other in turn, and for at
-  /// most a slice of time: however many there are, the others are looked at again soon.
+  /// Ready descriptors of rank `later` are called last, one after the other in turn, for at most a slice of
+  /// time. So the others are checked again soon, however many there are.
   enum class Rank : std::uint8_t { first, later };
   static constexpr WallTime kLaterSlice = std::chrono::microseconds(30);
-  /// Where nothing can be late, as when simulated time goes by as fast as it can.
+  /// A slice for when nothing can be late, as in virtual time.
   static constexpr WallTime kLongSlice = std::chrono::milliseconds(1);
-  /// What is `later` does not begin so shortly before something is due: it waits for that first.
+  /// Work of rank `later` does not begin within this time before something is due; it waits for that first.
   static constexpr WallTime kRoom = std::chrono::microseconds(100);
 
-  /// Calls `ready` whenever the descriptor is ready for one of `interest` (or has hung up).
+  /// Calls `ready` whenever the descriptor is ready for one of `interest`, or has hung up.
   void watch(int descriptor, std::uint32_t interest, std::function<void(std::uint32_t ready)> ready,
              Rank rank = Rank::first);
   void change_interest(int descriptor, std::uint32_t interest);
   void unwatch(int descriptor);
 
-  /// Work that is done piece by piece, in turn with what is `later`: `piece` is called again as long as it
-  /// returns true.
+  /// Runs work piece by piece, in turn with descriptors of rank `later`. `piece` is called again as long as
+  /// it returns true.
   void do_in_pieces(std::function<bool()> piece);
-  /// Asked by what is `later`: whether it should leave what it can for another time.
+  /// Called by work of rank `later`: returns true if it should leave the rest for another turn.
   bool slice_is_over() const;
 
-  /// Waits until something is ready, or `until` has come (nothing: as long as it takes), and calls what is
-  /// ready. With a moment in the past it does not wait.
+  /// Waits until something is ready, or until `until` (nothing: without limit), and calls what is ready. It
+  /// does not wait for a moment in the past.
   void wait(std::optional<WallTime> until, WallTime slice = kLaterSlice);
 
  private:
@@ -67,13 +67,13 @@ class EventLoop {
   int epoll_ = -1;
   int later_ = -1;  // another epoll, in that one
   int timer_ = -1;
-  WallTime alarm_{0};  // what the timer is set for, or was last set for
+  WallTime alarm_{0};  // the time for which the timer is or was last set
   std::map<int, Watch> watches_;
-  std::vector<int> changed_;  // whose interest the kernel may not know of yet
+  std::vector<int> changed_;  // descriptors whose interest must still be passed to the kernel
   std::deque<std::function<bool()>> pieces_;
   bool are_pieces_next_ = false;
-  WallTime slice_end_ = WallTime::max();  // of what is `later`; no end outside of it
-  bool puts_off_ = false;                 // what is `later` waits for something that is due soon
+  WallTime slice_end_ = WallTime::max();  // for rank `later`; no end at other times
+  bool puts_off_ = false;                 // rank `later` waits for something that is due soon
   bool has_put_off_ = false;              // since it was last called,
   WallTime put_off_until_{0};             // for something due then
 };

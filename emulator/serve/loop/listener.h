@@ -1,5 +1,6 @@
-// A socket at which clients arrive. Where no descriptors are left for them they wait, and nobody spins: it is
-// not looked at again before a client has gone, or a moment is over, as others may give descriptors back.
+// A socket on which clients arrive. When the process has no descriptors left, clients wait without busy
+// looping: the socket is not checked again before a client has gone, or a moment has passed, because other
+// parts may close descriptors.
 #pragma once
 
 #include <functional>
@@ -11,15 +12,15 @@ namespace understudy::emulator::serve {
 
 class Listener {
  public:
-  /// `socket` listens and does not block. Each client is given to `admit`. Throws std::system_error if there
-  /// is no descriptor left for it.
+  /// `socket` listens and does not block. Each client is passed to `admit`. Throws std::system_error if
+  /// there is no descriptor left for watching it.
   Listener(EventLoop& loop, Descriptor socket, std::function<void(Descriptor)> admit,
            EventLoop::Rank rank = EventLoop::Rank::first);
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
-  /// A descriptor was given back.
+  /// A descriptor was closed: tries again.
   void try_again();
 
  private:

@@ -1,5 +1,4 @@
-// How simulated time follows the wall clock. Pure: it is told the wall time, so tests can tell it
-// anything.
+// Makes simulated time follow the wall clock. Pure: it is told the wall time, so tests can give it any time.
 #pragma once
 
 #include <array>
@@ -17,26 +16,28 @@ struct Speed {
   enum class Kind : std::uint8_t {
     factor,  // simulated seconds a second; 1 is real time
     free,    // as fast as possible, up to kFreest
-    manual,  // only when told to
+    manual,  // only on request
   } kind = Kind::factor;
   double factor = 1.0;
 
-  /// Free running is bounded, so that what a host does takes some simulated time, but not years.
+  /// Virtual time is bounded to this factor, so that a host's actions take some simulated time, but not
+  /// years.
   static constexpr double kFreest = 10'000;
-  /// The most simulated seconds a second; 0 for `manual`.
+  /// Returns the most simulated seconds a second; 0 for `manual`.
   double rate() const;
 };
 
-/// "real", "free", "manual" or a factor above 0 and at most 10000, such as "2.5" or "10x".
+/// Parses "real", "free", "manual" or a factor above 0 and at most 10000, such as "2.5" or "10x".
 std::optional<Speed> parse_speed(std::string_view text);
 std::string format_speed(const Speed& speed);
 
-/// How late the edge woke up for what was due, over the last 4,096 times (the greatest: ever).
+/// Measures how late the daemon woke up for events, over the last 4,096 times; the maximum is over all
+/// times.
 class Lateness {
  public:
   void record(WallTime lateness);
   std::uint64_t count() const { return count_; }
-  WallTime percentile(int percent) const;  // 0 if there is none
+  WallTime percentile(int percent) const;  // Returns 0 if there are no measurements.
   WallTime greatest() const { return greatest_; }
 
  private:
@@ -52,23 +53,23 @@ class Pacer {
 
   Pacer(Speed speed, WallTime now) : speed_(speed), anchor_wall_(now) {}
 
-  /// Where simulated time should be.
+  /// Returns where simulated time should be.
   SimTime target(WallTime wall) const;
-  /// When simulated time will be there; nothing while the clock stands still.
+  /// Returns when simulated time will get there, or nothing while the clock is stopped.
   std::optional<WallTime> wall_time_of(SimTime time) const;
 
-  /// The edge woke up at `wall` for something planned for `planned`. Records how late that is; a stall is
-  /// left out of simulated time: returns the wall time that was left out, or 0.
+  /// Records that the daemon woke up at `wall` for something planned for `planned`. A stall is left out of
+  /// simulated time: returns the wall time left out, or 0.
   WallTime woke(WallTime planned, WallTime wall);
 
   void pause(WallTime wall);
-  /// From now on.
+  /// Takes effect from now on.
   void set_speed(const Speed& speed, WallTime wall);
   void resume(WallTime wall);
   bool paused() const { return paused_; }
-  /// The clock stands: paused, or manual.
+  /// Returns true if the clock is stopped: paused, or manual.
   bool standing() const { return paused_ || speed_.kind == Speed::Kind::manual; }
-  /// Simulated time was moved by hand, or ran ahead (free): it goes on from there.
+  /// Simulated time was moved by hand, or ran ahead (virtual time): it continues from there.
   void moved_to(SimTime time, WallTime wall);
 
   const Speed& speed() const { return speed_; }

@@ -1,4 +1,4 @@
-// The signals of a process that has a child to look after (child.h).
+// Handles the signals of a process that has a child (child.h).
 #pragma once
 
 #include <signal.h>
@@ -9,8 +9,9 @@
 
 namespace understudy::emulator::serve {
 
-/// While it lives, signals that ask us to end and signals about children come through a descriptor, and those
-/// that an edge must survive (a reader that goes away) are ignored. Make it before any other thread.
+/// While it lives, signals that ask this process to end and signals about children arrive through a
+/// descriptor, and signals that it must survive (a reader that goes away) are ignored. It must be made
+/// before any other thread.
 class ParentSignals {
  public:
   ParentSignals();
@@ -18,11 +19,11 @@ class ParentSignals {
   ParentSignals(const ParentSignals&) = delete;
   ParentSignals& operator=(const ParentSignals&) = delete;
 
-  /// Calls `on_signal` with the number of each signal that comes.
+  /// Calls `on_signal` with the number of each signal that arrives.
   void watch(EventLoop& loop, std::function<void(int signal_number)> on_signal);
   void unwatch(EventLoop& loop) const { loop.unwatch(descriptor_); }
 
-  /// In a child, before it becomes another program: restores all signals to what they were before.
+  /// Restores all signals to their former state. Called in a child, before it becomes another program.
   void restore() const;
 
  private:

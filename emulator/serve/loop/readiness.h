@@ -3,9 +3,9 @@
 
 namespace understudy::emulator::serve {
 
-/// Sends a state such as "READY=1" as a datagram to the socket that NOTIFY_SOCKET names: a path, or an
-/// abstract socket where it begins with '@'. Does nothing if there is none, or nobody listens: a daemon does
-/// not depend on who started it.
+/// Sends a state such as "READY=1" as a datagram to the socket in NOTIFY_SOCKET: a path, or an abstract
+/// socket if it begins with '@'. Does nothing if there is none, or if no one listens: a daemon does not
+/// depend on its parent.
 void notify_service_manager(const char* state);
 
 }  // namespace understudy::emulator::serve

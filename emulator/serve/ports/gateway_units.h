@@ -1,4 +1,4 @@
-// Whom the units of Modbus TCP stand for on a line.
+// Maps units of Modbus TCP to stations on a line.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace understudy::emulator::serve {
 
-/// The number on the line of the station that is meant by `unit`: its own where a station answers to it, or
-/// the one that 255 (or any unit) stands for; otherwise `unit`.
+/// Returns the station number for `unit`: the same number if a station answers to it, or the station that
+/// 255 (or any unit) stands for; otherwise `unit`.
 std::uint8_t station_of_unit(std::uint8_t unit, const world::GatewaySettings& settings,
                              const world::WorldLine& line);
 
-/// What is worth a line in the log where a master asks for that station by that function: that nobody is
-/// there who would answer, and who is there. Empty: somebody answers, or nobody should.
+/// Returns a line for the log if a master asks for that station by that function and no station will answer,
+/// with the stations that exist. Empty if one answers, or none should.
 std::string why_unanswered(std::uint8_t station, std::uint8_t function, const world::WorldLine& line);
 
 }  // namespace understudy::emulator::serve

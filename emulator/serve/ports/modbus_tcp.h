@@ -1,6 +1,6 @@
-// Modbus TCP to RTU and back, as a gateway does it: one request at a time is on the line, the others wait for
-// their turn. Bytes in, bytes out; who waits, and how long, is the caller's. Source: MODBUS Messaging on
-// TCP/IP 1.0b, 3.1.3 and 4.4.2.
+// Converts Modbus TCP to RTU and back, as a gateway does: one request at a time is on the line, the others
+// wait for their turn. Bytes in, bytes out; the caller does the waiting. Source: MODBUS Messaging on TCP/IP
+// 1.0b, 3.1.3 and 4.4.2.
 #pragma once
 
 #include <chrono>
@@ -15,11 +15,11 @@
 
 namespace understudy::emulator::serve {
 
-/// How it behaves, and who stands on its line.
+/// The gateway's settings, and the stations on its line.
 struct GatewayRules {
   std::chrono::milliseconds timeout{1000};  // for a station to answer
   bool tells = true;                        // by exception 11 that it has not
-  /// The station that a request for a unit is for; null: the one of that number.
+  /// Returns the station for a unit; null: the station with that number.
   std::function<std::uint8_t(std::uint8_t unit, std::uint8_t function)> station_of{};
 };
 
@@ -27,23 +27,24 @@ class ModbusTcp final : public TcpSpeech {
  public:
   explicit ModbusTcp(GatewayRules rules = {}) : rules_(std::move(rules)) {}
 
-  /// False: they tell of a length that no request has, so where the next begins is not known. What came
-  /// before that is still served; that message, and whatever follows it, never is.
+  /// Returns false if the bytes give a length that no request has, so that the beginning of the next is
+  /// unknown. Earlier requests are still served; that message and all later bytes never are.
   [[nodiscard]] bool hear_client(std::span<const std::uint8_t> bytes) override;
   void hear_line(std::span<const std::uint8_t> bytes) override;
   std::optional<std::chrono::milliseconds> patience() const override;
-  /// The time for the reply is over: the client is told that the station does not answer, but for a
-  /// broadcast, and where it is to be told nothing.
+  /// The time for the reply is over: tells the client that the station does not answer, except for a
+  /// broadcast, or if the settings forbid it.
   void give_up() override;
   bool is_idle() const override;
   void client_gone() override;
 
-  /// The next request as an RTU frame, with its checksum. Empty if there is none, while another is on the
-  /// line, and until the last answer is taken: a client that takes none gets no further requests through.
+  /// Returns the next request as an RTU frame with its checksum. Empty if there is none, while another is on
+  /// the line, and until the client has taken the last answer.
   Bytes take_for_line(std::size_t room) override;
   Bytes take_for_client() override;
 
-  /// Whether a request is on the line; `is_broadcast`: nobody answers it, but for a station with number 0.
+  /// Returns true if a request is on the line. After `is_broadcast` no station answers, except one with
+  /// number 0.
   bool waits() const { return on_line_.has_value(); }
   bool is_broadcast() const { return on_line_ && on_line_->station == 0; }
   bool has_room() const override { return heard_.size() < kMostHeard; }
@@ -61,8 +62,8 @@ class ModbusTcp final : public TcpSpeech {
 
   GatewayRules rules_;
   Bytes heard_;              // of the client: whole requests, and the beginning of one
-  bool is_refused_ = false;  // it has sent what is not Modbus TCP
-  Bytes reply_;              // of the line, as far as it has come
+  bool is_refused_ = false;  // it has sent bytes that are not Modbus TCP
+  Bytes reply_;              // from the line, as far as received
   Bytes to_client_;
   std::optional<Request> on_line_;
 };

@@ -1,6 +1,5 @@
-// A port: one line of the world joined to its host, which has opened a pseudo-terminal or is a guest from
-// elsewhere. Only bytes cross here; what happens at this edge (a slow host, a full buffer) never reaches into
-// the model.
+// Connects one line of the world to its host, which has opened a pseudo-terminal or is a guest by another
+// way. Only bytes cross here; effects at this edge (a slow host, a full buffer) never reach the model.
 #pragma once
 
 #include <sys/stat.h>
@@ -20,9 +19,9 @@ namespace understudy::emulator::serve {
 
 class Port {
  public:
-  /// The link to its pseudo-terminal; nothing: it has none, and guests only.
+  /// The link to its pseudo-terminal; nothing: it has none, only guests.
   using Link = std::optional<std::string>;
-  /// `catch_up` brings the world to the present moment; `log` gets what the user should know. Throws
+  /// `catch_up` brings the world to the present moment; `log` receives messages for the user. Throws
   /// pty::PortError.
   Port(EventLoop& loop, world::World& world, std::size_t line_number, const Link& link,
        std::function<void()> catch_up, std::function<void(const std::string&)> log);
@@ -30,60 +29,63 @@ class Port {
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
-  /// Hands over what the wire has brought, and takes more bytes if the line has room.
+  /// Passes on the bytes that the wire has delivered, and takes more bytes if the line has room.
   void flush();
-  /// Hands over what there is. Returns whether there is more for a host that was reading a moment ago, or
-  /// room again for what a host has written: where time goes by as fast as it can, it has to wait for such a
+  /// Passes on available bytes. Returns true if there are more for a host that was reading a moment ago, or
+  /// if there is room again for bytes that a host has written: in virtual time, time must wait for such a
   /// host.
   bool is_waited_for();
-  /// How long the line can talk to its host until it has said more than it keeps; nothing: it will not talk.
+  /// Returns how long the line can send to its host until its buffer is full, or nothing if it will not
+  /// send.
   std::optional<SimTime> time_until_full() const;
-  /// When look() should be called even if nothing is readable: a host may have gone, a frame is incomplete
-  /// while the clock stands, or the pseudo-terminal was lost or pulled out and could not be opened again yet.
+  /// Returns when look() should be called even if nothing is readable: a host may have gone, a frame is
+  /// incomplete while the clock is stopped, or a lost or unplugged pseudo-terminal could not be opened again
+  /// yet.
   std::optional<WallTime> next_look(bool clock_stands);
   void look(WallTime now, bool clock_stands);
-  /// The world has another state: its line gets the host that is there now, and what the old line was saying
-  /// is dropped.
+  /// The world has another state: its line gets the host that is there now, and the old line's unsent bytes
+  /// are dropped.
   void world_restored();
 
-  /// A host that comes by another way than the pseudo-terminal. What it sends is hear()d.
+  /// A host that does not use the pseudo-terminal. It passes its bytes to hear().
   class Guest {
    public:
     virtual ~Guest() = default;
-    /// What the line says next. Returns how much of it was taken.
+    /// Receives the line's next bytes. Returns how many it took.
     virtual std::size_t take(std::span<const std::uint8_t> bytes) = 0;
     /// The line may have room again.
     virtual void follow() = 0;
-    /// What a fault does to the reply that the line says next.
+    /// Applies a fault to the next reply of the line.
     virtual void spoil(const world::Fault& fault) = 0;
-    /// The port is pulled out: the guest leaves.
+    /// The port is unplugged: the guest leaves.
     virtual void hang_up() = 0;
   };
-  /// False: the line has a host. Who opens the pseudo-terminal later is not heard until the guest leaves.
+  /// Returns false if the line has a host. While a guest is there, hosts that open the pseudo-terminal are
+  /// ignored.
   bool admit(Guest& guest);
   /// Its last bytes are still served.
   void leave(std::span<const std::uint8_t> last);
-  /// At most room() bytes.
+  /// Takes at most room() bytes.
   void hear(std::span<const std::uint8_t> bytes, const pty::HostSettings& settings);
-  /// It takes back what is not on the wire yet.
+  /// The guest flushes bytes that are not on the wire yet.
   void take_back();
-  /// It does not want what it has not taken yet.
+  /// The guest discards bytes that it has not taken yet.
   void throw_away();
   std::size_t room() const { return left_behind_.empty() ? line().room() : 0; }
   bool is_unplugged() const { return line().is_unplugged(); }
-  /// Nothing is on its way, and nobody has anything to say.
+  /// Returns true if no bytes are on their way and nothing is due.
   bool is_quiet() const { return left_behind_.empty() && !line().due() && line().output().empty(); }
   const pty::Line& line() const { return world_line().line; }
   const world::WorldLine& world_line() const { return world_.line(line_number_); }
 
-  /// Null: it has none, or it is pulled out.
+  /// Null: it has no pseudo-terminal, or is unplugged.
   const pty::PseudoTerminal* terminal() const { return terminal_ ? &*terminal_ : nullptr; }
-  /// What a host opens: the link's path, or where it is reached by TCP if there is no pseudo-terminal.
+  /// Returns what a host opens: the link's path, or the TCP address if there is no pseudo-terminal.
   std::string place() const;
   std::size_t line_number() const { return line_number_; }
   bool host_present() const { return guest_ != nullptr || (terminal_ && terminal_->host_present()); }
   std::optional<pty::HostSettings> host_settings() const;
-  /// Where it is reached by TCP, as a user writes it.
+  /// Its TCP addresses, as a user writes them.
   const std::vector<std::string>& tcp_places() const { return tcp_places_; }
   void add_tcp_place(const std::string& place) { tcp_places_.push_back(place); }
 
@@ -115,18 +117,18 @@ class Port {
   Guest* guest_ = nullptr;                       // has the line instead
   std::optional<pty::HostSettings> guest_settings_;
   std::vector<std::string> tcp_places_;
-  std::vector<std::uint8_t> left_behind_;  // by hosts that have closed; at most kLeftBehindCapacity
-  WallTime second_look_{0};                // when to check again whether the host has gone; 0: no need
+  std::vector<std::uint8_t> left_behind_;  // from hosts that have closed; at most kLeftBehindCapacity
+  WallTime second_look_{0};                // when to check again whether the host has gone; 0: not needed
   bool is_watching_ = false;               // the terminal's descriptors
   bool is_pulled_out_ = false;             // by a fault
   bool has_told_ = false;                  // why it cannot be plugged in again
   struct stat access_ {};                  // of the terminal that was
-  WallTime next_recovery_{0};              // when to try to open a lost terminal again; 0: it is not lost
+  WallTime next_recovery_{0};              // when to try again to open a lost terminal; 0: it is not lost
   bool is_listening_ = true;               // the line had room when last something was handed over
   WallTime last_taken_{0};                 // when the host's side took something last
   std::unique_ptr<Overflow> overflow_;
-  WallTime last_bytes_{0};   // when the host's last bytes came; 0: nothing is waited for
-  bool has_paused_ = false;  // where the clock stands: since then a frame's usual patience is over
+  WallTime last_bytes_{0};   // when the host's last bytes came; 0: no frame is waited for
+  bool has_paused_ = false;  // while the clock is stopped: the usual patience for a frame has passed since
 };
 
 }  // namespace understudy::emulator::serve

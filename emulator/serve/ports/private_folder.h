@@ -7,18 +7,18 @@
 
 namespace understudy::emulator::serve {
 
-/// What its path begins with.
+/// The beginning of its path.
 inline constexpr const char* kPrivateFolders = "/tmp/understudy-";
 
-/// How long files that failures left in such folders are kept.
+/// How long files that failed runs left in such folders are kept.
 inline constexpr std::chrono::hours kLeftOversKept{7 * 24};
 
-/// Removes our folders with that beginning in which nothing has changed for this long, and whose owner is
-/// gone. Anything with another kind of name, or another user's, is left alone.
+/// Removes our folders with that beginning in which nothing has changed for this long, and whose owner has
+/// ended. Folders with other names, or of other users, are left alone.
 void remove_left_overs(const std::string& beginning = kPrivateFolders,
                        std::chrono::seconds kept = kLeftOversKept);
 
-/// A private folder below /tmp, made when it is first asked for, and removed (if empty) at the end.
+/// A private folder below /tmp, made when it is first asked for, and removed at the end if it is empty.
 class PrivateFolder {
  public:
   PrivateFolder() = default;

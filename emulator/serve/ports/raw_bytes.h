@@ -1,4 +1,4 @@
-// A serial line's own bytes over TCP, as they come, both ways.
+// Passes a serial line's bytes over TCP unchanged, in both directions.
 #pragma once
 
 #include <algorithm>

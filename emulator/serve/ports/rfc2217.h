@@ -1,5 +1,5 @@
-// A serial port over telnet: the host's speed, parity, data bits and stop bits are seen. What a command does
-// is a row of its table. Source: RFC 2217.
+// A serial port over telnet: the host's speed, parity, data bits and stop bits are visible. A table has a
+// row for each command. Source: RFC 2217.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace understudy::emulator::serve {
 
 class Rfc2217 final : public TcpSpeech {
  public:
-  /// `line`: a host that sets nothing has what the line has.
+  /// A host that sets nothing has the settings of `line`.
   explicit Rfc2217(const pty::LineSettings& line);
 
   bool has_room() const override { return reader_.has_room() && to_client_.size() < kMostUnsaid; }
@@ -39,7 +39,7 @@ class Rfc2217 final : public TcpSpeech {
   void answer(std::uint8_t code, std::uint8_t value) { answer(code, std::span(&value, 1)); }
   void tell_modem_state();
 
-  // What the table's rows do, each with the value that came.
+  // The functions in the table's rows, each with the received value.
   void tell_signature(std::span<const std::uint8_t> value);
   void set_baud(std::span<const std::uint8_t> value);
   void set_data_bits(std::span<const std::uint8_t> value);
@@ -58,7 +58,7 @@ class Rfc2217 final : public TcpSpeech {
   telnet::Options options_;
   Bytes to_client_;
   pty::LineSettings settings_;
-  // As the codes of SET-CONTROL: none, off, on, on, none.
+  // The codes of SET-CONTROL: none, off, on, on, none.
   std::uint8_t flow_ = 1;
   std::uint8_t break_ = 6;
   std::uint8_t dtr_ = 8;

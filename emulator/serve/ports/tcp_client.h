@@ -1,4 +1,4 @@
-// One client of a TCP door: its socket, and what it speaks.
+// One client of a TCP door: its socket and its protocol.
 #pragma once
 
 #include <chrono>
@@ -13,13 +13,13 @@
 
 namespace understudy::emulator::serve {
 
-/// What faults do to the next answer.
+/// The faults of the next answer.
 struct Spoiling {
   bool has_wrong_transaction = false;
   bool has_wrong_unit = false;
   std::optional<std::size_t> split_at{};  // the rest comes late
   std::chrono::nanoseconds split_for{0};
-  std::optional<std::size_t> hangs_up_after{};  // so many bytes
+  std::optional<std::size_t> hangs_up_after{};  // after this many bytes
 };
 
 class TcpClient {
@@ -31,40 +31,40 @@ class TcpClient {
   int socket() const { return socket_.get(); }
 
   enum class Heard : std::uint8_t {
-    nothing,          // for now, or because it has said all
+    nothing,          // for now, or because the client has sent everything
     what_it_speaks,   //
     something_else,   // it is to be let go
     that_it_is_gone,  // nothing can be sent any more
   };
-  /// Reads some of what it has sent.
+  /// Reads some of the bytes it has sent.
   Heard read();
-  /// Nothing more is read of one that has closed its sending half, or that is ahead of the line.
+  /// Returns false if it has closed its sending half, or is ahead of the line: then nothing is read.
   bool is_read() const { return !has_said_all_ && speech_->has_room(); }
-  /// It has closed its sending half: it still gets what it has asked for.
+  /// It has closed its sending half. It still gets the answers to its requests.
   bool has_said_all() const { return has_said_all_; }
 
-  /// As much as the network takes. That it has gone is learnt by reading.
+  /// Sends as much as the network takes. Reading tells whether the client has gone.
   void send_out();
   bool has_unsent() const { return !unsent_.empty(); }
 
-  // Faults. What its speech says at once is an answer where it `has_messages`, else a part of one.
+  // Faults. Bytes given at once are an answer if the protocol `has_messages`, otherwise a part of one.
   void spoil(const Spoiling& spoiling) { spoiling_ = spoiling; }
   const Spoiling& spoiling() const { return spoiling_; }
-  /// The rest of an answer is to come so much later: told once.
+  /// The rest of an answer is to come that much later. Returned once.
   std::optional<std::chrono::nanoseconds> take_pause() { return std::exchange(pause_, {}); }
   bool has_rest() const { return !rest_.empty(); }
   void send_rest();
-  /// Its connection ends as soon as it has what is unsent.
+  /// Its connection ends as soon as unsent bytes are sent.
   bool hangs_up() const { return hangs_up_; }
 
-  /// Closes the socket. What it has asked for is still carried out.
+  /// Closes the socket. Its requests are still carried out.
   void forget_socket();
   bool is_gone() const { return !socket_; }
 
  private:
   Descriptor socket_;
   std::unique_ptr<TcpSpeech> speech_;
-  TcpSpeech::Bytes unsent_;  // what it has not taken yet: as much as came at once
+  TcpSpeech::Bytes unsent_;  // bytes it has not taken yet, at most as many as came at once
   bool has_said_all_ = false;
   void spoil_unsent();
 

@@ -1,5 +1,5 @@
-// A port's second way in: TCP clients, who are the line's host as if they had opened a pseudo-terminal. So
-// recordings, captures and wire time are the same for both. A line has one host: one client, or a gateway,
+// A port's second entrance: TCP clients act as the line's host as if they had opened a pseudo-terminal. So
+// recordings, captures and wire time are the same for both. A line has one host: one client, or a gateway
 // whose clients take turns.
 #pragma once
 
@@ -26,15 +26,15 @@ class TcpDoor final : private Port::Guest {
  public:
   static constexpr std::size_t kMostMasters = 32;
 
-  /// The port must outlive it; it is told where the door listens. Throws pty::PortError.
+  /// The port must outlive it, and is told the address. Throws pty::PortError.
   TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
           std::function<void(const std::string&)> log);
-  /// Nobody is told any more that a client has gone.
+  /// After this, clients are not told any more that they have gone.
   ~TcpDoor() override;
   TcpDoor(const TcpDoor&) = delete;
   TcpDoor& operator=(const TcpDoor&) = delete;
 
-  /// A socket that has connected.
+  /// Takes a connected socket.
   void admit(Descriptor socket);
 
  private:
@@ -66,10 +66,10 @@ class TcpDoor final : private Port::Guest {
   Port& port_;
   world::TcpAddress address_;
   std::function<void(const std::string&)> log_;
-  Descriptor timer_;  // ends the time for a reply, or for one that has said all
+  Descriptor timer_;  // ends the time for a reply, or for a client that has sent everything
   std::vector<std::unique_ptr<TcpClient>> clients_;
-  std::size_t turn_ = 0;     // whose request is next
-  Descriptor next_;          // waits until one that has said all has its replies
+  std::size_t turn_ = 0;     // the client whose request is next
+  Descriptor next_;          // a client that waits until a finished one has its replies
   bool is_serving_ = false;  // the line speaks while it is spoken to
   std::vector<std::unique_ptr<Listener>> listeners_;
 };

@@ -1,4 +1,4 @@
-// Listening at an address or a name of this machine.
+// Listens at an address or a name of this machine.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace understudy::emulator::serve {
 
-/// A socket for each address that its host stands for ("localhost" is 127.0.0.1 and ::1), all at one port: a
-/// free one, which `address` has afterwards, where it has none. Throws pty::PortError.
+/// Returns a socket for each address of the host ("localhost" is 127.0.0.1 and ::1), all at the same port.
+/// If `address` has no port, a free one is chosen and stored in it. Throws pty::PortError.
 std::vector<Descriptor> listen_at(world::TcpAddress& address);
 
 }  // namespace understudy::emulator::serve

@@ -1,4 +1,4 @@
-// Telnet as far as a serial port behind it needs it: bytes apart from commands, and which options are on.
+// The part of telnet that a serial port needs: separates bytes from commands, and negotiates options.
 // Source: RFC 854, 855, 856, 858.
 #pragma once
 
@@ -33,7 +33,7 @@ struct Command {
   Bytes body;               // of a subnegotiation, behind its option
 };
 
-/// What was heard, taken apart in its order.
+/// Splits received bytes in their order.
 class Reader {
  public:
   static constexpr std::size_t kMostHeard = 4096;
@@ -41,10 +41,10 @@ class Reader {
 
   bool has_room() const { return heard_.size() < kMostHeard; }
   void hear(std::span<const std::uint8_t> bytes) { heard_.insert(heard_.end(), bytes.begin(), bytes.end()); }
-  /// Adds bytes up to the next command, until there are `most`. Where they are not binary, the 0 that follows
-  /// a carriage return is no byte of the line's.
+  /// Adds bytes up to the next command, until there are `most`. If they are not binary, the 0 after a
+  /// carriage return is not passed to the line.
   void take_data(Bytes& taken, std::size_t most, bool is_binary);
-  /// The next command, if no byte comes before it and it has come wholly; for one that is malformed a kNop.
+  /// Returns the next command if no byte precedes it and it is complete. A malformed one becomes a kNop.
   std::optional<Command> take_command();
 
  private:
@@ -57,18 +57,18 @@ class Reader {
   bool was_return_ = false;
 };
 
-/// Which options are on, on either side. Only what changes something is answered, so two sides never go on
-/// about it without end.
+/// The options of both sides. Only requests that change something are answered, so that two sides never
+/// negotiate without end.
 class Options {
  public:
-  /// What we would like to have.
+  /// Returns the requests for the options that we want.
   Bytes begin();
-  /// The answer to will, wont, do or dont; none where nothing changes.
+  /// Returns the answer to will, wont, do or dont, or none if nothing changes.
   Bytes answer(const Command& command);
 
   bool we_are_binary() const { return rows_[0].ours == State::on; }
   bool they_are_binary() const { return rows_[0].theirs == State::on; }
-  /// One side at least has agreed to it.
+  /// Returns true if at least one side has agreed to it.
   bool has_com_port() const { return rows_[2].ours == State::on || rows_[2].theirs == State::on; }
 
  private:
@@ -81,9 +81,9 @@ class Options {
   std::array<Row, 3> rows_{Row{kBinary}, Row{kSuppressGoAhead}, Row{kComPort}};
 };
 
-/// Bytes of the line as they are sent.
+/// Appends bytes of the line in the form in which they are sent.
 void append_data(Bytes& sent, std::span<const std::uint8_t> bytes, bool is_binary);
-/// A subnegotiation as it is sent; `body` begins with the option.
+/// Appends a subnegotiation in the form in which it is sent. `body` begins with the option.
 void append_subnegotiation(Bytes& sent, std::span<const std::uint8_t> body);
 
 }  // namespace understudy::emulator::serve::telnet

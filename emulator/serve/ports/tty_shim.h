@@ -1,4 +1,4 @@
-// Where to find the library that lets hosts that insist on parity use a pseudo-terminal (pty/tty_shim.cpp).
+// Finds the library that lets hosts that insist on parity use a pseudo-terminal (pty/tty_shim.cpp).
 #pragma once
 
 #include <stdexcept>
@@ -10,11 +10,12 @@ struct NoTtyShim : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Its path: in lib/understudy beside the running program, or beside the program's folder. Throws NoTtyShim.
+/// Returns its path: in lib/understudy beside the running program, or beside the program's folder. Throws
+/// NoTtyShim.
 std::string tty_shim_path();
 
-/// LD_PRELOAD with the library in front of what is preloaded already. Throws NoTtyShim if its path cannot be
-/// written there.
+/// Returns LD_PRELOAD with the library in front of libraries that are preloaded already. Throws NoTtyShim if
+/// its path cannot be written there.
 std::string preload_with_tty_shim();
 
 }  // namespace understudy::emulator::serve

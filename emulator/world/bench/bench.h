@@ -1,5 +1,5 @@
-// A bench: what a user describes in one file (docs/bench.md). Checked when it is made, so that whatever
-// is built from it can rely on every name.
+// A bench is what a user describes in one file (docs/bench.md). It is checked when it is made, so that code
+// which uses it can rely on every name.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@
 
 namespace understudy::emulator::world {
 
-/// A device on a line, by one of its ports.
+/// A device on a line, connected by one of its ports.
 struct StationSetup {
   StationSetup(std::size_t device_number, std::size_t port_number = 0)  // NOLINT(*-explicit-*): most have one
       : device(device_number), port(port_number) {}
@@ -29,7 +29,7 @@ struct StationSetup {
   bool operator==(const StationSetup&) const = default;
 };
 
-/// How long the rest of a frame is waited for: no longer than hosts wait for a reply.
+/// How long a line waits for the rest of a frame: no longer than hosts wait for a reply.
 inline constexpr SimTime kUsualByteTimeout = std::chrono::milliseconds(200);
 inline constexpr SimTime kShortestByteTimeout = std::chrono::milliseconds(10);
 inline constexpr SimTime kLongestByteTimeout = std::chrono::minutes(1);
@@ -38,11 +38,11 @@ inline constexpr std::string_view kByteTimeoutExpected = "expected 10ms to 60s, 
 struct LineSetup {
   std::string name;
   std::string link;               // path of the link to its pty; empty: none
-  bool has_pty = true;            // else hosts come by TCP only
+  bool has_pty = true;            // else hosts connect by TCP only
   std::vector<TcpAddress> tcp{};  // where it listens as well
   int baud = 0;                   // 0: the first station's factory speed
   pty::Timing timing = pty::Timing::wire;
-  bool echoes = false;                                            // hosts hear their own bytes
+  bool echoes = false;                                            // hosts receive their own bytes
   std::int64_t baud_tolerance_ppm = pty::kUsualBaudTolerancePpm;  // of a host's speed
   SimTime byte_timeout = kUsualByteTimeout;  // for the rest of a frame, by the host's clock
   std::vector<StationSetup> stations;        // in the order written
@@ -60,8 +60,8 @@ struct MachineSetup {
   PlantSetup plant;
 };
 
-/// An output of one device, or a contact of the machine on one of its axes, joined to an input of another, or
-/// of the drive on one of its axes; by numbers of terminals.
+/// A wire from an output of one device, or from a contact of a machine, to an input of another device or of
+/// a drive, by terminal numbers.
 struct WireSetup {
   std::size_t from_device = 0;
   int from_terminal = 0;
@@ -73,7 +73,7 @@ struct WireSetup {
   DriveInput to_input = DriveInput::servo;
 };
 
-/// What an input is given from outside when the world begins, in the terminal's unit.
+/// The level of an input when the world begins, in the terminal's unit.
 struct InputSetup {
   std::size_t device = 0;
   int terminal = 0;
@@ -91,29 +91,30 @@ struct Bench {
   std::vector<FileClaim> files{};  // that it was read from, except memories
 };
 
-/// The names of what a wire joins: "feeder.DOUT_4", "feeder.A.home", "feeder.A.alarm_clear".
+/// The names of both ends of a wire: "feeder.DOUT_4", "feeder.A.home", "feeder.A.alarm_clear".
 struct WireEnds {
   std::string from;
   std::string to;
 };
 WireEnds ends_of(const WireSetup& wire, const KnownDevices& known);
 
-/// The devices by name, with the lines that they stand on.
+/// Returns the devices by name, with their lines.
 KnownDevices known_devices_of(const Bench& bench);
 
-/// A bench of one device, with a line for each of its ports. `link` is that of the first; the others' have
-/// the port's name behind it. A device of one port is on the line "line", those of several are on lines named
-/// after the ports.
+/// Returns a bench of one device, with a line for each of its ports. The line of a device with one port is
+/// called "line"; several lines are named after the ports. `link` is the link of the first; the others add
+/// the port's name.
 Bench bench_of_one(const Model& model, DeviceSettings settings, const std::string& link);
 
-/// "200ms"; nothing if it is not such a time.
+/// Parses "200ms". Returns nothing if the text is not a valid timeout.
 std::optional<SimTime> parse_byte_timeout(std::string_view text);
 
-/// "2%", "0.5%", 0% to 10% in millionths; nothing if it is not such a share.
+/// Parses "2%" or "0.5%", from 0% to 10%, into millionths. Returns nothing if the text is not a valid
+/// tolerance.
 std::optional<std::int64_t> parse_baud_tolerance(std::string_view text);
 inline constexpr std::string_view kBaudToleranceExpected = "expected 0% to 10%, as in 2%";
 
-/// The input that a contact of the machine on an axis is wired to; -1 if it is wired to none.
+/// Returns the input to which a contact of an axis's machine is wired, or -1 if it is not wired.
 int input_of(const AxisRow& axis, const PlantAxis& machine, Contact contact);
 
 }  // namespace understudy::emulator::world

@@ -1,5 +1,5 @@
-// A bench as text that parse_bench() reads, whatever it was made from: with its programs and memories inside,
-// and without links, so that it is the same bench in any folder.
+// Writes a bench as text for parse_bench(), whatever it was made from. Programs and memories are included
+// and links left out, so that it is the same bench in any folder.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::world {
 
-/// JSON, which is YAML as well; on one line. Two benches with the same text are the same.
+/// Returns one line of JSON, which is also YAML. Two benches with the same text are equal.
 std::string to_text(const Bench& bench);
 
 }  // namespace understudy::emulator::world

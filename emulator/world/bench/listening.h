@@ -1,5 +1,5 @@
-// Where a line can be reached by TCP, as a user writes it: "rfc2217://127.0.0.1:5020", and how a gateway
-// behaves there: "modbus-tcp://:5020?timeout=200ms". What is spoken there is docs/network.md.
+// Parses TCP addresses of a line as a user writes them: "rfc2217://127.0.0.1:5020". A gateway has settings:
+// "modbus-tcp://:5020?timeout=200ms". docs/network.md describes the protocols.
 #pragma once
 
 #include <chrono>
@@ -10,28 +10,28 @@
 
 namespace understudy::emulator::world {
 
-/// What a client speaks: the serial line's own bytes; those and its settings; or Modbus TCP.
+/// The protocol of a client: plain serial bytes, serial bytes with line settings, or Modbus TCP.
 enum class TcpProtocol : std::uint8_t { rtu, rfc2217, modbus_tcp };
 
-/// How the gateway behaves behind which a line is reached by Modbus TCP.
+/// Settings of the gateway through which a line is reached by Modbus TCP.
 struct GatewaySettings {
   static constexpr int kAnyUnit = -1;
   static constexpr int kOnlyStation = 0;
-  /// How long a station may take to answer, besides the time on the wire.
+  /// How long a station may take to answer, not counting the time on the wire.
   std::chrono::milliseconds timeout{1000};
-  /// Whether a master is told, by exception 11, that a station has not answered.
+  /// If true, the gateway answers exception 11 when a station has not answered.
   bool tells = true;
-  /// The station that unit 255 stands for; kOnlyStation: the one that stands there, if it is the only one;
-  /// kAnyUnit: as before, and whatever unit is asked.
+  /// The station for unit 255. kOnlyStation: the station on the line, if there is only one. kAnyUnit: that
+  /// station, for all units.
   int unit = kOnlyStation;
 
   bool operator==(const GatewaySettings&) const = default;
 };
 
-/// A port number 0: any free one.
+/// Port number 0 stands for any free port.
 struct TcpAddress {
   TcpProtocol protocol = TcpProtocol::rtu;
-  std::string host;  // a name, or a numeric address, that of IPv6 without its brackets
+  std::string host;  // a name, or a numeric address; an IPv6 address without brackets
   int port = 0;
   GatewaySettings gateway{};
 };
@@ -39,17 +39,17 @@ struct TcpAddress {
 inline constexpr std::string_view kListeningExpected =
     "expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as rtu://127.0.0.1:5020";
 
-/// What is wrong with an address, and what was expected: "has port 99999; expected 0 to 65535".
+/// Reports what is wrong with an address, and what was expected: "has port 99999; expected 0 to 65535".
 struct ListeningError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Without a host it is 127.0.0.1. Throws ListeningError.
+/// Without a host the address is 127.0.0.1. Throws ListeningError.
 TcpAddress parse_tcp_address(std::string_view text);
-/// "rtu://127.0.0.1:5020", "rtu://[::1]:5020"; without its settings.
+/// Returns "rtu://127.0.0.1:5020" or "rtu://[::1]:5020", without settings.
 std::string to_string(const TcpAddress& address);
 
-/// Whether two of them cannot both be listened at.
+/// Returns true if a program cannot listen on both addresses.
 inline bool is_same_place(const TcpAddress& a, const TcpAddress& b) {
   return a.port != 0 && a.port == b.port && a.host == b.host;
 }

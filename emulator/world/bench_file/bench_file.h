@@ -1,4 +1,4 @@
-// Bench files (YAML, docs/bench.md) into benches.
+// Reads bench files (YAML, docs/bench.md).
 #pragma once
 
 #include <string>
@@ -8,27 +8,28 @@
 
 namespace understudy::emulator::world {
 
-/// The name by which readers of benches know it.
+/// Readers of benches use this name for the error.
 using BenchError = FileError;
 
 class YamlFields;
 
-/// Devices are of one of the models. Paths are relative to the file's folder, links to `links` if that is
-/// given. Throws FileError.
+/// Reads a bench whose devices are of the given models. Paths are relative to the file's folder, links to
+/// `links` if given. Throws FileError.
 Bench load_bench(ModelList models, const std::string& path, const std::string& links = "");
 
-/// Like the above, if another file names it: if it cannot be read, the message points there.
+/// Like the above, for a bench named in another file: if it cannot be read, the error has the position of
+/// `path`.
 Bench load_bench(ModelList models, const YamlFields& path);
 
-/// Like the above, from a text; `name` stands for the file in messages, paths are relative to `folder`.
+/// Like the above, from a text. `name` stands for the file in messages; paths are relative to `folder`.
 Bench parse_bench(ModelList models, const std::string& text, const std::string& name,
                   const std::string& folder, const std::string& links = "");
 
-/// The bench that is inside a recording. It is complete: a path there would have something read or written
-/// that does not belong to the recording, so it is refused.
+/// Reads the bench inside a recording. It is complete, so paths are refused: they would read or write files
+/// that do not belong to the recording.
 Bench parse_recorded_bench(ModelList models, const std::string& text);
 
-/// A bench that is written inside another file, as the value of a key.
+/// Reads a bench that is the value of a key in another file.
 Bench read_bench(ModelList models, const YamlFields& fields, const std::string& folder);
 
 }  // namespace understudy::emulator::world

@@ -1,4 +1,4 @@
-// What a bench file may say (docs/bench.md): its keys, and the forms of their values.
+// Declares the keys of a bench file (docs/bench.md) and the forms of their values.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ inline constexpr KeyRow kVersionKey{"understudy", "The version of the format.", 
 
 // --- devices -------------------------------------------------------------------------------------
 inline constexpr Form kRegisterValueForm = integer_form(INT32_MIN, UINT32_MAX);
-// Text: a real number, or the program. A map: blocks of text of one kind, by their names.
+// A text is a real number or the program; a map has blocks of text of one kind, by name.
 inline constexpr std::array<const Form*, 3> kNvValueWays{&kRegisterValueForm, &kText, &kTextByName};
 inline constexpr Form kNvValueForm = either_form(kNvValueWays);
 inline constexpr Form kNvValuesForm = names_form(kNvValueForm);
@@ -165,7 +165,7 @@ inline constexpr KeyRow kSeedKey{"seed", "Where randomness begins.", &kSeedForm}
 
 inline constexpr std::array kBenchKeys{kVersionKey, kLinesKey,  kDevicesKey, kPlantKey,
                                        kWiresKey,   kInputsKey, kFaultsKey,  kSeedKey};
-/// A bench inside another file does not need a version.
+/// A bench inside another file needs no version.
 inline constexpr std::array kInlineBenchKeys{kLinesKey,  kDevicesKey, kPlantKey, kWiresKey,
                                              kInputsKey, kFaultsKey,  kSeedKey};
 inline constexpr Form kBenchForm = keys_form(kBenchKeys);

@@ -1,5 +1,5 @@
-// What of a bench has been read so far, by name, and the names of what could not be read: of those nothing
-// can be said, and what refers to them is not reported.
+// Names in the part of a bench that has been read, and names of parts that could not be read. References to
+// the latter are not reported as errors.
 #pragma once
 
 #include <set>
@@ -14,26 +14,26 @@ namespace understudy::emulator::world {
 
 class BenchNames {
  public:
-  /// The bench is still being read; it must outlive this.
+  /// The bench is still being read. It must outlive this object.
   explicit BenchNames(const Bench& bench) : bench_(bench) {}
 
   // --- what could not be read --------------------------------------------------------------------
   void lose_device(const std::string& name) { lost_devices_.insert(name); }
   void find_device_again(const std::string& name) { lost_devices_.erase(name); }
-  /// A line, or a machine ("feeder.A"), or a part of it.
+  /// Notes a part that could not be read: a line, a machine ("feeder.A"), or a part of one.
   void lose_part(const std::string& name) { lost_parts_.insert(name); }
   void find_part_again(const std::string& name) { lost_parts_.erase(name); }
   bool is_lost_part(const std::string& name) const { return lost_parts_.contains(name); }
-  /// Whether a text names any of it.
+  /// Returns true if a text names a part that could not be read.
   bool names_lost(std::string_view text) const;
-  /// Whether a value of a map does.
+  /// Returns true if a value of a map names such a part.
   bool has_lost(const YamlFields& map) const;
 
   // --- what was read: these fail with the names that would do, or as Untold -----------------------
-  /// -1 if there is none.
+  /// Returns -1 if there is no such device.
   int find_device(const std::string& name) const;
   std::size_t demand_device(const YamlFields& field, const std::string& name) const;
-  /// "feeder.A" into the device and what is behind the dot.
+  /// Splits "feeder.A" into the number of the device and the text behind the dot.
   std::pair<std::size_t, std::string> split(const YamlFields& field, const std::string& name,
                                             const char* example) const;
   std::pair<std::size_t, int> demand_terminal(const YamlFields& field, const std::string& name,

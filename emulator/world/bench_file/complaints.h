@@ -1,4 +1,5 @@
-// Everything that is wrong with a file, for readers that can go on after a part that they could not read.
+// Collects everything that is wrong with a file, for readers that continue after a part that they could not
+// read.
 #pragma once
 
 #include <cstddef>
@@ -11,22 +12,23 @@
 
 namespace understudy::emulator::world {
 
-/// Ends the reading: what follows would be wrong for the same reason. Passes through every attempt().
+/// Ends the reading, because what follows would be wrong for the same reason. It passes through every
+/// attempt().
 struct LastError : FileError {
   using FileError::FileError;
 };
 
-/// What is wrong with a program, about its own file.
+/// Converts the mistakes of a program to an error about the program's own file.
 FileError program_complaints(const ProgramError& error, const std::string& file);
 
-/// What a part refers to could not be read, which has been reported already.
+/// Thrown if a part that is referred to could not be read. That has been reported already.
 struct Untold {};
 
 class Complaints {
  public:
   static constexpr std::size_t kMostTold = 20;
 
-  /// Whether a part could be read; what is wrong with it is kept.
+  /// Returns true if `read` succeeded. If it did not, keeps its error.
   template <typename Read>
   bool attempt(const Read& read) {
     try {
@@ -41,7 +43,7 @@ class Complaints {
     }
     return false;
   }
-  /// Attempts all of it, and throws everything that was wrong.
+  /// Attempts `read`, and throws all errors so far.
   template <typename Read>
   void demand(const Read& read) {
     try {
@@ -50,10 +52,12 @@ class Complaints {
     }
     throw_if_any();
   }
-  /// Reports nothing twice. `behind` is added to each. Throws a LastError if there are too many.
+  /// Adds an error, unless it was reported already, with `behind` appended to each line. Throws LastError if
+  /// there are too many.
   void add(const FileError& error, const std::string& behind = "");
   std::size_t count() const { return complaints_.size(); }
-  /// Throws a FileError with the first of them, in the file's order: the files as they came.
+  /// Throws a FileError with the first errors in the order of the file; several files keep the order in
+  /// which they were reported.
   void throw_if_any() const;
 
  private:

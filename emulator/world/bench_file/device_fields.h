@@ -1,4 +1,4 @@
-// What a bench file says about a device.
+// Reads the devices of a bench file.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,26 @@
 
 namespace understudy::emulator::world {
 
-/// A name that other names can be joined to with a dot.
+/// Checks that a name can be followed by a dot and another name.
 void demand_name(const YamlFields& field, const std::string& name);
 
-/// The entry of a device without its name. All that is wrong is kept; with an unknown model the device has
-/// none. Paths are relative to `folder`, and refused without one; files that are read are added to the bench,
-/// whose devices have other memories.
+/// Reads the entry of a device without its name. Keeps all errors; if the model is unknown, the device has
+/// none. Paths are relative to `folder`, and refused without one. Files that it reads are added to the
+/// bench; no two of its devices may have the same memory file.
 DeviceSetup read_device(const YamlFields& fields, const std::string& name,
                         const std::optional<std::string>& folder, ModelList models, Bench& bench,
                         Complaints& complaints);
 
-/// Where a device is described, and where its stations are, by its ports.
+/// The positions in a file of a device's description, and of its stations by port.
 struct DevicePlaces {
   YamlFields device;
   std::vector<std::optional<YamlFields>> stations{};
 };
 
-/// Reports everything that the model refuses in a device, and removes it: what is left suits the model.
+/// Reports everything in a device that the model refuses, and removes it, so that the rest suits the model.
 void judge_device(const DevicePlaces& places, DeviceSetup& device, Complaints& complaints);
 
-/// A path in `folder`; refused if there is no folder.
+/// Returns a path in `folder`. It is refused if there is no folder.
 std::string path_in(const std::optional<std::string>& folder, const YamlFields& field);
 
 }  // namespace understudy::emulator::world

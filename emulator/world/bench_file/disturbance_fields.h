@@ -1,4 +1,4 @@
-// What a bench file says about inputs, and about what is broken at first.
+// Reads the inputs and the initial faults of a bench file.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,16 @@
 
 namespace understudy::emulator::world {
 
-/// One entry of `inputs`: "feeder.DIN_10: on", "feeder.AIN_A: 2.5V".
+/// Reads one entry of `inputs`: "feeder.DIN_10: on", "feeder.AIN_A: 2.5V".
 InputSetup read_input(const YamlFields& field, const std::string& name, const KnownDevices& devices);
 
-/// One element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }". `other_key` may be there as well, for
-/// others. All that is wrong with it is kept; nothing is returned then.
+/// Reads one element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }". `other_key` is allowed and left to
+/// other readers. If anything is wrong, keeps all errors and returns nothing.
 std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& devices, Complaints& complaints,
                                 std::string_view other_key = {});
 
-/// Complains about a fault that the bench cannot have. What it waits for is judged even if the fault itself
-/// could not be read.
+/// Reports a fault that the bench cannot have. Its condition is checked even if the fault itself could not
+/// be read.
 void demand_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
                      Complaints& complaints);
 

@@ -1,5 +1,5 @@
-// What a fault looks like in a file, for editors: one kind with its place, the kind's fields, the trigger's.
-// The readers know more (find_fault).
+// The form of a fault in a file, for editors: one kind with its place, the kind's fields, and the trigger's.
+// The readers check more (find_fault).
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace understudy::emulator::world {
 
 inline constexpr std::array kFaultKeys{
-    // Kinds, in the order of Fault::Kind.
+    // The kinds, in the order of Fault::Kind.
     KeyRow{"stall", "The motor of this axis is blocked.", &kAxisName},
     KeyRow{"lost_steps", "One pulse in this many on this axis is lost: `one_in`.", &kAxisName},
     KeyRow{"slip", "The machine on this axis is pushed.", &kAxisName},
@@ -38,7 +38,7 @@ inline constexpr std::array kFaultKeys{
            &kDeviceOrLineName},
     KeyRow{"wrong_unit", "By Modbus TCP replies are of the next unit.", &kDeviceOrLineName},
     KeyRow{"hang_up", "By TCP the connection ends in the middle of replies.", &kDeviceOrLineName},
-    // Their fields.
+    // The fields of kinds.
     KeyRow{"one_in", "lost_steps: one pulse in this many is lost.", &kText},
     KeyRow{"pulses", "slip: how far.", &kText},
     KeyRow{"level", "stuck: on or off.", &kText},
@@ -52,7 +52,7 @@ inline constexpr std::array kFaultKeys{
     KeyRow{"before", "noise: the bytes in front.", &kText},
     KeyRow{"with", "collision: what the other one says.", &kText},
     KeyRow{"of", "reply (default), request or both.", &kText},
-    // The trigger.
+    // The fields of the trigger.
     KeyRow{"function", "Requests with this function.", &kText},
     KeyRow{"station", "Requests for this station.", &kText},
     KeyRow{"address", "Requests about this register, or one of 0x1000..0x1010.", &kText},

@@ -1,5 +1,5 @@
-// The vocabulary that a file format is declared in: which keys there are, and what their values look like.
-// The readers learn from it which keys they know; `understudy schema` turns it into a JSON Schema.
+// The vocabulary for declaring a file format: its keys and the forms of their values. Readers use it to tell
+// which keys they know; `understudy schema` turns it into a JSON Schema.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace understudy::emulator::world {
 
 struct KeyRow;
 
-/// What a value looks like.
+/// The form of a value.
 struct Form {
   enum class Kind : std::uint8_t {
     text,      // a word, a number, a sentence: the reader knows more
@@ -31,7 +31,7 @@ struct Form {
   int count = 0;
   std::span<const KeyRow> keys{};
   std::span<const Form* const> ways{};
-  /// Of `text` and `names`: what of the bench the names are of. A schema for one bench lists them.
+  /// For `text` and `names`: the kind of names in the bench. A schema for one bench lists them.
   enum class Of : std::uint8_t {
     anything,
     devices,
@@ -48,7 +48,7 @@ struct Form {
 
 struct KeyRow {
   std::string_view key;
-  std::string_view doc;  // a sentence for whoever writes the file
+  std::string_view doc;  // a sentence for the author of the file
   const Form* form = nullptr;
   bool required = false;
 };
@@ -59,7 +59,7 @@ constexpr Form integer_form(std::int64_t lowest, std::int64_t highest) {
 constexpr Form words_form(std::span<const std::string_view> words) {
   return {.kind = Form::Kind::words, .words = words};
 }
-/// What it refers to must outlive the form: all of it is constant.
+/// Everything it refers to must outlive the form; all of it is constant.
 constexpr Form list_form(const Form& of, int count = 0) {
   return {.kind = Form::Kind::list, .of = &of, .count = count};
 }

@@ -1,4 +1,4 @@
-// What a bench file says of a line, but for its stations.
+// Reads a line of a bench file, except its stations.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@ namespace understudy::emulator::world {
 
 pty::Timing read_timing(const YamlFields& timing);
 
-/// In millionths.
+/// Returns millionths.
 std::int64_t read_baud_tolerance(const YamlFields& tolerance);
 
 bool read_echo(const YamlFields& echo);
 
 SimTime read_byte_timeout(const YamlFields& timeout);
 
-/// One address or several, at which none of the other lines listens.
+/// Reads one address or several. No other line may listen on any of them.
 std::vector<TcpAddress> read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines);
 
-/// `fields` are a line's, whose stations are read: what it has in the way of ports fits together, and its
-/// stations.
+/// Checks that a line's ports fit together and suit its stations. `fields` are those of the line; its
+/// stations have been read.
 void demand_ports(const YamlFields& fields, const LineSetup& line, const Bench& bench);
 
-/// The path of a link, in `folder`; none of the other lines may have it.
+/// Reads the path of a link, relative to `folder`. No other line may have the same link.
 std::string read_link(const YamlFields& link, const std::optional<std::string>& folder,
                       const std::vector<LineSetup>& lines);
 

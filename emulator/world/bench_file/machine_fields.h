@@ -1,4 +1,4 @@
-// What a bench file says about a machine.
+// Reads the machines of a bench file.
 #pragma once
 
 #include "emulator/world/bench/bench.h"
@@ -7,7 +7,7 @@
 
 namespace understudy::emulator::world {
 
-/// One entry of `plant`: the machine on an axis. All that is wrong with it is kept.
+/// Reads one entry of `plant`: the machine on an axis. Keeps all errors.
 PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis, Complaints& complaints);
 
 }  // namespace understudy::emulator::world

@@ -1,4 +1,4 @@
-// What is odd about the programs of a bench, though they load (ProgramLanguage::warnings).
+// Warnings about a bench's programs that load but look wrong (ProgramLanguage::warnings).
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace understudy::emulator::world {
 
-/// Each as a line about the file that the program stands in; of one that the bench has itself,
+/// Returns one line each, about the file of the program; a program inside the bench is called
 /// "mill.program".
 std::vector<FileError::Complaint> program_warnings(const Bench& bench);
-/// Of a text that a device of the bench could be given, and loads.
+/// Returns the warnings for a text that loads into a device of the bench.
 std::vector<FileError::Complaint> program_warnings(const DeviceSetup& device, const std::string& text,
                                                    const std::string& file);
 

@@ -1,4 +1,5 @@
-// What a bench file says of a station: by which port a device stands on a line, and its number there.
+// Reads the stations of a bench file: the port by which a device is connected to a line, and its number
+// there.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +12,26 @@
 
 namespace understudy::emulator::world {
 
-/// The port that it names, or the first.
+/// Returns the port named in the file, or the first one.
 std::size_t read_port(const YamlFields& station, const Model& model);
 
-/// Fails where one of the two must be alone on its line.
+/// Throws if one of the two stations must be alone on its line.
 void demand_room(const YamlFields& station, const StationSetup& wanted, const LineSetup& line,
                  const Bench& bench);
 
-/// The number that it says, if it says one; the device has it then. A device has one on all its lines, so it
-/// need be said of one of its stations only.
+/// Reads the station's number, if it has one, and gives it to the device. A device has the same number on
+/// all its lines, so it need be given at one of its stations only.
 std::optional<int> read_address(const YamlFields& station, DeviceSetup& device);
 
-/// A station as it was written: of which device, if that could be read, and the number that is said there.
+/// A station as it was written: its device, if that could be read, and its number.
 struct NumberedStation {
   YamlFields fields;
   std::optional<std::size_t> device;
   std::optional<int> address;
 };
 
-/// Reports stations of each line that have one number. Not of a device whose memory says it and is a file:
-/// that is read later.
+/// Reports stations of a line that have the same number. A device whose number is in a memory file is left
+/// out, because that file is read later.
 void check_addresses(const std::vector<std::vector<NumberedStation>>& lines, const Bench& bench,
                      Complaints& complaints);
 

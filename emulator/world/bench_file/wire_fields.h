@@ -1,4 +1,4 @@
-// What a bench file says of its wires.
+// Reads the wires of a bench file.
 #pragma once
 
 #include "emulator/world/bench/bench.h"
@@ -7,8 +7,8 @@
 
 namespace understudy::emulator::world {
 
-/// One element of `wires`: "feeder.DOUT_4 -> turner.DIN_10", "feeder.A.home -> turner.DIN_10". The bench's
-/// devices and machines have been read.
+/// Reads one element of `wires`: "feeder.DOUT_4 -> turner.DIN_10", "feeder.A.home -> turner.DIN_10". The
+/// bench's devices and machines have been read.
 WireSetup read_wire(const YamlFields& wire, const Bench& bench, const BenchNames& names);
 
 }  // namespace understudy::emulator::world

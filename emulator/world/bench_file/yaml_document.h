@@ -1,4 +1,4 @@
-// Turns a YAML text into its one document, or into one line that says in plain words why it is not one.
+// Parses a YAML text into its single document, or throws one plain line that says why it is not one.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace understudy::emulator::world {
 
-/// A piece of YAML. An alias is the very node that it names, so a node may be in several places, and even
-/// inside itself.
+/// A YAML node. An alias is the very node that it names, so a node may be in several places, and even inside
+/// itself.
 struct YamlNode {
   enum class Kind : std::uint8_t { nothing, scalar, list, map } kind = Kind::nothing;
   int line = 0;  // from 0 on
@@ -18,8 +18,8 @@ struct YamlNode {
   std::vector<const YamlNode*> parts{};  // of a list; of a map: key, value, key, value
 };
 
-/// The one document of a text, which may be of any kind. Messages call it `what`. Reads no further than the
-/// beginning of a second document, which is refused. Throws FileError. All nodes live as long as any of them
+/// Returns the single document of a text, which may be of any kind. Messages call it `what`. It stops at the
+/// beginning of a second document, which it refuses. Throws FileError. All nodes live as long as any of them
 /// is held.
 std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::string& file,
                                            const std::string& what);

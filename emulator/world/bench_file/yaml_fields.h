@@ -1,5 +1,4 @@
-// Reading YAML with errors that name file, line and field. yaml-cpp itself is behind it: that is slow to
-// compile.
+// Reads YAML with errors that name file, line and field. It hides yaml-cpp, which is slow to compile.
 #pragma once
 
 #include <cstdint>
@@ -19,21 +18,21 @@ namespace understudy::emulator::world {
 
 struct YamlNode;  // yaml_document.h
 
-/// What is done to every scalar, keys included, before it is read.
+/// A rule that is applied to every scalar, including keys, before it is read.
 class ScalarRule {
  public:
   virtual ~ScalarRule() = default;
-  /// Called only for texts with `${` in them: all others stay as they are. Throws a std::runtime_error of one
-  /// line for a text it cannot take.
+  /// Called only for texts that contain `${`. Throws std::runtime_error with one line for a text that it
+  /// cannot take.
   virtual std::string apply(const std::string& written) const = 0;
 };
 
-/// Where a node is in its file, and how to complain about it. All that can fail throws FileError
+/// A node with its position in the file, for error messages. Everything that can fail throws FileError
 /// "file:line:column: field: what".
 class YamlFields {
  public:
-  /// The one document of a text; a map. Messages call it `what`; for an empty file they say what was
-  /// `expected`.
+  /// Returns the single document of a text, which must be a map. Messages call it `what`; the one for an
+  /// empty file tells what was `expected`.
   static YamlFields parse(const std::string& text, const std::string& file, const std::string& what,
                           const std::string& expected);
 
@@ -41,12 +40,12 @@ class YamlFields {
   const std::string& field() const { return field_; }
   int line() const;
   FilePlace place() const;
-  /// The folder that paths in it are relative to.
+  /// Returns the folder to which paths in the file are relative.
   std::string folder() const;
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// Like this node, but read by another rule, which must outlive it and what is taken from it. Null: as
-  /// written.
+  /// Returns this node read by another rule, which must outlive it and all nodes taken from it. Null:
+  /// scalars are taken as written.
   YamlFields with_rule(const ScalarRule* rule) const;
   /// This map, and what only `defaults`, another map of the same file, has. Where both have a map for a key
   /// these are joined in the same way; anything else in `defaults` gives way.
@@ -58,29 +57,29 @@ class YamlFields {
   bool is_list() const;
   bool is_scalar() const;
 
-  /// Demands a map without duplicate keys. Everything that is wrong is thrown together.
+  /// Requires a map without duplicate keys. Throws all errors together.
   void demand_map() const;
-  /// And whose keys are all `known`.
+  /// Also requires that all keys are `known`.
   void demand_keys(std::span<const KeyRow> known) const;
-  /// The value of a key, or nothing; of at(), a failure.
+  /// find() returns nothing if the key is missing; at() throws.
   std::optional<YamlFields> find(std::string_view key) const;
   bool has(std::string_view key) const { return find(key).has_value(); }
   YamlFields at(std::string_view key) const;
-  /// All keys with their values, in the order written.
+  /// Returns all keys with their values, in the order of the file.
   std::vector<std::pair<std::string, YamlFields>> entries() const;
-  /// The elements of a list.
+  /// Returns the elements of a list.
   std::vector<YamlFields> elements() const;
 
   std::string text() const;
-  /// A path in folder(), as it is opened.
+  /// Returns a path in folder(), ready for opening.
   std::string path() const;
   std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
   std::int64_t integer(const Form& form) const { return integer(form.lowest, form.highest); }
-  /// "on", "off" (and true, false, 1, 0).
+  /// Reads "on" or "off" (or true, false, 1, 0).
   bool on_or_off() const;
-  /// "120ms".
+  /// Reads a duration such as "120ms".
   SimTime duration() const;
-  /// A duration of whole milliseconds.
+  /// Reads a duration of whole milliseconds.
   Tick ticks() const;
 
  private:
@@ -88,18 +87,18 @@ class YamlFields {
              std::string field);
   YamlFields part(const YamlNode& node, std::string field) const;
   std::string read_scalar(const YamlNode& node) const;
-  /// Of a map: each of its keys, as read, with the value. Calls take(key, value).
+  /// Calls take(key, value) for each entry of a map.
   template <typename Take>
   void for_each_entry(Take take) const;
   void demand_keys_of(const std::span<const KeyRow>* known) const;
   [[noreturn]] void refuse_key(const std::string& key, std::span<const KeyRow> known) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 
-  // Both are shared with everything in it.
+  // All nodes of the document share both.
   std::shared_ptr<const std::string> file_;
   std::shared_ptr<const YamlNode> node_;
   std::string field_;
-  bool is_root_ = false;  // what is in it is called by its key alone
+  bool is_root_ = false;  // its children are called by their keys alone
   const ScalarRule* rule_ = nullptr;
 };
 

@@ -1,8 +1,8 @@
-// What happens on a bench, for onlookers: writes to registers and who made them, inputs, power, programs,
-// faults, refused requests, dropped frames. Numbered from 1 on; the last ones are kept.
+// Lists the events of a bench for observers: writes to registers and their authors, inputs, power, programs,
+// faults, refused requests, dropped frames. They are numbered from 1; the last ones are kept.
 //
-// What comes from outside is noted as it comes. What goes over the lines is remembered by the frame log
-// anyway: it is made into events when somebody asks, so that nothing is paid for them while nobody does.
+// Outside events are noted when they happen. Events on the lines are made from the frame log when they are
+// asked for, so that they cost nothing while no one asks.
 #pragma once
 
 #include <cstddef>
@@ -21,10 +21,11 @@ namespace understudy::emulator::world {
 struct Event {
   std::uint64_t number = 0;
   SimTime time{0};
-  /// write, input, power, program, inject, clear, fault, exception, dropped, restored, paused, resumed, speed
+  /// one of write, input, power, program, inject, clear, fault, exception, dropped, restored, paused,
+  /// resumed, speed
   std::string_view what;
-  std::string by;      // host, control, page; empty where nobody did it
-  std::string line{};  // on which a host did it
+  std::string by;      // host, control or page; empty if no one caused it
+  std::string line{};  // the line of the host that caused it
   std::string device{};
   std::string name{};   // of the register or terminal, as the control socket takes it
   std::string value{};  // as a number
@@ -35,33 +36,34 @@ class EventLog final : private OutsideListener {
  public:
   static constexpr std::size_t kKept = 4'096;
 
-  /// Both must outlive it.
+  /// Both must outlive the log.
   EventLog(World& world, const FrameLog& frames);
   ~EventLog() override;
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;
 
-  /// Whoever acts from outside from now on: "control", "page".
+  /// Sets the author of outside events from now on: "control", "page".
   void set_author(std::string_view author) { author_ = author; }
   const std::string& author() const { return author_; }
-  /// Something that the world does not know about.
+  /// Notes an event that the world does not know about.
   void note(std::string_view what, std::string text);
-  /// The world has another state.
+  /// Notes that the world was put into another state.
   void restored();
-  /// The same, and these happened before, the oldest first: they get new numbers, and are all that is told of
-  /// what was until now, frames included.
+  /// Notes that the world was put into another state after these events, the oldest first. They get new
+  /// numbers and replace all earlier events, including those from frames.
   void restored_after(std::vector<Event> events);
 
-  /// Makes events of what has come since, of so many frames at most; whether some are left. The others below
-  /// do so with all.
+  /// Makes events of the frames since the last call, at most `frames` of them. Returns true if some are
+  /// left. The functions below process all of them.
   bool collect(std::size_t frames);
-  /// At most `most` of those kept, from that number on.
+  /// Returns at most `most` of the kept events, from that number on.
   std::vector<Event> since(std::uint64_t number, std::size_t most);
-  /// Of the event that comes next.
+  /// Returns the number of the next event.
   std::uint64_t next_number();
 
  private:
-  /// Noted, with the number that the next frame had then: they are told in that order.
+  /// An event, with the number that the next frame had when it was noted. Events and frames are listed in
+  /// that order.
   struct Noted {
     std::uint64_t next_frame = 0;
     Event event;
@@ -92,7 +94,7 @@ class EventLog final : private OutsideListener {
   std::uint64_t next_frame_ = 1;
 };
 
-/// The registers that words bring, with what they make of them: "feeder.Cord_A" and "3200".
+/// The registers that a write changes, with their new values: "feeder.Cord_A" and "3200".
 struct WrittenRegister {
   std::string name;
   std::string value;

@@ -1,4 +1,4 @@
-// Writes the code of an Expression, and keeps count of the stack that it will need.
+// Writes the code of an Expression, and keeps track of the stack that it needs.
 #pragma once
 
 #include <cstddef>
@@ -8,28 +8,28 @@
 
 namespace understudy::emulator::world {
 
-/// How many values an expression may need at a time.
+/// The largest number of values that an expression may hold at a time.
 inline constexpr std::size_t kDeepestStack = 64;
 
 class CodeWriter {
  public:
-  /// `offset` is where in the text it comes from. Throws ExpressionError if it needs too deep a
-  /// stack.
+  /// Appends an instruction. `offset` is its position in the text. Throws ExpressionError if the stack gets
+  /// too deep.
   void emit(Instruction::Kind kind, std::size_t offset, Operator operation = Operator::add,
             std::size_t argument = 0);
   void emit_constant(Number number, std::size_t offset);
-  /// A tolerance of that share.
+  /// Appends a tolerance in millionths of a percent.
   void emit_within_share(std::int64_t millionths_of_a_percent, std::size_t offset);
-  /// A name known by its handle is used again, in its first spelling.
+  /// Appends a name. If its handle is known, the name is reused with its first spelling.
   void emit_name(NamedNumber number, std::string_view spelling, std::size_t offset);
 
-  /// A jump forward, to where the code ends when land() is called.
+  /// Appends a forward jump to the position at which land() is called.
   std::size_t emit_jump(Instruction::Kind kind, std::size_t offset);
   void land(std::size_t jump);
-  /// Between the two ways of a choice: either leaves its value, not both.
+  /// Called between the two branches of a choice: only one of them leaves its value.
   void drop_value() { --stack_; }
 
-  /// Returns what is written, and starts again. `text` is where it comes from.
+  /// Returns the code and starts again. `text` is its source.
   Expression take();
   void set_text(std::string_view text) { made_.text = text; }
 

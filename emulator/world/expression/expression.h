@@ -1,7 +1,8 @@
-// Conditions as scenarios, fault triggers and `ctl run-until` write them (docs/expressions.md):
+// Conditions of scenarios, fault triggers and `ctl run-until` (docs/expressions.md):
 //   feeder.STATUS.4 == 0 && time >= 250ms
-// Text is parsed once, all names looked up and all units checked; what is left is a value that is evaluated
-// as often as needed without allocating, and that knows the world only by small handles.
+//
+// A text is parsed once; all names are looked up and all units checked then. The result is a value that can
+// be evaluated often without allocating memory, and that refers to the world only by small handles.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,8 @@
 
 namespace understudy::emulator::world {
 
-/// What a name stands for: a handle that the resolver chose and the source of values knows, and what it
-/// counts. A register is a plain number, whatever unit its manual gives it.
+/// The meaning of a name: a handle that the resolver chooses and the value source knows, and a unit. A
+/// register is a plain number, whatever unit its manual gives.
 struct NamedNumber {
   std::int32_t handle = 0;
   Unit unit = Unit::none;
@@ -24,17 +25,16 @@ struct NamedNumber {
 class NameResolver {
  public:
   virtual ~NameResolver() = default;
-  /// `name` is "time", "feeder.STATUS.4", "feeder.A.pulses": parts joined by dots, quotes and brackets
-  /// gone: feeder["Logic Position X"] is "feeder.Logic Position X".
-  /// If it is not known: a std::runtime_error (NameError for example) that says so in one line and names
-  /// the nearest that is.
+  /// Resolves a name: "time", "feeder.STATUS.4", "feeder.A.pulses". Parts are joined by dots, without quotes
+  /// or brackets: feeder["Logic Position X"] is "feeder.Logic Position X". For an unknown name it throws a
+  /// std::runtime_error (such as NameError) of one line with the nearest known name.
   virtual NamedNumber resolve(std::string_view name) const = 0;
 };
 
 class ValueSource {
  public:
   virtual ~ValueSource() = default;
-  /// The present value; nanoseconds and millivolts are whole.
+  /// Returns the present value. Nanoseconds and millivolts are whole numbers.
   virtual Number value(std::int32_t handle) const = 0;
 };
 
@@ -45,14 +45,14 @@ struct Instruction {
     name,           // push the value of names[argument]
     unary,          // replace the top by `operation` of it
     binary,         // replace the two on top by `operation` of them
-    within,         // replace value, centre and tolerance by whether the value is within
-    within_share,   // replace value and centre by the same; the tolerance is `constants[argument]` millionths
-                    // of a percent of the centre
-    skip_if_false,  // `and`: a false top becomes 0 and the next `argument` instructions are left out, a true
-                    // one is dropped
+    within,         // replaces value, centre and tolerance by the result: whether the value is within
+    within_share,   // replaces value and centre by the result; the tolerance is `constants[argument]`
+                    // millionths of a percent of the centre
+    skip_if_false,  // `and`: if the top is false, it becomes 0 and the next `argument` instructions are
+                    // skipped; otherwise it is dropped
     skip_if_true,   // `or`: a true top becomes 1 and ..., a false one is dropped
     truth,          // the top becomes 0 or 1
-    choose,         // drop the top; if it was false, leave out the next `argument` instructions
+    choose,         // drops the top; if it was false, skips the next `argument` instructions
     skip,           // leave out the next `argument` instructions
   } kind = Kind::constant;
   Operator operation = Operator::add;
@@ -60,7 +60,7 @@ struct Instruction {
   std::int32_t argument = 0;
 };
 
-/// Made by parse_expression(). One that was not parsed is 0.
+/// Made by parse_expression(). A default-constructed one evaluates to 0.
 struct Expression {
   struct Name {
     NamedNumber number;
@@ -73,22 +73,22 @@ struct Expression {
   int stack_depth = 1;      // how many values the code needs at a time
 };
 
-/// ExpressionError.
+/// Throws ExpressionError.
 Expression parse_expression(std::string_view text, const NameResolver& names);
 
-/// ExpressionError if there is no result (division by zero, overflow, a bit of a real number); its line
-/// shows the values that led to it.
+/// Throws ExpressionError if there is no result (division by zero, overflow, a bit of a real number). Its
+/// message shows the values that led to it.
 Number evaluate(const Expression& expression, const ValueSource& source);
 inline bool is_true(const Expression& expression, const ValueSource& source) {
   return evaluate(expression, source).is_true();
 }
 
-/// As written, on one line.
+/// Returns the expression as it was written, on one line.
 std::string to_text(const Expression& expression);
-/// The same with the present value of each name: "feeder.STATUS.4 == 0  (feeder.STATUS.4 is 1)".
+/// Returns the text with the present value of each name: "feeder.STATUS.4 == 0  (feeder.STATUS.4 is 1)".
 std::string explain(const Expression& expression, const ValueSource& source);
 
-/// The handles of all names in it: it can change only when one of them does.
+/// Returns the handles of all names in the expression, which can change only when one of them does.
 std::vector<std::int32_t> names_in(const Expression& expression);
 
 }  // namespace understudy::emulator::world

@@ -1,6 +1,6 @@
-// From text to an Expression, in one pass: each rule of the grammar is a function that writes the code of
-// what it read. Precedence is C's. Where C's precedence is known to surprise people (`a & 4 == 4`, `a < b <
-// c`, `not a == b`), parentheses are demanded.
+// Parses text into an Expression in one pass: each rule of the grammar is a function that writes the code
+// for its text. Precedence is C's. Parentheses are required where C's precedence surprises people (`a & 4 ==
+// 4`, `a < b < c`, `not a == b`).
 #pragma once
 
 #include <string>
@@ -18,17 +18,18 @@ class ExpressionParser {
  public:
   ExpressionParser(std::string_view text, const NameResolver& names);
 
-  /// Reads as far as it is an expression.
+  /// Reads up to the end of the expression.
   Term expression();
-  /// Steps over `sign` if that is next.
+  /// Skips `sign` and returns true if it is next.
   bool skip(std::string_view sign);
-  /// "1%", "0.5%" in millionths of a percent; reads nothing if there is something else.
+  /// Reads "1%" or "0.5%" as millionths of a percent and returns true; reads nothing if something else is
+  /// next.
   bool percentage(std::int64_t& millionths);
   bool at_end() const { return token_.kind == Token::Kind::end; }
   void expect_end() const;
-  /// Where the next word begins.
+  /// Returns the position of the next word.
   std::size_t offset() const { return token_.begin; }
-  /// Returns the code of what was read since the last time.
+  /// Returns the code written since the last call.
   Expression take() { return code_.take(); }
 
  private:

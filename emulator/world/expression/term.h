@@ -1,4 +1,4 @@
-// What is known about a part of an expression before it is evaluated, and which parts fit together.
+// Properties of a part of an expression before it is evaluated, and the rules for combining parts.
 #pragma once
 
 #include <string>
@@ -11,11 +11,12 @@ namespace understudy::emulator::world {
 struct Term {
   enum class Form : std::uint8_t { other, comparison, negation } form = Form::other;  // without parentheses
   Unit unit = Unit::none;
-  bool is_zero = false;  // a literal 0, which fits every unit
+  bool is_zero = false;  // a literal 0, which has every unit
   bool is_real = false;  // for certain; a name may turn out so
 };
 
-/// The signs of C, but one level for all comparisons, which do not chain. A higher level binds tighter.
+/// The operators of C, except that all comparisons have one level and do not chain. A higher level binds
+/// tighter.
 enum class Level : std::uint8_t {
   either,
   both,
@@ -34,19 +35,19 @@ struct BinaryRow {
   Level level;
   Operator operation;
 };
-/// Null if it is not a sign of that level.
+/// Returns null if `sign` is not an operator of that level.
 const BinaryRow* find_binary(std::string_view sign, Level level);
 
-/// Two terms do not fit, and why.
+/// Thrown if two terms cannot be combined. The message has the reason.
 struct MisfitError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// All throw MisfitError. `sign` is what stands between the two.
+/// All of these throw MisfitError. `sign` is the operator between the two terms.
 void check_units(const Term& left, const Term& right, std::string_view sign);
-/// `left sign right`, of every level but the two logical ones and unary.
+/// Returns `left sign right`, for every level except the two logical ones and unary.
 Term combined(const BinaryRow& row, const Term& left, const Term& right);
-/// One or the other: of `a ? b : c`, or of min(b, c).
+/// Returns one of two terms: of `a ? b : c`, or of min(b, c).
 Term either_of(const Term& left, const Term& right, std::string_view sign);
 Term negated(Operator operation, const Term& term);
 

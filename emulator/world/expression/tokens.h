@@ -1,4 +1,4 @@
-// The words of an expression: numbers with their units, names, signs.
+// Splits an expression into words: numbers with their units, names, operators.
 #pragma once
 
 #include <stdexcept>
@@ -9,10 +9,11 @@
 
 namespace understudy::emulator::world {
 
-/// An expression as written, but on one line.
+/// Returns an expression as written, but on one line.
 std::string on_one_line(std::string_view text);
 
-/// One line: "column 17 of 'feeder.STATUS ==': unexpected end; expected a name, a number or '('".
+/// The message is one line: "column 17 of 'feeder.STATUS ==': unexpected end; expected a name, a number or
+/// '('".
 struct ExpressionError : std::runtime_error {
   ExpressionError(std::string_view text, std::size_t offset, const std::string& what_is_wrong);
   std::size_t column = 0;  // in characters, from 1
@@ -31,9 +32,9 @@ struct Token {
 
 class Lexer {
  public:
-  /// The text must outlive it. ExpressionError if it is too long.
+  /// The text must outlive the lexer. Throws ExpressionError if it is too long.
   explicit Lexer(std::string_view text);
-  /// The next word, or one of kind `end`, again and again. ExpressionError.
+  /// Returns the next word; at the end returns one of kind `end` every time. Throws ExpressionError.
   Token next();
 
  private:

@@ -1,4 +1,4 @@
-// What `expect` and `takes` compare with: a value, a value with a tolerance, or a range.
+// Parses what `expect` and `takes` compare with: a value, a value with a tolerance, or a range.
 //   32000     0xC001     on     3050ms +- 2ms     32000 +- 1%     100..200     ..4s     3 * 3200 +- 2
 #pragma once
 
@@ -19,7 +19,7 @@ struct Tolerance {
   bool holds(Number value) const { return (!low || value >= *low) && (!high || value <= *high); }
 };
 
-/// The values are those of expressions without names, and count `unit`s. ExpressionError.
+/// The values are expressions without names, in the given unit. Throws ExpressionError.
 Tolerance parse_tolerance(std::string_view text, Unit unit = Unit::none);
 
 }  // namespace understudy::emulator::world

@@ -1,5 +1,5 @@
-// What a user breaks, to see how a host copes: the machine and its wiring, devices, and what goes over the
-// line; and when (trigger.h). docs/faults.md explains each kind.
+// Faults that a user injects to see how a host copes: in the machine and its wiring, in devices, and in
+// messages on the line. Triggers (trigger.h) say when. docs/faults.md explains each kind.
 #pragma once
 
 #include <cstddef>
@@ -16,26 +16,27 @@ namespace understudy::emulator::world {
 
 struct Fault {
   enum class Kind : std::uint8_t {
-    // of the machine, at an axis or (stuck) an input
-    stall,          // the motor is blocked, every pulse is lost
-    lost_steps,     // every `amount`th pulse is lost
-    slip,           // the machine is moved by `amount` pulses by force; over at once
-    alarm,          // the drive is in alarm; a real drive stays so until the controller clears it afterwards
-    stuck,          // an input stays at the level `amount`, whatever drives it
-    encoder_noise,  // the encoder counts `amount` too many, then too few, half a `period_ticks` each
-    turn,           // a hand wheel, or what else is counted, is turned by `amount`, over `over_ticks`
-    // of a device
+    // Faults of the machine, at an axis or (stuck) an input.
+    stall,       // the motor is blocked, every pulse is lost
+    lost_steps,  // every `amount`th pulse is lost
+    slip,        // the machine is moved by `amount` pulses by force, once
+    alarm,  // the drive is in alarm; a drive model keeps the alarm until the controller clears it afterwards
+    stuck,  // an input stays at the level `amount`, whatever drives it
+    encoder_noise,  // the encoder counts `amount` too many for half of `period_ticks`, then as many too few
+                    // for the other half
+    turn,           // a hand wheel, or another counted input, is turned by `amount` over `over_ticks`
+    // Faults of a device.
     power_cut,  // it has no power
-    // of the adapter by which hosts are joined to a line
+    // Faults of the adapter that connects hosts to a line.
     echo,    // a host hears its own bytes
-    lumps,   // what comes is handed over at multiples of `amount` ns
-    unplug,  // the port is gone
+    lumps,   // received bytes are delivered at multiples of `amount` ns
+    unplug,  // the adapter is unplugged
     slow,    // it carries out each request `amount` ns late
-    // of what a device, or all on a line, make of requests
+    // Faults of how a device, or all devices on a line, treat requests.
     busy,         // they are refused as a busy device would
     exception,    // they are refused with exception `amount`
-    early_reply,  // they are treated as over with their last character, without the device's silence
-    // of a message on the wire (pty/wire_fault.h)
+    early_reply,  // requests are complete with their last character, without the device's silence
+    // Faults of a message on the wire (pty/wire_fault.h).
     drop,
     delay,             // by `amount` ns
     corrupt_checksum,  //
@@ -43,15 +44,15 @@ struct Fault {
     duplicate,         // the second `amount` ns after the first
     noise,             // `before` and `after`
     collision,         // with `before`
-    split,             // its first `amount` bytes come, and the rest `over_ticks` later
-    // of a reply on its way from a gateway to a master
+    split,             // its first `amount` bytes arrive on time, the rest `over_ticks` later
+    // Faults of a reply on its way from a gateway to a master.
     wrong_transaction,  //
     wrong_unit,         //
     hang_up,            // the connection ends behind its first `amount` bytes
   } kind = Kind::stall;
-  std::size_t device = 0;  // of a line: the first of the bench's that stands there
-  // An axis, a terminal for `stuck` and a `turn` that is of_input, of a line the port by which that device is
-  // there.
+  std::size_t device = 0;  // for a fault of a line: the bench's first device on it
+  // An axis; for `stuck`, or a `turn` with of_input, a terminal; for a fault of a line the port by which the
+  // device is connected to it.
   int place = 0;
   std::int64_t amount = 0;
   std::int64_t period_ticks = 0;
@@ -66,20 +67,20 @@ struct Fault {
   bool operator==(const Fault&) const = default;
 };
 
-/// What is done to a message on the wire.
+/// Returns true if it changes messages on the wire.
 constexpr bool is_of_wire(Fault::Kind kind) { return kind >= Fault::Kind::drop || kind == Fault::Kind::slow; }
-/// What is done to a request or its reply: it needs frames, whatever its trigger says.
+/// Returns true if it acts on a request or a reply: it needs frames, whatever its trigger.
 constexpr bool is_of_frames(Fault::Kind kind) { return kind >= Fault::Kind::slow; }
-/// What happens to replies where a host is connected by TCP: on the wire nothing does.
+/// Returns true if it acts on replies to hosts connected by TCP. It has no effect on the wire.
 constexpr bool is_of_gateway(Fault::Kind kind) { return kind >= Fault::Kind::wrong_transaction; }
 constexpr bool is_of_adapter(Fault::Kind kind) {
   return kind == Fault::Kind::echo || kind == Fault::Kind::lumps || kind == Fault::Kind::unplug;
 }
-/// A single act on the machine, not something wrong with it: it cannot be cleared.
+/// Returns true for a single action on the machine, which cannot be cleared.
 constexpr bool is_done_at_once(Fault::Kind kind) {
   return kind == Fault::Kind::slip || kind == Fault::Kind::turn;
 }
-/// Whether something must happen before it strikes: a frame, a time, a condition.
+/// Returns true if the fault waits for a frame, a time or a condition before it strikes.
 bool waits(const Fault& fault);
 
 /// A fault as text: `stall feeder.A`, `lost_steps feeder.A one_in=50`, `drop feeder nth=3`.
@@ -89,7 +90,7 @@ struct FaultText {
   std::vector<std::pair<std::string, std::string>> fields;  // by their names
 };
 
-/// Of one field of a fault.
+/// Reports an error in one field of a fault.
 struct FaultFieldError : NameError {
   FaultFieldError(const std::string& kind, std::string field_name, std::string what_is_wrong)
       : NameError(kind + ": " + field_name + ": " + what_is_wrong),
@@ -99,13 +100,13 @@ struct FaultFieldError : NameError {
   std::string complaint;
 };
 
-/// Throws NameError for what the bench does not have. What `when` names is judged by check_fault.h.
+/// Throws NameError for names that the bench does not have. check_fault.h checks the names in `when`.
 Fault find_fault(const KnownDevices& devices, const FaultText& text);
-/// As find_fault() takes it, and on one line.
+/// Returns a fault as find_fault() accepts it, also as one line.
 FaultText fault_text(const KnownDevices& devices, const Fault& fault);
 std::string to_text(const KnownDevices& devices, const Fault& fault);
 
-/// A fault, and what it has done so far.
+/// A fault and its state so far.
 struct ArmedFault {
   Fault fault;
   FaultCourse course{};

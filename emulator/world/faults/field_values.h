@@ -1,5 +1,4 @@
-// What the fields of a fault say as text, and back. Complaints are NameErrors: "nth: what is wrong; expected
-// ...".
+// Converts fields of faults to and from text. Errors are NameErrors: "nth: what is wrong; expected ...".
 #pragma once
 
 #include <cstddef>
@@ -16,18 +15,18 @@ namespace understudy::emulator::world {
 
 std::int64_t field_number(std::string_view name, const std::string& text, std::int64_t lowest,
                           std::int64_t highest);
-/// "3", "3..7", "3.." (then `highest` is the last): first and last.
+/// Parses "3", "3..7", or "3.." (up to `highest`). Returns the first and the last number.
 std::pair<std::int64_t, std::int64_t> field_span(std::string_view name, const std::string& text,
                                                  std::int64_t lowest, std::int64_t highest);
-/// "on", "off", 0, 1.
+/// Parses "on", "off", 0 or 1.
 std::int64_t field_level(std::string_view name, const std::string& text);
-/// From `shortest` to a year.
+/// Parses a duration from `shortest` to a year.
 SimTime field_duration(std::string_view name, const std::string& text, SimTime shortest);
-/// "FF 00" or "ff00": one to 256 bytes.
+/// Parses one to 256 bytes: "FF 00" or "ff00".
 std::vector<std::uint8_t> field_bytes(std::string_view name, const std::string& text);
-/// "1%", "0.25%", in kAlways.
+/// Parses "1%" or "0.25%" into a fraction of kAlways.
 std::int64_t field_chance(std::string_view name, const std::string& text);
-/// One of some words: its number.
+/// Returns the index of the text in a list of words.
 std::size_t field_word(std::string_view name, const std::string& text,
                        std::span<const std::string_view> words);
 

@@ -1,4 +1,4 @@
-// The kinds of faults and their fields, as they are written in text.
+// The kinds of faults and their fields in text.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::world {
 
-/// A field that a kind has besides its trigger, and what it sets.
+/// A field that a kind has besides its trigger, and the member that it sets.
 struct FaultFieldRow {
   enum class Form : std::uint8_t { number, level, duration, ticks, even_ticks, bytes, side };
   std::string_view name;
@@ -36,11 +36,11 @@ struct FaultKindRow {
   Fault::Kind kind;
   Place place;
   std::span<const FaultFieldRow> fields;
-  std::string_view effect;               // on a message, or with one: what onlookers are told
+  std::string_view effect;               // for faults of messages: the description for observers
   std::string_view effect_on_request{};  // where that differs; empty: the same
 };
 
-/// In the order of Fault::Kind.
+/// Returns the rows in the order of Fault::Kind.
 std::span<const FaultKindRow> fault_kinds();
 inline const FaultKindRow& fault_kind(Fault::Kind kind) {
   return fault_kinds()[static_cast<std::size_t>(kind)];

@@ -1,4 +1,4 @@
-// Triggers as text: nth=3 function=6 when="feeder.A.position >= 12000" (docs/faults.md).
+// Converts triggers to and from text: nth=3 function=6 when="feeder.A.position >= 12000" (docs/faults.md).
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace understudy::emulator::world {
 
-/// The names that set_trigger_field() knows.
+/// Returns the names that set_trigger_field() knows.
 std::vector<std::string> trigger_fields();
-/// Returns false if there is no such field; throws NameError if the field cannot have that value. An address
-/// is a number here, and names in `when` are not looked up.
+/// Returns false if there is no such field. Throws NameError if the field cannot have that value. An address
+/// must be a number here; names in `when` are not looked up.
 bool set_trigger_field(FaultTrigger& trigger, std::string_view name, const std::string& text);
 /// Throws NameError for fields that contradict each other.
 void demand_sense(const FaultTrigger& trigger);
-/// Those that are set.
+/// Returns the fields that are set.
 std::vector<std::pair<std::string, std::string>> fields_of(const FaultTrigger& trigger);
 
 }  // namespace understudy::emulator::world

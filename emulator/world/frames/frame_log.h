@@ -1,5 +1,5 @@
-// Remembers the last frames that went over a world's lines, to show them when something has failed, or when
-// somebody wants to look. They are put into words only when they are shown.
+// Keeps the last frames of a world's lines, to show them after a failure or on request. They are converted
+// to words only when they are shown.
 #pragma once
 
 #include <cstddef>
@@ -18,19 +18,19 @@ namespace understudy::emulator::world {
 
 class FrameLog {
  public:
-  /// Remembers at most `kept`. The world must outlive it.
+  /// Keeps at most `kept` frames. The world must outlive the log.
   explicit FrameLog(World& world, std::size_t kept = kKept);
   ~FrameLog();
   FrameLog(const FrameLog&) = delete;
   FrameLog& operator=(const FrameLog&) = delete;
 
-  /// Has each frame told to `onlooker` as well.
+  /// Passes each frame to `onlooker` as well.
   void tell(std::function<void(const pty::CapturedPacket&)> onlooker) { onlooker_ = std::move(onlooker); }
 
-  /// The last `most`, the oldest first: "3.0512s rs485 <- feeder.Cord_A = 32000".
+  /// Returns the last `most` frames, the oldest first: "3.0512s rs485 <- feeder.Cord_A = 32000".
   std::vector<std::string> last(std::size_t most);
 
-  /// A frame in words. Frames are numbered in their order, from 1 on.
+  /// A frame in words. Frames are numbered from 1.
   struct Told {
     std::uint64_t number = 0;
     SimTime time{0};
@@ -38,21 +38,22 @@ class FrameLog {
     pty::Way way = pty::Way::from_host;
     std::string text;
     std::string remark;                     // why it was dropped, and the like
-    std::span<const std::uint8_t> bytes{};  // for as long as nothing more is remembered
-    bool is_refusal = false;                // an answer that says that nothing was done
+    std::span<const std::uint8_t> bytes{};  // valid until the next frame is added
+    bool is_refusal = false;                // a reply that refuses the request
     std::optional<SimTime> latency{};       // of an answer: since its request began
   };
-  /// At most `most` of the remembered ones, from that number on.
+  /// Returns at most `most` of the kept frames, from that number on.
   std::vector<Told> since(std::uint64_t number, std::size_t most) const;
-  /// A remembered one's request; nothing if it is none's answer, or that is forgotten.
+  /// Returns the request that a kept frame answers, or nothing if it answers none or the request is no
+  /// longer kept.
   std::optional<Told> request_of(std::uint64_t number) const;
-  /// Of the frame that comes next.
+  /// Returns the number of the next frame.
   std::uint64_t next_number() const { return next_number_; }
 
-  /// The lines were put into another state: half-heard frames are forgotten.
+  /// The lines were put into another state: forgets partly received frames.
   void begin_anew();
 
-  /// A frame as it is remembered.
+  /// A frame in the form in which it is kept.
   struct Frame {
     std::size_t line = 0;
     pty::Way way = pty::Way::from_host;
@@ -60,13 +61,13 @@ class FrameLog {
     std::vector<std::uint8_t> bytes;
     std::string comment{};
   };
-  /// At most `most` of the remembered ones from that number on: the last of them.
+  /// Returns the last `most` of the kept frames from that number on.
   std::vector<Frame> kept_since(std::uint64_t number, std::size_t most) const;
-  /// Like begin_anew(), and these went before, the oldest first: they get new numbers.
+  /// Like begin_anew(), after these frames, the oldest first, which get new numbers.
   void begin_anew_after(std::vector<Frame> frames);
 
  private:
-  // A reply is read by its request, which several other stations' frames may have followed.
+  // A reply is decoded with its request, which frames of several other stations may have followed.
   static constexpr std::size_t kKept = 32;
 
   void watch();

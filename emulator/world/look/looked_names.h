@@ -1,5 +1,5 @@
-// Values by name, again and again: for onlookers who ask for hundreds of them many times a second. A list of
-// names is looked up once, and its values are then read in one go.
+// Reads values by name repeatedly, for observers who ask for hundreds of them many times a second. A list of
+// names is looked up once; then all its values are read at once.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,15 @@
 
 namespace understudy::emulator::world {
 
-/// Who drives a terminal at this moment.
+/// The sources that drive a terminal at this moment.
 struct TerminalDrivers {
   bool device = false;   // it is an output
-  bool fault = false;    // stuck: hides the others
+  bool fault = false;    // stuck: overrides the others
   bool held = false;     // from outside
   bool machine = false;  // a switch of the machine
   bool wire = false;
 };
-/// "held+wire"; empty: nobody.
+/// Returns text such as "held+wire", or an empty text if nothing drives it.
 std::string to_text(const TerminalDrivers& drivers);
 TerminalDrivers drivers_of(const World& world, std::size_t device, int terminal);
 
@@ -31,22 +31,22 @@ class LookedNames {
   static constexpr std::size_t kMostKept = 32'768;  // names, of all lists together
   static constexpr std::size_t kMostLists = 64;
 
-  /// Nothing: there is no such name, or it has no value now (no power).
+  /// monostate: there is no such name, or it has no value now (no power).
   using Looked = std::variant<std::monostate, Number, TerminalDrivers>;
 
   explicit LookedNames(const World& world) : world_(world) {}
 
-  /// Keeps a list of names, "feeder.Cord_A" and all others of probe_names.h, and "feeder.DIN_3@by": who
-  /// drives a terminal. Returns its number, which the same list has again. Where there are too many, those
-  /// that have not been looked at for longest are forgotten.
+  /// Keeps a list of names: "feeder.Cord_A" and all other names of probe_names.h, and "feeder.DIN_3@by" for
+  /// the drivers of a terminal. Returns its number; the same list always has the same number. If there are
+  /// too many lists, the one unused for longest is forgotten.
   std::uint64_t keep(const std::vector<std::string>& names);
   bool is_kept(std::uint64_t number) const;
-  /// Before a look: which names are to be looked up, if any. Those that were not there before are tried again
-  /// when a device was switched on or off, else some at each look: a device may have new ones at any time.
+  /// Prepares a look: decides which names must be looked up. Unknown names are tried again when a device was
+  /// switched on or off, and otherwise a few at each look, because a device may have new names at any time.
   void begin(std::uint64_t number);
-  /// Looks the next one up; false if there is none left. False as well if the list is forgotten.
+  /// Looks up the next name. Returns false if none is left, or if the list is forgotten.
   bool look_up_next(std::uint64_t number);
-  /// Their values at this moment, in the order of the list; false if the list is forgotten.
+  /// Returns the values at this moment in the order of the list, or false if the list is forgotten.
   bool look(std::uint64_t number, std::vector<Looked>& values) const;
   std::size_t lists() const { return lists_.size(); }
 
@@ -54,7 +54,7 @@ class LookedNames {
   static constexpr std::size_t kTriedAgain = 2;  // at a look, of those that are unknown
   struct Known {
     enum class What : std::uint8_t { nothing, value, driver } what = What::nothing;
-    std::size_t device = 0;  // the terminal's; of a value, that whose power it needs, if it does
+    std::size_t device = 0;  // the terminal's device; for a value, the device whose power it needs, if any
     bool needs_power = false;
     int terminal = 0;
     std::int32_t handle = 0;
@@ -76,7 +76,7 @@ class LookedNames {
 
   const World& world_;
   std::optional<Probes> probes_;
-  std::size_t resolved_ = 0;  // by these probes, which remember them
+  std::size_t resolved_ = 0;  // how many names these probes have resolved
   std::vector<List> lists_;
   std::uint64_t last_number_ = 0;
   std::uint64_t looks_ = 0;

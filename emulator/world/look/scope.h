@@ -1,5 +1,5 @@
-// What some names were at each tick around the moment at which a condition became true: an oscilloscope's
-// single shot. It watches the world, which then shows it every tick, only until it has all it wants.
+// Records the values of some names at each tick around the moment at which a condition becomes true, like an
+// oscilloscope's single shot. While it records, the world runs every tick and shows it.
 #pragma once
 
 #include <cstddef>
@@ -27,25 +27,26 @@ class Scope final : private TickWatcher {
  public:
   enum class State : std::uint8_t { armed, triggered, done };
 
-  /// Throws NameError, ExpressionError.
+  /// Throws NameError or ExpressionError.
   Scope(World& world, ScopeSetup setup);
   ~Scope() override;
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
-  /// The world was put into another state: what was before is not what led there. Not if it is done.
+  /// The world was put into another state: earlier samples are dropped, because they did not lead there. Has
+  /// no effect once the scope is done.
   void begin_anew();
 
   const ScopeSetup& setup() const { return setup_; }
   State state() const { return state_; }
-  /// Of the samples that are there: the tick of the first, and how many.
+  /// The tick of the first sample, and the number of samples.
   Tick first_tick() const { return next_tick_ - static_cast<Tick>(count_); }
   std::size_t count() const { return count_; }
-  /// Only if it has triggered.
+  /// Valid only after the trigger.
   Tick trigger_tick() const { return trigger_tick_; }
-  /// Why the condition had no result, which ended it; else empty.
+  /// Returns why the condition had no result, which ended the scope; otherwise an empty text.
   const std::string& complaint() const { return complaint_; }
-  /// Of a name, `place` samples behind the first. A device without power reads as 0.
+  /// Returns a name's value `place` samples behind the first. A device without power reads as 0.
   double sample(std::size_t name, std::size_t place) const;
 
  private:

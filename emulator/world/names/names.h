@@ -1,5 +1,5 @@
-// Names of things on a bench: "feeder.Cord_A", "feeder.STATUS.4", "feeder.DIN_10", "feeder.A"; the device may
-// be left out where there is only one.
+// Resolves names on a bench: "feeder.Cord_A", "feeder.STATUS.4", "feeder.DIN_10", "feeder.A". The device may
+// be left out if there is only one.
 #pragma once
 
 #include <functional>
@@ -14,32 +14,32 @@
 
 namespace understudy::emulator::world {
 
-/// One line: which name is unknown, and the nearest known one.
+/// The message is one line: the unknown name, and the nearest known one.
 struct NameError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What names can be about; a device's number is its place here.
+/// A device to which names can refer. Its number is its index in the list.
 struct KnownDevice {
   std::string name;
   const Model* model = nullptr;
   Firmware firmware = 0;
-  std::vector<std::string> lines{};  // that it stands on, by its ports; empty: a port is on none
+  std::vector<std::string> lines{};  // its lines by port; empty: the port is not connected
 };
 using KnownDevices = std::vector<KnownDevice>;
 
-/// The models that they are of, each once.
+/// Returns the models of the devices, each once.
 std::vector<ListedModel> models_of(const KnownDevices& devices);
 
-/// All of these throw NameError.
+/// All functions below throw NameError.
 struct RegisterName {
   std::size_t device = 0;
   NamedPlace place;
 };
 RegisterName find_register(const KnownDevices& devices, std::string_view name);
 
-/// A value of a device without registers (NamedValues), "robot.T2PE"; nothing where the device has registers.
-/// Only the device knows whether it has such a value.
+/// A value of a device without registers (NamedValues), such as "robot.T2PE". Nothing if the device has
+/// registers. Only the device knows whether it has such a value.
 struct ValueName {
   std::size_t device = 0;
   std::string name;
@@ -53,7 +53,7 @@ struct InputName {
     return devices[device].model->terminals[static_cast<std::size_t>(terminal)];
   }
 };
-/// Inputs of every kind, switches included.
+/// Finds inputs of every kind, including switches.
 InputName find_input(const KnownDevices& devices, std::string_view name);
 /// Throws NameError for a level that the input cannot have.
 void demand_level(const TerminalRow& row, std::string_view name, std::int64_t level);
@@ -62,17 +62,18 @@ struct AxisName {
   std::size_t device = 0;
   int axis = 0;
 };
-/// `or_counted`: a counted input would have done as well, which is said where there is neither.
+/// With `or_counted` a counted input is also acceptable to the caller; the message then says so if there is
+/// neither.
 AxisName find_axis(const KnownDevices& devices, std::string_view name, bool or_counted = false);
 
-/// Whether something of that name is at a device.
+/// Returns true if a device has something of that name.
 using HasName = std::function<bool(const KnownDevice& device, std::string_view name)>;
-/// What is wrong with a name that does not begin with a device, if there are several: it is a device's name
-/// (then `example` is what may follow it), or something that some of them have, or unknown.
+/// Returns the error for a name that does not begin with a device although there are several: it is a
+/// device's name (then `example` shows what may follow), or a name that some devices have, or unknown.
 NameError name_without_device(const KnownDevices& devices, std::string_view name, const HasName& has,
                               std::string_view example);
 
-/// A device by its name; an empty name will do if there is only one.
+/// Returns a device by its name. An empty name is accepted if there is only one device.
 std::size_t find_device(const KnownDevices& devices, std::string_view name);
 
 }  // namespace understudy::emulator::world

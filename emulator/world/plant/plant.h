@@ -1,6 +1,6 @@
-// The machine around a controller's axis: how far it travels, where its switches are, what its encoder
-// counts, and the drive that turns its motor. Positions are pulses of the motor, on the machine's own scale:
-// where it stands at first is part of its setup.
+// Models the machine on a controller's axis: its travel, its switches, its encoder, and the drive that turns
+// its motor. Positions are motor pulses on the machine's own scale; the position at the start is part of its
+// setup.
 #pragma once
 
 #include <array>
@@ -12,23 +12,23 @@
 
 namespace understudy::emulator::world {
 
-/// Positions first to last, both included.
+/// Positions from first to last; both are included.
 struct PulseSpan {
   std::int64_t first = 0;
   std::int64_t last = 0;
 };
 
-/// A servo drive between the controller and the motor. Without one every pulse is a step.
+/// A servo drive between the controller and the motor. Without a drive every pulse is a step.
 struct DriveSetup {
-  /// From being enabled to Ready; pulses before that are lost.
+  /// Ticks from being enabled to Ready. Pulses before that are lost.
   Tick ready_after = 0;
-  /// The level of the controller's servo output that enables it.
+  /// The level of the controller's servo output that enables the drive.
   bool enabled_by = true;
-  /// Whether the alarm contact opens with an alarm (and is closed without one), or closes with it.
+  /// True if the alarm contact opens with an alarm; false if it closes with an alarm.
   bool alarm_opens = false;
 };
 
-/// The contacts around an axis, by the names that a bench calls them.
+/// The contacts around an axis, by their names in a bench.
 enum class Contact : std::uint8_t {
   home,
   lower_limit,
@@ -47,10 +47,10 @@ struct SwitchSetup {
   PulseSpan on;
   std::int64_t hysteresis_pulses = 0;  // it lets go only this far outside
   bool opens = false;                  // where it is on, and is closed elsewhere
-  int input = -1;                      // to which it is wired; -1: the model's own
+  int input = -1;                      // the input it is wired to; -1: the model's own
 };
 
-/// The encoder's index: on for `width` pulses of the motor from every `at + k * period`.
+/// The encoder's index: on for `width` motor pulses from every `at + k * period`.
 struct IndexSetup {
   std::int64_t at = 0;
   std::int64_t width = 1;
@@ -59,24 +59,24 @@ struct IndexSetup {
 };
 
 struct PlantSetup {
-  /// Where the machine stands at first.
+  /// The machine's position at the start.
   std::int64_t position_pulses = 0;
-  /// Hard stops: the machine does not pass them, pulses beyond are lost steps.
+  /// Hard stops. The machine does not pass them; pulses beyond are lost steps.
   std::optional<PulseSpan> travel;
-  /// Where the home switch is on.
+  /// The positions at which the home switch is on.
   std::optional<PulseSpan> home;
   std::optional<SwitchSetup> near_home;
   std::optional<SwitchSetup> mark;
-  /// The limit switches: on at the position and beyond.
+  /// Limit switches are on at their position and beyond.
   std::optional<std::int64_t> lower_limit;
   std::optional<std::int64_t> upper_limit;
-  /// A switch that is on lets go only this far outside the place where it came on.
+  /// A switch that is on releases only this far outside the range in which it comes on.
   std::int64_t home_hysteresis_pulses = 0;
   std::int64_t limit_hysteresis_pulses = 0;
-  /// Whether the switch opens where it is on (and is closed elsewhere).
+  /// True if the contact is open where the switch is on, and closed elsewhere.
   bool home_opens = false;
   bool limits_open = false;
-  /// The controller's inputs that the switches are wired to, by their terminals; -1: the model's own.
+  /// The controller's inputs to which the switches are wired, by their terminals; -1: the model's own.
   int home_input = -1;
   int lower_limit_input = -1;
   int upper_limit_input = -1;
@@ -84,26 +84,26 @@ struct PlantSetup {
   int pulses_per_revolution = 1;
   bool encoder_reversed = false;
   std::optional<IndexSetup> index;
-  /// The encoder is on a separate wheel, which turn() turns and no motor does.
+  /// The encoder is on a separate wheel, which only turn() turns.
   bool has_wheel = false;
   std::optional<DriveSetup> drive;
 };
 
-/// What is wrong with a machine.
+/// The faults in force on a machine.
 struct MachineFaults {
   bool stalled = false;             // the motor is blocked: every pulse is lost
   std::int64_t loses_one_in = 0;    // one pulse in this many is lost; 0: none
   std::int64_t slipped_pulses = 0;  // how far it has been pushed by force since the last tick
-  bool alarm = false;               // the cause of the drive's alarm, which outlasts it until it is cleared
+  bool alarm = false;  // the cause of the drive's alarm; the alarm outlasts it until it is cleared
   std::int64_t encoder_noise_counts = 0;  // this many too many
   bool operator==(const MachineFaults&) const = default;
 };
 
-/// The inputs of a drive, by the names that a bench calls them.
+/// The inputs of a drive, by their names in a bench.
 enum class DriveInput : std::uint8_t { servo, alarm_clear };
 inline constexpr std::array<std::string_view, 2> kDriveInputNames{"servo", "alarm_clear"};
 
-/// What they are given by the controller, or by wires.
+/// The levels that the controller, or wires, give to a drive.
 struct DriveInputs {
   bool servo = false;
   bool alarm_clear = false;
@@ -124,42 +124,42 @@ class alignas(64) PlantAxis {
     move_switches(setup_.position_pulses);
   }
 
-  /// Moves this many steps, as far as the stops let it; the rest is lost.
+  /// Moves by this many steps, as far as the stops allow. The rest is lost.
   void move(std::int64_t steps);
-  /// One tick: the pulses of the controller, and its outputs at its end, which only a drive heeds. Wires lead
-  /// to a drive as well.
+  /// Runs one tick with the controller's pulses, and its outputs at the end of the tick, which only a drive
+  /// uses. Wires may lead to the drive as well.
   void step(Tick tick, std::int64_t pulses, DriveInputs inputs);
-  /// Does a tick in which nothing changes but the place, and the encoder with it, as in almost every tick: it
-  /// costs one cache line. Returns false for any other tick, and does nothing.
+  /// Runs a tick in which only the position and the encoder change, as in almost every tick; it touches one
+  /// cache line. For any other tick it returns false and does nothing.
   bool step_quietly(std::int64_t pulses) {
     const std::int64_t place = state_.position_pulses + pulses;
     if (place < quiet_from_ || place > quiet_to_) return false;
     state_.position_pulses = place;
     return true;
   }
-  /// Where a place of the machine leaves everything else as it is, for as long as its controller's outputs
-  /// do; empty where each pulse must be looked at.
+  /// Returns the positions between which the machine can move without any other change, as long as the
+  /// controller's outputs stay the same. Empty if each pulse must be checked.
   PulseSpan places_alike() const;
-  /// This many pulses at once, within that: what as many quiet ticks do.
+  /// Moves by this many pulses at once, within places_alike(), as that many quiet ticks would.
   void cross(std::int64_t pulses) { state_.position_pulses += pulses; }
-  /// From now on a switch that it has passed within a tick has been on. (Else only the places at the ends of
-  /// ticks count, as for a controller that looks at levels.)
+  /// From now on a switch that the machine passes within a tick counts as having been on. (Otherwise only
+  /// positions at the ends of ticks count, as for a controller that samples levels.)
   void look_between_ticks() { looks_between_ = true; }
-  /// From now on its drive's alarm is cleared by disabling it: nothing leads to its alarm-clear input.
+  /// From now on disabling the drive clears its alarm, because nothing is wired to its alarm-clear input.
   void clear_alarm_by_disabling() { clears_by_disabling_ = true; }
-  /// What wires give an input of its drive. Returns whether that is another level.
+  /// Sets the level that wires give to an input of the drive. Returns true if the level has changed.
   bool set_wired(DriveInput which, bool is_on);
-  /// What its controller had given its drive in the last tick that it looked.
+  /// Returns the levels that the controller gave to the drive in the last tick that the drive looked.
   DriveInputs seen_inputs() const { return state_.seen; }
-  /// Whether each pulse is a step.
+  /// Returns true if each pulse is a step.
   bool steps_all() const {
     return !state_.faults.stalled && state_.faults.loses_one_in == 0 && !in_alarm() &&
            (!setup_.drive || state_.ready);
   }
-  /// Where a switch is on, for as long as nothing about the machine changes; nothing where it never is or
-  /// does not move with the machine. The index is not one: it is on again and again.
+  /// Returns where a switch is on as long as nothing about the machine changes, or nothing if it is never on
+  /// or does not move with the machine. The index is not such a switch, because it repeats.
   std::optional<SwitchSetup> way_of(Contact which) const;
-  /// Turns the encoder's wheel, evenly over this many ticks from the next one on; what is left of an earlier
+  /// Turns the encoder's wheel evenly over this many ticks, beginning with the next. The rest of an earlier
   /// turn is added.
   void turn(std::int64_t counts, Tick ticks);
   MachineFaults& faults() {
@@ -170,7 +170,7 @@ class alignas(64) PlantAxis {
   const MachineFaults& faults() const { return state_.faults; }
 
   std::int64_t position_pulses() const { return state_.position_pulses; }
-  /// Pulses of the controller that moved nothing, in either direction.
+  /// Counts the controller's pulses that moved nothing, in both directions.
   std::int64_t lost_pulses() const { return state_.lost_pulses; }
   bool at_home() const { return state_.at_home; }
   bool at_lower_limit() const { return state_.at_lower_limit; }
@@ -181,22 +181,22 @@ class alignas(64) PlantAxis {
   bool has_drive() const { return setup_.drive.has_value(); }
   bool in_alarm() const { return state_.alarm_latched || state_.faults.alarm; }
   bool ready() const { return state_.ready; }
-  /// Whether a contact is closed. One that the machine does not have is open.
+  /// Returns true if a contact is closed. A contact that the machine does not have is open.
   bool contact(Contact which) const;
   bool has_contact(Contact which) const;
   bool has_encoder() const { return encoder_.counts_per_revolution != 0; }
-  /// From where the machine stood at first. Rounded towards minus infinity, so that a slow turn through 0
-  /// counts evenly; a reversed encoder counts the same edges the other way. Wraps at 62 bits, so that the
-  /// difference of two fits.
+  /// Returns counts from the position at the start, rounded towards minus infinity, so that a slow turn
+  /// through 0 counts evenly; a reversed encoder counts the same edges in the other direction. The count
+  /// wraps at 62 bits, so that a difference of two counts fits.
   std::int64_t encoder_counts() const;
-  /// Like the above, after a quiet step.
+  /// Like encoder_counts(), after a quiet step.
   std::int64_t quiet_encoder_counts() const { return encoder_.counts_at(state_.position_pulses); }
-  /// The same after this many more pulses.
+  /// Returns the counts after this many more pulses.
   std::int64_t encoder_counts_after(std::int64_t pulses) const {
     return encoder_.counts_at(state_.position_pulses + pulses);
   }
 
-  /// The first tick after `done` at which something changes by itself; kNever if nothing does.
+  /// Returns the first tick after `done` at which something changes by itself, or kNever.
   Tick next_active_tick(Tick done) const;
 
   const PlantSetup& setup() const { return setup_; }
@@ -207,7 +207,7 @@ class alignas(64) PlantAxis {
     std::int64_t position_pulses = 0;
     std::int64_t lost_pulses = 0;     // magnitude
     std::int64_t pulses_to_lose = 0;  // made since one was lost
-    std::int64_t loses_one_in = 0;    // what they were counted for
+    std::int64_t loses_one_in = 0;    // the one_in for which they were counted
     bool at_home = false;
     bool at_lower_limit = false;
     bool at_upper_limit = false;
@@ -220,7 +220,7 @@ class alignas(64) PlantAxis {
     Tick enabled_at = kNever;
     MachineFaults faults;
     std::int64_t wheel_counts = 0;
-    // The wheel's turn: counts, the ticks that they take, and how many of those are left.
+    // The turn of the wheel: counts, its length in ticks, and the ticks left.
     std::int64_t turn_counts = 0;
     Tick turn_ticks = 0;
     Tick ticks_to_turn = 0;
@@ -229,18 +229,18 @@ class alignas(64) PlantAxis {
   const State& save() const { return state_; }
   /// Throws StateError if no machine can be in that state.
   static void check(const State& state);
-  /// Like check(); if it throws, nothing has changed.
+  /// Checks the state, then puts it in force. If it throws, nothing has changed.
   void restore(const State& state);
 
  private:
-  /// The part of the setup that an encoder's count is made from.
+  /// The part of the setup that the encoder's count depends on.
   struct Encoder {
     std::int64_t pulses_at_0 = 0;
     int counts_per_revolution = 0;
     int pulses_per_revolution = 1;
     bool reversed = false;
 
-    /// Modulo 2^64.
+    /// Returns the count modulo 2^64.
     std::uint64_t wide_counts_at(std::int64_t position_pulses) const;
     std::int64_t counts_at(std::int64_t position_pulses) const {
       return in_62_bits(wide_counts_at(position_pulses));
@@ -250,21 +250,22 @@ class alignas(64) PlantAxis {
     }
   };
 
-  /// The next tick has to look at everything.
+  /// Makes the next tick check everything.
   void disturb() {
     quiet_from_ = 1;
     quiet_to_ = 0;
   }
-  /// Finds out how far it may go before it has to.
+  /// Computes how far the machine can move before everything must be checked.
   void find_quiet_places();
-  /// Returns how far it really moved.
+  /// Returns how far it has really moved.
   std::int64_t shift(std::int64_t steps);
   void step_drive(Tick tick, DriveInputs inputs);
   std::int64_t pulses_that_step(std::int64_t pulses);
   void turn_wheel();
-  /// As they stand after a way from there.
+  /// Updates the switches after a move that began at `from`.
   void move_switches(std::int64_t from);
-  // Where the switches are on, as they stand now: one that is on lets go later than it came on.
+  // The ranges in which the switches are on in their present state: a switch that is on releases later than
+  // it came on.
   PulseSpan home_span() const;
   std::int64_t lower_limit_end() const;
   std::int64_t upper_limit_end() const;
@@ -272,14 +273,14 @@ class alignas(64) PlantAxis {
     return {*setup_.home, setup_.home_hysteresis_pulses, setup_.home_opens, setup_.home_input};
   }
 
-  // What a quiet tick needs is on the first cache line, `position_pulses` included. The quiet places are no
-  // state: they follow from it.
+  // The members of a quiet tick are on the first cache line, including `position_pulses`. The quiet range is
+  // not state, because it follows from it.
   std::int64_t quiet_from_ = 1;
   std::int64_t quiet_to_ = 0;
   Encoder encoder_;
   State state_;
   PlantSetup setup_;
-  // Of its controller, and of the bench's wires.
+  // Settings that depend on the controller and on the bench's wires.
   bool looks_between_ = false;
   bool clears_by_disabling_ = false;
 };

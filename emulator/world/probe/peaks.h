@@ -1,4 +1,4 @@
-// The greatest speed and acceleration that each axis has reached, by plan: looked at in every tick.
+// Records the greatest planned speed and acceleration of each axis. It is updated in every tick.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +16,15 @@ class Peaks final : public TickWatcher {
     double greatest_pps2 = 0;  // pulses a second, in a second
     bool operator==(const Peak&) const = default;
   };
-  /// What it has seen so far, as a value.
+  /// The peaks so far, as a value.
   using State = std::vector<std::vector<Peak>>;  // [device][axis]
 
-  /// Watches from this moment on; the view must outlive it. For World::add_watcher().
+  /// Watches from this moment on, if added by World::add_watcher(). The view must outlive it.
   explicit Peaks(const WorldView& view);
 
   void on_tick(Tick tick) override;
   Tick next_look(Tick) const override { return kNever; }
-  /// Starts again; the speed at this moment does not count.
+  /// Starts again. The speed at this moment does not count.
   void reset();
 
   const Peak& peak(std::size_t device, int axis) const {

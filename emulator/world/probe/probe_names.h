@@ -87,13 +87,13 @@ class ProbeNames final : public NameResolver {
     std::string name;
   };
 
-  /// It must outlive this.
+  /// The inventory must outlive it.
   explicit ProbeNames(const Inventory& inventory) : inventory_(inventory) {}
 
-  /// Throws NameError. A name that was resolved before gets its handle again.
+  /// Throws NameError. A name that was resolved before gets the same handle.
   NamedNumber resolve(std::string_view name) const override;
   const Probe& probe(std::int32_t handle) const { return probes_[static_cast<std::size_t>(handle)]; }
-  /// Whether only a scenario keeps it, so that a world alone has no value of that name.
+  /// Returns true if only scenarios have this value, so that a world alone has none.
   bool is_of_scenarios(std::int32_t handle) const;
 
  private:

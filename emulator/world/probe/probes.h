@@ -1,5 +1,4 @@
-// What can be seen of a world by the names of probe_names.h: their values at this moment. Looking changes
-// nothing.
+// Reads the present values of a world by the names of probe_names.h. Reading changes nothing.
 #pragma once
 
 #include <optional>
@@ -14,22 +13,22 @@ namespace understudy::emulator::world {
 
 class Probes final : public NameResolver, public ValueSource {
  public:
-  /// Both must outlive it. Without peaks their names are known, but have no value.
+  /// Both must outlive it. Without peaks their names are known but have no value.
   explicit Probes(const WorldView& view, const Peaks* peaks = nullptr)
       : view_(view), peaks_(peaks), names_(view) {}
 
-  /// Throws NameError. A name that was resolved before gets its handle again.
+  /// Throws NameError. A name that was resolved before gets the same handle.
   NamedNumber resolve(std::string_view name) const override { return names_.resolve(name); }
-  /// A register of a device without power is 0. NameError for what nobody keeps here.
+  /// A register of a device without power is 0. Throws NameError for a value that is not recorded here.
   Number value(std::int32_t handle) const override;
-  /// The first tick after `done` at which its value may be another although nothing happens, because it tells
-  /// time.
+  /// Returns the first tick after `done` at which the value may change with time alone.
   Tick next_change(std::int32_t handle, Tick done) const;
-  /// The same for all the names of a condition.
+  /// Like the above, for all the names of a condition.
   Tick next_change(const Expression& condition, Tick done) const;
-  /// The device whose register or value it is: without power it has none.
+  /// Returns the device of a register or value, which has no value without power.
   std::optional<std::size_t> device_read(std::int32_t handle) const;
-  /// Whether it is not always a whole number; of a device without registers, whether it is none now.
+  /// Returns true if the value is not always a whole number; for a device without registers, if it is no
+  /// whole number now.
   bool may_be_a_fraction(std::int32_t handle) const;
 
  private:

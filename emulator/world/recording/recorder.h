@@ -1,4 +1,4 @@
-// Writes down what reaches a world from outside and what its stations say.
+// Records everything that reaches a world from outside, and everything that its stations send.
 #pragma once
 
 #include <functional>
@@ -12,16 +12,16 @@ namespace understudy::emulator::world {
 
 class Recorder final : private OutsideListener {
  public:
-  /// Begins now: `take` gets the header's line, then a line for each event, each with its line end. The world
-  /// must outlive it.
+  /// Starts now. `take` receives the header's line, then a line for each event, all with line ends. The
+  /// world must outlive the recorder.
   Recorder(World& world, const RecordingHeader& header, std::function<void(std::string_view line)> take);
-  /// Ends it, without a state.
+  /// Ends the recording without a final state.
   ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Writes that the recording ends at this moment, once; and in which state, which a replay must reach as
-  /// well; and in what a scenario failed, if one did. Not from within World::advance_to().
+  /// Writes, once, that the recording ends at this moment, with the state that a replay must also reach, and
+  /// with the failure of a scenario if there was one. It must not be called from within World::advance_to().
   void finish(std::string failed = {});
 
  private:

@@ -1,6 +1,6 @@
-// A recording: everything that reached a world from outside, and everything that its stations said, with
-// simulated times. JSON lines: a header, then one event a line, in the order in which they happened.
-// docs/recordings.md
+// A recording holds everything that reached a world from outside and everything that its stations sent, with
+// simulated times. It consists of JSON lines: a header, then one event a line, in order. See
+// docs/recordings.md.
 #pragma once
 
 #include <cstdint>
@@ -17,34 +17,34 @@
 
 namespace understudy::emulator::world {
 
-/// What a recording begins with: enough to make the world again.
+/// The beginning of a recording, which is enough to make the world again.
 struct RecordingHeader {
   std::string version;  // of the program that recorded
   std::string bench;    // as bench_text.h has it, memories included
   WorldOptions options;
   std::uint64_t seed = 0;
-  std::string snapshot;  // where it began later than the world: its state then (snapshot_file.h); else empty
+  std::string snapshot;  // the world's state at the start (snapshot_file.h), if it ran before; else empty
 };
 
 struct RecordedEvent {
   enum class What : std::uint8_t {
     opened,    // a host opened line `where`
     closed,    // and closed it
-    settings,  // set `host`; nothing: left them as they were
+    settings,  // the host set `host`; nothing: it left the settings as they were
     bytes,     // wrote `bytes`
-    departed,  // likewise, but has closed since
-    purged,    // took back what was not on the wire yet
+    departed,  // bytes of a host that has closed since
+    purged,    // the host flushed bytes that were not on the wire yet
     nothing_more,
-    said,     // `bytes` were said on the line: what a replay is compared with
-    input,    // terminal `place` of device `where` was given `value`
+    said,     // stations sent `bytes` on the line, which a replay must match
+    input,    // terminal `place` of device `where` was set to `value`
     power,    // the device was switched to `value`
     inject,   // `fault`
     clear,    // fault number `value`
     write,    // `write`, past the line
-    assign,   // the value `real` by the name `text`, to one without registers
-    program,  // the device was given the program `text`; it refused it if there is a `value`
+    assign,   // a device without registers was given the value `real` by the name `text`
+    program,  // a device was given the program `text`; it refused it if `value` is not 0
     command,  // and the command `text`, past the line
-    end,      // the recording ends here; `text`: the state then (snapshot_file.h), or nothing
+    end,      // the recording ends here; `text` is the final state (snapshot_file.h), or empty
   } what = What::end;
   SimTime at{0};
   std::size_t where = 0;
@@ -53,24 +53,24 @@ struct RecordedEvent {
   std::optional<pty::HostSettings> host{};
   std::vector<std::uint8_t> bytes{};
   std::string text{};
-  std::string failed{};  // of `end`: in what a scenario failed there
+  std::string failed{};  // for `end`: the failure of a scenario, if any
   double real = 0;
   Fault fault{};
   PreparedWrite write{};
 };
 
-/// One line, without its end.
+/// Returns one line without its line end.
 std::string to_line(const RecordingHeader& header);
 std::string to_line(const RecordedEvent& event, const KnownDevices& devices);
 
-/// A line that is not a header or event: "field: what is wrong; what was expected".
+/// Reports a line that is no header or event: "field: what is wrong; what was expected".
 struct RecordingError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 RecordingHeader parse_header(std::string_view text);
 RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, std::size_t line_count);
 
-/// Does to the world what the event says (nothing for `said` and `end`), at the world's present time.
+/// Applies an event to the world at the world's present time. `said` and `end` have no effect.
 void apply(World& world, const RecordedEvent& event);
 
 }  // namespace understudy::emulator::world

@@ -1,6 +1,6 @@
-// The recording of a daemon that may run for months: a file that grows, and starts again from a snapshot when
-// it has grown too large. The previous one stays beside it as FILE.1, so the last `cap_bytes` of history are
-// always there.
+// The recording of a daemon that may run for months: a file that starts again from a snapshot when it has
+// grown too large. The previous file is kept as FILE.1, so that at least the last `cap_bytes` of history
+// exist.
 #pragma once
 
 #include <functional>
@@ -13,10 +13,11 @@
 namespace understudy::emulator::world {
 
 inline constexpr std::size_t kRecordingCapBytes = std::size_t{64} << 20;
-/// How the previous one's name ends.
+/// The ending of the previous file's name.
 inline constexpr const char* kOlderPart = ".1";
 
-/// Why nothing may be put aside there: something else than a recording stands there. Empty if it may.
+/// Returns why the previous file cannot be put there: the path has something other than a recording. Empty
+/// if it can.
 std::string why_no_older_part(const std::string& path);
 
 class RecordingSpool {
@@ -28,15 +29,14 @@ class RecordingSpool {
   RecordingSpool(const RecordingSpool&) = delete;
   RecordingSpool& operator=(const RecordingSpool&) = delete;
 
-  /// Writes that it ends, in which state, and in what a scenario failed, if one did. Call it between two
-  /// looks at the world; nothing is recorded after it.
+  /// Writes the end, the final state, and the failure of a scenario if there was one. Call it outside
+  /// World::advance_to(); nothing is recorded afterwards.
   void finish(std::string failed = {});
 
-  /// Waits until all is written. Returns why it has ended early, or nothing.
+  /// Waits until everything is written. Returns why the file ended early, or an empty string.
   std::string close();
 
-  /// Starts again if it is time to. Call it between two looks at the world, not from within
-  /// World::advance_to().
+  /// Starts a new file if it is time. Call it outside World::advance_to().
   void look();
 
  private:

@@ -1,4 +1,4 @@
-// Runs a recording again and compares every byte that is said.
+// Replays a recording and compares every byte that stations send.
 #pragma once
 
 #include <functional>
@@ -15,13 +15,13 @@ struct ReplayResult {
   enum class Verdict : std::uint8_t {
     same,       // every byte, at its time
     different,  // `difference` is the first one
-    stopped,    // as asked, or at its end if that comes first
+    stopped,    // at the requested time, or at the recording's end if that comes first
   } verdict = Verdict::same;
   std::string difference;  // one line
   SimTime reached{0};
   std::uint64_t events = 0;
   std::uint64_t bytes_said = 0;
-  bool has_end = false;  // false: the recording breaks off, as that of a killed program does
+  bool has_end = false;  // false: the recording breaks off, because its program was killed
 };
 
 struct Replayed {
@@ -30,22 +30,22 @@ struct Replayed {
   ReplayResult result;
 };
 
-/// Looks on while a recording runs: made when the world is as the recording begins, destroyed before the
+/// Observes a replay. It is made when the world is in the recording's first state, and destroyed before the
 /// world.
 class ReplayWatcher {
  public:
   virtual ~ReplayWatcher() = default;
-  /// Called at the world's present time, before the event is done to the world; `line_number` in the
+  /// Called at the world's present time, before the event is applied; `line_number` is its line in the
   /// recording.
   virtual void happened(const RecordedEvent&, std::size_t /*line_number*/) {}
-  /// The recording was played to its end, or to where it differs.
+  /// The replay reached the end of the recording, or a difference.
   virtual void ended() {}
 };
 using ReplayWatcherMaker = std::function<std::unique_ptr<ReplayWatcher>(World&)>;
 
-/// Its devices are of one of the models. `name` stands for the file in messages: RecordingError "name:line:
-/// field: what". `until`: goes no further than that. `watch` may return a watcher. `done` gets the world when
-/// all is over.
+/// Replays a recording whose devices are of the given models. `name` stands for the file in messages:
+/// RecordingError "name:line: field: what". The replay goes no further than `until`. `watch` may return a
+/// watcher. `done` receives the world at the end.
 Replayed replay(ModelList models, std::istream& recording, const std::string& name,
                 std::optional<SimTime> until, const ReplayWatcherMaker& watch = {},
                 const std::function<void(World&)>& done = {});

@@ -1,4 +1,4 @@
-// A recording to go to and fro in: any moment of it, from the keyframe before.
+// Moves to any moment of a recording, forwards or backwards, from the keyframe before it.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@ namespace understudy::emulator::world {
 
 class Timeline {
  public:
-  /// Keyframes are as far apart as this, or farther where there would be too many.
+  /// The shortest time between keyframes. It is longer if there would be too many.
   static constexpr SimTime kApart = std::chrono::seconds(1);
   static constexpr std::size_t kMostKeyframes = 1'000;
 
-  /// Plays the events, in their order, from the state in which the recording begins; `on_way` is called at
-  /// each keyframe, and at the end. The world is left there. It must outlive this, and be of the recording's
-  /// bench.
+  /// Applies the events in order, from the state in which the recording begins. `on_way` is called at each
+  /// keyframe and at the end, where the world is left. The world must be made from the recording's bench and
+  /// outlive this object.
   Timeline(World& world, const WorldState& begin, std::vector<RecordedEvent> events, SimTime end,
            const std::function<void()>& on_way);
 
@@ -31,8 +31,8 @@ class Timeline {
   const std::vector<RecordedEvent>& events() const { return events_; }
   std::size_t keyframes() const { return keyframes_.size(); }
 
-  /// Puts the world where it was at that time, after all that happened then; `take_back` takes it to the
-  /// state of a keyframe, of which it is told the number: as many calls of `on_way` came before it.
+  /// Moves the world to that time, after all events of that moment. `take_back` puts it into the state of a
+  /// keyframe; it also receives the keyframe's number, which is the number of `on_way` calls before it.
   void go_to(SimTime time, const std::function<void(const WorldState&, std::size_t keyframe)>& take_back);
 
  private:

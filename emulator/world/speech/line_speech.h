@@ -1,6 +1,6 @@
-// What is spoken on a line: how devices are put on it, how hosts behave there, what its messages say. All
-// that differs from one protocol to another is asked here; a new one is one more object (speech_of() lists
-// them).
+// The protocol of a line: how devices are connected to it, how hosts behave there, what its messages mean.
+// All differences between protocols are behind this interface; a new protocol is one more object
+// (speech_of() lists them).
 #pragma once
 
 #include <cstddef>
@@ -29,62 +29,62 @@ struct StationConditions {
 class LineSpeech {
  public:
   virtual const Protocol& protocol() const = 0;
-  /// "Modbus frames": what the line carries, for messages.
+  /// Returns "Modbus frames" or the like for messages.
   virtual std::string_view messages() const = 0;
 
   // --- stations ----------------------------------------------------------------------------------
-  /// Of the device at one of its ports.
+  /// Makes the station of a device at one of its ports.
   virtual std::unique_ptr<LineStation> make_station(Device& device, std::size_t port,
                                                     const StationConditions& conditions) const = 0;
-  /// How a station of that model frames what it hears, where it does.
+  /// Returns how a station of that model frames received bytes, if it does.
   virtual pty::RtuFraming framing(const Model& /*model*/, const StationConditions& /*conditions*/) const {
     return {};
   }
-  /// Whether a device may say something unasked.
+  /// Returns true if a device may send something unasked.
   virtual bool may_be_unasked() const { return false; }
 
   // --- hosts -------------------------------------------------------------------------------------
-  /// Whether steps that send and hear text fit it.
+  /// Returns true if scenario steps that send and receive text can use it.
   virtual bool carries_text() const { return false; }
-  /// Whether a host leaves a silence between its messages.
+  /// Returns true if a host leaves a silence between its messages.
   virtual bool is_framed_by_silence() const { return false; }
-  /// Whether a host's message may change something in one of the stations.
+  /// Returns true if a host's message may change something in one of the stations.
   virtual bool may_change(const LineStations& stations, const pty::CapturedPacket& message) const = 0;
-  /// Whether an answer says that nothing was changed.
+  /// Returns true if an answer tells that nothing was changed.
   virtual bool is_refusal(std::span<const std::uint8_t> /*answer*/) const { return false; }
 
   // --- onlookers ---------------------------------------------------------------------------------
-  /// Makes packets of what goes over the line, which has that number.
+  /// Makes packets of the traffic on the line with that number.
   virtual std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
                                                       pty::CaptureFrames::Sink sink) const = 0;
-  /// A message of a host in words.
+  /// Returns a host's message in words.
   virtual std::string request_text(const LineStations& stations,
                                    std::span<const std::uint8_t> request) const = 0;
-  /// "mill: MOVE X 1000", of a message that is a command with a name (emulator/device/command_window.h); else
-  /// empty.
+  /// Returns "mill: MOVE X 1000" for a message that is a command with a name
+  /// (emulator/device/command_window.h); else an empty text.
   virtual std::string command_text(const LineStations& /*stations*/,
                                    std::span<const std::uint8_t> /*request*/) const {
     return {};
   }
-  /// What a station answered. `request` is empty if it is not known.
+  /// Returns a station's answer in words. `request` is empty if it is not known.
   virtual std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
                                  std::span<const std::uint8_t> reply) const = 0;
 
   // --- faults ------------------------------------------------------------------------------------
-  /// What a fault's trigger asks of a message.
+  /// Returns the facts of a message that a fault's trigger asks for.
   virtual FrameFacts facts_of(const HeardFrame& frame) const = 0;
-  /// Throws NameError for a fault that its messages cannot have.
+  /// Throws NameError for a fault that messages of this protocol cannot have.
   virtual void demand_possible(const std::string& /*device*/, const Fault& /*fault*/) const {}
 
  protected:
   ~LineSpeech() = default;
 };
 
-// modbus_speech.cpp, text_speech.cpp
+// Defined in modbus_speech.cpp and text_speech.cpp.
 const LineSpeech& modbus_speech();
 const LineSpeech& text_speech();
 
-/// That of a model's protocol. Throws std::logic_error if it is none of them.
+/// Returns the object for a model's protocol. Throws std::logic_error if there is none.
 const LineSpeech& speech_of(const Model& model);
 
 }  // namespace understudy::emulator::world

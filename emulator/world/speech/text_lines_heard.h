@@ -1,4 +1,4 @@
-// What a device says, as the lines that a host reads: ended by CR, by LF, or by CR and LF.
+// Splits a device's text into lines as a host reads them: ended by CR, by LF, or by CR and LF.
 #pragma once
 
 #include <span>
@@ -16,15 +16,16 @@ struct LinesHeard {
 
 LinesHeard lines_in(std::string_view text);
 
-/// Lines one above the other are one text for messages: "a", "b"; nothing if there is none.
+/// Returns lines as one text for messages: "a", "b"; "nothing" if there are none.
 std::string lines_text(std::span<const std::string> lines);
 
-/// What is waited for.
+/// The lines that a step waits for.
 struct LinesWanted {
-  std::vector<std::string> lines;  // none: whatever comes, until time is over
-  bool is_answer = false;  // to what was just said; the last line may have no end then, as a prompt has
+  std::vector<std::string> lines;  // none: any lines, until the time is over
+  bool is_answer =
+      false;  // an answer to what was just sent; its last line may lack a line end, as a prompt does
 };
-/// Whether that has come, or something else instead.
+/// Returns true if the wanted lines have arrived, or others instead.
 bool has_come(const LinesWanted& wanted, const LinesHeard& heard);
 
 }  // namespace understudy::emulator::world

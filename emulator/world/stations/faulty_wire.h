@@ -1,6 +1,6 @@
-// What stands between a line and a station when something is broken there: messages that come late, garbled,
-// twice or not at all. A station tells it what it has heard and hands it what it says; the wire gives back to
-// the station what is left of either (End), at its time.
+// Stands between a line and a station to apply faults: messages arrive late, garbled, twice or not at all. A
+// station passes it what it has received and what it sends; the wire returns the remains of either to the
+// station (End), in time.
 //
 //   heard ──passes()──> whole: the station serves it          said ──answer()──> End::say()
 //              └──> pieces ──> End::serve_piece(), late ones in run()    └──> pieces, late ones in run()
@@ -19,16 +19,16 @@ namespace understudy::emulator::world {
 
 class FaultyWire {
  public:
-  /// Messages that are late; what is more is lost.
+  /// The largest number of late messages; further ones are lost.
   static constexpr std::size_t kMostLate = 256;
 
-  /// Where it ends: the station.
+  /// The end of the wire: the station.
   class End {
    public:
-    /// Judges what has become of a request as if it had come that way.
+    /// Judges the remains of a request as if they had arrived that way.
     virtual void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                              pty::SimTime now, pty::Transmitter& out) = 0;
-    /// Sends what is left of an answer to the request with that last character.
+    /// Sends the remains of an answer to the request with that last character.
     virtual void say(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                      pty::Transmitter& out) = 0;
 
@@ -36,20 +36,20 @@ class FaultyWire {
     ~End() = default;
   };
 
-  /// A message that is on its way.
+  /// A message on its way.
   struct Late {
     pty::SimTime at{0};
     bool is_reply = false;  // else a request
     std::uint64_t last_character = 0;
     std::vector<std::uint8_t> bytes{};
   };
-  /// Throws std::invalid_argument for what cannot be late.
+  /// Throws std::invalid_argument for impossible late messages.
   static void check(const std::vector<Late>& late);
 
-  /// `late` is its state, in the order of time: a part of its station's.
+  /// `late` is its state, in the order of time. It is a part of the station's state.
   FaultyWire(End& end, std::vector<Late>& late) : end_(end), late_(late) {}
 
-  /// Null: nothing is broken. The numbers of the device and of the line are told with each frame.
+  /// Null: no faults. The numbers of the device and the line are passed on with each frame.
   void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
     faults_ = faults;
     device_ = device;
@@ -57,29 +57,29 @@ class FaultyWire {
   }
 
   // --- what the station hears ------------------------------------------------------------------
-  /// Nothing can be early where nothing is broken.
+  /// Without faults no frame is served early.
   bool is_broken() const { return faults_ != nullptr; }
-  /// A character has just completed that frame, which may be taken for over at once.
+  /// A character has just completed that frame, which a fault may take as complete at once.
   void look_at_completed(const HeardFrame& frame);
-  /// The frame that was completed is not there any more.
+  /// The completed frame does not exist any more.
   void forget_early_frame() { is_early_ = false; }
-  /// True once for a frame that is to be served before the silence behind it is over.
+  /// Returns true once for a frame that is to be served before the silence behind it is over.
   bool take_early_frame();
-  /// A request is over: whether it has come whole. If it has not, what is left of it comes as pieces.
+  /// A request is complete. Returns true if it arrived whole; otherwise its remains arrive as pieces.
   bool passes(const HeardFrame& request, pty::Transmitter& out);
 
   // --- what it does and says -------------------------------------------------------------------
-  /// What the device is made to do with a request that is for it.
+  /// Returns how a fault makes the device treat a request.
   FrameFaults::Treatment treatment_of(const HeardFrame& request);
-  /// `delay`: of the device itself.
+  /// `delay` is that of the device itself.
   void answer(const HeardFrame& request, std::span<const std::uint8_t> bytes, pty::Transmitter& out,
               pty::SimTime delay = pty::SimTime{0});
 
   // --- time ------------------------------------------------------------------------------------
   std::optional<pty::SimTime> due() const;
-  /// What was late and has come by now.
+  /// Delivers late messages whose time has come.
   void run(pty::SimTime now, pty::Transmitter& out);
-  /// What is on its way is lost.
+  /// Drops all messages on their way.
   void reset();
 
  private:

@@ -1,4 +1,4 @@
-// A device's presence on a line, whatever is spoken there, as the world sees it.
+// A device's presence on a line of any protocol, as the world sees it.
 #pragma once
 
 #include <cstdint>
@@ -26,34 +26,34 @@ class LineStation : public pty::Station, private FaultyWire::End {
 
   pty::LineSettings settings() const final { return device_.line_settings(port_); }
 
-  /// Forgets what it was hearing, and what it still has to say.
+  /// Drops incomplete input and unsent output.
   virtual void reset() = 0;
 
-  /// What is broken that frames meet; null: nothing. It gets the numbers with each frame.
+  /// Sets the source of faults for frames; null: none. It receives the numbers with each frame.
   void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
     wire_.set_faults(faults, device, line);
   }
 
-  /// The device may have something to say unasked. Returns whether it has: then due() has changed.
+  /// The device may have something to send unasked. Returns true if it has; due() has changed then.
   virtual bool look_for_speech(pty::SimTime /*now*/) { return false; }
 
   const Device& device() const { return device_; }
-  /// By which of the device's ports it stands there.
+  /// Returns the device's port that is connected to the line.
   std::size_t port() const { return port_; }
   const StationCounters& counters() const { return counters_; }
-  /// Those that were heard and ignored.
+  /// Counts received bytes that were ignored.
   virtual std::uint64_t dropped_bytes() const = 0;
 
   // --- its state: what it hears and has counted; the device's is its own ---------------------------
   virtual void write_state(StateWriter& writer) const = 0;
-  /// Reads it; calling the result puts it in force, which does not throw. Throws StateError or
-  /// std::invalid_argument for what this station cannot be.
+  /// Reads a state. Calling the result puts it in force, which does not throw. Throws StateError or
+  /// std::invalid_argument for a state that this station cannot have.
   virtual std::function<void()> read_state(StateReader& reader) = 0;
-  /// Reads two, and tells where they differ (base/state/difference.h).
+  /// Reads two states and returns where they differ (base/state/difference.h).
   virtual std::string difference(StateReader& a, StateReader& b, const std::string& path) const = 0;
 
  protected:
-  /// The last two are parts of the station's state.
+  /// The last two arguments are parts of the station's state.
   LineStation(Device& device, std::size_t port, StationCounters& counters,
               std::vector<FaultyWire::Late>& late)
       : device_(device), port_(port), counters_(counters), wire_(*this, late) {}
@@ -64,7 +64,7 @@ class LineStation : public pty::Station, private FaultyWire::End {
   FaultyWire wire_;  // all that it hears and says goes through it
 };
 
-/// Those on a line.
+/// The stations on a line.
 using LineStations = std::vector<std::unique_ptr<LineStation>>;
 
 }  // namespace understudy::emulator::world

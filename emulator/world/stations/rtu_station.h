@@ -1,4 +1,4 @@
-// A Modbus RTU station: a device's presence on a line. Takes frames from its own framer, asks the device
+// A Modbus RTU station: a device's presence on a line. It takes frames from its own framer, asks the device
 // whether the address is meant for it, and answers.
 #pragma once
 
@@ -14,7 +14,7 @@ class RtuStation final : public LineStation {
       : LineStation(device, port, state_.counters, state_.late),
         state_{.framer = pty::RtuFramer(framing), .counters = {}} {}
 
-  // Without power it hears nothing.
+  // Without power a station receives nothing.
   void hear_start_bit(pty::SimTime at) override {
     if (!device_.powered()) return;
     state_.framer.start_bit(at);
@@ -46,7 +46,7 @@ class RtuStation final : public LineStation {
   std::function<void()> read_state(StateReader& reader) override;
   std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
-  /// What it hears and has counted; the device's state is separate.
+  /// What it has received and counted. The device's state is separate.
   struct State {
     pty::RtuFramer framer;
     StationCounters counters;
@@ -55,7 +55,7 @@ class RtuStation final : public LineStation {
   const State& save() const { return state_; }
 
  private:
-  /// To be called after all that a framer does: the device is told when it is over.
+  /// Must be called after each call of the framer. It reports errors to the device.
   void tell_errors(pty::RtuFramer& framer) {
     if (framer.has_errors()) tell_each_error(framer);
   }

@@ -1,4 +1,4 @@
-// Serves Modbus requests from a device's register map. Knows functions and exceptions, but not frames,
+// Serves Modbus requests from a device's register map. It knows functions and exceptions, but not frames,
 // addresses or time. (MODBUS Application Protocol V1.1b3.)
 #pragma once
 
@@ -19,17 +19,17 @@ enum class ModbusException : std::uint8_t {
   device_busy = 6,
 };
 
-/// A function code: which table it reaches, how, and how much of it in one request.
+/// A function code: its table, its kind of access, and its limit for one request.
 struct FunctionRow {
   enum class Kind : std::uint8_t { read, write_one, write_several };
 
   std::uint8_t code = 0;
   Table table = Table::holding;
   Kind kind = Kind::read;
-  int most = 1;  // bits or registers; a model may allow fewer (RtuRules::limits)
+  int most = 1;  // in bits or registers; a model may allow fewer (RtuRules::limits)
 };
 
-/// Those that can be served; a model knows some of them.
+/// All supported functions; a model knows some of them.
 inline constexpr FunctionRow kModbusFunctions[] = {
     {0x01, Table::coil, FunctionRow::Kind::read, 2000},
     {0x02, Table::discrete, FunctionRow::Kind::read, 2000},
@@ -41,7 +41,7 @@ inline constexpr FunctionRow kModbusFunctions[] = {
     {0x10, Table::holding, FunctionRow::Kind::write_several, 123},
 };
 
-/// The one that reads a table, or writes to it; null where there is none: inputs cannot be written.
+/// Returns the function that reads or writes a table, or null if there is none: inputs cannot be written.
 constexpr const FunctionRow* function_for(Table table, FunctionRow::Kind kind) {
   for (const FunctionRow& row : kModbusFunctions) {
     if (row.table == table && row.kind == kind) return &row;
@@ -54,12 +54,12 @@ inline constexpr std::size_t kModbusMaxPdu = 253;
 struct ModbusReply {
   std::array<std::uint8_t, kModbusMaxPdu> pdu{};
   std::size_t size = 0;
-  RefusedRequest refused{};  // what got an exception, and why
+  RefusedRequest refused{};  // the refused request and the reason, if the reply is an exception
 };
 
-/// Carries out one request (function code and data) and makes its reply. A request that gets an exception
-/// has changed nothing. It is tested in this order: function, quantity and byte count, addresses, values, and
-/// whether the device takes it now.
+/// Carries out one request (function code and data) and makes its reply. A request that is answered with an
+/// exception has changed nothing. Checks are in this order: function, quantity and byte count, addresses,
+/// values, and whether the device takes it now.
 ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu);
 
 }  // namespace understudy::emulator::world

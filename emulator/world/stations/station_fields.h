@@ -1,4 +1,4 @@
-// What the states of stations consist of (base/state/fields.h), in the order of the bytes.
+// Lists the fields of stations' states (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include <functional>
@@ -66,10 +66,10 @@ struct StateOf<emulator::world::TextStation::State> {
 
 namespace understudy::emulator::world {
 
-/// Reads a station's state, which checks it; calling the result puts it in force.
+/// Reads and checks a station's state. Calling the result puts it in force.
 template <class State>
 std::function<void()> read_into(State& state, StateReader& reader) {
-  State restored = state;  // with what is not read, as the rules of framing
+  State restored = state;  // includes members that are not read, such as the framing rules
   reader.read(restored);
   return [&state, restored = std::move(restored)] { state = restored; };
 }

@@ -1,11 +1,11 @@
-// A device that is spoken to in lines of text, on its line: joins characters into lines, hands them to the
-// device, and sends what it has said: an answer to a line, or something unasked.
+// A device with a text protocol on its line. It joins characters into lines, passes them to the device, and
+// sends the device's text: answers to lines, or unasked text.
 //
-// A device with flow control is held by the host's XOFF until its XON comes, or the power goes: it hears, but
-// what it has said waits, and what it says unasked stays with it. It sends none of its own.
+// The host's XOFF stops a device with flow control until its XON, or until the power goes: the device still
+// receives, but its answers wait, and its unasked text stays in the device. It sends no XOFF itself.
 //
-// Long texts go out in pieces, as fast as the wire carries them, so that no line's buffer overflows. While
-// the wire is busy with its text, what the device says unasked stays with the device.
+// Long texts are sent in pieces as fast as the wire carries them, so that no line's buffer overflows. While
+// the wire is busy with its text, unasked text stays in the device.
 #pragma once
 
 #include <optional>
@@ -20,18 +20,18 @@ namespace understudy::emulator::world {
 
 class TextStation final : public LineStation {
  public:
-  /// Characters that are given to the line at once.
+  /// The number of characters given to the line at once.
   static constexpr std::size_t kPiece = 1024;
-  /// The same if the host may hold it: what the line has been given cannot be held any more.
+  /// Like kPiece, if the host may send XOFF: characters that the line has cannot be stopped any more.
   static constexpr std::size_t kPieceThatCanBeHeld = 1;
-  /// With this many characters waiting it takes no more from the device, until some have gone.
+  /// With this many waiting characters it takes no more text from the device until some are sent.
   static constexpr std::size_t kMostOutgoing = 64 * 1024;
 
   /// `is_instant`: the line's characters take no time. The device must have a speaker.
   TextStation(Device& device, std::size_t port, bool is_instant);
 
   void hear(const pty::TimedByte& byte) override;
-  void hear_other_station() override {}  // there is none
+  void hear_other_station() override {}  // not needed
   std::optional<pty::SimTime> due() const override;
   void run(pty::SimTime now, pty::Transmitter& out) override;
 
@@ -42,24 +42,24 @@ class TextStation final : public LineStation {
   std::function<void()> read_state(StateReader& reader) override;
   std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
-  /// What has been heard and still has to be carried out: at its time, within the event that brought it.
+  /// A received line that is still to be carried out: at its time, within the event that completed it.
   struct Waiting {
     bool has_heard = false;  // false: the character is only echoed
     pty::HeardText heard;
     std::string echo{};
   };
   struct Outgoing {
-    std::uint64_t last_character = 0;  // of the line that it answers; 0: it is said unasked
+    std::uint64_t last_character = 0;  // of the line that it answers; 0: sent unasked
     std::string text{};
   };
   struct State {
     pty::TextLines lines;
     StationCounters counters;
-    std::vector<Waiting> waiting{};  // one at most
+    std::vector<Waiting> waiting{};  // at most one
     std::vector<FaultyWire::Late> late{};
     std::vector<Outgoing> outgoing{};
-    pty::SimTime free_at{0};                  // the wire has carried what it was given
-    std::optional<pty::SimTime> speaks_at{};  // what the device says unasked is taken
+    pty::SimTime free_at{0};                  // when the wire has carried what it was given
+    std::optional<pty::SimTime> speaks_at{};  // when the device's unasked text is taken
     bool is_held = false;                     // by the host's XOFF
   };
   const State& save() const { return state_; }

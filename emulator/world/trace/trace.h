@@ -1,5 +1,5 @@
-// Traces: what can be seen of a world, at every tick at which any of it changed. As CSV for spreadsheets and
-// `understudy plot`, as VCD for GTKWave.
+// Traces record the visible values of a world at every tick at which any of them changed: as CSV for
+// spreadsheets and `understudy plot`, or as VCD for GTKWave.
 #pragma once
 
 #include <functional>
@@ -13,32 +13,32 @@
 
 namespace understudy::emulator::world {
 
-/// One column.
+/// One column of a trace.
 struct TraceSignal {
   std::string name;  // as probes.h has it: "feeder.A.position"
   enum class Kind : std::uint8_t { whole, real, bit } kind = Kind::whole;
 };
 
-/// Where the lines of a format go.
+/// Receives the lines of a format.
 using TakeLine = std::function<void(std::string_view lines)>;
 
 class TraceFormat {
  public:
   virtual ~TraceFormat() = default;
   virtual void begin(const std::vector<TraceSignal>& signals) = 0;
-  /// Values in the order of the signals; `is_new[i]` where one has changed since the last call, and all at
-  /// first.
+  /// Values are in the order of the signals. `is_new[i]` is true if one has changed since the last call; at
+  /// first all are.
   virtual void row(SimTime at, const std::vector<Number>& values, const std::vector<bool>& is_new) = 0;
-  /// Nothing has changed since the last row, and nothing more will come.
+  /// Nothing has changed since the last row, and nothing more follows.
   virtual void end(SimTime at, const std::vector<Number>& values) = 0;
 };
 
 std::unique_ptr<TraceFormat> csv_format(TakeLine take);
 std::unique_ptr<TraceFormat> vcd_format(TakeLine take);
 
-/// Of each device: for each axis its pulses, planned speed, the machine's position and switches, its duty;
-/// inputs and outputs, groups of them as words, and the registers that show its state. Then what else is
-/// asked for, as probes.h names it (NameError).
+/// Returns the signals of each device: for each axis its pulses, planned speed, the machine's position and
+/// switches, and its duty; inputs and outputs, groups of them as words, and the registers that show its
+/// state. Then follow those in `also`, by the names of probes.h (NameError).
 std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also);
 
 /// Watches the world for as long as it lives.
@@ -52,7 +52,7 @@ class Trace final : private TickWatcher {
  private:
   void on_tick(Tick tick) override;
   Tick next_look(Tick done) const override;
-  void on_rest(Tick) override {}  // it writes what changes
+  void on_rest(Tick) override {}  // it writes only changes
   void look(SimTime at);
 
   World& world_;

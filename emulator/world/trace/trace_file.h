@@ -1,4 +1,4 @@
-// A trace as a file that grows while a world runs, in the format that its name says.
+// Writes a trace to a file while a world runs. The format follows from the file's name.
 #pragma once
 
 #include <functional>
@@ -11,20 +11,21 @@
 
 namespace understudy::emulator::world {
 
-/// Whether a path is that of a trace: FILE.csv or FILE.vcd.
+/// Returns true if a path is that of a trace: FILE.csv or FILE.vcd.
 bool is_trace_name(const std::string& path);
 
 class TraceFile {
  public:
-  /// Opens it; what is there stays until begin(). It will hold what trace_signals() returns; `log` gets a
-  /// line if it ends early. The world must outlive it. Throws NameError (nothing is opened then) and
-  /// GrowingFileError.
+  /// Opens the file; its old content stays until begin(). The trace has the signals of trace_signals().
+  /// `log` receives a line if it ends early. The world must outlive it. Throws NameError (then nothing is
+  /// opened) and GrowingFileError.
   TraceFile(World& world, const std::string& path, const std::vector<std::string>& also,
             std::function<void(const std::string&)> log);
 
-  /// From this moment on. Throws GrowingFileError.
+  /// Starts at this moment. Throws GrowingFileError.
   void begin();
-  /// Writes its end and waits until all is written. Returns why it has ended early, or nothing.
+  /// Writes the end and waits until everything is written. Returns why the file ended early, or an empty
+  /// string.
   std::string finish();
 
  private:

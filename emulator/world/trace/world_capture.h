@@ -1,4 +1,4 @@
-// What goes over all lines of a world, as a capture file.
+// Captures the traffic of all lines of a world in a file.
 #pragma once
 
 #include <functional>
@@ -14,16 +14,16 @@ namespace understudy::emulator::world {
 
 class WorldCapture {
  public:
-  /// Opens the file, as pty/capture_file.h does; what is there stays until begin(). The world must outlive
+  /// Opens the file as pty/capture_file.h does; its old content stays until begin(). The world must outlive
   /// it. Throws pty::CaptureError.
   WorldCapture(World& world, const std::string& path, std::function<void(const std::string&)> log);
-  ~WorldCapture();  // what waits for its end is a packet then
+  ~WorldCapture();  // incomplete packets end here
   WorldCapture(const WorldCapture&) = delete;
   WorldCapture& operator=(const WorldCapture&) = delete;
 
-  /// From this moment on. Throws pty::CaptureError.
+  /// Starts at this moment. Throws pty::CaptureError.
   void begin();
-  /// Waits until all is written. Returns why it has ended early, or nothing.
+  /// Waits until everything is written. Returns why the file ended early, or an empty string.
   std::string finish();
 
  private:

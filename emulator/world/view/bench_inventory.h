@@ -1,4 +1,4 @@
-// What there is on a bench.
+// The inventory of a bench.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,13 @@ namespace understudy::emulator::world {
 
 class BenchInventory final : public Inventory {
  public:
-  /// The bench must outlive it. What its models refuse must have been taken away.
+  /// The bench must outlive it, and must not contain anything that its models refuse.
   explicit BenchInventory(const Bench& bench);
 
   std::size_t line_count() const override { return bench_.lines.size(); }
   const std::string& line_name(std::size_t number) const override { return bench_.lines[number].name; }
   const KnownDevices& known() const override { return known_; }
-  /// Made when it is first asked for.
+  /// Makes the device on first use.
   const Device& device(std::size_t number) const override;
   const PlantSetup& machine(std::size_t device, int axis) const override;
 

@@ -1,6 +1,6 @@
-// What a world has, by name and number, without looking at how it is doing: enough to understand names and to
-// say whether a fault is possible. A running world has one, and so has a bench from which no world has been
-// made.
+// What a world contains, by name and number, but not its present state: enough to resolve names and to check
+// whether a fault is possible. A running world has an inventory, and so does a bench from which no world has
+// been made.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,12 @@ class Inventory {
  public:
   virtual std::size_t line_count() const = 0;
   virtual const std::string& line_name(std::size_t number) const = 0;
-  /// The devices by name; whatever else is asked about a device is asked by its place here.
+  /// Returns the devices by name. Other functions take a device's index in this list.
   virtual const KnownDevices& known() const = 0;
-  /// For what only a device can tell: which values it has by name. Not for the values themselves.
+  /// Returns a device, for what only the device can tell, such as the names of its values. Its values must
+  /// not be read.
   virtual const Device& device(std::size_t number) const = 0;
-  /// What the machine on an axis is like.
+  /// Returns the setup of an axis's machine.
   virtual const PlantSetup& machine(std::size_t device, int axis) const = 0;
 
  protected:

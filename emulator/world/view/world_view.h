@@ -1,5 +1,5 @@
-// What can be looked at in a running world: what there is (inventory.h), and how it is doing. Whoever looks
-// (probes, peaks) knows no more of a world than this; looking changes nothing.
+// The readable side of a running world: what it contains (inventory.h) and its present state. Observers
+// (probes, peaks) use only this interface; reading changes nothing.
 #pragma once
 
 #include <cstddef>
@@ -18,14 +18,14 @@
 
 namespace understudy::emulator::world {
 
-/// A line with those who stand on it.
+/// A line with its stations.
 struct WorldLine {
   pty::Line line;
   const LineSpeech& speech;
   LineStations stations;
   pty::RtuFraming framing{};  // as its stations have it; the shortest of different silences
 
-  /// As of `speech`.
+  /// See `speech`.
   std::string request_text(std::span<const std::uint8_t> request) const {
     return speech.request_text(stations, request);
   }
@@ -46,7 +46,7 @@ class WorldView : public Inventory {
   virtual const WorldLine& line(std::size_t number) const = 0;
   virtual std::size_t device_count() const = 0;
   virtual const PlantAxis& plant(std::size_t device, int axis) const = 0;
-  /// All pulses since the world began, in the motor's sense.
+  /// Returns all pulses since the world began, in the motor's direction.
   virtual std::int64_t sent_pulses(std::size_t device, int axis) const = 0;
 
   const std::string& line_name(std::size_t number) const final { return line(number).line.name(); }
@@ -56,16 +56,16 @@ class WorldView : public Inventory {
   ~WorldView() = default;
 };
 
-/// Sees ticks when they are completely over. May act on the world as the outside does.
+/// Is shown ticks when they are completely over. It may act on the world as an outside event does.
 class TickWatcher {
  public:
   virtual ~TickWatcher() = default;
   virtual void on_tick(Tick tick) = 0;
-  /// The first tick after `done` that it must see although nothing happens: `done` + 1 for one that sees
-  /// each, kNever for one that would see the same again. The first tick at which nothing happens is shown to
-  /// all.
+  /// Returns the first tick after `done` that it must see even if nothing happens: `done` + 1 if it needs
+  /// every tick, kNever if an unchanged tick tells it nothing. The first tick at which nothing happens is
+  /// shown to all watchers.
   virtual Tick next_look(Tick done) const { return done + 1; }
-  /// Nothing has changed since the tick that it saw last, and nothing does up to `last`.
+  /// Nothing has changed since the tick that it saw last, and nothing changes up to `last`.
   virtual void on_rest(Tick last) { on_tick(last); }
 };
 
