@@ -27,8 +27,7 @@ Value Super40nc::limit_logic(int axis, int way) const {
 
 void Super40nc::look_round(int axis_number) {
   const Settings its = registers();
-  // level of an active limit; none: not in use
-  const auto limit_level = [&](int way) -> std::optional<bool> {
+  const auto limit_level = [&](int way) -> std::optional<bool> {  // of an active limit, if it is in use
     const Value how = limit_logic(axis_number, way);
     return how == 0 ? std::nullopt : std::optional(how == 1);
   };
