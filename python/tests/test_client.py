@@ -1,6 +1,7 @@
 """The client against the program, UNDERSTUDY_PROGRAM."""
 import os
 import pathlib
+import re
 import shutil
 import signal
 import socket
@@ -134,12 +135,47 @@ def test_a_recording_is_whole_at_the_end(tmp_path):
     subprocess.run([program, "replay", str(recording)], check=True, capture_output=True, timeout=20)
 
 
-def test_another_version_is_refused_and_ends(monkeypatch, folders):
-    monkeypatch.setattr("understudy.bench.KNOWN", (0, 1))
+@pytest.mark.parametrize("needed", [(0, 0), (0, 9), (1, 1), (2, 0)])
+def test_another_protocol_is_refused_and_ends(monkeypatch, folders, needed):
+    monkeypatch.setattr("understudy.bench.NEEDED", needed)
     monkeypatch.setattr("tempfile.tempdir", str(folders))
-    with pytest.raises(understudy.WrongVersion, match="knows 0.1"):
+    with pytest.raises(understudy.WrongVersion, match=rf"speaks protocol 1\.0 .* needs {needed[0]}\.{needed[1]},"):
         understudy.start(model="simple2-r3")
     assert list(folders.iterdir()) == []
+
+
+class Answering:
+    """Stands in for the connection to a program that is not this one: it answers `identify` alone."""
+
+    def __init__(self, **versions):
+        self.versions, self.is_closed = versions, False
+
+    def ask(self, do):
+        assert do == "identify"
+        return {"daemon": {**self.versions, "lines": []}}
+
+    def close(self):
+        self.is_closed = True
+
+
+@pytest.mark.parametrize("protocol, is_understood", [("1.0", True), ("1.1", True), ("1.10", True), ("0.9", False),
+                                                     ("2.0", False), ("10.0", False), (None, False)])
+def test_the_protocol_counts_and_not_the_programs_version(monkeypatch, protocol, is_understood):
+    spoken = f"protocol {protocol}" if protocol else "a protocol without a version"
+    connection = Answering(version="7.5.3", **({"protocol": protocol} if protocol else {}))
+    monkeypatch.setattr("understudy.bench.Connection", lambda *_: connection)
+    if is_understood:
+        assert understudy.attach("a.control").protocol == protocol
+    else:
+        with pytest.raises(understudy.WrongVersion, match=f"understudy 7.5.3 speaks {spoken} on"):
+            understudy.attach("a.control")
+    assert connection.is_closed != is_understood
+
+
+def test_the_protocol_is_the_newest_of_the_documentations_table(bench):
+    page = (pathlib.Path(__file__).parents[2] / "docs/control.md").read_text(encoding="utf-8")
+    versions = re.findall(r"^\| (\d+\.\d+) \|", page.split("## Versions of the protocol")[1], re.MULTILINE)
+    assert versions[0] == bench.protocol
 
 
 def test_a_program_that_is_not_there(bench):

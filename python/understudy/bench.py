@@ -7,7 +7,7 @@ from .connection import Connection
 from .daemon import Daemon
 from .errors import NotThere, Refused, WrongVersion
 
-KNOWN = (0, 2)  # the protocol is the program's: major and minor
+NEEDED = (1, 0)  # protocol of the control socket: this major, and at least this minor
 Value = Union[int, float]
 
 
@@ -23,9 +23,12 @@ class Bench:
             self._connection.close()  # the daemon is its starter's to end
             raise
         self.version: str = identity["version"]
-        if tuple(int(part) for part in self.version.split(".")[:2]) != KNOWN:
+        self.protocol: str = identity.get("protocol", "")  # programs up to 0.2.0 have none
+        if not _can_speak(self.protocol):
             self._connection.close()
-            raise WrongVersion(f"understudy is {self.version}; this client knows {KNOWN[0]}.{KNOWN[1]}")
+            spoken = f"protocol {self.protocol}" if self.protocol else "a protocol without a version"
+            raise WrongVersion(f"understudy {self.version} speaks {spoken} on its control socket; "
+                               f"this client needs {NEEDED[0]}.{NEEDED[1]}, or a later {NEEDED[0]}.x")
         self.ports: Dict[str, str] = {line["name"]: line.get("link") or line["pty"] for line in identity["lines"]}
 
     @property
@@ -224,6 +227,14 @@ class Bench:
             rows += reply[of]
             begin = reply.get("next")
         return rows
+
+
+def _can_speak(protocol: str) -> bool:
+    """A minor version only adds to the protocol; a major version may break its clients."""
+    if not protocol:
+        return False
+    major, minor = (int(part) for part in protocol.split("."))
+    return major == NEEDED[0] and minor >= NEEDED[1]
 
 
 def _bytes_of(said: Union[bytes, Iterable[int]]) -> bytes:

@@ -18,4 +18,4 @@ class BadSetup(NotThere):
 
 
 class WrongVersion(UnderstudyError):
-    """The program is of a version that this client does not know."""
+    """The program's control socket speaks a version of the protocol that this client does not understand."""

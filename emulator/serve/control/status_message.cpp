@@ -242,6 +242,7 @@ Json identify_message(Daemon& daemon, const Json& message) {
               {"daemon",
                {{"pid", getpid()},
                 {"version", program_version()},
+                {"protocol", kControlProtocol},
                 {"bench", daemon.bench_path()},
                 {"lines", lines}}}};
 }

@@ -2,11 +2,18 @@
 // NameError), nothing has changed.
 #pragma once
 
+#include <functional>
+#include <string_view>
+
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/telling.h"
 
 namespace understudy::emulator::serve {
+
+/// The version of the messages and replies, MAJOR.MINOR. A change that breaks no client raises MINOR, any
+/// other change raises MAJOR. docs/control.md lists the changes.
+inline constexpr std::string_view kControlProtocol = "1.0";
 
 /// Replies with the result of `make`, or with the reason why there is none. A null result means that the
 /// reply comes later.

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/version.h"
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
@@ -143,6 +144,8 @@ TEST(ControlMessages, IdentifyTellsWhichDaemonItIs) {
   DaemonRig rig;
   const Json daemon = rig.ask(R"({"do":"identify"})")["daemon"];
   EXPECT_EQ(daemon["pid"], getpid());
+  EXPECT_EQ(daemon["version"], program_version());
+  EXPECT_EQ(daemon["protocol"], "1.0");
   EXPECT_EQ(daemon["bench"], "");
   ASSERT_EQ(daemon["lines"].size(), 1U);
   EXPECT_EQ(daemon["lines"][0]["name"], "rs485");
