@@ -302,6 +302,7 @@ Sheet blocks(const Model& model) {
 }  // namespace
 
 std::string scenario_of_choice(const Model& model, const ChoiceRow& row) {
+  if (options_of(row).size() < 2) return {};
   const auto proof = std::find_if(model.proofs.begin(), model.proofs.end(), [&](const ProofRow& proved) {
     return covers(proved.sections, row.section);
   });

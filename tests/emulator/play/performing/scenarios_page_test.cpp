@@ -81,7 +81,7 @@ TEST(ScenariosPage, EveryExampleIsRead) {
     files += is_whole ? 1 : 0;
     EXPECT_EQ(folder.complaint(is_whole ? example : ScenarioFolder::scenario_of(example)), "") << example;
   }
-  EXPECT_EQ(files, 2);
+  EXPECT_EQ(files, 4);
 }
 
 TEST(ScenariosPage, TheCasesOfTheFirstExampleHaveTheNamesItSays) {

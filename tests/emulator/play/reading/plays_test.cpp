@@ -11,7 +11,7 @@ namespace plays_test {
 using namespace std::chrono_literals;
 using Strings = std::vector<std::string>;
 
-class Plays : public testing::Test {
+class SeveralPlays : public testing::Test {
  protected:
   Strings names(const std::string& text) const {
     Strings names;
@@ -37,11 +37,11 @@ plays:
     steps: [ write: { Aaxis_Speed: "${speed}" } ]
 )";
 
-TEST_F(Plays, AreScenariosOneAfterTheOther) {
+TEST_F(SeveralPlays, AreScenariosOneAfterTheOther) {
   EXPECT_EQ(names(kTwoPlays), (Strings{"one", "two at 1", "two at 2"}));
 }
 
-TEST_F(Plays, ShareWhatTheFileSaysAndChangeParts) {
+TEST_F(SeveralPlays, ShareWhatTheFileSaysAndChangeParts) {
   const auto scenarios = folder_.parse(kTwoPlays);
   ASSERT_EQ(scenarios.size(), 3U);
   using Set = std::vector<std::pair<std::string, std::int64_t>>;
@@ -49,13 +49,13 @@ TEST_F(Plays, ShareWhatTheFileSaysAndChangeParts) {
   EXPECT_EQ(settings(0).set, (Set{{"Aaxis_SVON", 1}, {"Aaxis_Speed", 100}}));
   EXPECT_EQ(settings(0).firmware, 0);
   EXPECT_EQ(scenarios[0].gap, 2ms);
-  EXPECT_EQ(texts_of(scenarios[0].steps), Strings{"write Aaxis_Pulse: 100"});
+  EXPECT_EQ(texts_of(scenarios[0].steps), Strings{"write Aaxis_Pulse=100"});
   EXPECT_EQ(settings(1).set, (Set{{"Aaxis_SVON", 1}, {"Aaxis_Speed", 300}}));
   EXPECT_EQ(settings(1).firmware, 140);
   EXPECT_EQ(scenarios[1].gap, 5ms);
 }
 
-TEST_F(Plays, AlikeCasesOfTwoPlaysAreNotOne) {
+TEST_F(SeveralPlays, AlikeCasesOfTwoPlaysAreNotOne) {
   const auto scenarios = folder_.parse(
       "understudy: 1\nbench: feeder.yaml\ncases: [ { speed: 1 } ]\nplays:\n"
       "  - { name: a, steps: [ write: { feeder.Aaxis_Speed: \"${speed}\" } ] }\n"
@@ -65,7 +65,7 @@ TEST_F(Plays, AlikeCasesOfTwoPlaysAreNotOne) {
   EXPECT_NE(identity_of(scenarios[0].which), identity_of(scenarios[1].which));
 }
 
-TEST_F(Plays, AreReadByNumber) {
+TEST_F(SeveralPlays, AreReadByNumber) {
   SharedReading shared{.models = models::all_models(), .benches = {}, .included = {}};
   ScenarioFile file(kTwoPlays, folder_.path("scenario.yaml"), {}, shared);
   ASSERT_EQ(file.size(), 3U);
@@ -79,7 +79,7 @@ std::string of_choice(const std::string& choice, const std::string& steps = "adv
   return "understudy: 1\nbench: feeder.yaml\nchoice: " + choice + "\nsteps: [ " + steps + " ]\n";
 }
 
-TEST_F(Plays, AChoiceMakesACaseOfEachOption) {
+TEST_F(SeveralPlays, AChoiceMakesACaseOfEachOption) {
   const auto scenarios =
       folder_.parse(of_choice("{ loop_count: { passes: { speed: 1 }, further_passes: { speed: 2 } } }",
                               "write: { feeder.Aaxis_Speed: \"${speed}\" }"));
@@ -89,10 +89,10 @@ TEST_F(Plays, AChoiceMakesACaseOfEachOption) {
   for (const world::DeviceSetup& device : scenarios[1].bench.devices) {
     EXPECT_EQ(device.settings.choices.at("loop_count"), "further_passes");
   }
-  EXPECT_EQ(texts_of(scenarios[1].steps), Strings{"write feeder.Aaxis_Speed: 2"});
+  EXPECT_EQ(texts_of(scenarios[1].steps), Strings{"write feeder.Aaxis_Speed=2"});
 }
 
-TEST_F(Plays, ADeviceMayKeepAnOptionOfItsOwn) {
+TEST_F(SeveralPlays, ADeviceMayKeepAnOptionOfItsOwn) {
   const auto scenarios = folder_.parse(
       "understudy: 1\nbench:\n  lines: { a: { stations: [\n"
       "    { name: one, model: simple2-r3, address: 1 },\n"
@@ -103,7 +103,7 @@ TEST_F(Plays, ADeviceMayKeepAnOptionOfItsOwn) {
   EXPECT_EQ(scenarios[1].bench.devices.at(1).settings.choices.at("loop_count"), "passes");
 }
 
-TEST_F(Plays, WhatIsWrongIsToldWhereItStands) {
+TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
   const std::string head = "understudy: 1\nbench: feeder.yaml\n";
   const struct {
     std::string text;
@@ -128,10 +128,10 @@ TEST_F(Plays, WhatIsWrongIsToldWhereItStands) {
       {"understudy: 1\nplays: [ { name: a, steps: [ advance: 1ms ] } ]\n",
        "2: plays[0]: 'bench' is missing; expected it here"},
       {of_choice("{ loop_cuont: [ passes ] }"),
-       "3: choice.loop_cuont[0]: no device of the bench has the choice 'loop_cuont' (the nearest is "
-       "'loop_count')  (option=passes)"},
+       "3: choice.loop_cuont[0]: no device of the bench has the choice 'loop_cuont'; the nearest is "
+       "'loop_count'  (option=passes)"},
       {of_choice("{ loop_count: [ passes, furter_passes ] }"),
-       "3: choice.loop_count[1]: 'furter_passes' is not an option (the nearest is 'further_passes')  "
+       "3: choice.loop_count[1]: 'furter_passes' is not an option; the nearest is 'further_passes'  "
        "(option=furter_passes)"},
       {of_choice("{ loop_count: [] }"), "3: choice.loop_count: is empty; expected the options"},
       {of_choice("{ loop_count: [ passes ], boot_time: [ 1s ] }"),
@@ -139,8 +139,8 @@ TEST_F(Plays, WhatIsWrongIsToldWhereItStands) {
       {of_choice("{ loop_count: [ passes ] }\ncases: [ { speed: 1 } ]"),
        "3: choice: stands beside `cases`; expected one of them"},
       {of_choice("{ loop_count: { passes: { speed: 1 }, further_passes: { sped: 1 } } }"),
-       "3: choice.loop_count.further_passes.sped: is not a parameter, nor in the first case (the nearest is "
-       "'speed')"},
+       "3: choice.loop_count.further_passes.sped: is not a parameter, nor in the first case; the nearest is "
+       "'speed'"},
   };
   for (const auto& wrong : kCases) {
     EXPECT_EQ(folder_.complaint(wrong.text), "scenario.yaml:" + wrong.complaint) << wrong.text;
