@@ -51,7 +51,7 @@ const Words& of_choices() {
   static const Words files = [] {
     Words found;
     for (const auto& folder : fs::directory_iterator(kProofs)) {
-      found = std::move(found) + files_in(folder.path().string());
+      if (folder.is_directory()) found = std::move(found) + files_in(folder.path().string());
     }
     std::sort(found.begin(), found.end());
     return found;
