@@ -392,6 +392,7 @@ def test_numbers_of_other_packages_are_numbers(bench):
 
 def test_bytes_to_send_may_be_numbers(bench):
     first = bench.send([1, 3, 0, 1, 0, 1], checksum=True)
+    bench.advance("50ms")
     assert bench.frames()[0]["number"] == first
     for wrong in (5, [300], [1, "x"], None):
         with pytest.raises(TypeError, match="send: expected a text, bytes or a list of numbers from 0 to 255"):
