@@ -80,6 +80,7 @@ const std::vector<std::pair<std::string, std::string>> kNeeded = {
     {"tshark", "/usr/bin/tshark"},
     {"understudy plot", "/usr/bin/gnuplot"},
     {"import os, serial", "/usr/lib/python3/dist-packages/serial"},
+    {"from pymodbus", "/usr/lib/python3/dist-packages/pymodbus"},
 };
 
 /// What the page's shell knows besides.
@@ -319,6 +320,9 @@ TEST(PageCounts, AreWhatTheTablesHold) {
       {"README.md", "all ([0-9,]+) addresses",
        rows_of(simple2) + rows_of(simple2, std::regex("([^,]*,){4}32,.*"))},
       {"README.md", "all ([0-9,]+) instructions", rows_of({"simple2-r3", "instructions"})},
+      {"docs/simple2-r3.md", "all ([0-9,]+) addresses",
+       rows_of(simple2) + rows_of(simple2, std::regex("([^,]*,){4}32,.*"))},
+      {"docs/simple2-r3.md", "all ([0-9,]+) instructions", rows_of({"simple2-r3", "instructions"})},
       {"README.md", "all ([0-9,]+) forms", rows_of({"slim", "commands"})},
       {"docs/slim.md", "all ([0-9,]+) forms", rows_of({"slim", "commands"})},
       {"README.md", "all ([0-9,]+) codes", rows_of({"rs-m8194h", "instructions"})},

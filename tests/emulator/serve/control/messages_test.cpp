@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <fstream>
+#include <sstream>
+
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
@@ -354,6 +357,24 @@ TEST(ControlMessages, WhateverGoesWrongIsAReply) {
   });
   ASSERT_EQ(replies.size(), 2u);
   EXPECT_EQ(replies[1], R"({"ok":false,"error":"too long"})");
+}
+
+/// Programs are written by that page.
+TEST(ControlMessages, EachHasItsHeadingOnThePage) {
+  std::ostringstream page;
+  page << std::ifstream(PROJECT_FOLDER "/docs/control.md").rdbuf();
+  DaemonRig rig;
+  const std::string error = rig.ask(R"({"do":"jump"})")["error"];
+  const std::string before = "expected one of ";
+  const std::size_t at = error.find(before);
+  ASSERT_NE(at, std::string::npos) << error;
+  std::istringstream verbs(error.substr(at + before.size()));
+  int count = 0;
+  for (std::string verb; verbs >> verb; ++count) {
+    if (verb.ends_with(',')) verb.pop_back();
+    EXPECT_NE(page.str().find("\n### " + verb + "\n"), std::string::npos) << verb;
+  }
+  EXPECT_GT(count, 30);
 }
 
 }  // namespace messages_test
