@@ -5,7 +5,8 @@ set(UNDERSTUDY_MAINTAINER "Understudy maintainers <maintainers@understudy.invali
     "Whom the Debian package names as its maintainer")
 set(UNDERSTUDY_DEBIAN_REVISION 1)
 
-# The package holds this component. The licence's text is one of its own: Debian has it already.
+# The package holds this component. The texts of licences are one of their own: Debian has ours already, and those of
+# the vendored libraries are in the package's `copyright`.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME understudy)
 
 set(packaging ${CMAKE_CURRENT_LIST_DIR}/../packaging)
@@ -19,10 +20,10 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/ DESTINATION ${scenarios_folde
 install(FILES ${packaging}/vscode/settings.json DESTINATION ${CMAKE_INSTALL_DATADIR}/understudy/vscode)
 install(DIRECTORY ${packaging}/campaign DESTINATION ${CMAKE_INSTALL_DATADIR}/understudy USE_SOURCE_PERMISSIONS
   PATTERN "__pycache__" EXCLUDE)
-install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md ${packaging}/copyright
-        DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+        ${PROJECT_SOURCE_DIR}/SECURITY.md ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # What the pages lead to stands beside them as in the source: links from a page to it hold.
-foreach(linked benchmarks/README.md emulator/play/README.md cmake/rooms.cmake)
+foreach(linked benchmarks/README.md emulator/play/README.md third_party/README.md cmake/rooms.cmake)
   cmake_path(GET linked PARENT_PATH folder)
   install(FILES ${PROJECT_SOURCE_DIR}/${linked} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()
@@ -46,6 +47,11 @@ link_installed(${CMAKE_INSTALL_DOCDIR}/packaging/campaign ${shared}/campaign)
 link_installed(${CMAKE_INSTALL_DOCDIR}/packaging/vscode ${shared}/vscode)
 link_installed(${shared}/docs ${CMAKE_INSTALL_DOCDIR}/docs)  # a scenario's page leads to ../docs
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
+file(GLOB licences CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/third_party/*/LICENSE)
+foreach(licence IN LISTS licences)
+  cmake_path(GET licence PARENT_PATH folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/${licence} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT licence)
+endforeach()
 
 # Pages and pictures only; install(DIRECTORY) would leave empty folders where there are none.
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}

@@ -103,7 +103,7 @@ if [ "$template" = --of ]; then
 .SH NAME
 understudy\-$(printf %s "$name" | sed 's/-/\\-/g') \- $headline
 .SH COMMAND
-What stands in square brackets at the end of a description is the value without the flag.
+Square brackets at the end of a description hold the default value.
 $(page_of "$name")
 .SH SEE ALSO
 .BR understudy (1)

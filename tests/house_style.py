@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""What ./test looks at before it builds anything: formatting, and a few rules of style that a script can judge.
+"""What ./test looks at before it builds anything: formatting, a few rules of style that a script can judge, the
+wording of the documentation and of --help (plain_words.py), the changelog with its fragments (packaging/changelog.py),
+and the files of .github/ (github_files.py).
 
 usage: house_style.py [PROJECT]
 
@@ -11,6 +13,12 @@ import re
 import shutil
 import subprocess
 import sys
+
+sys.dont_write_bytecode = True  # this project's folders stay as they are
+sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "packaging"))
+import changelog  # noqa: E402
+import github_files  # noqa: E402
+import plain_words  # noqa: E402
 
 LONGEST_FILE = 450  # lines; about 400 is the aim
 LONGEST_TEST_NAME = 50
@@ -85,6 +93,9 @@ def main(project):
     for path in paths:
         with open(os.path.join(project, path), encoding="utf-8") as file:
             faults += [f"{path}:{number}: {what}" for number, what in faults_of_text(path, file.read().split("\n"))]
+    judges = (plain_words, changelog, github_files)
+    for place, number, what in (fault for judge in judges for fault in judge.faults_of(project)):
+        faults.append(f"{place}:{number}: {what}")
     print("\n".join(faults) or f"{len(paths)} files: formatted, and as the house has it")
     return 1 if faults else 0
 

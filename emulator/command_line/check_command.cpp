@@ -104,7 +104,7 @@ std::string described(ModelList models, const std::string& file, play::FileKind 
       const std::string count = std::to_string(scenarios.size());
       return (scenarios.size() == 1 ? "a scenario"
               : checked < scenarios.size()
-                  ? count + " scenarios, of which " + std::to_string(checked) + " were checked,"
+                  ? count + " scenarios (" + std::to_string(checked) + " of them checked)"
                   : count + " scenarios") +
              " with " + counted(steps, "step");
     }

@@ -92,13 +92,15 @@ struct CommandLine {
         .add_option("WHAT", describe.what,
                     "registers, parameters, instructions, commands, choices, ports or blocks")
         ->required();
-    command.add_option("--format", describe.format, "table, csv, json or markdown")->capture_default_str();
+    command.add_option("--format", describe.format, "Output format: table, csv, json or markdown")
+        ->capture_default_str();
     command.callback([this] { chosen = [this] { return describe_model(models, describe); }; });
   }
 
   void add_serve(CLI::App& command) {
     add_serving_flags(command, serve);
-    command.add_option("--page", serve.page, "Show the bench in a browser as well, at this port [any]")
+    command
+        .add_option("--page", serve.page, "Show the bench in a browser as well, on this port [any free port]")
         ->expected(0, 1)
         ->default_str("0");
     command.callback(
@@ -107,13 +109,13 @@ struct CommandLine {
 
   void add_exec(CLI::App& command) {
     add_serving_flags(command, exec.serve);
-    command.add_option("COMMAND", exec.stray_words, "A program and its arguments, after --");
-    command.add_option("--with", exec.with, "A scenario to play beside the command [none]")->check(kNotEmpty);
+    command.add_option("COMMAND", exec.stray_words, "A command and its arguments, after --");
+    command.add_option("--with", exec.with, "Scenario to run while the command runs [none]")
+        ->check(kNotEmpty);
     add_save_below(command, exec.save_below);
     command.add_flag("--tty-shim", exec.tty_shim,
-                     "Preload what lets hosts that insist on parity use a pseudo-terminal");
-    command
-        .add_option("--timeout", exec.timeout, "End the command after this time, by the wall clock [never]")
+                     "Preload a library that lets hosts that insist on parity use a pseudo-terminal");
+    command.add_option("--timeout", exec.timeout, "End the command after this much real time [never]")
         ->check(kNotEmpty);
     command.callback([this] { chosen = [this] { return execute(models, exec); }; });
   }
@@ -123,29 +125,30 @@ struct CommandLine {
   }
 
   void add_replay(CLI::App& command) {
-    command.add_option("RECORDING", replay.recording, "A file that `serve --record` or `run` has written")
+    command.add_option("RECORDING", replay.recording, "A file written by `serve --record` or `run`")
         ->required();
     command.add_option("--until", replay.until, "Stop at this simulated time and serve from there [the end]")
         ->check(kNotEmpty);
     command
         .add_option("--control", replay.control,
-                    "Path of the control socket, with --until or --page [a private one]")
+                    "Path of the control socket, with --until or --page [a private path]")
         ->check(kNotEmpty);
-    CLI::Option* const trace =
-        command.add_option("--trace", replay.trace,
-                           "Write what moved and switched to this file: FILE.csv, or FILE.vcd for GTKWave");
+    CLI::Option* const trace = command.add_option(
+        "--trace", replay.trace,
+        "Write positions and signals over time to this file: FILE.csv, or FILE.vcd for GTKWave");
     CLI::Option* const trace_also = command.add_option("--trace-also", replay.trace_also, kTraceAlsoHelp);
-    CLI::Option* const capture = command.add_option(
-        "--capture", replay.capture,
-        "Write what went over the lines to this file: FILE.pcapng for Wireshark, else a text log");
+    CLI::Option* const capture =
+        command.add_option("--capture", replay.capture,
+                           "Write the traffic on the lines to this file: FILE.pcapng for Wireshark, any "
+                           "other name for a text log");
     CLI::Option* const report =
-        command.add_option("--report", replay.report, "Write a page about it to this file, as HTML");
+        command.add_option("--report", replay.report, "Write a report on it to this file, as HTML");
     for (CLI::Option* const file : {trace, trace_also, capture, report}) file->check(kNotEmpty);
     trace_also->delimiter(',');
     command
         .add_option(
             "--page", replay.page,
-            "Open it in a browser, to go to and fro in it, at this port [any]; with --until, at that time")
+            "Open the recording in a browser, at the time of --until if given, on this port [any free port]")
         ->expected(0, 1)
         ->default_str("0")
         ->excludes(trace, trace_also, capture, report);
@@ -164,9 +167,10 @@ struct CommandLine {
   }
 
   void add_watch(CLI::App& command) {
-    command.add_option("NAME", watched.names, "What to show, as for get [everything]");
-    command.add_option("--every", watched.every, "Time between two looks")->capture_default_str();
-    command.add_option("--times", watched.times, "How many looks; 0: no end")->capture_default_str();
+    command.add_option("NAME", watched.names, "Names to show, as for `get` [everything]");
+    command.add_option("--every", watched.every, "Time between two updates")->capture_default_str();
+    command.add_option("--times", watched.times, "Number of updates; 0 continues until Ctrl-C")
+        ->capture_default_str();
     command.fallthrough();
     command.callback([this] {
       watched.which = control.which;
@@ -175,10 +179,12 @@ struct CommandLine {
   }
 
   void add_frames(CLI::App& command) {
-    command.add_option("--last", frames.last, "How many earlier ones to show first")->capture_default_str();
-    command.add_flag("--once", frames.once, "Show these, and end");
-    command.add_option("--every", frames.every, "Time between two looks")->capture_default_str();
-    command.add_option("--times", frames.times, "How many looks; 0: no end")->capture_default_str();
+    command.add_option("--last", frames.last, "Number of earlier frames to show first")
+        ->capture_default_str();
+    command.add_flag("--once", frames.once, "Show these and exit");
+    command.add_option("--every", frames.every, "Time between two updates")->capture_default_str();
+    command.add_option("--times", frames.times, "Number of updates; 0 continues until Ctrl-C")
+        ->capture_default_str();
     command.fallthrough();
     command.callback([this] {
       frames.which = control.which;
@@ -195,16 +201,18 @@ struct CommandLine {
   void add_control(CLI::App& command) {
     CLI::Option* const socket =
         command
-            .add_option("--control", control.which.socket,
-                        "Path of its control socket [UNDERSTUDY_CONTROL, or that of the only one]")
+            .add_option(
+                "--control", control.which.socket,
+                "Path of the daemon's control socket [UNDERSTUDY_CONTROL, or that of the only daemon]")
             ->check(kNotEmpty);
-    command.add_option("--bench", control.which.bench, "The one that serves this bench file")
+    command.add_option("--bench", control.which.bench, "Choose the daemon that serves this bench file")
         ->check(kNotEmpty)
         ->excludes(socket);
-    command.add_option("--port", control.which.port, "The one that has this port, or the link to it")
+    command
+        .add_option("--port", control.which.port, "Choose the daemon that has this port, or the link to it")
         ->check(kNotEmpty)
         ->excludes(socket);
-    command.add_flag("--json", control.json, "Print the reply as it came: one JSON object");
+    command.add_flag("--json", control.json, "Print the reply unchanged: one JSON object");
     command.require_subcommand(1);
     add_commands(command, kCommandsOfControl);
     for (const ControlWord& word : kControlWords) {
@@ -220,28 +228,34 @@ struct CommandLine {
       chosen = [this] { return understudy::emulator::command_line::control(control); };
     });
     if (std::string_view(word.verb) == "scope") {
-      command.add_option("--trace", control.trace, "Write what was kept to this file: FILE.csv, for plot")
+      command
+          .add_option("--trace", control.trace,
+                      "Write the recorded values to this file: FILE.csv, for `plot`")
           ->check(kNotEmpty);
     }
     if (std::string_view(word.verb) != "run-until") return;
-    command.add_option("--within", control.within, "Simulated time after which to give up")
+    command.add_option("--within", control.within, "Give up after this much simulated time")
         ->capture_default_str();
   }
 
   void add_page(CLI::App& command) {
-    command.add_option("--control", page.sockets, "Control sockets, one a bench [all that are running]")
+    command
+        .add_option("--control", page.sockets,
+                    "Control socket of a bench; can be given several times [all running daemons]")
         ->check(kNotEmpty)
         ->allow_extra_args(false);
-    command.add_option("--port", page.port, "Its port; 0: any")->capture_default_str();
-    command.add_option("--listen", page.listen, "The address to listen on")
+    command.add_option("--port", page.port, "Port to listen on; 0 takes any free port")
+        ->capture_default_str();
+    command.add_option("--listen", page.listen, "Address to listen on")
         ->capture_default_str()
         ->check(kNotEmpty);
     command
-        .add_option("--host", page.hosts, "A name by which browsers may call this machine, besides localhost")
+        .add_option("--host", page.hosts, "Name that browsers may use for this machine, besides localhost")
         ->check(kNotEmpty)
         ->allow_extra_args(false);
-    command.add_flag("--read-only", page.read_only, "Browsers look, and change nothing");
-    command.add_option("--web", page.folder, "Take the page's files from this folder, to work on them")
+    command.add_flag("--read-only", page.read_only, "Let browsers look, but change nothing");
+    command
+        .add_option("--web", page.folder, "Serve the page's files from this folder, while you work on them")
         ->check(kNotEmpty);
     command.callback([this] { chosen = [this] { return show_page(page); }; });
   }
@@ -252,59 +266,61 @@ struct CommandLine {
   }
 
   void add_plot(CLI::App& command) {
-    command.add_option("TRACE", plot.trace, "A file that --trace has written")->required();
-    command.add_option("-o,--output", plot.output, "FILE.png or FILE.svg [beside the trace, as PNG]")
+    command.add_option("TRACE", plot.trace, "A file written by --trace")->required();
+    command.add_option("-o,--output", plot.output, "FILE.png or FILE.svg [a PNG next to the trace]")
         ->check(kNotEmpty);
-    command.add_option("--also", plot.also, "Columns to draw in panels of their own, such as feeder.STATUS")
+    command.add_option("--also", plot.also, "Columns to draw in separate panels, such as feeder.STATUS")
         ->delimiter(',')
         ->check(kNotEmpty);
     command.callback([this] { chosen = [this] { return plot_trace(plot); }; });
   }
 
   static void add_firmware_and_choices(CLI::App& command, ProgramTextArguments& text) {
-    command.add_option("--firmware", text.firmware, "The firmware that runs it [newest]")->check(kNotEmpty);
-    command.add_option("--choice", text.choices, "Another option of a choice: ID=OPTION")->check(kNotEmpty);
+    command.add_option("--firmware", text.firmware, "Firmware version that runs the program [newest]")
+        ->check(kNotEmpty);
+    command.add_option("--choice", text.choices, "Choose another option: ID=OPTION")->check(kNotEmpty);
   }
 
   void add_program_text(CLI::App& command, const char* file_help) {
     program.model = "simple2-r3";
     command.add_option("FILE", program.file, file_help)->required();
-    command.add_option("--model", program.model, "Whose program it is")->capture_default_str();
+    command.add_option("--model", program.model, "Model that runs the program")->capture_default_str();
     add_firmware_and_choices(command, program);
   }
 
   void add_asm(CLI::App& command) {
-    add_program_text(command, "A listing");
+    add_program_text(command, "A program listing");
     command.callback([this] { chosen = [this] { return assemble_program(models, program); }; });
   }
 
   void add_disasm(CLI::App& command) {
-    add_program_text(command, "Lines of numbers, as asm prints them");
+    add_program_text(command, "Lines of numbers, as `asm` prints them");
     command.callback([this] { chosen = [this] { return disassemble_program(models, program); }; });
   }
 
   void add_check(CLI::App& command) {
     command
         .add_option("FILE", check.files,
-                    "Bench, scenario and model files, and folders of them; or with --model programs")
+                    "Bench, scenario and model files, or folders of them; with --model, programs")
         ->required();
-    command.add_option("--model", check.programs.model, "The model whose programs the files are")
+    command.add_option("--model", check.programs.model, "Check the files as programs of this model")
         ->check(kNotEmpty);
     add_firmware_and_choices(command, check.programs);
     add_save_below(command, check.save_below);
-    command.add_option("--format", check.format, "text, json, sarif or github")->capture_default_str();
+    command.add_option("--format", check.format, "Output format: text, json, sarif or github")
+        ->capture_default_str();
     command.callback([this] { chosen = [this] { return check_files(models, check); }; });
   }
 
   void add_schema(CLI::App& command) {
     command.add_option("WHAT", schema.what, "bench, scenario or model")->required();
-    command.add_option("--bench", schema.bench, "List the names of this bench for its scenarios [any name]")
+    command.add_option("--bench", schema.bench, "Allow only the names of this bench in scenarios [any name]")
         ->check(kNotEmpty);
     command.callback([this] { chosen = [this] { return print_schema(models, schema); }; });
   }
 
   void add_init(CLI::App& command) {
-    command.add_option("DIR", init.folder, "The folder that they are written into")
+    command.add_option("DIR", init.folder, "Folder to write the files to")
         ->check(kNotEmpty)
         ->capture_default_str();
     command.add_option("--model", init.model, "A name from `understudy models`")
@@ -314,12 +330,11 @@ struct CommandLine {
   }
 
   void add_import(CLI::App& command) {
-    command.add_option("REGISTERS", import.list, "The list (CSV): address, name, access, width, ...")
+    command.add_option("REGISTERS", import.list, "A register list (CSV): address, name, access, width, ...")
         ->required();
-    command
-        .add_option("-o,--output", import.output, "The model file to write [beside the list, as NAME.yaml]")
+    command.add_option("-o,--output", import.output, "Model file to write [NAME.yaml next to the list]")
         ->check(kNotEmpty);
-    command.add_option("--name", import.name, "What the model is called [as the list]")->check(kNotEmpty);
+    command.add_option("--name", import.name, "Name of the model [that of the list]")->check(kNotEmpty);
     command.callback([this] { chosen = [this] { return import_registers(models, import); }; });
   }
 
@@ -337,29 +352,28 @@ struct CommandLine {
 const std::array<CommandLine::Command, 18> CommandLine::kCommands{{
     {"models", "List the models", &CommandLine::add_models},
     {"describe", "Print a model's tables", &CommandLine::add_describe},
-    {"serve", "Stand in for the devices of a bench, in the foreground", &CommandLine::add_serve},
-    {"exec", "Run a command with a bench to talk to: exec BENCH -- COMMAND", &CommandLine::add_exec},
-    {"run", "Play scenarios, in simulated time", &CommandLine::add_run},
-    {"replay", "Run a recording again and compare every byte", &CommandLine::add_replay},
-    {"ctl", "Look into a running `serve`, and act on it", &CommandLine::add_control},
+    {"serve", "Emulate the devices of a bench, in the foreground", &CommandLine::add_serve},
+    {"exec", "Run a command against a bench: exec BENCH -- COMMAND", &CommandLine::add_exec},
+    {"run", "Run scenarios in simulated time", &CommandLine::add_run},
+    {"replay", "Replay a recording and compare every byte", &CommandLine::add_replay},
+    {"ctl", "Inspect and control a running `serve`", &CommandLine::add_control},
     {"page", "Show running benches in a browser", &CommandLine::add_page},
-    {"poll", "A small Modbus master, for looking around", &CommandLine::add_poll},
-    {"plot", "Draw a trace, with gnuplot", &CommandLine::add_plot},
-    {"asm", "Turn a program into the numbers that go over the wire", &CommandLine::add_asm},
-    {"disasm", "Turn the numbers of a program into its text", &CommandLine::add_disasm},
+    {"poll", "Read and write registers: a small Modbus master", &CommandLine::add_poll},
+    {"plot", "Draw a trace with gnuplot", &CommandLine::add_plot},
+    {"asm", "Convert a program listing to the numbers that are sent over the wire", &CommandLine::add_asm},
+    {"disasm", "Convert the numbers of a program to its listing", &CommandLine::add_disasm},
     {"check", "Validate benches, scenarios, models and programs without running them",
      &CommandLine::add_check},
-    {"schema", "Print the JSON Schema of a kind of file, for editors", &CommandLine::add_schema},
-    {"init", "Write a bench, a scenario and their schemas, to begin with", &CommandLine::add_init},
-    {"import", "Make a model of one's own from a list of its registers", &CommandLine::add_import},
+    {"schema", "Print the JSON Schema of a file format, for editors", &CommandLine::add_schema},
+    {"init", "Write a first bench and scenario, with their schemas", &CommandLine::add_init},
+    {"import", "Make a model file from a list of registers", &CommandLine::add_import},
     {"tty-shim", "Print the path of the library that --tty-shim preloads", &CommandLine::add_tty_shim},
-    {"completion", "Print a script that makes a shell complete the words of `understudy`",
-     &CommandLine::add_completion},
+    {"completion", "Print a completion script for a shell", &CommandLine::add_completion},
 }};
 const std::array<CommandLine::Command, 3> CommandLine::kCommandsOfControl{{
-    {"watch", "Show everything that moves, over and over, until Ctrl-C", &CommandLine::add_watch},
-    {"frames", "Show what goes over the lines, in words, until Ctrl-C", &CommandLine::add_frames},
-    {"daemons", "List the running ones: control socket, bench, ports", &CommandLine::add_daemons},
+    {"watch", "Show a live table of everything that moves, until Ctrl-C", &CommandLine::add_watch},
+    {"frames", "Show the traffic on the lines in words, until Ctrl-C", &CommandLine::add_frames},
+    {"daemons", "List the running daemons: control socket, bench, ports", &CommandLine::add_daemons},
 }};
 
 }  // namespace

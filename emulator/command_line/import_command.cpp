@@ -39,7 +39,7 @@ std::string demand_name(ModelList models, const ImportArguments& arguments) {
   if (name.empty() || !std::all_of(name.begin(), name.end(), is_of_name))
     throw UsageError("--name: " + quoted(name) + " is not a name; expected letters, digits, _ and -");
   if (find_model(models, name) != nullptr)
-    throw UsageError("--name: " + quoted(name) + " is a model that there is already; expected another name");
+    throw UsageError("--name: " + quoted(name) + " is the name of an existing model; expected another name");
   return name;
 }
 

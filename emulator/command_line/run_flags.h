@@ -11,23 +11,25 @@ namespace understudy::emulator::command_line {
 
 inline void add_save_below(CLI::App& command, std::string& folder) {
   command
-      .add_option("--save-below", folder, "Let scenarios `save` below this folder [each one's own folder]")
+      .add_option("--save-below", folder,
+                  "Folder below which scenarios may `save` files [the folder of each scenario]")
       ->check(kNotEmpty);
 }
 
 inline void add_run_flags(CLI::App& command, RunArguments& run) {
-  command.add_option("SCENARIO", run.scenarios, "Scenario files; folders, of which all scenarios are played")
+  command.add_option("SCENARIO", run.scenarios, "Scenario files, or folders whose scenarios are all run")
       ->required();
   command.add_flag("--real-time", run.real_time,
-                   "By the wall clock, over real ports, with libmodbus as the host");
+                   "Run in real time over real ports, with libmodbus as the host");
   command
-      .add_option("--junit", run.junit, "Write the results to this file, as JUnit XML; - for standard output")
+      .add_option("--junit", run.junit,
+                  "Write the results to this file as JUnit XML; - writes to standard output")
       ->check(kNotEmpty);
-  command.add_option("--report", run.report, "Write a page about all of it to this file, as HTML")
+  command.add_option("--report", run.report, "Write a report on all scenarios to this file, as HTML")
       ->check(kNotEmpty);
   command
       .add_option("--record", run.record,
-                  "Folder for the recordings of all scenarios [those of failures, below /tmp]")
+                  "Folder for the recordings of all scenarios [only failures are recorded, below /tmp]")
       ->check(kNotEmpty);
   command.add_option("--trace", run.trace, "Folder for a trace of each scenario, as CSV")->check(kNotEmpty);
   command.add_option("--trace-also", run.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
@@ -36,22 +38,23 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
   add_save_below(command, run.save_below);
   command.add_flag("--lint", run.lint, kLintHelp);
   command.add_flag("--hash", run.hash,
-                   "Print a hash of all that each scenario's devices said and did, for comparison");
+                   "Print a hash of what each scenario's devices sent and did, to compare runs");
   command.add_option("--jobs", run.jobs,
-                     "How many are played at a time [one for each core; in real time at least 8]");
-  command.add_option("--shard", run.shard, "I/N: the I-th of all scenarios, and every N-th after it")
+                     "Number of scenarios to run at a time [one for each core; in real time at least 8]");
+  command.add_option("--shard", run.shard, "I/N: run the I-th of all scenarios, and every N-th after it")
       ->check(kNotEmpty);
-  command.add_option("--seed", run.seed, "Instead of the scenarios' own seeds")->check(kSeed);
+  command.add_option("--seed", run.seed, "Use this seed instead of the scenarios' own")->check(kSeed);
   command
-      .add_option("--filter", run.filter,
-                  "Those whose names match this pattern, such as '*move*'; or one case, by its identity")
+      .add_option(
+          "--filter", run.filter,
+          "Run only scenarios whose names match this pattern, such as '*move*', or one case, by its identity")
       ->check(kNotEmpty);
   command
       .add_option("--results", run.results,
-                  "Write a row for each case to this file: FILE.jsonl or FILE.sqlite; may be given twice")
+                  "Write a row for each case to this file: FILE.jsonl or FILE.sqlite; can be given twice")
       ->allow_extra_args(false)
       ->check(kNotEmpty);
-  command.add_flag("--resume", run.resume, "Leave out the cases that --results has rows of already");
+  command.add_flag("--resume", run.resume, "Skip cases that have a row in the file of --results already");
   command
       .add_option("--failures", run.failures,
                   "Folder for the recordings of failures, the first of each kind [below /tmp]")

@@ -206,7 +206,7 @@ TEST(ImportCommand, RefusesWhatCannotBeOne) {
   EXPECT_EQ(complaint({"import", list, "--name", "a b"}),
             "understudy: --name: 'a b' is not a name; expected letters, digits, _ and -\n");
   EXPECT_EQ(complaint({"import", list, "--name", "slim"}),
-            "understudy: --name: 'slim' is a model that there is already; expected another name\n");
+            "understudy: --name: 'slim' is the name of an existing model; expected another name\n");
   EXPECT_EQ(complaint({"import", list, "-o", "p.txt"}),
             "understudy: --output: 'p.txt' does not end in .yaml; expected a model file\n");
   EXPECT_EQ(complaint({"serve", "--model", folder / "none.yaml"}),

@@ -94,10 +94,10 @@ TEST_F(Mistakes, OfFlagsAndWordsAreToldInOneLine) {
       {{"run", "s.yaml", "--lint=maybe"}, 2, "understudy: --lint: has a value; expected none"},
       {{"run"},
        2,
-       "understudy: run: SCENARIO is missing; expected scenario files; folders, of which all scenarios are "
-       "played"},
+       "understudy: run: SCENARIO is missing; expected scenario files, or folders whose scenarios are "
+       "all run"},
       {{"schema"}, 2, "understudy: schema: WHAT is missing; expected bench, scenario or model"},
-      {{"poll"}, 2, "understudy: poll: PORT is missing; expected a serial port or a link to one"},
+      {{"poll"}, 2, "understudy: poll: PORT is missing; expected a serial port, or a link to one"},
       {{"schema", "bench", "scenario", "model"},
        2,
        "understudy: schema: 'scenario' is one word too many; expected nothing more"},

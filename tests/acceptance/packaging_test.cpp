@@ -113,6 +113,35 @@ TEST_F(Installation, HasNoDeadLinkOnItsPages) {
   EXPECT_EQ(dead_links_below(prefix() + "/share/doc/understudy"), Words());
 }
 
+/// The folders of third_party/: libraries that are part of the program.
+Words vendored() {
+  Words folders;
+  for (const auto& entry : fs::directory_iterator(PROJECT_FOLDER "/third_party"))
+    if (entry.is_directory()) folders.push_back(entry.path().filename());
+  EXPECT_GE(folders.size(), 3U);
+  return folders;
+}
+
+/// Whether the file that Debian calls `copyright` has a paragraph for each of them, and the text that it
+/// names.
+void expect_licences_in(const std::string& copyright) {
+  for (const std::string& folder : vendored()) {
+    const std::regex paragraph("\nFiles: third_party/" + folder + "/\\*\nCopyright: .+\nLicense: (\\S+)\n");
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(copyright, found, paragraph)) << folder;
+    EXPECT_NE(copyright.find("\n\nLicense: " + found[1].str() + "\n "), std::string::npos) << folder;
+  }
+}
+
+TEST_F(Installation, BringsTheLicencesOfVendoredLibraries) {
+  const std::string documentation = prefix() + "/share/doc/understudy/";
+  expect_licences_in(contents(documentation + "copyright"));
+  for (const std::string& folder : vendored()) {
+    const std::string licence = "/third_party/" + folder + "/LICENSE";
+    EXPECT_EQ(contents(documentation + licence), contents(PROJECT_FOLDER + licence)) << folder;
+  }
+}
+
 TEST_F(Installation, BringsCompletionForShells) {
   for (const auto* const file :
        {"bash-completion/completions/understudy", "zsh/vendor-completions/_understudy",
@@ -424,6 +453,7 @@ TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
   const std::string page = run({"zcat", folder / "root/usr/share/man/man1/understudy.1.gz"}).output;
   EXPECT_NE(page.find("cp /usr/share/understudy/scenarios/quickstart.yaml"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "root/usr/share/doc/understudy/LICENSE")) << "Debian has it";
+  expect_licences_in(contents(folder / "root/usr/share/doc/understudy/copyright"));
 
   EXPECT_EQ(dead_links_below(folder / "root/usr/share/doc/understudy"), Words());
 
