@@ -150,7 +150,7 @@ class ScenarioFile::Reader {
   /// Where one was meant and another was written, both are left over.
   void demand_all_used(std::uint64_t number, const Case& which, const Parameters& parameters) const {
     const auto fail = [&](const std::string& name, const world::YamlFields& field) {
-      field.fail(understudy::quoted(name) + " is used nowhere; expected ${" + name +
+      field.fail(understudy::quoted(name) + " is not used; expected ${" + name +
                  "} somewhere in the scenario");
     };
     for (const auto& [name, value] : which.values) {
@@ -244,7 +244,7 @@ class ScenarioFile::Reader {
     for (const world::DeviceSetup& device : scenario.bench.devices) {
       if (device.nv_path.empty()) continue;
       scenario.files.push_back(
-          {device.nv_path, "the memory that " + understudy::quoted(device.settings.name) + " begins with"});
+          {device.nv_path, "the initial memory of " + understudy::quoted(device.settings.name)});
     }
     const Trial trial = make_trial(root, scenario.bench);
     world::Complaints all;
@@ -278,8 +278,8 @@ class ScenarioFile::Reader {
     for (const auto& [path, field] : steps.saved()) {
       if (const std::string why = claims.objection_to(path); !why.empty()) field.fail(path + " " + why);
       if (!is_below(path, save_below_)) {
-        field.fail(path + " is not below " + (save_below_.empty() ? "this folder" : save_below_) +
-                   "; expected a path there (`--save-below FOLDER` allows another folder)");
+        field.fail(path + " is outside " + (save_below_.empty() ? "this folder" : save_below_) +
+                   "; expected a path in it (`--save-below FOLDER` allows another folder)");
       }
       if (const std::string why = why_not_writable(path, ContentKind::nv_image); !why.empty()) {
         field.fail(path + " cannot be written: " + why);
