@@ -14,7 +14,7 @@ namespace understudy::emulator::world {
 
 /// Text that is nested deeper than anything we write.
 struct TooDeepJson : std::runtime_error {
-  TooDeepJson() : std::runtime_error("is nested deeper than anything that is written") {}
+  TooDeepJson() : std::runtime_error("is nested too deeply") {}
 };
 
 /// Throws what `twice` makes of a key that appears twice in one object, TooDeepJson where more than `deepest`
