@@ -77,7 +77,7 @@ TEST(WatchValues, ShowsWhatWasNamedAndWhyThereIsNone) {
   EXPECT_EQ(get_message({"time"}), R"({"do":"get","names":["time"]})");
   rig.ask(R"({"do":"power","device":"feeder","to":"off"})");
   EXPECT_EQ(watch_values(rig.reply_to(get_message(names))),
-            std::vector<std::string>{"feeder has no power; expected it switched on"});
+            std::vector<std::string>{"feeder has no power; expected it to be on"});
   EXPECT_EQ(why_refused(rig.reply_to(get_message({"turner.HW_Cod"}))),
             "turner: no register is called 'HW_Cod'; the nearest is 'HW_Code'");
   EXPECT_THROW(why_refused("hello"), ControlError);
