@@ -192,7 +192,7 @@ def test_choices_and_firmware_of_a_model():
         assert chosen["station_0_request"] == "ignored"
     with pytest.raises(understudy.NotThere, match="nosuch"):
         understudy.start(model="simple2-r3", choices={"nosuch": "x"})
-    with pytest.raises(ValueError, match="bench file says itself"):
+    with pytest.raises(ValueError, match="bench file has its own"):
         understudy.start("bench.yaml", choices={"a": "b"})
 
 
