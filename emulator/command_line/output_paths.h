@@ -23,8 +23,9 @@ inline std::string demand_output(FileClaims& claims, const std::string& flag, co
 
 inline std::string demand_capture(FileClaims& claims, const std::string& path) {
   if (path.ends_with(".pcap")) {
-    throw UsageError("--capture: " + path +
-                     ": this old format is not written; expected .pcapng, or another ending for a text log");
+    throw UsageError(
+        "--capture: " + path +
+        ": this old format is not supported; expected .pcapng, or another ending for a text log");
   }
   return demand_output(claims, "--capture", path);
 }
@@ -32,7 +33,7 @@ inline std::string demand_capture(FileClaims& claims, const std::string& path) {
 /// Also checks that there is no `also` without it.
 inline std::string demand_trace(FileClaims& claims, const std::string& path,
                                 const std::vector<std::string>& also) {
-  if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE beside it");
+  if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE as well");
   if (!path.empty() && !world::is_trace_name(path)) {
     throw UsageError("--trace: " + path + ": is not a kind of trace; expected FILE.csv or FILE.vcd");
   }

@@ -364,7 +364,7 @@ def test_bytes_to_send_may_be_numbers(bench):
 
 def test_a_path_is_no_program(bench, tmp_path):
     for path in ("pick.lst", str(tmp_path)):
-        with pytest.raises(understudy.Refused, match=r"program\(\) takes the text itself, as open\("):
+        with pytest.raises(understudy.Refused, match=r"program\(\) takes the text itself, such as open\("):
             bench.program(path)
     with pytest.raises(understudy.Refused) as refused:
         bench.program("Nonsense 1")

@@ -242,7 +242,7 @@ def program(visit, stage):
     visit.press('start at line 0')
     visit.until('the line that runs is marked', lambda: 'Delay_mSec' in ' '.join(visit.texts('.listing .running')))
     visit.until('what it waits for, and how long still', lambda: 'its delay' in visit.texts('.programs')[0] and 'another 5' in visit.texts('.programs')[0])
-    enter(visit, 'another value to see', 'Cord_A')
+    enter(visit, 'another value to show', 'Cord_A')
     visit.until('a value of one\'s own is beside it', lambda: 'Cord_A' in visit.texts('.values tr')[0])
     visit.picture('runs')
     visit.press('stop: PROG_MAIN_RunTime_END=1')

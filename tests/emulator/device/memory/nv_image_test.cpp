@@ -308,8 +308,8 @@ TEST(NvImageOfADevice, IsRefusedWhereItSuitsAnotherOne) {
        "model: is the memory of a 'rsm8194h'; expected one of simple2-r3"},
       {with("PROG_MEM32", 1), "no register is called 'PROG_MEM32'"},
       {with("", 1), "registers: "},
-      {with("Cord_A", 1), "'Cord_A' is not kept through power-off"},
-      {with("PROG_VAR0", 1), "'PROG_VAR0' is not kept through power-off"},
+      {with("Cord_A", 1), "'Cord_A' is not persistent"},
+      {with("PROG_VAR0", 1), "'PROG_VAR0' is not persistent"},
       {with("PROG_MEM0_RegL", 1), "registers: "},  // half a register
       {with("Parms_Speed1.3", 1), "registers: "},  // a bit of one
       {with("Parms_Speed1", 65'536), "'Parms_Speed1': 65536 does not fit"},

@@ -19,7 +19,7 @@ TEST(WatchTable, ShowsWhatMovesAndWhatIsOn) {
   const auto lines = watch_table(status, "", 0);
   const std::vector<std::string> expected{
       "time         61ms, speed manual",
-      "lateness     p50 0 us, p99 0 us, greatest 0 us, 0 slips",
+      "lateness     p50 0 us, p99 0 us, max 0 us, 0 slips",
       "rs485        19200 8E1, host closed, 0 bytes in, 0 out",
       "",
       "feeder       simple2-r3, firmware 1.52",
