@@ -248,7 +248,8 @@ void Line::begin_character(SimTime at) {
   const std::optional<HostSettings>& settings = is_departed ? state_.departed_settings : state_.host_settings;
   const bool is_speed_known = options_.enforce_settings && settings;
   if (options_.enforce_settings && !settings && !is_departed && !stations_.empty()) {
-    warn_once(state_.warned.of_no_speed, "the host set no speed; what it sends is assumed to be heard");
+    warn_once(state_.warned.of_no_speed,
+              "the host has not set a speed; its bytes are assumed to arrive intact");
   }
   std::size_t deaf = 0;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
@@ -362,7 +363,7 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
   }
   if (!has_collided) return;
   ++state_.edge.counters.collisions;
-  warn_once(state_.warned.of_collision, "two stations spoke at once; what they said is garbled");
+  warn_once(state_.warned.of_collision, "two stations replied at once; their replies are garbled");
 }
 
 /// A character that overlaps one of another station is merged into it: the receiver follows the start bit
@@ -416,7 +417,7 @@ void Line::warn_deaf(std::size_t index, const HostSettings& settings, const Line
   const std::string which =
       stations_.size() == 1 ? "the station" : "station " + std::to_string(index + 1) + " of the line";
   warn_once(state_.warned.of_deafness, "the host set " + to_string(settings) + "; " + which + " expects " +
-                                           to_string(expected) + ": it hears nothing");
+                                           to_string(expected) + ", so it receives nothing");
 }
 
 }  // namespace understudy::pty

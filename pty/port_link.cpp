@@ -29,7 +29,7 @@ std::string link_target(const std::string& path) {
   return size > 0 ? std::string(target.data(), static_cast<std::size_t>(size)) : std::string();
 }
 
-const std::string kExpected = ", not a link of ours; expected a free path or a stale link";
+const std::string kExpected = ", not a link that understudy made; expected a free path or a stale link";
 
 /// Throws if `absolute_path` exists and is not a symbolic link.
 void demand_link_or_nothing(const std::string& path, const std::string& absolute_path) {
@@ -99,8 +99,8 @@ PortLink::PortLink(const std::string& path, std::string target) {
                     "; expected to make and lock that file");
   }
   if (!claim_) {
-    throw PortError(
-        path + ": is the link of another understudy, which is running; expected a free path or a stale link");
+    throw PortError(path +
+                    ": is the link of another running understudy; expected a free path or a stale link");
   }
   // A free path is taken in one step that never replaces anything.
   if (::symlink(target.c_str(), name.c_str()) != 0) {

@@ -144,11 +144,11 @@ std::string complaint_about(const CLI::App& app, const CLI::ParseError& error, i
     return where + what + " is missing; expected " + expected_of(*found.command, what);
   }
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)  // whose name is the command's
-    return where + quoted(first_left(app, argc, argv)) + " is one word too many; expected nothing more";
+    return where + quoted(first_left(app, argc, argv)) + " is one argument too many; expected nothing more";
   if (kind == "ExcludesError") {
     const std::string first = before(told, " excludes ");
     return where + first + " and " + told.substr(first.size() + std::string_view(" excludes ").size()) +
-           " do not go together; expected one of the two";
+           " cannot be combined; expected one of the two";
   }
   if (kind == "ArgumentMismatch") {
     if (told.find("At Most") != std::string::npos)

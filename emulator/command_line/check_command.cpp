@@ -114,7 +114,8 @@ std::string described(ModelList models, const std::string& file, play::FileKind 
       return "a model with " + counted(register_rows(model).size(), "register") + " and " +
              (model.axes.size() == 1 ? "1 axis" : std::to_string(model.axes.size()) + " axes");
     }
-    case play::FileKind::steps: return "steps to include; they are checked with the scenarios that do";
+    case play::FileKind::steps:
+      return "steps to include; they are checked with the scenarios that include them";
   }
   return "";
 }
@@ -192,7 +193,7 @@ int check_files(ModelList models, const CheckArguments& arguments) {
                      [&](const std::string& file) { return checked_program(model, file, settings); });
   }
   if (!arguments.programs.firmware.empty() || !arguments.programs.choices.empty())
-    throw UsageError("check: --firmware and --choice belong to --model; a bench says them itself");
+    throw UsageError("check: --firmware and --choice need --model; a bench has its own");
   return check_all(arguments, kYamlEndings,
                    [&](const std::string& file) { return checked_file(models, file, arguments.save_below); });
 }

@@ -115,7 +115,7 @@ std::string find_by(const WhichDaemon& which) {
                            : which.bench.empty() ? which.port
                                                  : which.bench + " on " + which.port;
   throw serve::ControlError(
-      "ctl: nobody serves " + what + "; " +
+      "ctl: no daemon serves " + what + "; " +
       (all.empty() ? "no `understudy serve` is running here" : "running: " + list_of(all)));
 }
 
@@ -128,7 +128,7 @@ std::string choose_daemon(const WhichDaemon& which) {
   if (from_exec != nullptr && *from_exec != '\0') return from_exec;  // empty is as if unset
   const std::vector<std::string> live = serve::live_control_sockets();
   if (live.empty()) {
-    throw serve::ControlError("ctl: nobody answers in " + serve::control_folder() +
+    throw serve::ControlError("ctl: no daemon answers in " + serve::control_folder() +
                               "; expected a running `understudy serve`, or --control SOCKET");
   }
   return live.size() == 1

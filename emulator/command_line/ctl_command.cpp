@@ -228,7 +228,7 @@ Json message_for(const ControlArguments& arguments) {
   }
   if (!add_look_words(arguments, message) && !arguments.operands.empty()) {
     throw UsageError("ctl " + arguments.verb + ": " + understudy::quoted(arguments.operands[0]) +
-                     " is one word too many; expected nothing after it");
+                     " is one argument too many; expected nothing after it");
   }
   return message;
 }
@@ -318,7 +318,7 @@ int control(const ControlArguments& arguments) {
   const std::string path = choose_daemon(arguments.which);
   if (!arguments.trace.empty()) {
     if (!arguments.operands.empty())
-      throw UsageError("ctl scope: --trace writes what was kept; expected no names beside it");
+      throw UsageError("ctl scope: --trace writes what was kept; expected no names with it");
     write_scope(path, arguments.trace);
     return kExitWell;
   }
@@ -360,7 +360,7 @@ int control(const ControlArguments& arguments) {
     }
     if (accepted && !reply.value("reached", true)) {
       if (!arguments.json) {
-        std::fprintf(stderr, "understudy: ctl run-until: '%s' did not come true within %s\n",
+        std::fprintf(stderr, "understudy: ctl run-until: '%s' did not become true within %s\n",
                      one_line(arguments.operands[0]).c_str(), arguments.within.c_str());
       }
       return kExitFailed;

@@ -84,7 +84,7 @@ void add_scope_words(const ControlArguments& arguments, Json& message) {
 void add_send_words(const ControlArguments& arguments, Json& message) {
   if (arguments.operands.size() > 2) {
     throw UsageError("ctl send: " + understudy::quoted(arguments.operands[2]) +
-                     " is one word too many; expected the bytes in quotes, such as '01 03 00 00 00 01'");
+                     " is one argument too many; expected the bytes in quotes, such as '01 03 00 00 00 01'");
   }
   if (arguments.operands.empty())
     throw UsageError("ctl send: expected a line, and bytes in hexadecimal digits or text=TEXT");

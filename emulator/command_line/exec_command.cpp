@@ -223,7 +223,7 @@ void demand_apart(const play::Scenario& scenario, const ServeArguments& serve, F
 
 int execute(ModelList models, const ExecArguments& arguments) {
   if (!arguments.stray_words.empty() || arguments.command.empty()) {
-    throw UsageError("exec: expected -- and a command behind it, such as `exec bench.yaml -- ./my_host`");
+    throw UsageError("exec: expected -- and a command after it, such as `exec bench.yaml -- ./my_host`");
   }
   timeout_of(arguments);
   Serving serving = make_serving(models, arguments.serve, "exec");

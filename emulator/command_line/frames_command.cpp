@@ -35,7 +35,7 @@ std::uint64_t print_new(const Json& reply, std::uint64_t since, bool json) {
   const Json& frames = reply.at("frames");
   const std::uint64_t first = frames.empty() ? next : frames.at(0).at("number").get<std::uint64_t>();
   if (since != 0 && first > since && !json) {
-    std::printf("... %llu more frames, which are no longer kept\n",
+    std::printf("... %llu more frames, which are no longer stored\n",
                 static_cast<unsigned long long>(first - since));
   }
   for (const Json& frame : frames) {
@@ -74,7 +74,8 @@ int follow_frames(const FramesArguments& arguments) {
     }
   } catch (const Json::exception&) {
     throw serve::ControlError(
-        path + ": what answers is not an understudy; expected the control socket of `understudy serve`");
+        path +
+        ": this is not the socket of an understudy; expected the control socket of `understudy serve`");
   }
   return kExitWell;
 }

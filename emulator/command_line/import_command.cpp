@@ -76,9 +76,8 @@ std::string remark_on_addresses(const std::vector<models::imported::ListedRegist
     begins_with_digit = true;
   }
   if (!begins_with_digit) return "";
-  return "remark: these addresses look like Modicon's, where 40001 is the first holding register, 0 on the "
-         "wire; they "
-         "are taken as addresses on the wire, as they stand (docs/import.md)";
+  return "note: these addresses look like Modicon addresses (40001 for holding register 0); they are used on "
+         "the wire unchanged (docs/import.md)";
 }
 
 }  // namespace
@@ -114,7 +113,7 @@ int import_registers(ModelList models, const ImportArguments& arguments) {
   std::printf("next: understudy serve %s\n", bench.string().c_str());
   std::printf("      understudy poll %s --model %s '%s'\n", port.c_str(), output.string().c_str(),
               registers.front().name.c_str());
-  std::printf("      then bind what moves to its registers in %s: docs/import.md\n", output.string().c_str());
+  std::printf("      then bind the axes to their registers in %s: docs/import.md\n", output.string().c_str());
   return kExitWell;
 }
 

@@ -21,20 +21,16 @@ namespace {
 
 constexpr std::string_view kBenchHead = "# yaml-language-server: $schema=./bench.schema.json\n";
 constexpr std::string_view kScenarioHead =
-    "# yaml-language-server: $schema=./scenario.schema.json\n"
-    "# A first move: what a host sends, and what must then be true. `understudy run first_move.yaml` plays "
-    "it.\n"
-    "understudy: 1\n"
-    "name: a first move\n"
-    "bench: bench.yaml\n"
-    "steps:\n";
+    "# yaml-language-server: $schema=./scenario.schema.json\n# A first move: what the host sends, and what "
+    "must be true after it. Run it: `understudy run first_move.yaml`.\nunderstudy: 1\nname: a first "
+    "move\nbench: bench.yaml\nsteps:\n";
 
 }  // namespace
 
 int write_first_files(ModelList models, const InitArguments& arguments) {
   const Model& model = demand_model(models, arguments.model);
   if (model.first_files == nullptr)
-    throw UsageError("init: " + quoted(model.name) + " has no files to begin with; expected another model");
+    throw UsageError("init: " + quoted(model.name) + " has no starter files; expected another model");
   const std::filesystem::path folder(arguments.folder);
   const auto in_folder = [&folder](const char* name) { return (folder / name).string(); };
   const std::string bench = std::string(kBenchHead) + std::string(model.first_files->bench);
@@ -50,7 +46,7 @@ int write_first_files(ModelList models, const InitArguments& arguments) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw GrowingFileError(folder.string() + ": folder: cannot be made (" + error.message() +
+    throw GrowingFileError(folder.string() + ": folder: cannot be created (" + error.message() +
                            "); expected one");
   write_all(files);
   for (const NewFile& file : files) std::printf("%s\n", file.path.c_str());

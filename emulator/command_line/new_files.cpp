@@ -31,7 +31,7 @@ bool is_there(const std::string& path) {
 void write_new(const NewFile& file) {
   const Descriptor made(::open(file.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   const auto refuse = [&file](int error) {
-    if (error == EEXIST) throw FileError(file.path + ": file: is there already; expected a new file");
+    if (error == EEXIST) throw FileError(file.path + ": file: already exists; expected a new file");
     throw GrowingFileError(file.path + ": file: cannot be written (" + std::strerror(error) +
                            "); expected a new file");
   };
@@ -52,7 +52,7 @@ void write_new(const NewFile& file) {
 void demand_new(const std::vector<NewFile>& files) {
   for (const NewFile& file : files) {
     if (is_there(file.path))
-      throw FileError(file.path + ": file: is there already; expected a folder without it");
+      throw FileError(file.path + ": file: already exists; expected a folder without it");
   }
 }
 

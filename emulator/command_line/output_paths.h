@@ -22,8 +22,9 @@ inline std::string demand_output(FileClaims& claims, const std::string& flag, co
 
 inline std::string demand_capture(FileClaims& claims, const std::string& path) {
   if (path.ends_with(".pcap")) {
-    throw UsageError("--capture: " + path +
-                     ": this old format is not written; expected .pcapng, or another ending for a text log");
+    throw UsageError(
+        "--capture: " + path +
+        ": this old format is not supported; expected .pcapng, or another ending for a text log");
   }
   return demand_output(claims, "--capture", path);
 }
@@ -31,7 +32,7 @@ inline std::string demand_capture(FileClaims& claims, const std::string& path) {
 /// Like demand_output(), and checks that `also` is empty if there is no trace.
 inline std::string demand_trace(FileClaims& claims, const std::string& path,
                                 const std::vector<std::string>& also) {
-  if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE beside it");
+  if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE as well");
   if (!path.empty() && !world::is_trace_name(path)) {
     throw UsageError("--trace: " + path + ": is not a kind of trace; expected FILE.csv or FILE.vcd");
   }

@@ -26,7 +26,7 @@ std::vector<std::string> daemons_to_show() {
   if (from_exec != nullptr && *from_exec != '\0') return {from_exec};  // empty is as if unset
   std::vector<std::string> live = serve::live_control_sockets();
   if (live.empty()) {
-    throw serve::ControlError("page: nobody answers in " + serve::control_folder() +
+    throw serve::ControlError("page: no daemon answers in " + serve::control_folder() +
                               "; expected a running `understudy serve`, or --control SOCKET");
   }
   return live;
@@ -46,7 +46,7 @@ int show_page(const PageArguments& arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   for (const std::string& socket : arguments.sockets) {
     if (!serve::is_answered(socket))
-      log_line("page: " + socket + ": nobody answers there; it shows when somebody does");
+      log_line("page: " + socket + ": no daemon answers there yet; the page shows it when one does");
   }
   page::Page shown(options);
   std::printf("page %s\n", shown.address().c_str());

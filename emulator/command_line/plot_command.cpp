@@ -74,7 +74,7 @@ int run_gnuplot(WorkFolder& folder) {
 
 /// The most telling line of what gnuplot has said: the last one with words in it.
 std::string complaint_in(const std::string& text) {
-  std::string complaint = "it said nothing";
+  std::string complaint = "it printed nothing";
   for (const TextLine line : TextLines(text)) {
     if (line.text.find_first_not_of(" \t^") != std::string_view::npos) complaint = line.text;
   }
@@ -104,7 +104,7 @@ int plot_trace(const PlotArguments& arguments) {
   const auto picture = read_text_file(folder.picture());
   if (code != 0 || !picture || picture->empty()) {
     const std::string said = read_text_file(folder.complaints()).value_or("");
-    std::fprintf(stderr, "understudy: plot: gnuplot made no picture: %s\n",
+    std::fprintf(stderr, "understudy: plot: gnuplot did not make a picture: %s\n",
                  one_line(complaint_in(said)).c_str());
     return kExitNoResource;
   }

@@ -92,7 +92,7 @@ void read_value_of(Item& item, const std::string& text) {
   const auto real = parse_real(value);
   if (!real) throw UsageError("poll: " + quoted(text) + " is not understood; expected NAME=NUMBER");
   const auto single = static_cast<float>(*real);
-  if (std::isinf(single)) throw UsageError("poll: " + quoted(text) + " is more than a 32-bit real can hold");
+  if (std::isinf(single)) throw UsageError("poll: " + quoted(text) + " is too large for a 32-bit real");
   item.value = value_of_real(single);
 }
 
@@ -161,7 +161,7 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
 
 Item command_item(ModelList models, const std::string& text, const PollArguments& arguments,
                   std::optional<bool> low_word_first) {
-  if (arguments.model.empty()) throw UsageError("poll: --command: expected --model MODEL beside it");
+  if (arguments.model.empty()) throw UsageError("poll: --command: expected --model MODEL as well");
   const Model& model = demand_model(models, arguments.model);
   const bool is_by_table_low_first = model.registers != nullptr && model.registers->policy().low_word_first;
   try {
@@ -354,7 +354,7 @@ std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
     demand_fitting(items.back());
     if (arguments.station == 0 && !items.back().write && !answers_at_0(models, arguments)) {
       throw UsageError(
-          "--station: 0 is a broadcast, which nobody answers; expected writes only, or 1 to 247");
+          "--station: 0 is a broadcast, which devices do not answer; expected writes only, or 1 to 247");
     }
   }
   return items;
@@ -416,7 +416,7 @@ int poll_port(ModelList models, const PollArguments& arguments) {
     keep_silent(polled);
     if (modbus_read_registers(context.get(), order->address, 1, &word) < 0) {
       const std::string why = failure_text(polled, errno);
-      std::fprintf(stderr, "understudy: poll: %s, the order of words: %s (--word-order says it)\n",
+      std::fprintf(stderr, "understudy: poll: %s, word order: %s (--word-order sets it)\n",
                    order->label.c_str(), why.c_str());
       return kExitFailed;
     }

@@ -35,7 +35,7 @@ std::optional<ProgramFile> open_program(ModelList models, const ProgramTextArgum
   const ProgramLanguage& language = demand_language(model);
   if (language.cells() == nullptr) {
     throw UsageError(std::string(command) + ": a " + std::string(language.name()) +
-                     " does not become numbers for the wire; expected another --model, or `check --model " +
+                     " is not sent as numbers; expected another --model, or `check --model " +
                      std::string(model.name) + "`");
   }
   DeviceSettings settings = program_settings(model, arguments);

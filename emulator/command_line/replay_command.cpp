@@ -56,7 +56,7 @@ int serve_from(const world::Replayed& replayed, const world::WorldState& state, 
   serve::Daemon daemon(bench, options, log_line);
   daemon.restore(state);
   say_ready(daemon);
-  std::printf("the clock stands at %s: understudy ctl --control %s status\n", format_duration(at).c_str(),
+  std::printf("the clock is at %s: understudy ctl --control %s status\n", format_duration(at).c_str(),
               daemon.control_path().c_str());
   std::fflush(stdout);
   if (page) start_page_beside(daemon.control_path(), *page);
@@ -147,10 +147,10 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
                  result.difference.c_str());
     return kExitFailed;
   }
-  std::printf("%s: the same: %llu events, %llu bytes said, %s simulated in %.3f s%s\n",
+  std::printf("%s: the same: %llu events, %llu bytes sent, %s simulated in %.3f s%s\n",
               arguments.recording.c_str(), static_cast<unsigned long long>(result.events),
               static_cast<unsigned long long>(result.bytes_said), format_duration(result.reached).c_str(),
-              seconds, result.has_end || until ? "" : "; it breaks off before its end");
+              seconds, result.has_end || until ? "" : "; it ends early");
   if (result.verdict != world::ReplayResult::Verdict::stopped) return kExitWell;
   return serve_from(replayed, *state, result.reached, arguments.recording,
                     serve::control_door(arguments.control), {});

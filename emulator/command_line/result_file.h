@@ -42,7 +42,7 @@ class ResultFile {
     } catch (const OutputError& error) {
       refuse(error.what());
     }
-    if (!stream_) refuse(errno == ENXIO ? "nobody reads the pipe" : std::strerror(errno));
+    if (!stream_) refuse(errno == ENXIO ? "no program reads the pipe" : std::strerror(errno));
     ::fcntl(stream_.get(), F_SETFL, 0);  // from here on it may make us wait
   }
   bool is_wanted() const { return !path_.empty(); }

@@ -73,7 +73,7 @@ void RunAccount::begin() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (rows_[i]->has_rows()) {
       log_line("--results: " + arguments_.results[i] +
-               ": the rows of an earlier run are replaced; --resume goes on with them");
+               ": replacing the rows of an earlier run; --resume continues it");
     }
     rows_[i]->begin();
   }
@@ -136,7 +136,7 @@ void RunAccount::finish() {
   for (const auto& file : rows_) file->finish();
   for (const play::FailureKinds::Kind& kind : kinds_.all()) {
     if (kind.varied < 2) continue;
-    std::fprintf(told_, "%" PRIu64 " failed alike: %s; the first was %s\n", kind.count,
+    std::fprintf(told_, "%" PRIu64 " failed in the same way: %s; the first was %s\n", kind.count,
                  one_line(kind.text).c_str(), one_line(kind.first).c_str());
   }
   if (kinds_.others() > 0) {
@@ -144,8 +144,8 @@ void RunAccount::finish() {
                  play::FailureKinds::kMost);
   }
   if (left_out_ > 0) {
-    std::fprintf(told_, "%" PRIu64 " left out, as they were played before; %" PRIu64 " of them failed\n",
-                 left_out_, left_out_failed_);
+    std::fprintf(told_, "%" PRIu64 " skipped, since they ran before; %" PRIu64 " of them failed\n", left_out_,
+                 left_out_failed_);
   }
   std::fprintf(told_, "%s\n", play::summary_line(tally_).c_str());
   for (const std::string& line : manners_) std::fprintf(stderr, "lint: %s\n", line.c_str());

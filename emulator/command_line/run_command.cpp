@@ -264,10 +264,10 @@ std::uint64_t made_of(const play::Playbill& bill, std::size_t file, const std::s
 int run_scenarios(ModelList models, const RunArguments& arguments) {
   const int jobs = jobs_of(arguments);
   if (arguments.hash && arguments.real_time) {
-    throw UsageError("--hash: in real time no two runs are the same; expected it without --real-time");
+    throw UsageError("--hash: no two runs in real time are the same; expected it without --real-time");
   }
   if (arguments.resume && arguments.results.empty()) {
-    throw UsageError("--resume: expected --results FILE beside it, which says what was played");
+    throw UsageError("--resume: expected --results FILE as well, which lists the cases that ran");
   }
   const play::Shard shard = shard_of(arguments);
   play::Playbill bill(models, {.save_below = arguments.save_below, .seed = arguments.seed});

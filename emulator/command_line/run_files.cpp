@@ -187,7 +187,7 @@ constexpr std::array<const char*, 2> kParts = {"", world::kOlderPart};
 
 void demand_folders(const FileClaims& claims, const RunFolders& folders) {
   if (folders.traces.empty() && !folders.trace_also.empty()) {
-    throw UsageError("--trace-also: expected --trace DIR beside it");
+    throw UsageError("--trace-also: expected --trace DIR as well");
   }
   if (!folders.failures.empty() && !folders.recordings.empty()) {
     throw UsageError("--failures: --record keeps all recordings in its folder; expected one of the two");
@@ -200,7 +200,7 @@ void demand_folders(const FileClaims& claims, const RunFolders& folders) {
     };
     for (const char* const ending : kind.of_files) {
       if (ending == nullptr || !folder.ends_with(ending) || fs::is_directory(folder)) continue;
-      refuse_it("is the name of a file; expected a folder, for a file of each scenario");
+      refuse_it("is a file name; expected a folder, for one file per scenario");
     }
     std::vector<std::string> endings;
     for (const char* const part : kParts) endings.push_back(std::string(kind.ending) + part);

@@ -17,7 +17,7 @@ int print_schema(ModelList models, const SchemaArguments& arguments) {
     throw UsageError(quoted(arguments.what) + " has no schema; expected bench, scenario or model");
   }
   if ((is_bench || is_model) && !arguments.bench.empty()) {
-    throw UsageError("schema: --bench belongs to `scenario`: the names are the bench's");
+    throw UsageError("schema: --bench needs the format `scenario`, which uses the bench's names");
   }
   const std::string schema = is_bench   ? play::bench_schema(models)
                              : is_model ? play::file_schema("Understudy model", model_file::kModelKeys)

@@ -27,7 +27,7 @@ int serve(ModelList models, const ServeArguments& arguments) {
   if (arguments.lint) lint.emplace(daemon.world());
   if (arguments.page) {
     if (daemon.control_path().empty())
-      throw UsageError("serve: --page: there is no control socket; expected --control");
+      throw UsageError("serve: --page: no control socket is available; expected --control");
     start_page_beside(daemon.control_path(), *arguments.page);
   }
   serve::notify_service_manager("READY=1");

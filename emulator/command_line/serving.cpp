@@ -111,7 +111,7 @@ void listen_as_wished(world::Bench& bench, const std::string& wish) {
     const auto is_there = [&](const world::TcpAddress& other) { return is_same_place(address, other); };
     if (std::ranges::any_of(line.tcp, is_there))
       throw UsageError("--listen: " + understudy::quoted(wish) + ": line " + line.name +
-                       " listens there already; expected another port");
+                       " already listens there; expected another port");
   }
   const std::string name = names_line ? wish.substr(0, equals) : "";
   std::string lines;
@@ -121,7 +121,7 @@ void listen_as_wished(world::Bench& bench, const std::string& wish) {
     const Model& model = *bench.devices[line.stations.front().device].model;
     if (address.protocol == world::TcpProtocol::modbus_tcp && world::speech_of(model).carries_text()) {
       throw UsageError("--listen: " + understudy::quoted(wish) + ": the line " + line.name +
-                       " speaks lines of text, not Modbus; expected rtu:// or rfc2217://, which carry any "
+                       " carries lines of text, not Modbus; expected rtu:// or rfc2217://, which carry any "
                        "bytes");
     }
     line.tcp.push_back(address);
@@ -134,7 +134,7 @@ void listen_as_wished(world::Bench& bench, const std::string& wish) {
 
 void demand_no_pty(world::Bench& bench, const ServeArguments& arguments) {
   if (!arguments.link.empty())
-    throw UsageError("--no-pty: --link is of a pseudo-terminal; expected one of the two");
+    throw UsageError("--no-pty: --link needs a pseudo-terminal; expected one of the two");
   bool listens = false;
   for (world::LineSetup& line : bench.lines) {
     if (line.tcp.empty()) continue;
@@ -142,7 +142,7 @@ void demand_no_pty(world::Bench& bench, const ServeArguments& arguments) {
     line.has_pty = false;
     line.link.clear();
   }
-  if (!listens) throw UsageError("--no-pty: no line listens on TCP; expected --listen beside it");
+  if (!listens) throw UsageError("--no-pty: no line listens on TCP; expected --listen as well");
 }
 
 world::Bench make_bench(ModelList models, const ServeArguments& arguments, const std::string& command) {
@@ -152,9 +152,9 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
   const bool flags_of_one = arguments.station || arguments.modules || arguments.baud ||
                             !arguments.firmware.empty() || !arguments.link.empty();
   if (!arguments.bench.empty() && flags_of_one) {
-    throw UsageError(command +
-                     ": --station, --modules, --firmware, --baud and --link belong to --model; a bench file "
-                     "says them itself");
+    throw UsageError(
+        command +
+        ": --station, --modules, --firmware, --baud and --link need --model; a bench file has its own");
   }
   world::Bench bench = arguments.bench.empty() ? bench_of_flags(models, arguments)
                                                : world::load_bench(models, arguments.bench, arguments.links);
@@ -268,10 +268,11 @@ void say_how_to_have_parity(const serve::Daemon& daemon) {
   for (const auto& port : daemon.ports()) {
     const pty::Line& line = daemon.world().line(port->line_number()).line;
     if (line.options().settings.parity == pty::Parity::none || port->terminal() == nullptr) continue;
-    log_line("line " + line.name() + " is " + pty::to_string(line.options().settings) +
-             ", and a pseudo-terminal has no parity: pyserial, minimalmodbus and pymodbus hosts that get "
-             "\"Invalid "
-             "argument\" run with LD_PRELOAD=$(understudy tty-shim)");
+    log_line(
+        "line " + line.name() + " is " + pty::to_string(line.options().settings) +
+        "; a pseudo-terminal has no parity, so hosts with pyserial, minimalmodbus or pymodbus that report "
+        "\"Invalid "
+        "argument\" need LD_PRELOAD=$(understudy tty-shim)");
     return;
   }
 }
@@ -287,7 +288,7 @@ void say_ready(const serve::Daemon& daemon) {
                 place.c_str());
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw pty::PortError("standard output cannot be written; expected to say there which ports are ready");
+    throw pty::PortError("standard output cannot be written; expected it to take the `ready` lines");
   }
 }
 

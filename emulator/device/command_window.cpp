@@ -19,8 +19,7 @@ namespace {
 
 const CommandWindow& demand_window(const Model& model) {
   if (model.window != nullptr) return *model.window;
-  throw ProgramError(0, 0,
-                     std::string(model.name) + " has no commands with names; expected registers to write");
+  throw ProgramError(0, 0, std::string(model.name) + " has no named commands; expected registers to write");
 }
 
 }  // namespace

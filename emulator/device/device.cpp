@@ -88,7 +88,7 @@ void load_program(Device& device, std::string_view text) {
 std::string why_no_value(const Device& device, std::string_view name) {
   const NamedValues* const values = device.named_values();
   const std::vector<std::string> names = values != nullptr ? values->names() : std::vector<std::string>();
-  return "nothing of " + device.name() + " is called " + quoted(name) + suggestion(name, names);
+  return device.name() + " has no value called " + quoted(name) + suggestion(name, names);
 }
 
 }  // namespace understudy::emulator

@@ -13,8 +13,7 @@ namespace understudy::emulator {
 /// Adds to the last mistake of a full list that there may be more.
 inline std::vector<ProgramMistake> with_word_of_more(std::vector<ProgramMistake> mistakes) {
   if (mistakes.size() >= kMostMistakes) {
-    mistakes.back().what +=
-        " (this is mistake " + std::to_string(kMostMistakes) + ", where the reading ended)";
+    mistakes.back().what += " (mistake " + std::to_string(kMostMistakes) + "; reading stopped here)";
   }
   return mistakes;
 }

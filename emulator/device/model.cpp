@@ -35,7 +35,7 @@
 namespace understudy::emulator {
 
 ProgramMistake no_program(const Model& model) {
-  return {.what = std::string(model.name) + " takes no program from a file; expected none"};
+  return {.what = std::string(model.name) + " cannot load a program from a file; expected none"};
 }
 
 namespace {
@@ -223,7 +223,7 @@ void set_register(Device& device, const std::string& name, const std::string& to
                               told + " is out of range for " + name + expected);
     }
     case Refusal::busy:
-    case Refusal::failure: throw SettingEntryError("set", name, "the device does not take it now");
+    case Refusal::failure: throw SettingEntryError("set", name, "the device does not accept it now");
   }
 }
 
@@ -259,7 +259,7 @@ void set_station_number(Device& device) {
 
 void load_memory(Device& device, const NvImage& image) {
   if (device.memory() == nullptr)
-    throw NvError(std::string(device.model().name) + " keeps nothing; expected no memory");
+    throw NvError(std::string(device.model().name) + " has no non-volatile memory; expected none");
   // A bench that says itself what a memory holds names no firmware.
   const auto& firmwares = device.model().firmwares;
   if (!image.firmware.empty() && image.model == device.model().name &&
@@ -345,7 +345,7 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
   for (std::size_t port = 0; port < given.bauds.size(); ++port) {
     const int baud = device->line_settings(port).baud;
     if (given.bauds[port] == 0 || baud == given.bauds[port] || device->keeps_its_speed()) continue;
-    throw SettingError("dip", "the switches say " + std::to_string(baud) + " baud, the line " +
+    throw SettingError("dip", "the switches select " + std::to_string(baud) + " baud, but the line has " +
                                   std::to_string(given.bauds[port]) + "; expected the same");
   }
   if (!settings.program.empty()) load_program(*device, settings.program);

@@ -107,12 +107,12 @@ void check_needs(const YamlFields& fields, world::Complaints& complaints) {
     const auto field = fields.find(need.key);
     if (!field || fields.has(need.needed) || (!need.instead.empty() && fields.has(need.instead))) continue;
     complaints.attempt(
-        [&] { field->fail("is of no use alone; expected `" + std::string(need.needed) + "` as well"); });
+        [&] { field->fail("has no effect alone; expected `" + std::string(need.needed) + "` as well"); });
   }
   for (const auto& [key, other] : kEither) {
     if (!fields.has(key) || !fields.has(other)) continue;
     complaints.attempt([&, &first = key, &second = other] {
-      fields.at(first).fail("is given beside `" + std::string(second) + "`; expected one of the two");
+      fields.at(first).fail("cannot be combined with `" + std::string(second) + "`; expected one of the two");
     });
   }
   const auto inputs = fields.find("inputs");

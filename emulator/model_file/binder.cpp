@@ -53,10 +53,10 @@ void demand_known_sign(const YamlFields& field, const std::string& text,
   const std::string sign = text.substr(at, text.find_first_not_of(kSigns, at) - at);
   if (sign == "=") field.fail("'=' is not an operator; expected '==' to compare");
   if (std::find(known.begin(), known.end(), sign) != known.end())
-    field.fail(understudy::quoted(sign) + " has no blanks around it; expected them, as in " +
+    field.fail(understudy::quoted(sign) + " has no spaces around it; expected them, as in " +
                std::string(example));
-  field.fail(understudy::quoted(sign) + " has no place here; expected " + std::string(expected) + ", as in " +
-             std::string(example));
+  field.fail(understudy::quoted(sign) + " is not allowed here; expected " + std::string(expected) +
+             ", as in " + std::string(example));
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ Condition Binder::condition(const YamlFields& field) const {
     limits = {.lowest = std::min(its.least, its.factory), .highest = std::max(its.most, its.factory)};
   if (!made.spot.is_whole()) limits = {0, static_cast<Value>(mask_of(made.spot) >> made.spot.bit)};
   if (*made.value < limits.lowest || *made.value > limits.highest) {
-    field.fail(understudy::quoted(number) + " is never there; expected " + std::to_string(limits.lowest) +
+    field.fail(understudy::quoted(number) + " never occurs; expected " + std::to_string(limits.lowest) +
                " to " + std::to_string(limits.highest));
   }
   return made;
@@ -131,7 +131,7 @@ Condition Binder::level(const YamlFields& field) const {
   const Condition made = condition(field);
   if (!is_32_bit(listed(made.spot).type)) return made;
   field.fail(understudy::quoted(listed(made.spot).name) +
-             " has 32 bits, which may come in halves; expected 16 bits, or a coil");
+             " has 32 bits, which hosts can write in halves; expected 16 bits, or a coil");
 }
 
 Condition Binder::command(const YamlFields& field) const {
@@ -188,7 +188,7 @@ Comparison Binder::comparison(const YamlFields& field) const {
   demand_known_sign(field, text, {"<=", ">=", "==", "!=", "<", ">"}, "<=, >=, ==, !=, < or >",
                     "TEMPERATURE > LIMIT");
   field.fail(understudy::quoted(text) +
-             " is not a relation; expected one such as TEMPERATURE > LIMIT, with blanks around the sign");
+             " is not a relation; expected one such as TEMPERATURE > LIMIT, with spaces around the sign");
 }
 
 }  // namespace understudy::emulator::model_file

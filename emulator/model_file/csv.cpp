@@ -93,7 +93,7 @@ class CsvReader {
     const std::string more = without_blanks(text_.substr(begin, at_ - begin));
     if (more.empty()) return;
     throw FileError({file_, line_, static_cast<int>(begin - line_begin_) + 1},
-                    "registers: " + quoted(more) + " comes after a quotation; expected a separator");
+                    "registers: " + quoted(more) + " follows a quoted cell; expected a separator");
   }
 
   /// Two quotes in it are one.
@@ -114,7 +114,7 @@ class CsvReader {
       ++line_;
       line_begin_ = at_ + 1;
     }
-    throw FileError({file_, line, column}, "registers: a quotation has no end; expected a second \"");
+    throw FileError({file_, line, column}, "registers: a quoted cell is not closed; expected a second \"");
   }
 
   std::string_view text_;

@@ -155,8 +155,8 @@ std::string name_of(const ListRow& row) {
 void demand_agreement(const ListRow& row, Type type) {
   const auto demand = [&](Column column, bool agrees) {
     if (!row.has(column) || agrees) return;
-    row.fail(column, quoted(row.text(column)) + " is not what the type " + quoted(row.text(Column::type)) +
-                         " says; expected the same, or one of the two");
+    row.fail(column, quoted(row.text(column)) + " contradicts the type " + quoted(row.text(Column::type)) +
+                         "; expected the same, or one of the two");
   };
   demand(Column::width, row.text(Column::width) == std::to_string(width_of(type)));
   demand(Column::real, row.yes_or_no(Column::real) == (type == Type::f32));
@@ -232,7 +232,7 @@ void read_range(const ListRow& row, ListedRegister& listed) {
   Column last = Column::most;
   if (row.has(Column::range)) {
     if (!least.empty() || !most.empty())
-      row.fail(Column::range, "is given beside min and max; expected one of the two");
+      row.fail(Column::range, "cannot be combined with min and max; expected one of the two");
     first = last = Column::range;
     const auto ends = ends_of(row.text(Column::range));
     if (!ends) row.fail(Column::range, quoted(row.text(Column::range)) + " is not a range; expected 0..3000");
@@ -246,7 +246,7 @@ void read_range(const ListRow& row, ListedRegister& listed) {
   listed.ranged = true;
   if (is_before(listed.most, listed.least, listed.type))
     row.fail(last,
-             quoted(most) + " is below " + least + "; expected a range that ends where it begins or above");
+             quoted(most) + " is below " + least + "; expected a maximum that is not below the minimum");
 }
 
 void read_factory(const ListRow& row, ListedRegister& listed) {

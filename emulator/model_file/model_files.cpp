@@ -45,7 +45,7 @@ const Model& DescribedModels::read(const std::string& text, const std::string& n
     if (model.name() != described.name) continue;
     world::YamlFields::parse(text, name, "model", "a model")
         .at("model")
-        .fail(quoted(described.name) + " is a model of this program's own; expected another name");
+        .fail(quoted(described.name) + " is a built-in model; expected another name");
   }
   const std::lock_guard lock(mutex_);
   auto& model = models_[described.text];

@@ -34,15 +34,14 @@ inline constexpr std::array kLineKeys{
            &kBaudOrBaudsForm},
     KeyRow{"parity", "none (default), even or odd.", &kParityForm},
     KeyRow{"stop_bits", "1 (default) or 2.", &kStopBitsForm},
-    KeyRow{"silence", "What ends a frame for it (3.5 characters; above 19200 baud 1.75 ms).",
+    KeyRow{"silence", "The silence that ends a frame (3.5 characters; above 19200 baud 1.75 ms).",
            &world::kDuration},
     KeyRow{"stations", "The lowest and the highest station number ([1, 247]).", &kStationsForm},
     KeyRow{"station_in", "The register that holds the station number.", &world::kText},
     KeyRow{"functions", "The functions that it knows ([1, 2, 3, 4, 5, 6, 15, 16]).", &kFunctionsForm},
     KeyRow{"most", "The most registers or bits in one request, by function: { 3: 32 }.",
            &kMostByFunctionForm},
-    KeyRow{"broadcast", "What comes of requests to station 0: obeyed (default) or ignored.",
-           &kBroadcastForm}};
+    KeyRow{"broadcast", "Requests to station 0: obeyed (default) or ignored.", &kBroadcastForm}};
 
 // --- the map ---------------------------------------------------------------------------------------
 inline constexpr std::array<std::string_view, 2> kRefusedOrZero{"refused", "zero"};
@@ -58,14 +57,14 @@ inline constexpr Form kZeroOrRefusedForm = world::words_form(kZeroOrRefused);
 inline constexpr Form kAloneOrWholeForm = world::words_form(kAloneOrWhole);
 inline constexpr Form kHighOrLowForm = world::words_form(kHighOrLow);
 inline constexpr std::array kMapKeys{
-    KeyRow{"holes", "Where no register is: refused (default), or reads as zero.", &kRefusedOrZeroForm},
+    KeyRow{"holes", "Addresses without a register: refused (default), or read as zero.", &kRefusedOrZeroForm},
     KeyRow{"out_of_range", "A value beyond min and max: refused (default), clamped or stored.",
            &kOutOfRangeForm},
     KeyRow{"read_only", "A write to such a register: refused (default) or ignored.", &kRefusedOrIgnoredForm},
     KeyRow{"write_only", "A read of such a register: zero (default) or refused.", &kZeroOrRefusedForm},
-    KeyRow{"halves", "One half of 32 bits: read and written alone (default), or only whole.",
+    KeyRow{"halves", "Half of a 32-bit value: read and written alone (default), or only as a whole.",
            &kAloneOrWholeForm},
-    KeyRow{"first_word", "Of 32 bits: high (default) or low.", &kHighOrLowForm}};
+    KeyRow{"first_word", "The first word of 32 bits: high (default) or low.", &kHighOrLowForm}};
 
 // --- axes --------------------------------------------------------------------------------------------
 inline constexpr std::array<std::string_view, 2> kWays{"minus", "plus"};
@@ -77,37 +76,38 @@ inline constexpr Form kWhileDisabledForm = world::words_form(kWhileDisabled);
 inline constexpr Form kCountsForm = world::integer_form(INT32_MIN, INT32_MAX);
 inline constexpr Form kPerRevolutionForm = world::integer_form(1, 10'000'000);
 inline constexpr std::array kAxisInputKeys{
-    KeyRow{"upper_limit", "The input to which the upper limit switch is wired.", &world::kText},
-    KeyRow{"lower_limit", "The input to which the lower limit switch is wired.", &world::kText},
-    KeyRow{"home", "The input to which the home switch is wired.", &world::kText},
-    KeyRow{"alarm", "The input to which the drive's alarm is wired.", &world::kText}};
+    KeyRow{"upper_limit", "The input of the upper limit switch.", &world::kText},
+    KeyRow{"lower_limit", "The input of the lower limit switch.", &world::kText},
+    KeyRow{"home", "The input of the home switch.", &world::kText},
+    KeyRow{"alarm", "The input of the drive's alarm.", &world::kText}};
 inline constexpr Form kAxisInputsForm = world::keys_form(kAxisInputKeys);
 
 /// The keys are in the order of imported::Number, then Command, then View, then the rest.
 inline constexpr std::array kAxisKeys{
-    KeyRow{"target", "Where `start` goes to: a register, or a number.", &world::kText},
-    KeyRow{"distance", "How far `start_relative` goes.", &world::kText},
-    KeyRow{"speed", "How fast.", &world::kText},
-    KeyRow{"start_speed", "The speed that it begins and ends with at once (0).", &world::kText},
-    KeyRow{"acceleration_time", "From 0 to the speed: a register of a time, or a duration.", &world::kText},
+    KeyRow{"target", "The target of `start`: a register, or a number.", &world::kText},
+    KeyRow{"distance", "The distance of `start_relative`.", &world::kText},
+    KeyRow{"speed", "The speed of moves.", &world::kText},
+    KeyRow{"start_speed", "The speed at which moves begin and end (0).", &world::kText},
+    KeyRow{"acceleration_time", "The time from 0 to the speed: a register, or a duration.", &world::kText},
     KeyRow{"deceleration_time", "The same for slowing down (acceleration_time).", &world::kText},
-    KeyRow{"acceleration", "Speed a second, instead of a time.", &world::kText},
+    KeyRow{"acceleration", "Change of speed per second, instead of a time.", &world::kText},
     KeyRow{"deceleration", "The same for slowing down (acceleration).", &world::kText},
-    KeyRow{"rated_speed", "The speed that times are meant for (the speed of the move).", &world::kText},
-    KeyRow{"home_speed", "How fast home is looked for (speed).", &world::kText},
-    KeyRow{"stop_at_once", "What stops it without slowing down: CONTROL.3, or COMMAND == 9.", &world::kText},
-    KeyRow{"stop", "What makes it slow down to a stop.", &world::kText},
-    KeyRow{"enable", "What must hold for it to move (it may always).", &world::kText},
-    KeyRow{"home", "What makes it look for its home switch.", &world::kText},
-    KeyRow{"start", "What makes it go to `target`.", &world::kText},
-    KeyRow{"start_relative", "What makes it go by `distance`.", &world::kText},
-    KeyRow{"forward", "It runs upwards while this holds.", &world::kText},
-    KeyRow{"backward", "It runs downwards while this holds.", &world::kText},
-    KeyRow{"position", "The register that shows where it is; a write to it sets the count.", &world::kText},
-    KeyRow{"actual_speed", "The register that shows how fast it is.", &world::kText},
+    KeyRow{"rated_speed", "The speed that the times refer to (the speed of the move).", &world::kText},
+    KeyRow{"home_speed", "The speed of homing (speed).", &world::kText},
+    KeyRow{"stop_at_once", "Stops it at once, without deceleration: CONTROL.3, or COMMAND == 9.",
+           &world::kText},
+    KeyRow{"stop", "Stops it with deceleration.", &world::kText},
+    KeyRow{"enable", "Condition that must be true for it to move (always true).", &world::kText},
+    KeyRow{"home", "Starts homing.", &world::kText},
+    KeyRow{"start", "Starts a move to `target`.", &world::kText},
+    KeyRow{"start_relative", "Starts a move by `distance`.", &world::kText},
+    KeyRow{"forward", "It runs in the positive direction while this is true.", &world::kText},
+    KeyRow{"backward", "It runs in the negative direction while this is true.", &world::kText},
+    KeyRow{"position", "The register that shows its position; a write sets the count.", &world::kText},
+    KeyRow{"actual_speed", "The register that shows its speed.", &world::kText},
     KeyRow{"encoder", "The register that shows the count of its encoder.", &world::kText},
     KeyRow{"busy", "The bit (or register) that is 1 while it moves.", &world::kText},
-    KeyRow{"ready", "1 while it rests, is enabled, and has no alarm.", &world::kText},
+    KeyRow{"ready", "1 while it is at rest, enabled, and without an alarm.", &world::kText},
     KeyRow{"arrived", "1 when the last move has reached its target.", &world::kText},
     KeyRow{"homed", "1 when home has been found.", &world::kText},
     KeyRow{"enabled", "1 while it is enabled.", &world::kText},
@@ -116,10 +116,11 @@ inline constexpr std::array kAxisKeys{
     KeyRow{"at_lower_limit", "1 while its lower limit switch is on.", &world::kText},
     KeyRow{"pulses_per_count", "Pulses for each count of a position (1): 10, or 25/4.", &world::kText},
     KeyRow{"pps_per_count", "Pulses a second for each count of a speed (1).", &world::kText},
-    KeyRow{"inputs", "Which inputs its switches are wired to.", &kAxisInputsForm},
-    KeyRow{"home_way", "Where home is looked for: minus (default) or plus.", &kWayForm},
-    KeyRow{"home_position", "The position where home is found (0).", &kCountsForm},
-    KeyRow{"pulses_per_revolution", "Of its motor, for encoders on a bench.", &kPerRevolutionForm},
+    KeyRow{"inputs", "The inputs of its switches.", &kAxisInputsForm},
+    KeyRow{"home_way", "Direction of homing: minus (default) or plus.", &kWayForm},
+    KeyRow{"home_position", "The position at home (0).", &kCountsForm},
+    KeyRow{"pulses_per_revolution", "Pulses per motor revolution, for encoders on a bench.",
+           &kPerRevolutionForm},
     KeyRow{"while_busy", "What a start does while it moves: replace (default), ignore or refuse.",
            &kWhileBusyForm},
     KeyRow{"while_disabled", "What a start does while it is not enabled: ignore (default) or refuse.",
@@ -142,12 +143,13 @@ constexpr std::string_view key_of(models::imported::View view) {
 
 // --- the rest ----------------------------------------------------------------------------------------
 inline constexpr std::array kFollowKeys{
-    KeyRow{"of", "What it comes after: a register, or a number.", &world::kText, true},
+    KeyRow{"of", "The value that it follows: a register, or a number.", &world::kText, true},
     KeyRow{"while", "Only while this holds: CONTROL.RUN, or MODE == 2 (always).", &world::kText},
-    KeyRow{"rest", "Where it goes otherwise: a register, or a number (its default).", &world::kText},
-    KeyRow{"time_constant", "After it 63.2 % of the way is gone: 30s.", &world::kDuration},
-    KeyRow{"rate", "The most that it changes in a second, in counts.", &world::kText},
-    KeyRow{"every", "How often it is renewed (100ms).", &world::kDuration}};
+    KeyRow{"rest", "The value that it follows otherwise: a register, or a number (its default).",
+           &world::kText},
+    KeyRow{"time_constant", "The time for 63.2 % of a change: 30s.", &world::kDuration},
+    KeyRow{"rate", "The largest change per second, in counts.", &world::kText},
+    KeyRow{"every", "The interval of its updates (100ms).", &world::kDuration}};
 inline constexpr Form kLineForm = world::keys_form(kLineKeys);
 inline constexpr Form kMapForm = world::keys_form(kMapKeys);
 inline constexpr Form kAxisForm = world::keys_form(kAxisKeys);
@@ -157,21 +159,21 @@ inline constexpr Form kFollowsForm = world::names_form(kFollowForm);
 inline constexpr Form kBitNamesForm = world::names_form(world::kTextByName);
 inline constexpr std::array kModelKeys{
     KeyRow{"understudy", "The version of the format.", &kVersionForm, true},
-    KeyRow{"model", "What the model is called: letters, digits, _ and -.", &world::kText, true},
-    KeyRow{"title", "What it is, in a few words.", &world::kText},
+    KeyRow{"model", "The model's name: letters, digits, _ and -.", &world::kText, true},
+    KeyRow{"title", "A short description.", &world::kText},
     KeyRow{"registers", "The path of the list of its registers (CSV), or the list itself.", &world::kText,
            true},
-    KeyRow{"line", "How it stands on its serial line.", &kLineForm},
-    KeyRow{"map", "What it answers where the list leaves it open.", &kMapForm},
+    KeyRow{"line", "Its settings on the serial line.", &kLineForm},
+    KeyRow{"map", "How it answers requests that the list leaves open.", &kMapForm},
     KeyRow{"bits", "Names of bits: { STATUS: { READY: 0, STATE: 4-7 } }.", &kBitNamesForm},
     KeyRow{"inputs", "Its inputs, and where they are shown: { DI1: INPUTS.0, HOME: nowhere }.",
            &world::kTextByName},
-    KeyRow{"outputs", "Its outputs, and what switches them: { DO1: OUTPUTS.0 }.", &world::kTextByName},
+    KeyRow{"outputs", "Its outputs, and the registers that switch them: { DO1: OUTPUTS.0 }.",
+           &world::kTextByName},
     KeyRow{"axes", "Its motor axes, by name, and the registers that are bound to them.", &kAxesForm},
-    KeyRow{"follows", "Registers that come after another value with a lag.", &kFollowsForm},
+    KeyRow{"follows", "Registers that follow another value with a lag.", &kFollowsForm},
     KeyRow{"shows", "Bits that are 1 while a relation holds: { STATUS.ALARM: TEMPERATURE > LIMIT }.",
            &world::kTextByName},
-    KeyRow{"momentary", "Registers that are 0 again when what they start has been started.",
-           &world::kTextList}};
+    KeyRow{"momentary", "Registers that return to 0 once they have started something.", &world::kTextList}};
 
 }  // namespace understudy::emulator::model_file

@@ -49,8 +49,7 @@ struct ReadList {
 ReadList read_list(const YamlFields& field, bool may_read, std::vector<FileClaim>& files) {
   if (field.text().find('\n') != std::string::npos)  // its first line is below that of the key
     return {field.text(), {.file = field.file(), .lines_before = field.line()}};
-  if (!may_read)
-    field.fail("is a path; expected the list itself in a recording, which has everything in itself");
+  if (!may_read) field.fail("is a path; expected the list itself, since a recording contains everything");
   const std::string path = field.path();
   auto text = read_text_file(path);
   if (!text) field.fail(path + " " + text.why + "; expected a list of registers (CSV)");
@@ -117,7 +116,7 @@ std::unique_ptr<RegisterMap> plain_map(const Description& made, std::vector<std:
     map->demand_distinct_names();
     return map;
   } catch (const std::logic_error& error) {
-    list.fail(std::string(error.what()) + "; expected a list of which a map can be made");
+    list.fail(std::string(error.what()) + "; expected a list that makes a valid map");
   }
 }
 

@@ -106,14 +106,11 @@ std::string starter_model(const std::vector<ListedRegister>& registers, const st
   const bool has_pairs = std::any_of(registers.begin(), registers.end(),
                                      [](const auto& listed) { return is_32_bit(listed.type); });
   std::string text =
-      "# A model made of a list of registers. As it stands it stores what hosts write, within the ranges of "
-      "the\n"
-      "# list. docs/import.md has all keys; `understudy check` says what is wrong with them.\n"
-      "understudy: 1\n"
-      "model: " +
+      "# A model made from a list of registers. It stores what hosts write, within the ranges of the\n# "
+      "list. docs/import.md has all keys; `understudy check` reports mistakes.\nunderstudy: 1\nmodel: " +
       name +
       "\n"
-      "title: a controller of one's own\n"
+      "title: a controller of your own\n"
       "registers: " +
       quoted_yaml(list_path) +
       "\n"
@@ -128,7 +125,7 @@ std::string starter_model(const std::vector<ListedRegister>& registers, const st
   if (has_pairs) text += "  first_word: high       # of 32 bits; or low\n";
   text +=
       "\n"
-      "# An axis that moves: take the marks away, and put in the registers that are meant.\n"
+      "# An axis that moves: remove the # signs, and put in your registers.\n"
       "#axes:\n"
       "#  A:\n";
   for (const Guess& guess : kGuesses) {
@@ -137,7 +134,7 @@ std::string starter_model(const std::vector<ListedRegister>& registers, const st
   }
   text +=
       "\n"
-      "# A value that comes after another one, as a temperature after its setpoint.\n"
+      "# A value that follows another one, as a temperature follows its setpoint.\n"
       "#follows:\n"
       "#  TEMPERATURE: { of: SETPOINT, time_constant: 30s }\n";
   return text;

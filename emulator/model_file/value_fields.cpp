@@ -90,7 +90,7 @@ void read_followings(const YamlFields& fields, Description& made, Binder& binder
       if (const auto field = keys.find("rest")) following.rest = not_itself(*field, binder.quantity(*field));
       if (const auto field = keys.find("while")) following.as_long_as = binder.condition(*field);
       if (!keys.has("while") && keys.has("rest"))
-        keys.at("rest").fail("is of no use alone; expected `while` as well");
+        keys.at("rest").fail("has no effect alone; expected `while` as well");
       if (const auto field = keys.find("time_constant"))
         following.time_constant_s = static_cast<double>(field->duration().count()) / 1e9;
       if (const auto field = keys.find("rate")) {
@@ -186,7 +186,7 @@ class BindingCheck {
       if (meet(spot, part.spot)) return;
     }
     field.fail(understudy::quoted(field.text()) +
-               " never changes; expected what hosts write, or what shows something");
+               " never changes; expected a register that hosts write, or that shows a value");
   }
 
   /// What changes by itself would be seen only when hosts write something.
@@ -195,12 +195,13 @@ class BindingCheck {
     for (const ShownPart& part : shown_[spot.number]) {
       if (is_level(command) && part.what == ShownPart::What::input) continue;
       if (!meet(spot, part.spot)) continue;
-      field.fail(understudy::quoted(name) + " shows something there; expected what hosts write" +
+      field.fail(understudy::quoted(name) + " shows a value there; expected a register that hosts write" +
                  (is_level(command) ? ", or an input" : ""));
     }
     if (is_level(command) && shown_[spot.number].empty() &&
         made_.registers[spot.number].access == Access::read)
-      field.fail(understudy::quoted(name) + " never changes; expected what hosts write, or an input");
+      field.fail(understudy::quoted(name) +
+                 " never changes; expected a register that hosts write, or an input");
     if (is_level(command) && is_momentary(spot))
       field.fail(understudy::quoted(name) + " is momentary; expected a register that keeps what is written");
   }

@@ -86,14 +86,14 @@ void Page::opened(BrowserId browser) {
   browsers_[browser];
   web_.after(kForToken, [this, browser] {
     const auto found = browsers_.find(browser);
-    if (found != browsers_.end() && !found->second.is_known) web_.close(browser, "no token came");
+    if (found != browsers_.end() && !found->second.is_known) web_.close(browser, "the token is missing");
   });
 }
 
 void Page::heard(BrowserId browser, std::string_view text) {
   Browser& whose = browsers_[browser];
   if (!whose.is_known) {
-    if (!is_token(token_of(text), token_)) return web_.close(browser, "the token is not this page's");
+    if (!is_token(token_of(text), token_)) return web_.close(browser, "the token is wrong");
     const auto known = std::count_if(browsers_.begin(), browsers_.end(),
                                      [](const auto& one) { return one.second.is_known; });
     if (static_cast<std::size_t>(known) >= options_.browsers) return web_.close(browser, "too many browsers");
@@ -130,7 +130,7 @@ void Page::take(BrowserId browser, std::string_view text) {
   };
   const auto refuse = [&](const std::string& why) { answer(dumped({{"ok", false}, {"error", why}})); };
   if (!message.refusal.empty()) return refuse(message.refusal);
-  if (whose.asked >= kMostAsked) return refuse("too many questions at once");
+  if (whose.asked >= kMostAsked) return refuse("too many requests at once");
   ++whose.asked;
   benches_[message.bench]->ask(
       std::move(message.message), [this, browser, answer](const std::optional<std::string>& reply) {

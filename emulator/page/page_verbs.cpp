@@ -107,7 +107,7 @@ void take_ask(Json& message, bool is_read_only, BrowserMessage& taken) {
   if (!message.contains("id") || !message["id"].is_number_integer()) {
     throw BrowserError("id: expected a whole number");
   }
-  if (!message.contains("message")) throw BrowserError("message: expected what is to be asked");
+  if (!message.contains("message")) throw BrowserError("message: expected the message to ask");
   taken.id = message["id"].dump();
   Json& asked = message["message"];
   taken.refusal = why_not_sent(asked, is_read_only);
@@ -146,7 +146,7 @@ std::string why_not_sent(const Json& message, bool is_read_only) {
   if (!message.is_object() || !message.contains("do") || !message["do"].is_string()) {
     return "expected an object with a word under \"do\"";
   }
-  if (message.contains("file")) return "file: files are not reached from a page; expected a name";
+  if (message.contains("file")) return "file: a page cannot reach files; expected a name";
   const std::string word = message["do"].get<std::string>();
   const auto* const found = std::find_if(kPassedVerbs.begin(), kPassedVerbs.end(),
                                          [&](const PassedVerb& verb) { return verb.name == word; });
@@ -156,7 +156,7 @@ std::string why_not_sent(const Json& message, bool is_read_only) {
     return !key.empty() && message.contains(std::string(key));
   });
   const bool changes = found->changes && (keys[0].empty() || has_such_key);
-  if (changes && is_read_only) return word + ": this page only looks (--read-only)";
+  if (changes && is_read_only) return word + ": this page is read-only (--read-only)";
   return {};
 }
 

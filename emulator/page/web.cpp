@@ -298,7 +298,7 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
     }
     const std::string_view target = view(request.target());
     if (is_upgrade) {
-      if (target != "/ws") return say(refusal_of(request, http::status::not_found, "there is nothing here"));
+      if (target != "/ws") return say(refusal_of(request, http::status::not_found, "not found"));
       stream_.expires_never();
       is_browser_ = true;
       const auto browser =
@@ -306,7 +306,7 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
       return browser->open(request);
     }
     auto file = inside_.events.file(target.substr(0, target.find('?')));
-    if (!file) return say(refusal_of(request, http::status::not_found, "there is nothing here"));
+    if (!file) return say(refusal_of(request, http::status::not_found, "not found"));
     say(answer_to(request, http::status::ok, file->type, std::move(file->bytes)));
   }
 

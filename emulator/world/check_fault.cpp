@@ -65,7 +65,7 @@ void check_condition(const Inventory& inventory, const std::string& when) {
     for (const Expression::Name& name : condition.names) {
       if (!names.is_of_scenarios(name.number.handle)) continue;
       throw NameError(quoted(name.spelling) +
-                      " cannot be waited for; expected something that the world itself knows");
+                      " cannot be used in a fault; expected a value that the bench itself has");
     }
   } catch (const std::runtime_error& error) {
     throw NameError(error.what());

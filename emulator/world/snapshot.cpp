@@ -193,14 +193,15 @@ void read_hearing(const WorldLine& line, StateReader& reader) {
   const Hearing ours = hearing_of(line);
   if (its.is_strict != ours.is_strict) {
     throw StateError(its.is_strict
-                         ? "was saved with strict framing; expected a world that has it too"
-                         : "was saved with tolerant framing; expected a world without strict framing");
+                         ? "was saved with strict framing; expected a bench that has it too"
+                         : "was saved with tolerant framing; expected a bench without strict framing");
   }
   if (its.enforces_settings != ours.enforces_settings) {
     throw StateError(
         its.enforces_settings
-            ? "was saved where a host of another speed is not heard; expected a world where it is not"
-            : "was saved where a host of any speed is heard; expected a world where it is");
+            ? "was saved by a bench that ignores hosts of another speed; expected a bench that ignores them "
+              "too"
+            : "was saved by a bench that accepts hosts of any speed; expected a bench that accepts them too");
   }
 }
 
@@ -213,7 +214,7 @@ class Parts {
   template <class Read>
   auto read(const std::string& name, Read read) {
     if (next_ == state_.parts.size() || state_.parts[next_].name != name) {
-      throw StateError(name + ": is missing where it was expected");
+      throw StateError(name + ": is missing");
     }
     try {
       const WorldState::Part& part = state_.parts[next_++];

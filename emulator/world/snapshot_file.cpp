@@ -76,7 +76,7 @@ Json parse_json(const std::string& text) {
   } catch (const TooDeepJson& error) {
     throw SnapshotError(std::string("file: ") + error.what() + "; expected a snapshot");
   } catch (const Json::exception&) {
-    throw SnapshotError("file: is torn or not JSON; expected a snapshot");
+    throw SnapshotError("file: is damaged or not JSON; expected a snapshot");
   }
   if (!parsed.is_object()) return parsed;
   for (const auto& [key, value] : parsed.items()) {
@@ -151,7 +151,7 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
                         "; expected " + std::string(program_version()));
   }
   if (text_of(file, "bench") != hex(bench)) {
-    throw SnapshotError("bench: is of another bench; expected the one that it was taken from");
+    throw SnapshotError("bench: is a different bench; expected the one that the snapshot was taken from");
   }
   WorldState state;
   const Json& time = demand_key(file, "simulated_time_ns");
@@ -168,7 +168,7 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
     state.parts.push_back(*std::move(part));
   }
   if (text_of(file, "checksum") != hex(checksum(state))) {
-    throw SnapshotError("checksum: is not that of the state; expected a file as it was written");
+    throw SnapshotError("checksum: does not match the state; expected the file as it was written");
   }
   return state;
 }

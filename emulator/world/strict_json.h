@@ -15,7 +15,7 @@ namespace understudy::emulator::world {
 
 /// Thrown for text that is nested deeper than anything we write.
 struct TooDeepJson : std::runtime_error {
-  TooDeepJson() : std::runtime_error("is nested deeper than anything that is written") {}
+  TooDeepJson() : std::runtime_error("is nested too deeply") {}
 };
 
 /// Throws the result of `twice` for a key that appears twice in one object, TooDeepJson if more than

@@ -269,7 +269,7 @@ std::string names_of_parameters(const CommandRow& row) {
   for (std::size_t i = 0; i < row.parameter_count(); ++i) {
     names += (i == 0 ? "" : ", ") + std::string(row.parameters[i].name);
   }
-  return names.empty() ? "nothing behind it" : names;
+  return names.empty() ? "nothing after it" : names;
 }
 
 }  // namespace

@@ -225,7 +225,7 @@ class Assembler {
                                                {"MOV", "VAR_Copy, or VAR_Direct for a number"},
                                                {"IF", "VAR_EQ, VAR_GT, VAR_LT or one of the jumps"},
                                                {"SLEEP", "Delay_mSec"},
-                                               {"FOR", "Loop, behind what is repeated"},
+                                               {"FOR", "Loop, after the lines to repeat"},
                                                {"HOME", "Move_Home_A"},
                                                {"HOME_A", "Move_Home_A"},
                                                {"HOME_B", "Move_Home_B"},

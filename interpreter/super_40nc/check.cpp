@@ -191,7 +191,7 @@ class Checker {
       for (const AreaRow& other : kAreas) {
         if (has(row.areas, other.area)) where += (where.empty() ? "" : ", ") + std::string(other.name);
       }
-      fail(token, Code::wrong_area, std::string(row.mnemonic) + " may not stand in area " + name,
+      fail(token, Code::wrong_area, std::string(row.mnemonic) + " is not allowed in area " + name,
            "area " + where);
     } else if (has(row.void_in, area_) && options_.void_lines == Options::VoidLines::are_refused) {
       fail(token, Code::wrong_area, std::string(row.mnemonic) + " is void in area " + name, "another area");

@@ -47,8 +47,8 @@ inline constexpr auto kForeignWords = std::to_array<ForeignWord>({
     {"BMOV", "a MOV for each register, or FMV for one value"},
     {"FOR", "CAL with a number of passes"},
     {"NEXT", "RET, at the end of what CAL repeats"},
-    {"DRVI", "DRV behind INCC"},
-    {"DRVA", "DRV behind ABSC"},
+    {"DRVI", "DRV after INCC"},
+    {"DRVA", "DRV after ABSC"},
     {"ZRN", "HOM"},
     {"PLSV", "VDRV"},
     {"PLSY", "DRV"},
@@ -113,7 +113,7 @@ std::string nearest_instruction(std::string_view written) {
     if (foreign.word == word) return "; expected " + std::string(foreign.here);
   }
   const std::string once = word.ends_with('P') ? word.substr(0, word.size() - 1) : std::string();
-  if (is_of_data(once)) return "; expected " + once + ", behind an LDP where it is to act once";
+  if (is_of_data(once)) return "; expected " + once + ", after an LDP if it must act only once";
   const std::string narrow = without_width(word);
   if (!narrow.empty()) return "; expected " + narrow + ", as every register has 32 bits";
   std::vector<std::string> known;
@@ -129,7 +129,7 @@ Unknown why_not_operand(std::string_view text) {
   const bool has_number = !rest.empty() && is_decimal_digit(rest.front());
   if (decimal(text)) return {not_one, "K" + std::string(text) + " for a constant"};
   if (first == 'S' && decimal(rest)) {
-    return {"step relay " + upper_case(text) + " cannot stand in a program", any};
+    return {"step relay " + upper_case(text) + " is not allowed in a program", any};
   }
   if (first == 'H') {
     const auto number = parse_integer("0x" + std::string(rest));
@@ -141,7 +141,7 @@ Unknown why_not_operand(std::string_view text) {
             foreign.expected.empty() ? any : std::string(foreign.expected)};
   }
   if (first == 'K' && has_number && rest.find_first_of("XYMTCSxymtcs") != std::string_view::npos) {
-    return {not_one + ": contacts do not stand together as a number", any};
+    return {not_one + ": contacts cannot form a number", any};
   }
   if (first == 'K') return {not_one, "K and a whole decimal number"};
   if (has_number && rest.find_first_of("VZvz") != std::string_view::npos) {

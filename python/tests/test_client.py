@@ -228,7 +228,7 @@ def test_choices_and_firmware_of_a_model():
         assert chosen["station_0_request"] == "ignored"
     with pytest.raises(understudy.NotThere, match="nosuch"):
         understudy.start(model="simple2-r3", choices={"nosuch": "x"})
-    with pytest.raises(ValueError, match="bench file says itself"):
+    with pytest.raises(ValueError, match="bench file has its own"):
         understudy.start("bench.yaml", choices={"a": "b"})
 
 
@@ -401,7 +401,7 @@ def test_bytes_to_send_may_be_numbers(bench):
 
 def test_a_path_is_no_program(bench, tmp_path):
     for path in ("pick.lst", str(tmp_path)):
-        with pytest.raises(understudy.Refused, match=r"program\(\) takes the text itself, as open\("):
+        with pytest.raises(understudy.Refused, match=r"program\(\) takes the text itself, such as open\("):
             bench.program(path)
     with pytest.raises(understudy.Refused) as refused:
         bench.program("Nonsense 1")

@@ -85,7 +85,7 @@ def test_a_keyword_that_fails_says_why():
     library.start_bench(model="simple2-r3")
     with pytest.raises(AssertionError, match="Cord_A is 0; expected 5"):
         library.value_should_be("Cord_A", "5")
-    with pytest.raises(AssertionError, match="did not come true within 5ms"):
+    with pytest.raises(AssertionError, match="did not become true within 5ms"):
         library.run_until("Cord_A == 1", "5ms")
     with pytest.raises(AssertionError, match="no frame has"):
         library.last_frames_should_contain("read")

@@ -84,7 +84,7 @@ class Bench:
             looks_like_a_path = "\n" not in text and (os.path.exists(text) or os.path.splitext(text)[1] != "")
             if not looks_like_a_path:
                 raise
-            raise Refused(f"{refused}; program() takes the text itself, as open({text!r}).read() gives it") from refused
+            raise Refused(f"{refused}; program() takes the text itself, such as open({text!r}).read()") from refused
         return None
 
     def inject(self, fault: Dict[str, Any]) -> int:
@@ -215,7 +215,7 @@ class Bench:
     def seek(self, to_ns: Optional[int] = None, by: Optional[str] = None, steps: int = 1) -> int:
         """In a recording: to a time, or that many of `tick`, `frame`, `event` on or back."""
         if (to_ns is None) == (by is None):
-            raise ValueError("either a time, or a number of ticks, frames or events")
+            raise ValueError("expected either a time, or a number of ticks, frames or events")
         how: Dict[str, Any] = {"to_ns": to_ns} if by is None else {"by": by, "steps": steps}
         return int(self.ask("seek", **how)["simulated_time_ns"])
 
@@ -259,9 +259,9 @@ def start(bench: Optional[str] = None, *flags: str, model: Optional[str] = None,
           program: Optional[str] = None) -> Bench:
     """A bench file, or one device of a model, its firmware and choices; further flags are `serve`'s."""
     if (bench is None) == (model is None):
-        raise ValueError("either a bench file or a model")
+        raise ValueError("expected either a bench file or a model")
     if bench is not None and (firmware is not None or choices):
-        raise ValueError("a bench file says itself what firmware and choices its devices have")
+        raise ValueError("a bench file has its own firmware and choices; give them only with a model")
     if firmware is not None and not isinstance(firmware, str):  # a float has lost the 0 of 1.40
         raise TypeError(f"firmware: expected a text such as '1.52', not {firmware!r}")
     text, what = "", []
@@ -285,5 +285,5 @@ def attach(control: Optional[str] = None) -> Bench:
     """A bench that runs already: by its control socket, or the one that `exec` names."""
     control = control or os.environ.get("UNDERSTUDY_CONTROL")
     if not control:
-        raise NotThere("no control socket was named, and UNDERSTUDY_CONTROL is not set")
+        raise NotThere("no control socket was given, and UNDERSTUDY_CONTROL is not set")
     return Bench(control)

@@ -84,7 +84,7 @@ class Connection:
         while b"\n" not in parts[-1]:
             some = self._socket.recv(1 << 16)
             if not some:
-                raise OSError("the program has closed the connection")
+                raise OSError("the program closed the connection")
             parts.append(some)
             length += len(some)
             if length > MOST_REPLY_BYTES:

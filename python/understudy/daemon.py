@@ -50,7 +50,7 @@ class Daemon:
                  bench_text: str = "") -> None:
         program = program or os.environ.get("UNDERSTUDY_PROGRAM") or "understudy"
         if shutil.which(program) is None:
-            raise NotThere(f"{program}: there is no such program; UNDERSTUDY_PROGRAM can name it")
+            raise NotThere(f"{program}: no such program; set UNDERSTUDY_PROGRAM to its path")
         command: List[str] = ["/bin/sh", "-c", GUARD, "understudy-guard", program, _folders(), bench_text]
         command += [str(argument) for argument in arguments]  # paths and numbers as well
         guard = subprocess.Popen(command, bufsize=0, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
@@ -63,7 +63,7 @@ class Daemon:
         try:
             told = [self._from_program.readline().decode().rstrip("\n") for _ in range(2)]
             if not told[1]:
-                raise NotThere(f"no folder for {program} could be made in {_folders()}")
+                raise NotThere(f"cannot create a folder for {program} in {_folders()}")
             self.pid = int(told[0])
             self.folder = told[1]
             self.control = os.path.join(self.folder, "control")
@@ -118,7 +118,7 @@ class Daemon:
             if over:
                 # Of a bench that was made of a model and choices nobody knows the file.
                 made_up = re.escape(self.folder) + r"/bench\.yaml:\d+:\d+: lines\.line\.stations\[0\]\.?"
-                why = re.sub(made_up, "", self.said()).strip() or f"{program} ended without a word"
+                why = re.sub(made_up, "", self.said()).strip() or f"{program} ended without a message"
                 raise BadSetup(why) if self._end() == BAD_SETUP else NotThere(why)
             if "ready " in said and os.path.exists(self.control):
                 return

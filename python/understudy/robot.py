@@ -98,7 +98,7 @@ class Understudy:
     def run_until(self, condition: str, within: str = "1h") -> None:
         """Moves simulated time on until a condition is true; fails if it does not come true in that time."""
         if not self._bench.run_until(condition, within):
-            raise AssertionError(f"{condition} did not come true within {within}")
+            raise AssertionError(f"{condition} did not become true within {within}")
 
     def set_speed(self, to: str) -> None:
         """`real`, a factor, `free` or `manual`."""
@@ -135,7 +135,7 @@ class Understudy:
     @property
     def _bench(self) -> Bench:
         if not self._benches:
-            raise AssertionError("no bench; expected `Start Bench` or `Attach To Bench` before")
+            raise AssertionError("no bench; expected `Start Bench` or `Attach To Bench` first")
         return self._benches[-1]
 
     def _end_suite(self, data: object, result: object) -> None:

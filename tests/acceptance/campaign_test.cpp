@@ -121,8 +121,9 @@ TEST_F(Campaign, CasesOfAListKeepTheirFirstFailuresToo) {
       "]\n");
   const Finished finished = understudy({"run", scenario, "--failures", folder_ / "failures"});
   EXPECT_EQ(recordings("failures"), std::set<std::string>{"rows_n_1.jsonl"});
-  EXPECT_NE(finished.output.find("it failed as this one did, whose recording is kept: rows (n=1)"),
-            std::string::npos)
+  EXPECT_NE(
+      finished.output.find("it failed in the same way as this one, whose recording is kept: rows (n=1)"),
+      std::string::npos)
       << finished.output;
   EXPECT_NE(finished.output.find("ok    " + scenario + ": rows (n=0)"), std::string::npos);
   understudy({"run", scenario, "--record", folder_ / "all"});
@@ -191,7 +192,7 @@ TEST_F(Campaign, OneThatIsKilledGoesOn) {
     EXPECT_GT(killed, 0) << "it was always over before it was killed";
     const Finished last = understudy(command);
     EXPECT_EQ(last.exit_code, 1) << last.errors;
-    const std::regex left_out("([0-9]+) left out, as they were played before; ([0-9]+) of them failed");
+    const std::regex left_out("([0-9]+) skipped, since they ran before; ([0-9]+) of them failed");
     const std::regex played("([0-9]+) passed, ([0-9]+) failed; ");
     std::smatch before;
     std::smatch now;
@@ -207,9 +208,8 @@ TEST_F(Campaign, OneThatIsKilledGoesOn) {
                        "SELECT count(*), count(DISTINCT case_id), sum(verdict = 'failed') FROM results"),
                 "12000 12000 1200\n");
     }
-    EXPECT_NE(
-        understudy(command).output.find("12000 left out, as they were played before; 1200 of them failed"),
-        std::string::npos);
+    EXPECT_NE(understudy(command).output.find("12000 skipped, since they ran before; 1200 of them failed"),
+              std::string::npos);
   }
 }
 
@@ -247,7 +247,7 @@ TEST_F(Campaign, ACaseThatCannotBeReadIsToldAndTheOthersArePlayed) {
   EXPECT_NE(finished.output.find(": steps[0].write.feeder.Aaxis_AccTime: 8890 is out of range"),
             std::string::npos)
       << finished.output;
-  EXPECT_NE(finished.output.find("2999 passed, 1 failed, of which 1 could not be read; "), std::string::npos)
+  EXPECT_NE(finished.output.find("2999 passed, 1 failed, 1 of them could not be read; "), std::string::npos)
       << finished.output;
   EXPECT_EQ(sqlite("rows.sqlite", "SELECT n, verdict, hash FROM cases WHERE verdict <> 'passed'"),
             "1778 unreadable None\n");
@@ -326,7 +326,7 @@ TEST_F(Campaign, FlagsThatMakeNoSenseAreRefused) {
   };
   folder_.write("other.jsonl", "not a row\n");
   for (const Row& row : std::vector<Row>{
-           {{"--resume"}, "--resume: expected --results FILE beside it, which says what was played", 2},
+           {{"--resume"}, "--resume: expected --results FILE as well, which lists the cases that ran", 2},
            {{"--results", "rows.csv"},
             "--results: rows.csv: is not a kind of results; expected FILE.jsonl or FILE.sqlite",
             2},

@@ -51,7 +51,7 @@ class SeveralDaemons : public testing::Test {
 TEST_F(SeveralDaemons, TheOnlyOneIsMeant) {
   const Finished none = ctl({"status"});
   EXPECT_EQ(none.exit_code, 3);
-  EXPECT_EQ(none.errors, "understudy: ctl: nobody answers in " + (folder_ / "understudy") +
+  EXPECT_EQ(none.errors, "understudy: ctl: no daemon answers in " + (folder_ / "understudy") +
                              "; expected a running `understudy serve`, or --control SOCKET\n");
   const auto feeder = serve("feeder");
   EXPECT_TRUE(fs::is_socket(socket(*feeder)));
@@ -122,7 +122,7 @@ TEST_F(SeveralDaemons, OfTwoThatServeOneBenchAPortTells) {
   expect_chosen({"--bench", bench("feeder"), "--port", port("feeder")}, "feeder");
   const Finished nobody = ctl({"--bench", folder_ / "mill.yaml", "--port", port("feeder"), "status"});
   EXPECT_EQ(nobody.exit_code, 3);
-  EXPECT_EQ(nobody.errors.find("understudy: ctl: nobody serves " + (folder_ / "mill.yaml") + " on " +
+  EXPECT_EQ(nobody.errors.find("understudy: ctl: no daemon serves " + (folder_ / "mill.yaml") + " on " +
                                port("feeder") + "; running: "),
             0U)
       << nobody.errors;
@@ -134,9 +134,9 @@ TEST_F(SeveralDaemons, OneThatIsNotThereIsNotReplacedByAnother) {
        {Words{"--bench", folder_ / "mill.yaml"}, Words{"--port", folder_ / "mill.port"}}) {
     const Finished refused = ctl({flags[0], flags[1], "pause"});
     EXPECT_EQ(refused.exit_code, 3);
-    EXPECT_EQ(
-        refused.errors.find("understudy: ctl: nobody serves " + flags[1] + "; running: " + socket(*feeder)),
-        0U)
+    EXPECT_EQ(refused.errors.find("understudy: ctl: no daemon serves " + flags[1] +
+                                  "; running: " + socket(*feeder)),
+              0U)
         << refused.errors;
   }
   EXPECT_EQ(ctl({"--bench", bench("feeder"), "--control", socket(*feeder), "status"}).exit_code, 2);

@@ -303,7 +303,7 @@ TEST(ControlSocket, AnEmptyVariableIsAsIfItWereNotSet) {
   const Finished finished =
       understudy({"ctl", "status"}, {{"UNDERSTUDY_CONTROL", ""}, {"XDG_RUNTIME_DIR", folder.path()}});
   EXPECT_EQ(finished.exit_code, 3);
-  EXPECT_NE(finished.errors.find("ctl: nobody answers in " + folder.path()), std::string::npos)
+  EXPECT_NE(finished.errors.find("ctl: no daemon answers in " + folder.path()), std::string::npos)
       << finished.errors;
 }
 
@@ -316,7 +316,7 @@ TEST(ControlRunUntil, MovesTimeToWhereItIsTrue) {
   const Finished never = daemon.ctl({"run-until", "device.STATUS.4 == 1", "--within", "10ms"});
   EXPECT_EQ(never.exit_code, 1);
   EXPECT_EQ(never.errors,
-            "understudy: ctl run-until: 'device.STATUS.4 == 1' did not come true within 10ms\n");
+            "understudy: ctl run-until: 'device.STATUS.4 == 1' did not become true within 10ms\n");
   EXPECT_EQ(simulated_ns(daemon), 321'000'000);
   expect_refused(daemon, {"run-until", "device.STATU.4 == 1"}, "the nearest is 'STATUS'");
   expect_refused(daemon, {"run-until"}, "expected one condition");

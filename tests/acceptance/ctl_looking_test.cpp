@@ -214,7 +214,7 @@ TEST(CtlCommand, GivesADeviceACommandByItsName) {
       {{"command", "RSM_FLY X"}, "understudy: ctl command: column 1: "},
       {{"command"}, "expected a device and a command in quotes"},
       {{"command", "device", "RSM_FIXED_MOVE", "X 50"}, "expected a device and a command in quotes"},
-      {{"command", "RSM_MACRO_NEXT"}, "understudy: ctl command: device does not take it: "},
+      {{"command", "RSM_MACRO_NEXT"}, "understudy: ctl command: device refuses it: "},
   };
   for (const auto& [words, why] : wrong) {
     const Finished refused = daemon->ctl(words);
@@ -222,7 +222,7 @@ TEST(CtlCommand, GivesADeviceACommandByItsName) {
     EXPECT_NE(refused.errors.find(why), std::string::npos) << refused.errors;
   }
   const RunningUnderstudy other({"--speed", "manual"});
-  EXPECT_NE(other.ctl({"command", "STOP"}).errors.find("simple2-r3 has no commands with names"),
+  EXPECT_NE(other.ctl({"command", "STOP"}).errors.find("simple2-r3 has no named commands"),
             std::string::npos);
 }
 

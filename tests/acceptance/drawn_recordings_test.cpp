@@ -45,7 +45,7 @@ TEST(DrawnRecording, HasTheTraceAndCaptureOfTheDay) {
   EXPECT_TRUE(contents(folder / "again.pcapng") == contents(folder / "day.pcapng")) << "the captures differ";
   const std::string page = contents(folder / "again.html");
   for (const char* text :
-       {"aria-label=\"day.jsonl: what moved and switched, from 0s to ", "data-name=\"device.A.position\"",
+       {"aria-label=\"day.jsonl: motion and signals, from 0s to ", "data-name=\"device.A.position\"",
         "1 passed, 0 failed", "<code>write 0x1014 device.Aaxis_SVON = 1</code>",
         "<code>the recording begins</code>", "<code>a host opens line</code>",
         "<code>input device.DIN_10=1</code>", "<code>inject stall device.A</code>",
@@ -197,19 +197,19 @@ TEST(DrawnRecording, RefusesWhatItCannotDo) {
       {{"replay", recording, "--capture", folder / "c.pcap"},
        2,
        "--capture: " + (folder / "c.pcap") +
-           ": this old format is not written; expected .pcapng, or another ending for a text log"},
-      {{"replay", recording, "--trace-also", "Cord_A"}, 2, "--trace-also: expected --trace FILE beside it"},
+           ": this old format is not supported; expected .pcapng, or another ending for a text log"},
+      {{"replay", recording, "--trace-also", "Cord_A"}, 2, "--trace-also: expected --trace FILE as well"},
       {{"replay", recording, "--trace", csv, "--trace-also", "Cord_AA"},
        2,
        "--trace-also: feeder: no register is called 'Cord_AA'; the nearest is 'Cord_A'"},
       {{"run", scenario, "--trace", csv},
        2,
-       "--trace: " + csv + ": is the name of a file; expected a folder, for a file of each scenario"},
+       "--trace: " + csv + ": is a file name; expected a folder, for one file per scenario"},
       {{"run", scenario, "--capture", folder / "c.pcapng"},
        2,
        "--capture: " + (folder / "c.pcapng") +
-           ": is the name of a file; expected a folder, for a file of each scenario"},
-      {{"run", scenario, "--trace-also", "Cord_A"}, 2, "--trace-also: expected --trace DIR beside it"},
+           ": is a file name; expected a folder, for one file per scenario"},
+      {{"run", scenario, "--trace-also", "Cord_A"}, 2, "--trace-also: expected --trace DIR as well"},
       {{"run", scenario, "--trace", folder / "t", "--trace-also", "Cord_AA"},
        2,
        "--trace-also: " + scenario + ": feeder: no register is called 'Cord_AA'; the nearest is 'Cord_A'"},

@@ -151,7 +151,7 @@ TEST(Init, OverwritesNothing) {
   const std::string mine = folder.write("first_move.yaml", "mine\n");
   const Finished finished = understudy({"init", folder.path()});
   EXPECT_EQ(finished.exit_code, 2);
-  EXPECT_EQ(finished.errors, mine + ": file: is there already; expected a folder without it\n");
+  EXPECT_EQ(finished.errors, mine + ": file: already exists; expected a folder without it\n");
   EXPECT_FALSE(std::filesystem::exists(folder / "bench.yaml"));
   EXPECT_EQ(understudy({"init", "--model", "simple3", folder / "other"}).exit_code, 2);
   EXPECT_FALSE(std::filesystem::exists(folder / "other"));
@@ -177,7 +177,7 @@ TEST(SchemaOfABench, ListsItsNames) {
   EXPECT_EQ(std::count(names.begin(), names.end(), "Aaxis_Speed"), 1);  // there is one device alone
   const Finished wrong = understudy({"schema", "bench", "--bench", files.bench});
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_NE(wrong.errors.find("--bench belongs to `scenario`"), std::string::npos) << wrong.errors;
+  EXPECT_NE(wrong.errors.find("--bench needs the format `scenario`"), std::string::npos) << wrong.errors;
   EXPECT_EQ(understudy({"schema", "scenario", "--bench", files.torn}).exit_code, 2);
 }
 

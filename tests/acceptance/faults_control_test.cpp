@@ -95,9 +95,9 @@ TEST(ControlFaults, ThatAreWrongAreRefusedWithOneLine) {
   expect_refused(daemon, {"clear", "one"},
                  "clear: 'one' is not understood; expected the number of a fault, or all");
   expect_refused(daemon, {"clear", "1"},
-                 "clear: number: 1 is not a fault in force; expected none, as nothing is broken");
+                 "clear: number: 1 is not a fault in force; expected none, since no fault is in force");
   EXPECT_EQ(daemon.ctl({"list", "all"}).errors,
-            "understudy: ctl list: 'all' is one word too many; expected nothing more\n");
+            "understudy: ctl list: 'all' is one argument too many; expected nothing more\n");
   EXPECT_EQ(obeyed(daemon, {"list"}), "");
 
   const Finished refused = daemon.ctl({"--json", "inject", "jam", "A"});
@@ -122,7 +122,7 @@ TEST(ControlPower, OffSilencesAStationOnTheWireAndOnBringsItBack) {
   host.set_patience(kPatience);
   EXPECT_EQ(host.read(kHardwareCode), Registers{0xC001}) << "the other station on the line goes on";
 
-  const std::string why = "feeder has no power; expected it switched on";
+  const std::string why = "feeder has no power; expected it to be on";
   expect_refused(*daemon, {"get", "feeder.Cord_A"}, "get: " + why);
   expect_refused(*daemon, {"get", "turner.Cord_A", "feeder.Cord_A"}, "get: " + why);
   expect_refused(*daemon, {"set", "turner.Aaxis_Speed=1", "feeder.Aaxis_Speed=5"}, "set: " + why);

@@ -182,7 +182,7 @@ TEST(ImportCommand, WritesWhatCanBeServedAndNothingOver) {
   const std::string before = contents(folder / "a-pump.yaml");
   const Finished again = understudy({"import", list});
   EXPECT_EQ(again.exit_code, 2);
-  EXPECT_EQ(again.errors, folder / "a-pump.yaml: file: is there already; expected a folder without it\n");
+  EXPECT_EQ(again.errors, folder / "a-pump.yaml: file: already exists; expected a folder without it\n");
   EXPECT_EQ(contents(folder / "a-pump.yaml"), before);
   // Elsewhere, and under another name.
   fs::create_directory(folder / "models");

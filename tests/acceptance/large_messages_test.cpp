@@ -89,8 +89,8 @@ TEST_F(LargeMessages, OfAWrongProgramGetAHundredMistakes) {
     const std::string error = exchange.reply.at("error");
     EXPECT_TRUE(error.starts_with("line ")) << error;
     EXPECT_TRUE(error.ends_with(" (and at least 99 more)")) << error;
-    EXPECT_TRUE(mistakes.back().at("what").get<std::string>().ends_with(
-        " (this is mistake 100, where the reading ended)"))
+    EXPECT_TRUE(
+        mistakes.back().at("what").get<std::string>().ends_with(" (mistake 100; reading stopped here)"))
         << mistakes.back();
     EXPECT_LE(mistakes.front().at("line").get<int>(), mistakes.back().at("line").get<int>());
     expect_served(exchange, what);

@@ -21,7 +21,7 @@ constexpr const char* kScenario =
     "  - send: { bytes: 09 03 00 01 00 01 +crc, reply: nothing, within: 20ms }\n"
     "  - wait: { until: STATUS.4 == 0, within: 4s }\n"
     "  - expect: { Cord_A: 3200 }\n";
-constexpr const char* kManners = "rs485: 1 request to station 9, which is not there; first at ";
+constexpr const char* kManners = "rs485: 1 request to station 9, which does not exist; first at ";
 
 std::string contents(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -74,12 +74,12 @@ TEST(Lint, OfARunningBenchIsToldWhenItEnds) {
   EXPECT_EQ(asked.exit_code, 1);
   EXPECT_EQ(understudy({"poll", running.port(), "0x0001"}).exit_code, 0);
   const std::string at_once =
-      "understudy: line line: a host asks for station 9, which is not there; device is 1\n";
+      "understudy: line line: a host asks for station 9, which does not exist; device is 1\n";
   EXPECT_EQ(running.errors(), at_once);
   EXPECT_EQ(running.stop(SIGTERM), 0);
   const std::string errors = running.errors();
   EXPECT_TRUE(
-      errors.starts_with(at_once + "lint: line: 1 request to station 9, which is not there; first at "))
+      errors.starts_with(at_once + "lint: line: 1 request to station 9, which does not exist; first at "))
       << errors;
   EXPECT_EQ(lines_of(errors).size(), 2U) << errors;
 }
@@ -132,7 +132,7 @@ TEST(TraceFlag, RefusesWhatItCannotDo) {
       {{"--trace", "t.txt"},
        2,
        "understudy: --trace: t.txt: is not a kind of trace; expected FILE.csv or FILE.vcd\n"},
-      {{"--trace-also", "Cord_A"}, 2, "understudy: --trace-also: expected --trace FILE beside it\n"},
+      {{"--trace-also", "Cord_A"}, 2, "understudy: --trace-also: expected --trace FILE as well\n"},
       {{"--trace", folder / "t.csv", "--trace-also", "Cord_AA"},
        2,
        "understudy: --trace-also: device: no register is called 'Cord_AA'; the nearest is 'Cord_A'\n"},

@@ -162,13 +162,13 @@ TEST(Memory, ThatCannotBeWrittenIsToldWhileTheDevicesGoOn) {
 TEST(Memory, OfAnotherKindIsRefusedAndLeftAlone) {
   const std::string whole = image("{\"Parms_Speed1\": 5}");
   const std::pair<std::string, const char*> cases[] = {
-      {whole.substr(0, whole.size() - 3), "device.json:1: is torn or not JSON; expected an NV image"},
-      {"", "device.json:1: is torn or not JSON"},
-      {"understudy: 1\n", "device.json:1: is torn or not JSON"},
+      {whole.substr(0, whole.size() - 3), "device.json:1: is damaged or not JSON; expected an NV image"},
+      {"", "device.json:1: is damaged or not JSON"},
+      {"understudy: 1\n", "device.json:1: is damaged or not JSON"},
       {"{\"somebody\": \"else's\"}", "device.json: understudy: is missing; expected an NV image"},
       {image("{\"Parms_Speed99\": 5}"), "'Parms_Speed99'"},
       {image("{\"Parms_Speed1\": 99999}"), "'Parms_Speed1': 99999 does not fit; expected 0 to 32768"},
-      {image("{\"Parms_Speed1\": 1e999}"), "a number is beyond all bounds"},
+      {image("{\"Parms_Speed1\": 1e999}"), "a number is too large"},
   };
   for (const auto& [text, why] : cases) {
     const PrivateFolder folder;
@@ -229,7 +229,7 @@ TEST(Power, OffSilencesTheLineAndTheSocketSaysSoClearly) {
   EXPECT_EQ(host.error(), ETIMEDOUT);
   for (const Words& words :
        {Words{"get", "HW_Code"}, Words{"set", "Aaxis_Speed=1"}, Words{"program", "device"}}) {
-    expect_refused(daemon.ctl(words), "device has no power; expected it switched on");
+    expect_refused(daemon.ctl(words), "device has no power; expected it to be on");
   }
   EXPECT_NE(daemon.ctl({"status"}).output.find("no power"), std::string::npos);
   expect_done(daemon, {"power", "off"});
@@ -361,9 +361,9 @@ TEST(DipSwitch, AgreesWithTheBaudOrTheBenchIsRefused) {
     } else {
       expect_refused(finished, "lines.line.stations[0].dip: ");
       const std::string switches = std::string(dip) == "on" ? "115200" : "19200";
-      EXPECT_NE(
-          finished.errors.find("the switches say " + switches + " baud, the line " + std::to_string(baud)),
-          std::string::npos)
+      EXPECT_NE(finished.errors.find("the switches select " + switches + " baud, but the line has " +
+                                     std::to_string(baud)),
+                std::string::npos)
           << finished.errors;
     }
   }
@@ -394,10 +394,9 @@ TEST(Memory, OfTwoDaemonsIsNotOneFile) {
     const RunningUnderstudy first({"--nv", nv});
     const Finished refused = serve({"--model", "simple2-r3", "--nv", nv, "--control", folder / "control"});
     EXPECT_EQ(refused.exit_code, 3);
-    EXPECT_EQ(refused.errors,
-              "understudy: " + nv +
-                  "/device.json: nv: another understudy, which is running, keeps a memory there; "
-                  "expected a file, or a folder with --nv, for each\n");
+    EXPECT_EQ(refused.errors, "understudy: " + nv +
+                                  "/device.json: nv: another running understudy uses this memory; expected a "
+                                  "separate file, or a separate folder with --nv, for each\n");
   }
   const RunningUnderstudy next({"--nv", nv});
   EXPECT_EQ(value(next, "HW_Code"), "49153\n");

@@ -100,16 +100,16 @@ TEST_F(Mistakes, OfFlagsAndWordsAreToldInOneLine) {
       {{"poll"}, 2, "understudy: poll: PORT is missing; expected a serial port, or a link to one"},
       {{"schema", "bench", "scenario", "model"},
        2,
-       "understudy: schema: 'scenario' is one word too many; expected nothing more"},
+       "understudy: schema: 'scenario' is one argument too many; expected nothing more"},
       {{"ctl", "list", "all", "these"},
        2,
-       "understudy: ctl list: 'all' is one word too many; expected nothing more"},
+       "understudy: ctl list: 'all' is one argument too many; expected nothing more"},
       {{"page", "--read-only", "--control", "a", "NAME", "--host", "b"},
        2,
-       "understudy: page: 'NAME' is one word too many; expected nothing more"},
+       "understudy: page: 'NAME' is one argument too many; expected nothing more"},
       {{"ctl", "--control", "a", "--bench", "b", "status"},
        2,
-       "understudy: ctl status: --control and --bench do not go together; expected one of the two"},
+       "understudy: ctl status: --control and --bench cannot be combined; expected one of the two"},
   });
   EXPECT_EQ(understudy({"--help"}).exit_code, 0);
   EXPECT_EQ(understudy({"run", "--help"}).exit_code, 0);
@@ -156,14 +156,16 @@ TEST_F(Mistakes, OfValuesAreQuotedWithWhatIsExpected) {
            "understudy: ctl input: DIN_1: 'high' is not a level; expected on or off"},
           {{"clear", "9"},
            2,
-           "understudy: ctl clear: number: 9 is not a fault in force; expected none, as nothing is broken"},
+           "understudy: ctl clear: number: 9 is not a fault in force; expected none, since no fault is in "
+           "force"},
           {{"send", "01", "03"},
            2,
-           "understudy: ctl send: line: '01' is unknown; expected one of line; bytes stand in quotes, as one "
-           "word"},
+           "understudy: ctl send: line: '01' is unknown; expected one of line; put the bytes in quotes, as "
+           "one word"},
           {{"send", "01", "03", "00"},
            2,
-           "understudy: ctl send: '00' is one word too many; expected the bytes in quotes, such as '01 03 00 "
+           "understudy: ctl send: '00' is one argument too many; expected the bytes in quotes, such as '01 "
+           "03 00 "
            "00 00 01'"},
           {{"send", "0x01"},
            2,
@@ -264,9 +266,9 @@ TEST_F(Mistakes, OfAModelFilesConditionsSayWhatIsMeant) {
   for (const auto& [start, says] : std::vector<std::pair<std::string, std::string>>{
            {"COMMAND = 1", "'=' is not an operator; expected '==' to compare"},
            {"COMMAND=1", "'=' is not an operator; expected '==' to compare"},
-           {"COMMAND==1", "'==' has no blanks around it; expected them, as in COMMAND == 2"},
+           {"COMMAND==1", "'==' has no spaces around it; expected them, as in COMMAND == 2"},
            {"COMMAND > 1",
-            "'>' has no place here; expected a name, or one with a number, as in COMMAND == 2"},
+            "'>' is not allowed here; expected a name, or one with a number, as in COMMAND == 2"},
            {"COMAND", "no register is called 'COMAND'; the nearest is 'COMMAND'"}}) {
     folder_.write("model.yaml", model(start));
     const Finished finished = understudy({"check", at("model.yaml")});
@@ -293,8 +295,9 @@ TEST_F(Mistakes, OfAddressesAsModiconCountsAreRemarked) {
     folder_.write(name + ".csv", list.text);
     const Finished finished = understudy({"import", at(name + ".csv")});
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;
-    EXPECT_EQ(finished.output.find("\nremark: these addresses look like Modicon's") != std::string::npos,
-              list.is_remarked)
+    EXPECT_EQ(
+        finished.output.find("\nnote: these addresses look like Modicon addresses") != std::string::npos,
+        list.is_remarked)
         << list.text << finished.output;
   }
 }
@@ -302,8 +305,8 @@ TEST_F(Mistakes, OfAddressesAsModiconCountsAreRemarked) {
 TEST_F(Mistakes, OfAPageWithoutADaemonAreToldAtOnce) {
   Process page({UNDERSTUDY_BINARY, "page", "--control", at("nosuch")});
   EXPECT_TRUE(eventually([&] { return page.output().starts_with("page http"); }));
-  EXPECT_EQ(page.errors(),
-            "understudy: page: " + at("nosuch") + ": nobody answers there; it shows when somebody does\n");
+  EXPECT_EQ(page.errors(), "understudy: page: " + at("nosuch") +
+                               ": no daemon answers there yet; the page shows it when one does\n");
 }
 
 TEST_F(Mistakes, OfAScopeAreToldInWords) {

@@ -194,7 +194,7 @@ TEST(ModbusTcpLine, TellsOfAnAbsentStationAsSoonAsItIsToldTo) {
   EXPECT_EQ(modbus_read_registers(host.get(), 1, 1, &value), -1);
   EXPECT_EQ(errno, EMBXGTAR);
   EXPECT_TRUE(eventually([&] {
-    return served.errors().find("asks for unit 9, which is not on the line; there is 1 (device)") !=
+    return served.errors().find("asks for unit 9, which is not on the line; the line has 1 (device)") !=
            std::string::npos;
   })) << served.errors();
 }
@@ -202,7 +202,7 @@ TEST(ModbusTcpLine, TellsOfAnAbsentStationAsSoonAsItIsToldTo) {
 TEST(ModbusTcpLine, IsRefusedWhereLinesOfTextAreSpoken) {
   const Finished refused = understudy({"serve", "--model", "slim", "--listen", "modbus-tcp://:0"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.errors.find("speaks lines of text"), std::string::npos) << refused.errors;
+  EXPECT_NE(refused.errors.find("carries lines of text"), std::string::npos) << refused.errors;
 }
 
 }  // namespace modbus_tcp_test

@@ -94,7 +94,7 @@ TEST(Page, ShowsAllThatAreRunningWithoutAControl) {
   };
   const auto nobody = at_home({"page"});
   EXPECT_EQ(nobody->wait(std::chrono::seconds(10)), 3);
-  EXPECT_EQ(nobody->errors(), "understudy: page: nobody answers in " + (folder / "understudy") +
+  EXPECT_EQ(nobody->errors(), "understudy: page: no daemon answers in " + (folder / "understudy") +
                                   "; expected a running `understudy serve`, or --control SOCKET\n");
   std::vector<std::unique_ptr<Process>> daemons;
   for (int i = 0; i < 2; ++i) daemons.push_back(at_home({"serve", "--model", "simple2-r3"}));

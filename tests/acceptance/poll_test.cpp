@@ -91,7 +91,7 @@ TEST_F(Poll, TellsWhoWasAskedWhereAndHow) {
   poll({"--station", "9", "--timeout", "100ms", "2"});
   EXPECT_TRUE(eventually([&] {
     return daemon_.errors().find(
-               "understudy: line line: a host asks for station 9, which is not there; device is 1\n") !=
+               "understudy: line line: a host asks for station 9, which does not exist; device is 1\n") !=
            std::string::npos;
   })) << daemon_.errors();
   EXPECT_EQ(daemon_.errors().find("station 9"), daemon_.errors().rfind("station 9"));

@@ -119,7 +119,7 @@ TEST(ProgramTexts, OfSlimAreCheckedAndAreNoNumbers) {
                 file + ":5:1: begins with a label that another line has\n");
   const Finished cells = with_workbench({"asm", "--model", "slim", file});
   EXPECT_EQ(cells.exit_code, 2);
-  EXPECT_NE(cells.errors.find("does not become numbers"), std::string::npos) << cells.errors;
+  EXPECT_NE(cells.errors.find("is not sent as numbers"), std::string::npos) << cells.errors;
 }
 
 TEST(ProgramTexts, AreDescribed) {

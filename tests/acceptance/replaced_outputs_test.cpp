@@ -153,7 +153,7 @@ TEST_F(ReplacedOutputs, OfTheSameKindAreReplacedAgain) {
       EXPECT_EQ(finished.exit_code, output.well) << output.name << ": " << finished.errors;
       // Of rows that took long it is said.
       const bool is_said =
-          finished.errors.find("the rows of an earlier run are replaced; --resume goes on with them") !=
+          finished.errors.find("replacing the rows of an earlier run; --resume continues it") !=
           std::string::npos;
       EXPECT_EQ(is_said, time == 1 && output.name.starts_with("run --results"))
           << output.name << finished.errors;

@@ -66,10 +66,8 @@ TEST_F(RecordedDay, StopsWhereItIsToldAndLetsOneLookAround) {
   // Somewhere in the middle of the move, which begins with the reply to its start at the latest.
   const std::string control = folder_ / "control";
   Process replay({UNDERSTUDY_BINARY, "replay", recording_, "--until", "200ms", "--control", control});
-  ASSERT_TRUE(eventually([&] {
-    return replay.output().find("the clock stands at 200ms") != std::string::npos;
-  })) << replay.output()
-      << replay.errors();
+  ASSERT_TRUE(eventually([&] { return replay.output().find("the clock is at 200ms") != std::string::npos; }))
+      << replay.output() << replay.errors();
   const auto ctl = [&](Words words) {
     words.insert(words.begin(), {"ctl", "--control", control});
     return understudy(words);
@@ -92,7 +90,7 @@ TEST_F(RecordedDay, StopsWhereItIsToldAndLetsOneLookAround) {
 TEST_F(RecordedDay, StopsAtItsEndIfThatComesFirst) {
   const std::string control = folder_ / "control";
   Process replay({UNDERSTUDY_BINARY, "replay", recording_, "--until", "10h", "--control", control});
-  ASSERT_TRUE(eventually([&] { return replay.output().find("the clock stands at ") != std::string::npos; }))
+  ASSERT_TRUE(eventually([&] { return replay.output().find("the clock is at ") != std::string::npos; }))
       << replay.output() << replay.errors();
   EXPECT_EQ(understudy({"ctl", "--control", control, "get", "Cord_A", "DIN_10"}).output,
             "Cord_A 3200\nDIN_10 1\n");

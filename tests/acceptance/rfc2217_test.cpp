@@ -37,8 +37,9 @@ class Rfc2217ByPyserial : public testing::Test {
 TEST_F(Rfc2217ByPyserial, IsDeafToEachWrongSetting) {
   const RunningUnderstudy served(kListens);
   expect_case(url_of(served), "settings");
-  EXPECT_NE(served.errors().find("the host set 19200 8N1; the station expects 19200 8E1: it hears nothing"),
-            std::string::npos)
+  EXPECT_NE(
+      served.errors().find("the host set 19200 8N1; the station expects 19200 8E1, so it receives nothing"),
+      std::string::npos)
       << served.errors();
 }
 
@@ -191,7 +192,7 @@ TEST(Rfc2217Line, DoesNotHearAPseudoTerminalBesideAClient) {
   Host beside(served.port());
   beside.write(kSetSpeed200);
   EXPECT_TRUE(is_silent(beside));
-  EXPECT_NE(served.errors().find("it is not heard until that one goes"), std::string::npos);
+  EXPECT_NE(served.errors().find("the host is ignored until the client disconnects"), std::string::npos);
   client->write(kReadHardwareCode);
   EXPECT_EQ(client->read(kHardwareCodeReply.size()), kHardwareCodeReply);
   EXPECT_EQ(served.ctl({"get", "Aaxis_Speed"}).output.find("200"), std::string::npos);
@@ -204,7 +205,7 @@ TEST(Rfc2217Line, SaysWhatFitsNoLine) {
   };
   for (const Case& c :
        {Case{{"--no-pty"}, "no line listens on TCP"},
-        Case{{"--listen", "rtu://:0", "--no-pty", "--link", "p"}, "--link is of a pseudo-terminal"},
+        Case{{"--listen", "rtu://:0", "--no-pty", "--link", "p"}, "--link needs a pseudo-terminal"},
         Case{{"--listen", "rfc2217://"}, "is not an address"}}) {
     Words words{"serve", "--model", "simple2-r3"};
     words.insert(words.end(), c.flags.begin(), c.flags.end());

@@ -25,8 +25,9 @@ TEST(ScenarioFiles, AreCheckedWithoutBeingRun) {
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
   EXPECT_EQ(finished.errors, "");
   // In each of the two cases: write, fork, advance, expect and say.
-  EXPECT_EQ(finished.output, scenario + ": 2 scenarios with 10 steps\n" + rest +
-                                 ": steps to include; they are checked with the scenarios that do\n");
+  EXPECT_EQ(finished.output,
+            scenario + ": 2 scenarios with 10 steps\n" + rest +
+                ": steps to include; they are checked with the scenarios that include them\n");
 }
 
 TEST(ScenarioFiles, ABadOneIsToldOfWithItsLine) {

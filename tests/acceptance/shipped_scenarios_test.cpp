@@ -263,7 +263,7 @@ TEST(ShippedScenarios, AHashTellsWhenSomethingIsDifferent) {
   const Finished refused = understudy({"run", "--hash", "--real-time", kOfModel + "/alarm.yaml"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.errors,
-            "understudy: --hash: in real time no two runs are the same; expected it without --real-time\n");
+            "understudy: --hash: no two runs in real time are the same; expected it without --real-time\n");
 }
 
 // --- in real time ------------------------------------------------------------------------------------------

@@ -100,7 +100,7 @@ TEST(TcpDoor, SaysWhyItCannotListen) {
         Case{"rtu://192.0.2.1:0", 3, "Cannot assign requested address; expected an address of this machine"},
         Case{"rtu://::1:5020", 2, "expected it as in rtu://[::1]:5020"},
         Case{"rtu://[here]:5020", 2, "expected rtu://"},
-        Case{"rtu://:0?timeout=1s", 2, "expected them behind modbus-tcp:// only"},
+        Case{"rtu://:0?timeout=1s", 2, "expected them only with modbus-tcp://"},
         Case{"modbus-tcp://:0?timeout=2h", 2, "expected a duration of 1ms to 1h such as 200ms, or 0"},
         Case{"modbus-tcp://:0?unit=300", 2, "expected the number of a station, 1 to 247, or any"},
         Case{"modbus-tcp://:0?exception=no", 2, "has exception 'no'; expected on or off"},
@@ -133,7 +133,7 @@ TEST(TcpDoor, IsNotToListenAtOnePlaceTwice) {
       understudy({"serve", "--model", "simple2-r3", "--listen", place, "--listen", place});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.errors, "understudy: --listen: '" + place +
-                                "': line line listens there already; expected another port\n");
+                                "': line line already listens there; expected another port\n");
 }
 
 // With Nagle's algorithm the second piece is not sent before the first is acknowledged.

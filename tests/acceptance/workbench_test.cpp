@@ -241,7 +241,7 @@ TEST_F(ServedWorkbench, TakesCommandsByNameFromPoll) {
   EXPECT_EQ(moved.output, "STATE 32\n") << "two wait";
   const std::pair<Words, const char*> wrong[] = {
       {{"--model", "workbench", "--command", "MOVE W 5"}, "poll: 'MOVE W 5': column 6: 'W' is not an axis"},
-      {{"--model", "simple2-r3", "--command", "STOP"}, "simple2-r3 has no commands with names"},
+      {{"--model", "simple2-r3", "--command", "STOP"}, "simple2-r3 has no named commands"},
       {{"--command", "STOP"}, "expected --model MODEL"},
       {{}, "nothing to read"},
   };
@@ -286,7 +286,7 @@ TEST_F(ServedWorkbench, IsAskedByPollForItsOrderOfWords) {
   EXPECT_NE(polled({"--word-order", "middle", "holding.Position_Z"}).find("expected low or high"),
             std::string::npos);
   const std::string silent = polled({"--station", "9", "--timeout", "50ms", "holding.Position_Z"});
-  EXPECT_NE(silent.find("Word_Order, the order of words: "), std::string::npos) << silent;
+  EXPECT_NE(silent.find("Word_Order, word order: "), std::string::npos) << silent;
   EXPECT_EQ(polled({"Word_Order"}), "Word_Order 1\n");
 }
 

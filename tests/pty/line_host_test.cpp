@@ -28,25 +28,27 @@ TEST(LineHost, AStationIsDeafToOtherSettings) {
       {{.baud = 19200}, true, ""},
       {{.baud = 9600},
        false,
-       "line rs485: the host set 9600 baud, 1 stop bit; the station expects 19200 8E1: it hears nothing"},
+       "line rs485: the host set 9600 baud, 1 stop bit; the station expects 19200 8E1, so it receives "
+       "nothing"},
       {{.baud = 19200, .stop_bits = 2},
        false,
-       "line rs485: the host set 19200 baud, 2 stop bits; the station expects 19200 8E1: it hears nothing"},
+       "line rs485: the host set 19200 baud, 2 stop bits; the station expects 19200 8E1, so it receives "
+       "nothing"},
       // What a pseudo-terminal hides.
       {{.baud = 19200, .data_bits = 8, .parity = Parity::even}, true, ""},
       {{.baud = 19200, .data_bits = 8}, true, ""},
       {{.baud = 19200, .data_bits = 8, .parity = Parity::none},
        false,
-       "line rs485: the host set 19200 8N1; the station expects 19200 8E1: it hears nothing"},
+       "line rs485: the host set 19200 8N1; the station expects 19200 8E1, so it receives nothing"},
       {{.baud = 19200, .data_bits = 8, .parity = Parity::odd},
        false,
-       "line rs485: the host set 19200 8O1; the station expects 19200 8E1: it hears nothing"},
+       "line rs485: the host set 19200 8O1; the station expects 19200 8E1, so it receives nothing"},
       {{.baud = 19200, .data_bits = 7, .parity = Parity::even},
        false,
-       "line rs485: the host set 19200 7E1; the station expects 19200 8E1: it hears nothing"},
+       "line rs485: the host set 19200 7E1; the station expects 19200 8E1, so it receives nothing"},
       {{.baud = 19200, .data_bits = 8, .parity = Parity::mark},
        false,
-       "line rs485: the host set 19200 8M1; the station expects 19200 8E1: it hears nothing"},
+       "line rs485: the host set 19200 8M1; the station expects 19200 8E1, so it receives nothing"},
   };
   for (const Case& host : cases) {
     LineRig rig(kEnforcing);
@@ -195,8 +197,9 @@ TEST(LineHost, HearsAHostThatSetNoSpeedAndWarnsOnce) {
   rig.send(kRequest, 0s);
   rig.run(1s);
   EXPECT_EQ(rig.out, kReply);
-  EXPECT_EQ(rig.warnings, std::vector<std::string>{
-                              "line rs485: the host set no speed; what it sends is assumed to be heard"});
+  EXPECT_EQ(rig.warnings,
+            std::vector<std::string>{
+                "line rs485: the host has not set a speed; its bytes are assumed to arrive intact"});
 }
 
 TEST(LineHost, HearsEveryHostWhereSettingsAreNotEnforced) {
@@ -225,7 +228,7 @@ TEST(LineHost, OnlyTheStationsWithOtherSettingsAreDeaf) {
   EXPECT_EQ(rig.line.counters().bytes_unheard, 0u);
   EXPECT_EQ(rig.warnings,
             std::vector<std::string>{"line rs485: the host set 19200 baud, 1 stop bit; station 2 of the line "
-                                     "expects 9600 8E1: it hears nothing"});
+                                     "expects 9600 8E1, so it receives nothing"});
   two.listens_to.baud = 19200;  // as after a change of its own settings
   rig.send(kRequest, 1s);
   rig.run(2s);

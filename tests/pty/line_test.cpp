@@ -245,7 +245,7 @@ TEST(Line, TwoStationsWithOneAddressCollideAndWarnOnce) {
   EXPECT_EQ(rig.out, hex("F0 0F F0 0F F0 0F"));
   EXPECT_EQ(rig.line.counters().collisions, 3u);
   ASSERT_EQ(rig.warnings.size(), 1u);
-  EXPECT_EQ(rig.warnings[0], "line rs485: two stations spoke at once; what they said is garbled");
+  EXPECT_EQ(rig.warnings[0], "line rs485: two stations replied at once; their replies are garbled");
   rig.line.host_opened();
   rig.send(kRequest, 9s);
   rig.run(10s);

@@ -63,7 +63,7 @@ TEST(PortLink, ReplacesStaleLinks) {
 
 TEST(PortLink, LeavesWhatIsNotOursAlone) {
   const ScratchDirectory directory;
-  const std::string expected = ", not a link of ours; expected a free path or a stale link";
+  const std::string expected = ", not a link that understudy made; expected a free path or a stale link";
 
   const std::string file = directory / "file";
   std::ofstream(file) << "precious";
@@ -127,9 +127,8 @@ TEST(PortLink, OfAnUnderstudyThatRunsIsNotTaken) {
   const std::string link = directory / "feeder.port";
   {
     const PseudoTerminal first(link);
-    EXPECT_EQ(
-        error_of(link),
-        link + ": is the link of another understudy, which is running; expected a free path or a stale link");
+    EXPECT_EQ(error_of(link),
+              link + ": is the link of another running understudy; expected a free path or a stale link");
     EXPECT_EQ(fs::read_symlink(link), first.path());
   }
   EXPECT_EQ(error_of(link), "");

@@ -16,16 +16,11 @@ std::string fidelity_page(const Model& model) {
                      "`understudy describe " +
                      name + " choices --format markdown > docs/fidelity/" + name + ".md`\n\n";
   page +=
-      "## Choices\n\n"
-      "What the maker's manual leaves open, and what we chose. Where there are alternatives, a bench can "
-      "ask\n"
-      "for one: `choices: { ID: ALTERNATIVE }`. How sure we are: *follows* from what the manual says "
-      "elsewhere,\n"
-      "*likely* (the cited standard, or devices of this kind, do so), *proposal* (the manual is silent). "
-      "The\n"
-      "scenario shows what the options differ in: `understudy run FILE --filter 'ID: *'` plays it with each "
-      "of "
-      "them.\n\n";
+      "## Choices\n\nThe maker's manual leaves these questions open. The tables show what we chose. If there "
+      "are alternatives, a\nbench can select one: `choices: { ID: ALTERNATIVE }`. The last columns say how "
+      "sure we are: *follows* (from\nother statements of the manual), *likely* (the cited standard or "
+      "similar devices do so), *proposal* (the\nmanual is silent). The scenario shows the difference: "
+      "`understudy run FILE --filter 'ID: *'` runs it with each option.\n\n";
   page += format_sheet(*describe(model, "choices", SheetFormat::markdown), SheetFormat::markdown);
 
   Sheet missing{.columns = {"address", "register", "what is not modelled"}, .rows = {}};
@@ -45,8 +40,8 @@ std::string fidelity_page(const Model& model) {
     return page;
   }
   page +=
-      "These registers exist, with the manual's access and range, and the daemon says so once when one is "
-      "used.\n\n" +
+      "These registers exist, with the manual's access and range. The daemon logs the first use of "
+      "each.\n\n" +
       format_sheet(missing, SheetFormat::markdown);
   return page;
 }

@@ -105,8 +105,9 @@ void NvWriter::replace(const std::string& path, const std::string& contents) {
   if (!why.empty() == has_failed) return;
   has_failed = !why.empty();
   const std::lock_guard lock(mutex_);
-  news_.push_back(path + (why.empty() ? ": is written again"
-                                      : ": cannot be written (" + why + "); what it held before stays"));
+  news_.push_back(path + (why.empty()
+                              ? ": can be written again"
+                              : ": cannot be written (" + why + "); the file keeps its previous contents"));
 }
 
 }  // namespace understudy::emulator

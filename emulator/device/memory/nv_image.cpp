@@ -142,9 +142,9 @@ Parsed parse_strictly(const std::string& text) {
     if (wrong && !block.empty()) {
       throw NvError(block + "is not UTF-8; expected text", line_of(text, *wrong));
     }
-    throw NvError("is torn or not JSON; expected an NV image", line_of(text, error.byte));
+    throw NvError("is damaged or not JSON; expected an NV image", line_of(text, error.byte));
   } catch (const Json::exception&) {  // a number that no type holds
-    throw NvError("a number is beyond all bounds; expected one that 64 bits hold");
+    throw NvError("a number is too large; expected one that fits into 64 bits");
   }
 }
 

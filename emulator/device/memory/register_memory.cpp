@@ -120,7 +120,7 @@ std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImag
     if (!found->is_real() || !value) {
       throw refused_value(
           List::reals, name,
-          quoted(name) + " does not hold such a number; expected " + range_text(*found->place.row));
+          quoted(name) + " cannot hold this number; expected " + range_text(*found->place.row));
     }
     entries.emplace_back(name, *value);
   }
@@ -133,7 +133,7 @@ std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImag
     }
     const RegisterRow& row = *found->place.row;
     if (!bank.keeps(row)) {
-      throw refused_value(list, name, quoted(name) + " is not kept through power-off; expected one that is");
+      throw refused_value(list, name, quoted(name) + " is not persistent; expected a persistent register");
     }
     const auto bits = static_cast<std::uint32_t>(value);
     const bool in_range = may_hold(bank.map_policy(), row, value_of(bits, row.type));
@@ -144,7 +144,7 @@ std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImag
     }
     const auto slot = static_cast<std::size_t>(found->place.slot);
     if (is_named[slot]) {
-      throw refused_value(list, name, quoted(name) + ": appears twice, by two names; expected it once");
+      throw refused_value(list, name, quoted(name) + ": appears twice, under two names; expected it once");
     }
     is_named[slot] = true;
     values[slot] = bits;

@@ -22,7 +22,7 @@ std::string_view why_of(interpreter::simple2::Ending ending) {
   switch (ending) {
     case interpreter::simple2::Ending::not_started: return "";
     case interpreter::simple2::Ending::end_instruction: return "END";
-    case interpreter::simple2::Ending::past_last_line: return "behind the last line";
+    case interpreter::simple2::Ending::past_last_line: return "after the last line";
     case interpreter::simple2::Ending::nested_loop: return "a Loop within a Loop";
     case interpreter::simple2::Ending::unknown_command: return "an unknown command";
     case interpreter::simple2::Ending::undefined_operand: return "an operand that does not exist";

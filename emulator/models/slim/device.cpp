@@ -253,7 +253,7 @@ Slim::ReadProgram Slim::read_program(std::string_view text) const {
     const std::string what =
         error == Error::buffer_full   ? "the program is full; expected at most " + lines_that_fit + " lines"
         : error == Error::range       ? "has a value out of range"
-        : error == Error::not_allowed ? "may not stand in a program"
+        : error == Error::not_allowed ? "is not allowed in a program"
         : error == Error::address     ? "begins with a label that another line has"
                                       : lang::why_not_command(std::string_view(line).substr(first));
     read.mistakes.push_back({number, static_cast<int>(first) + 1, what});

@@ -16,7 +16,7 @@ std::string_view word_for_ending(lang::Ending ending) {
   switch (ending) {
     case lang::Ending::not_started: return "";
     case lang::Ending::returned: return "RET";
-    case lang::Ending::past_last_line: return "behind the last line";
+    case lang::Ending::past_last_line: return "after the last line";
     case lang::Ending::exited: return "stopped from outside";
     case lang::Ending::failed: return "a line failed";
   }

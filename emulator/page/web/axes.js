@@ -44,11 +44,11 @@ function Switch({ device, axis, contact }) {
   const unused = whyUnused(device.name, terminal);
   const say = `${contact} of ${axis.name}, ${terminal.name}`;
   return html`<span class="switch joined" role="group" aria-label=${say}>
-    <${Button} kind="small" title=${`${say}: hold or let go`} pressed=${drivers.includes('held')} disabled=${locked}
+    <${Button} kind="small" title=${`${say}: hold or release`} pressed=${drivers.includes('held')} disabled=${locked}
       does=${() => press(device.name, terminal.name, drivers)}>${swatch}<${Lamp} on=${input ?? level} says=${say} /> ${spaced(contact)}<//>
     ${isStuck
-      ? html`<${Button} kind="small bad" title=${`${say}: mend`} disabled=${locked}
-          does=${() => loosen(device.name, terminal.name)}>stuck, mend<//>`
+      ? html`<${Button} kind="small bad" title=${`${say}: clear the fault`} disabled=${locked}
+          does=${() => loosen(device.name, terminal.name)}>stuck, clear<//>`
       : ['on', 'off'].map((to) => html`<${Button} kind="small faint" title=${`${say}: stuck ${to}`} disabled=${locked}
           does=${() => stick(device.name, terminal.name, to)}>stuck ${to}<//>`)}
     ${unused && html`<small class="unused">${unused}</small>`}
@@ -116,7 +116,7 @@ export function Axes() {
   return html`${choice && html`<div class="bar">${choice}</div>`}
     ${devices.map((device) => html`<section class="device" key=${device.name}>
     <h2>${device.name}</h2>
-    ${device.axes.length === 0 && html`<p>It drives no axis.</p>`}
+    ${device.axes.length === 0 && html`<p>This device drives no axis.</p>`}
     <div class="with_plane">
       <div class="rails">${device.axes.map((axis) => html`<${Axis} key=${axis.name} device=${device} axis=${axis} />`)}</div>
       ${device.axes.length > 1 && html`<${Plane} device=${device} />`}

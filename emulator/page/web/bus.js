@@ -47,7 +47,7 @@ function ByHand() {
     <${Choice} label="line" value=${chosen.name} options=${lines.map((it) => it.name)} takes=${setLine} />
     <${Field} label=${chosen.text ? 'a line of text' : 'bytes of a request, without its checksum'} size="28"
       placeholder=${chosen.text ? 'text' : '01 03 00 00 00 01'} disabled=${isLocked()} takes=${send} />
-    <small>while no host has the line open; on it: ${some.join(', ')}</small></div>`;
+    <small>only while no host has the line open; stations: ${some.join(', ')}</small></div>`;
 }
 
 /// Drops that wait for a request, with what became of them.
@@ -70,16 +70,16 @@ export function Bus() {
   return html`<div class="bar">
       <input type="search" aria-label="find in frames" placeholder="find" value=${filter} onInput=${(event) => setFilter(event.target.value)} />
       <${Choice} label="which frames" value=${what} takes=${setWhat} options=${[['all', 'all frames'], ['in', 'requests'], ['out', 'replies'],
-        ['exceptions', 'exceptions'], ['dropped', 'dropped or remarked']]} />
-      <${Button} title="hold the list still" pressed=${held !== null} does=${() => hold(held ? null : [...store.frames])}>pause<//>
+        ['exceptions', 'exceptions'], ['dropped', 'dropped or with a remark']]} />
+      <${Button} title="pause the list" pressed=${held !== null} does=${() => hold(held ? null : [...store.frames])}>pause<//>
       <${Button} title="save these frames as a capture" does=${() => save('bus.pcapng', [pcapng(shown, store.bench?.lines ?? [])],
         'application/x-pcapng')}>pcapng<//>
       <small class="figure count">${grouped(count)} of ${grouped(frames.length)}${store.framesLost ? `, ${grouped(store.framesLost)} not shown` : ''}</small>
     </div>
     <${ByHand} /><${Drops} />
-    ${frames.length === 0 && html`<p>Nothing has gone over the lines yet.</p>`}
+    ${frames.length === 0 && html`<p>No traffic on the lines yet.</p>`}
     ${frames.length > 0 && html`<div class="scroll"><table class="frames"><thead><tr><th>time</th><th>line</th><th></th><th>what</th><th>latency</th><th></th></tr></thead>
       <tbody>${shown.slice(-kShown).reverse().map((frame) => (frame.key
         ? html`<${Missed} key=${frame.key} count=${frame.missed} what="frames" columns="6" />` : html`<${Frame} key=${frame.number} frame=${frame} />`))}</tbody></table></div>`}
-    ${shown.length > kShown && html`<small>the last ${kShown}; pcapng has all</small>`}`;
+    ${shown.length > kShown && html`<small>only the last ${kShown} are shown; pcapng has all</small>`}`;
 }

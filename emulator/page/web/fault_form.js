@@ -67,7 +67,7 @@ export function FaultForm({ places, place, done }) {
     <div class="bar"><label class="check"><input type="checkbox" checked=${withTrigger}
       onChange=${(event) => setTrigger(event.target.checked)} /> at a moment, a frame or a condition</label>
     <button type="submit" class="main" disabled=${!at}>inject</button>
-    ${!at && html`<small>There is no place for it on this bench.</small>`}
+    ${!at && html`<small>This bench has no place for this fault.</small>`}
     ${done && html`<${Button} title="close" does=${done}>close<//>`}</div>
   </form>`;
 }

@@ -6,7 +6,7 @@ import { FaultForm } from './fault_form.js';
 
 function InForce() {
   const faults = store.status?.faults ?? [];
-  if (faults.length === 0) return html`<p>No fault is in force, and none waits.</p>`;
+  if (faults.length === 0) return html`<p>No fault is in force or pending.</p>`;
   return html`<div class="scroll"><table><thead><tr><th>no.</th><th>fault</th><th>seen</th><th>matched</th><th>hits</th><th></th></tr></thead>
     <tbody>${faults.map((it) => html`<tr key=${it.number}><td>${it.number}</td><td>${it.fault}${it.in_force ?? it.seen === undefined ? html` <b class="bad">in force</b>` : ''}</td>
       <td>${it.seen ?? ''}</td><td>${it.matched ?? ''}</td><td>${it.hits ?? ''}</td>
@@ -27,12 +27,12 @@ function Snapshots() {
   const look = async () => setKept((await askQuietly({ do: 'snapshots' })).snapshots ?? []);
   useEffect(() => { look(); }, [store.bench]);
   const after = async (message) => { const { ok } = await ask(message); look(); return ok; };
-  return html`<div class="bar"><${Field} label="keep a snapshot under this name" placeholder="keep as ..." disabled=${isLocked()}
+  return html`<div class="bar"><${Field} label="save a snapshot under this name" placeholder="save as ..." disabled=${isLocked()}
       takes=${(name) => after({ do: 'snapshot', name })} />
     ${kept.map((it) => html`<span class="joined named" key=${it.name}><b>${it.name}</b> <small>${seconds(it.time_ns)}</small>
-      <${Button} kind="small" title=${`go back to ${it.name}`} disabled=${isLocked()} does=${() => after({ do: 'restore', name: it.name })}>restore<//>
-      <${Button} kind="small" title=${`forget ${it.name}`} disabled=${isLocked()} does=${() => after({ do: 'snapshots', drop: it.name })}>×<//></span>`)}
-    ${kept.length === 0 && html`<small>A snapshot keeps everything as it is now; restore goes back to it.</small>`}</div>`;
+      <${Button} kind="small" title=${`restore ${it.name}`} disabled=${isLocked()} does=${() => after({ do: 'restore', name: it.name })}>restore<//>
+      <${Button} kind="small" title=${`delete ${it.name}`} disabled=${isLocked()} does=${() => after({ do: 'snapshots', drop: it.name })}>×<//></span>`)}
+    ${kept.length === 0 && html`<small>A snapshot saves the current state; restore returns to it.</small>`}</div>`;
 }
 
 const placeOf = (event) => [event.line, event.name ?? event.device].filter(Boolean).join(' ');

@@ -23,7 +23,7 @@ async function runUntil(condition) {
   if (!(await ask({ do: 'eval', expression: condition })).ok) return false;
   if (!look.paused && look.speed !== 'manual' && !(await ask({ do: 'pause' })).ok) return false;
   const reply = await ask({ do: 'run-until', condition, within: '60s' });
-  if (reply.ok && !reply.reached && reply.simulated_time_ns - look.time_ns >= 60e9) complain(`within 60 s this did not come true: ${condition}`);
+  if (reply.ok && !reply.reached && reply.simulated_time_ns - look.time_ns >= 60e9) complain(`this did not become true within 60 s: ${condition}`);
   return reply.ok;
 }
 
@@ -36,16 +36,16 @@ function Time() {
   const isRunning = !stands || look.advancing;  // what a pause ends
   const locked = isReadOnly();
   const speeds = kSpeeds.includes(look.speed) ? kSpeeds : [look.speed, ...kSpeeds];
-  const step = (ticks, name) => html`<${Button} kind="small" title=${`on by ${name}`} disabled=${locked || isRunning}
+  const step = (ticks, name) => html`<${Button} kind="small" title=${`advance by ${name}`} disabled=${locked || isRunning}
     does=${() => ask({ do: 'step', ticks })}>+${name}<//>`;
   return html`<div class="time" role="group" aria-label="time">
     ${clock}
-    <${Button} kind="pause" title=${isRunning ? 'stop time' : 'let time go on'} pressed=${look.paused} disabled=${locked}
-      does=${() => ask({ do: isRunning ? 'pause' : 'resume' })}>${isRunning ? '❚❚ pause' : '▶ go on'}<//>
+    <${Button} kind="pause" title=${isRunning ? 'stop time' : 'resume time'} pressed=${look.paused} disabled=${locked}
+      does=${() => ask({ do: isRunning ? 'pause' : 'resume' })}>${isRunning ? '❚❚ pause' : '▶ resume'}<//>
     <span class="joined">${step(1, '1 ms')}${step(10, '10 ms')}${step(1000, '1 s')}</span>
     <${Choice} label="speed of time" value=${look.speed} options=${speeds.map((to) => [to, /\d/.test(to) ? `× ${to}` : to])}
       disabled=${locked} takes=${(to) => ask({ do: 'speed', to })} />
-    ${look.advancing ? html`<span class="badge">runs until then</span>` : html`<${Field} label="run until a condition is true, 60 s at most; time stands then"
+    ${look.advancing ? html`<span class="badge">running</span>` : html`<${Field} label="run until a condition is true, at most 60 s; then time pauses"
       placeholder="run until ..." size="16" disabled=${locked} takes=${runUntil} />`}
   </div>`;
 }

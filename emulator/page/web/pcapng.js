@@ -65,7 +65,7 @@ export function pcapng(frames, lines) {
     option(2, text(name)), option(9, new Uint8Array([kNanoseconds])), words(0))));
   const packets = frames.map((frame, i) => {
     if (frame.key) return new Uint8Array(0);
-    const hole = i > 0 && frames[i - 1].key ? `${frames[i - 1].missed} frames before this one are not here` : '';
+    const hole = i > 0 && frames[i - 1].key ? `${frames[i - 1].missed} frames are missing before this one` : '';
     const number = Math.max(names.indexOf(frame.line), 0);
     const data = dataOf(frame, number, lines[number]?.text);
     const padded = new Uint8Array(Math.ceil(data.length / 4) * 4);

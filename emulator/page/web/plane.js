@@ -33,7 +33,7 @@ export function Plane({ device }) {
     <figcaption class="bar">
       <${Choice} label="axis to the right" value=${across} options=${names} takes=${(name) => choose([name, upwards])} />
       <${Choice} label="axis upwards" value=${upwards} options=${names} takes=${(name) => choose([across, name])} />
-      <${Button} kind="small" title="forget the path" does=${() => { trail.current = []; }}>clear<//>
+      <${Button} kind="small" title="clear the path" does=${() => { trail.current = []; }}>clear<//>
     </figcaption>
   </figure>`;
 }

@@ -115,7 +115,7 @@ function Drawing({ columns, labels, window_s, isShot, isApart }) {
     plot.current = new uPlot({
       width: width(), height: kHeight,
       scales: { x: { time: false }, ...Object.fromEntries(lanes.map((scale, number) => [scale, lane(number)])) },
-      axes: [{ ...axis, label: isShot ? 's from the moment' : 'simulated time, s' }, ...upright],
+      axes: [{ ...axis, label: isShot ? 's from the trigger' : 'simulated time, s' }, ...upright],
       series: [{ label: 's', value: (_, at) => (at === null ? '–' : at.toFixed(3)) },
                ...labels.map((label, i) => ({ label, scale: scales[i], stroke: colour(`--c${i}`), width: 1.5, spanGaps: false,
                  ...(levels[i] ? { paths: uPlot.paths.stepped({ align: 1 }) } : {}), value: (_, at) => (at === null ? '–' : grouped(at)) }))],
@@ -223,7 +223,7 @@ function Scope({ shot, show }) {
     <input aria-label="condition of the trigger" placeholder="when, such as device.A.home == 1; now" size="34"
       disabled=${isLocked()} value=${condition} onInput=${(event) => setCondition(event.target.value)} spellcheck=${false} autocapitalize="off"
       onKeyDown=${(event) => { if (event.key === 'Enter') arm(event.target.value); }} />
-    <${Choice} label="this long before and after" value=${side} options=${['100ms', '500ms', '1s', '2s', '5s'].map((it) => [it, `± ${it}`])} takes=${setSide} />
+    <${Choice} label="time before and after the trigger" value=${side} options=${['100ms', '500ms', '1s', '2s', '5s'].map((it) => [it, `± ${it}`])} takes=${setSide} />
     ${waits ? html`<${Button} title="disarm the trigger" does=${disarm}>disarm<//>`
             : html`<${Button} title="arm the trigger" does=${() => arm()} disabled=${names.length === 0 || isLocked()}>arm<//>`}
     <output>${state}</output>
@@ -243,7 +243,7 @@ export function Plot() {
   const running = () => ({ labels: [...names], columns: [times, ...names.map((name) => rows.get(name))] });
   const { labels, columns } = shot ?? frozen ?? running();
   const take = async (name) => {
-    if (names.length >= kMostNames) { complain(`${kMostNames} curves at most; take one away first`); return false; }
+    if (names.length >= kMostNames) { complain(`${kMostNames} curves at most; remove one first`); return false; }
     if (!(await ask({ do: 'get', names: [name] })).ok) return false;
     show(null);
     freeze(null);
@@ -258,12 +258,12 @@ export function Plot() {
       <${Button} title="freeze the plot" pressed=${frozen !== null} disabled=${shot !== null} does=${hold}>freeze<//>
       <${Button} title="save as CSV" does=${() => save('plot.csv', [asCsv(labels, columns)], 'text/csv')}>CSV<//>
       <${Button} title="save as a picture" does=${() => savePicture(labels)}>picture<//>
-      <${Button} title="each curve by a scale of its own" pressed=${isApart} does=${() => setApart(!isApart)}>own scales<//>
+      <${Button} title="give each curve its own scale" pressed=${isApart} does=${() => setApart(!isApart)}>own scales<//>
       <small>Drag to zoom, double click to go back.</small>
     </div>
     <div class="bar">${names.map((name, i) => html`<span class="joined curve" key=${name}><b class=${`c${i}`}>${name}</b>
       <output class="figure">${grouped(numberOf(valueOf(name)))}</output>
-      <${Button} kind="small" title=${`take ${name} away`} does=${() => { freeze(null); drop(name); }}>×<//></span>`)}</div>
+      <${Button} kind="small" title=${`remove ${name}`} does=${() => { freeze(null); drop(name); }}>×<//></span>`)}</div>
     ${labels.length > 0 && html`<${Drawing} columns=${columns} labels=${labels} window_s=${window_s} isShot=${shot !== null} isApart=${isApart} />`}
     <${Scope} shot=${shot} show=${show} />`;
 }

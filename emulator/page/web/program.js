@@ -82,10 +82,10 @@ function Values({ device }) {
   const row = (name, label, extra) => html`<tr key=${name}><th scope="row">${label}</th>
     <td class="figure">${grouped(valueOf(name))}</td><td>${extra}</td></tr>`;
   return html`<div class="values"><table><tbody>
-      ${names.map((name) => row(name, name.slice(device.name.length + 1), html`<${Button} kind="small faint" title=${`take ${name} away`}
+      ${names.map((name) => row(name, name.slice(device.name.length + 1), html`<${Button} kind="small faint" title=${`remove ${name}`}
         does=${() => setNames(names.filter((it) => it !== name))}>×<//>`))}
       ${device.state_registers.map((name) => row(whole(name), name))}</tbody></table>
-    <${Field} label="another value to see here" placeholder="another value" takes=${add} /></div>`;
+    <${Field} label="another value to show here" placeholder="another value" takes=${add} /></div>`;
 }
 
 export function Program() {
@@ -143,7 +143,7 @@ export function Program() {
             <${Button} title="read it again" does=${read}>read<//>
             ${!isLocked() && html`<label class="file">load a file<input type="file" accept=${`${device.program.file_ending},text/plain`} onChange=${loadFile} /></label>`}`
         : html`<${Button} kind="main" title="load this text" does=${() => load(edited)}>load<//>
-            <${Button} title="give up" does=${() => { setEdited(null); setMistakes([]); }}>give up<//>`}
+            <${Button} title="discard the changes" does=${() => { setEdited(null); setMistakes([]); }}>cancel<//>`}
       <small>${device.program.language}, ${grouped(text === '' ? 0 : lines.length)} ${text !== '' && lines.length === 1 ? 'line' : 'lines'}</small>
     </div>
     <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${program} />`)}

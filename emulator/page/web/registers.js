@@ -23,7 +23,7 @@ const isPlain = (row) => !row.window && row.access !== 'W';
 
 async function write(name, text) {
   const number = Number(text);
-  if (!Number.isFinite(number)) { complain(`${text} is not a number; 0x10 and -5 are`); return false; }
+  if (!Number.isFinite(number)) { complain(`${text} is not a number; expected one such as 0x10 or -5`); return false; }
   return (await ask({ do: 'set', values: { [name]: number } })).ok;
 }
 
@@ -42,7 +42,7 @@ function Row({ device, row, explain, section }) {
       disabled=${isLocked()} takes=${(text) => write(name, text)} />`}</td>
     <td class="access"><small>${row.access}${row.kept ? html`, <b>kept</b>` : ''}</small></td>
     <td class="range"><small>${rangeOf(row)}</small></td>
-    <td class="factory"><small class=${isOther ? 'other' : ''} title=${isOther ? 'the value is another now' : ''}>${row.factory ?? ''}</small></td>
+    <td class="factory"><small class=${isOther ? 'other' : ''} title=${isOther ? 'the value differs from the factory's' : ''}>${row.factory ?? ''}</small></td>
     <td class="more">${bitsOf(row, value)}${row.not_modelled && html`<small class="bad" title=${row.not_modelled}>not modelled</small> `}
       ${(row.choices ?? []).map((id) => html`<${Button} kind="small" key=${id} title=${`the choice ${id}`}
         does=${() => explain(id)}>${id}<//>`)}</td>
@@ -121,7 +121,7 @@ export function Registers() {
         only what the host uses</label>
       <${Button} title="save what is shown as CSV" does=${() => save('registers.csv', ['name,address,value\n', page.registers.map((row) =>
         `"${row.name}",${row.address ?? row.number},${valueOf(`${device.name}.${row.name}`) ?? ''}`).join('\n'), '\n'], 'text/csv')}>CSV<//>
-      ${keptWrites !== undefined && html`<small>memory that outlives the power: <output class="figure count">${grouped(keptWrites)}</output> ${keptWrites === 1 ? 'write' : 'writes'}</small>`}
+      ${keptWrites !== undefined && html`<small>non-volatile memory: <output class="figure count">${grouped(keptWrites)}</output> ${keptWrites === 1 ? 'write' : 'writes'}</small>`}
     </div>
     ${!isMixed && html`<p class="section_name">${at?.name} ${at?.english !== at?.name && html`<small>${at?.english}</small>`}</p>`}
     ${choice && html`<aside class="choice"><strong>${choice.id}</strong> (section ${englishOf(choice.section)}): ${choice.question}
@@ -131,10 +131,10 @@ export function Registers() {
       <thead><tr><th>name</th><th class="value">value</th><th>changed by</th><th>write</th><th>access</th><th>range</th><th>factory</th><th>bits, choices</th></tr></thead>
       <tbody>${page.registers.map((row) => html`<${Row} key=${row.name} device=${device.name} row=${row} explain=${explain} section=${sectionOf(row)} />`)}</tbody>
     </table></div>
-    ${onlyHeard && page.of === 0 && html`<p>No host has asked for any yet, or none that fits.</p>`}
+    ${onlyHeard && page.of === 0 && html`<p>No host has used a register yet, or none that matches.</p>`}
     <div class="bar"><small>${grouped(from + Math.min(1, page.of))} to ${grouped(from + page.registers.length)} of ${grouped(page.of)}</small>
-      ${from > 0 && html`<${Button} title="back" does=${() => setFrom(Math.max(0, from - kPage))}>back<//>`}
-      ${page.next !== undefined && html`<${Button} title="further" does=${() => setFrom(page.next)}>further<//>`}</div>`;
+      ${from > 0 && html`<${Button} title="previous" does=${() => setFrom(Math.max(0, from - kPage))}>previous<//>`}
+      ${page.next !== undefined && html`<${Button} title="next" does=${() => setFrom(page.next)}>next<//>`}</div>`;
 }
 
 const spacedChoice = (text) => String(text).replaceAll('_', ' ');

@@ -8,7 +8,7 @@ import { usesOf, whyUnused } from './uses.js';
 
 const kTitles = {
   digital_in: 'Inputs', digital_out: 'Outputs', analog_in: 'Analog inputs', analog_number: 'Numbers',
-  dip_switch: 'DIP switches, looked at when the power comes', counted_in: 'Counted inputs', analog_out: 'Analog outputs',
+  dip_switch: 'DIP switches, read at power-up', counted_in: 'Counted inputs', analog_out: 'Analog outputs',
   pulse_out: 'Pulse outputs',
 };
 const kMostTerminals = 900;  // two names each, of 2,000 that a page may watch

@@ -7,7 +7,7 @@ const kMostEvents = 500;
 const kFlash_ms = 1200;
 
 export const store = {
-  link: 'looking for the server',  // '' while all is well
+  link: 'connecting to the server',  // '' while all is well
   hello: null,
   number: 0,        // which bench is shown
   states: [],       // of each: there, silent, gone, unknown
@@ -85,11 +85,11 @@ const wire = new Wire({
     draw();
   },
   lost: (why) => {
-    store.link = why ? `closed: ${why}` : 'the page has lost its server; trying again';
+    store.link = why ? `closed: ${why}` : 'the page has lost its server; retrying';
     draw();
   },
   dead: () => {
-    store.link = 'the page\'s server does not answer; trying again';
+    store.link = 'the page\'s server does not answer; retrying';
     draw();
   },
   error: (error) => complain(error.error),

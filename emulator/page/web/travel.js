@@ -58,9 +58,9 @@ export function Travel() {
       disabled=${locked} aria-label="moment of the recording" aria-valuetext=${seconds(at)} onInput=${drag} />
     <div class="bar">
       ${kSteps.map(([by, steps, sign]) => html`<${Button} kind="small" key=${sign} disabled=${locked}
-        title=${`${steps < 0 ? 'back' : 'on'} by one ${by}`} does=${() => seek({ by, steps })}>${sign}<//>`)}
+        title=${`${steps < 0 ? 'back' : 'forward'} by one ${by}`} does=${() => seek({ by, steps })}>${sign}<//>`)}
       <small>${seconds(begin_ns)} to ${seconds(end_ns)}</small>
-      ${marks.length > 0 && html`<${Choice} label="what stands out" value="" disabled=${locked}
+      ${marks.length > 0 && html`<${Choice} label="jump to an event" value="" disabled=${locked}
         options=${[['', `${marks.length} marks`], ...marks.map((mark, i) => [String(i), sayMark(mark)])]}
         takes=${(i) => i !== '' && seek({ to_ns: marks[Number(i)].time_ns })} />`}
       ${timeline.marks_left_out > 0 && html`<small>and ${timeline.marks_left_out} more that are not shown</small>`}

@@ -62,24 +62,24 @@ std::string text_of(const LineManners& line, Manner manner, const std::string& s
       const bool overlaps = finding.extreme < SimTime{0};
       return counted(count, "request", "requests") + " began before the line had been silent for " +
              format_duration(line.silence()) + " (" +
-             (overlaps ? "while a station spoke" : "after " + format_duration(finding.extreme)) +
-             " at the worst)";
+             (overlaps ? "while a station was sending" : "after " + format_duration(finding.extreme)) +
+             " at worst)";
     }
     case Manner::not_waited:
-      return counted(count, "request", "requests") + " began before the answer to the one before";
+      return counted(count, "request", "requests") + " began before the reply to the previous request";
     case Manner::gap:
       return counted(count, "request", "requests") + " had gaps of more than " +
              format_duration(line.longest_gap()) + " between two bytes (" + format_duration(finding.extreme) +
-             " at the worst)";
+             " at worst)";
     case Manner::absent:
-      return counted(count, "request", "requests") + " to station " + subject + ", which is not there";
+      return counted(count, "request", "requests") + " to station " + subject + ", which does not exist";
     case Manner::read_only:
-      return counted(count, "write", "writes") + " to " + subject + ", which can only be read";
+      return counted(count, "write", "writes") + " to " + subject + ", which is read-only";
     case Manner::eeprom_wear: {
       const auto life = life_of(finding);
       if (!life) return "";
       return std::to_string(count) + " changes of " + subject +
-             ", which is kept in EEPROM: at this rate its " + std::to_string(kEndurance) +
+             ", which is stored in EEPROM: at this rate its " + std::to_string(kEndurance) +
              " writes last for " + rough(*life);
     }
   }

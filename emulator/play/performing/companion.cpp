@@ -37,11 +37,11 @@ struct Objection {
   const char* operator()(const auto&) const { return nullptr; }
 
   static constexpr const char* kUsesLine =
-      "uses a line, which belongs to the program beside it; expected steps without a line, such as `wait` "
+      "uses a line, which belongs to the host program; expected steps that use no line, such as `wait` "
       "without "
       "`poll`, `assert`, `input`";
   static constexpr const char* kGoesBack =
-      "goes back in time, which the program beside it cannot; expected steps that go on";
+      "goes back in time, but the host program cannot; expected steps that go forward";
 };
 
 bool is_same_bench(const world::Bench& one, const world::Bench& other) {
@@ -65,12 +65,12 @@ Scenario load_companion(ModelList models, const std::string& path, const world::
   ScenarioFile file(path, {.save_below = save_below, .seed = {}}, shared);
   if (file.size() != 1) {
     throw FileError(path + ": cases: there are " + std::to_string(file.size()) +
-                    "; expected one, as it is played beside one program");
+                    "; expected one, because one host program runs with it");
   }
   Scenario scenario = file.read(0);
   if (!is_same_bench(scenario.bench, bench)) {
-    throw FileError(path +
-                    ": bench: has other devices or lines than the one that is served; expected the same");
+    throw FileError(
+        path + ": bench: its devices or lines differ from those of the running bench; expected the same");
   }
   for (const Step& step : scenario.steps) {
     if (const char* const why = std::visit(Objection{}, step.what)) {

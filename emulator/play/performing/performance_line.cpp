@@ -27,9 +27,8 @@ namespace {
 Value demand_fitting(const Target& target, world::Number number) {
   if (const auto value = value_for(target, number)) return *value;
   const bool is_real = target.place && target.place->is_real();
-  throw StepError(
-      target.name + ": " + world::number_text(number) +
-      (is_real ? " is more than a 32-bit real can hold" : " is not a whole number; expected one"));
+  throw StepError(target.name + ": " + world::number_text(number) +
+                  (is_real ? " is too large for a 32-bit real" : " is not a whole number; expected one"));
 }
 
 std::string to_text(const HostReply& reply) {
@@ -37,7 +36,7 @@ std::string to_text(const HostReply& reply) {
     case HostReply::Kind::good: return "done";
     case HostReply::Kind::exception: return "exception " + world::exception_text(reply.exception);
     case HostReply::Kind::silence: return "no reply";
-    case HostReply::Kind::garbled: return "no reply to it, but " + world::hex_text(reply.bytes);
+    case HostReply::Kind::garbled: return "an unexpected reply: " + world::hex_text(reply.bytes);
   }
   return {};
 }
@@ -68,7 +67,7 @@ void Performance::demand(const HostReply& reply, const Answer& answer, const std
   if (is_good) return;
   const std::string expected = exception        ? "exception " + world::exception_text(*exception)
                                : answer.silence ? "no reply"
-                                                : "it done";
+                                                : "success";
   throw StepError(what + ": " + to_text(reply) + "; expected " + expected, what + ": " + expected,
                   what + ": " + to_text(reply));
 }

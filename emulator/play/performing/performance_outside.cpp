@@ -92,9 +92,9 @@ void compare_blocks(const NamedBlocks& present, const NamedBlocks& wanted, std::
   for (const auto& [what, texts] : both) {
     const auto [is, should_be] = texts;
     if (should_be == nullptr) {
-      lines.push_back(what + " is there; expected none");
+      lines.push_back(what + " exists; expected none");
     } else if (is == nullptr) {
-      lines.push_back(what + " is not there; expected it");
+      lines.push_back(what + " is missing; expected it");
     } else if (*is != *should_be) {
       compare_lines(what, lines_in(is->text()), lines_in(should_be->text()), lines);
     }
@@ -161,7 +161,7 @@ void Performance::perform(const PowerStep& step) {
 void Performance::perform(const ProgramStep& step) {
   stage_->with_world([&](world::World& world) {
     const Device& device = world.device(step.device);
-    if (!device.powered()) throw StepError(device.name() + " has no power; expected it switched on");
+    if (!device.powered()) throw StepError(device.name() + " has no power; expected it to be on");
     try {
       world.load_program(step.device, step.text);
     } catch (const ProgramError& error) {
@@ -169,11 +169,11 @@ void Performance::perform(const ProgramStep& step) {
       if (!step.refused) throw StepError(in_file(error.first(), step.file));
       const std::string said = in_text(error.first());
       if (said.find(*step.refused) != std::string::npos) return;
-      throw StepError(device.name() + " refuses the program for another reason: " + said,
-                      "something with " + quoted(*step.refused), said);
+      throw StepError(device.name() + " refused the program for another reason: " + said,
+                      "a message with " + quoted(*step.refused), said);
     }
     if (step.refused && step.asks)
-      throw StepError(device.name() + " has taken the program; expected it refused");
+      throw StepError(device.name() + " accepted the program; expected a refusal");
   });
 }
 
@@ -188,7 +188,7 @@ void Performance::perform(const MemoryStep& step) {
     return;
   }
   const std::optional<NvImage> wanted = read_nv_file(step.file);
-  if (!wanted) throw StepError(step.file + ": there is no such file; expected the image of a memory");
+  if (!wanted) throw StepError(step.file + ": does not exist; expected an NV image");
   const std::vector<std::string> lines = differences(present, *wanted);
   if (lines.empty()) return;
   throw StepError("the memory is not that of " + step.file + ": " + lines.front(),

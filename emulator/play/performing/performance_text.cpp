@@ -20,8 +20,8 @@ void Performance::perform(const TextStep& step) {
   if (heard.size() > wanted.lines.size() + 1) heard.resize(wanted.lines.size() + 1);
   const std::string expected = world::lines_text(wanted.lines);
   const std::string came = world::lines_text(heard);
-  throw StepError((step.text ? "the reply is " : "what comes is ") + came + "; expected " + expected,
-                  expected, came);
+  throw StepError((step.text ? "the reply is " : "received ") + came + "; expected " + expected, expected,
+                  came);
 }
 
 }  // namespace understudy::emulator::play

@@ -69,8 +69,7 @@ SimTime Performance::moment_in(SimTime duration) {
   const SimTime rest = std::max(kHorizon - stage_->now(), SimTime{0});
   if (duration <= rest) return stage_->now() + duration;
   throw StepError(format_duration(duration) +
-                  " from now on is beyond the end of simulated time; expected at most " +
-                  format_duration(rest));
+                  " from now is beyond the end of simulated time; expected at most " + format_duration(rest));
 }
 
 void Performance::perform(const AdvanceStep& step) { pass_time(moment_in(step.by)); }
@@ -110,7 +109,7 @@ void Performance::perform(const WaitStep& step) {
   if (step.takes->holds(world::Number(took.count()))) return;
   throw StepError("took " + format_duration(took) + "; expected " + step.takes->text,
                   "'" + world::on_one_line(step.until) + "' after " + step.takes->text,
-                  "it came true after " + format_duration(took));
+                  "it became true after " + format_duration(took));
 }
 
 Tick Performance::wait_for(const WaitStep& step) {
@@ -144,7 +143,7 @@ Tick Performance::wait_for(const WaitStep& step) {
   std::string explained;
   stage_->with_world([&](world::World&) { explained = world::explain(condition, eyes_->probes); });
   const std::string text = world::to_text(condition);
-  throw StepError("'" + text + "' did not come true within " + format_duration(step.within),
+  throw StepError("'" + text + "' did not become true within " + format_duration(step.within),
                   text + " within " + format_duration(step.within), explained);
 }
 
@@ -168,7 +167,7 @@ Tick Performance::poll_for(const WaitStep& step) {
     if (world::is_true(condition, registers)) return std::max(tick_at(stage_->now()), last_write());
   }
   const std::string text = world::to_text(condition);
-  throw StepError("'" + text + "' did not come true within " + format_duration(step.within) +
+  throw StepError("'" + text + "' did not become true within " + format_duration(step.within) +
                       ", polled every " + format_duration(*step.poll),
                   text + " within " + format_duration(step.within), world::explain(condition, registers));
 }

@@ -107,7 +107,7 @@ void Playbill::claim_saved(const Scenario& scenario) const {
     const std::lock_guard lock(saved_mutex_);
     if (saved_.emplace(hash_of_text(path, hash_of({})), who).first->second != who) {
       throw FileError(scenario.file + ": save: " + path +
-                      " is what another case saves; expected a path that differs from case to case");
+                      " is also saved by another case; expected a different path for each case");
     }
   }
 }
@@ -130,8 +130,9 @@ std::shared_ptr<const Scenario> CaseReader::read(const Ticket& ticket) {
   if (!file.held.empty()) return file.held[ticket.number];
   ScenarioFile& opened = open(ticket.file);
   if (opened.size() != file.size) {
-    throw FileError(file.path +
-                    ": cases: are not as many as when the file was checked; expected it to stay as it was");
+    throw FileError(
+        file.path +
+        ": cases: their number has changed since the file was checked; expected an unchanged file");
   }
   auto scenario = std::make_shared<const Scenario>(opened.read(ticket.number));
   if (file.is_varied && !scenario->saved.empty()) bill_.claim_saved(*scenario);

@@ -65,7 +65,7 @@ std::string terminals_text(const Device& device) {
     const bool is_level = sight.what == TerminalSight::What::level && has_two_levels(sight.kind);
     const world::Unit unit = is_in_millivolts(sight.kind) ? world::Unit::millivolts : world::Unit::none;
     text += is_level ? " on" : " " + world::number_text(world::Number(value), unit);
-    if (is_level && is_read_later(device, sight, value)) text += " (to be read at the next tick)";
+    if (is_level && is_read_later(device, sight, value)) text += " (read at the next tick)";
   }
   return text;
 }
@@ -106,7 +106,7 @@ std::vector<std::string> state_text(const world::World& world) {
   for (std::size_t d = 0; d < world.device_count(); ++d) {
     const Device& device = world.device(d);
     if (!device.powered()) {
-      texts.push_back(device.name() + ": without power");
+      texts.push_back(device.name() + ": no power");
     } else if (const std::string registers = registers_text(device); !registers.empty()) {
       texts.push_back(device.name() + ": " + registers);
     }

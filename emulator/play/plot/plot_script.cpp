@@ -97,7 +97,7 @@ std::vector<PlotPanel> panels_of(const TraceTable& table, std::span<const std::s
                       .columns = {static_cast<std::size_t>(found - table.names.begin())}});
   }
   if (!bits.columns.empty()) panels.push_back(std::move(bits));
-  if (panels.empty()) throw FileError(name + ": nothing in it changes; expected something to draw");
+  if (panels.empty()) throw FileError(name + ": none of its values change; expected at least one that does");
   return panels;
 }
 

@@ -57,7 +57,7 @@ TraceTable parse_csv_trace(std::string_view text, const std::string& name) {
     if (!is_read(time, tick))
       fail("time_ms: " + quoted(time) + " is not a time; expected whole milliseconds");
     if (!table.ticks.empty() && tick <= table.ticks.back()) {
-      fail("time_ms: " + quoted(time) + " is not later than the line before; expected times that ascend");
+      fail("time_ms: " + quoted(time) + " is not later than the line before; expected ascending times");
     }
     table.ticks.push_back(tick);
     for (std::size_t i = 0; i < table.names.size(); ++i) {
@@ -85,7 +85,7 @@ TraceTable read_trace(const std::string& path) {
     throw FileError(path + ": " + why);
   }
   TraceTable table = is_csv ? parse_csv_trace(*text, path) : parse_vcd_trace(*text, path);
-  if (table.ticks.empty()) throw FileError(path + ": has no rows; expected one at least");
+  if (table.ticks.empty()) throw FileError(path + ": has no rows; expected at least one");
   return table;
 }
 

@@ -53,7 +53,7 @@ void CaseTable::add_values(const world::YamlFields& row, std::vector<std::string
   for (const auto& [name, value] : row.entries()) {
     const bool is_known = std::find(known.begin(), known.end(), name) != known.end();
     if (!is_known && rows_.size() > 1) {
-      value.fail("is not a parameter, nor in the first case" + suggestion(name, known));
+      value.fail("is neither a parameter nor in the first case" + suggestion(name, known));
     }
     if (!is_known) known.push_back(name);
     rows_.back().values.emplace_back(name, value.text());
@@ -111,7 +111,7 @@ void CaseTable::read_variations(const world::YamlFields& root, std::optional<std
   }
   bool is_counted = false;
   for (const auto& [name, field] : vary.entries()) {
-    if (of_rows.contains(name)) field.fail("is given by `cases` already; expected it in one of them");
+    if (of_rows.contains(name)) field.fail("is already given by `cases`; expected it in one of the two");
     const Variation& added = variations_.emplace_back(field, name, seed.value_or(own_seed), seed.has_value());
     is_counted = is_counted || !added.is_free();
     if (added.count() > kMostCases / size_)
@@ -120,8 +120,7 @@ void CaseTable::read_variations(const world::YamlFields& root, std::optional<std
   }
   if (variations_.empty()) vary.fail("is empty; expected a parameter's values, as in `speed: [ 100, 200 ]`");
   if (!is_counted && rows_.empty()) {
-    vary.fail(
-        "does not say how many cases there are; expected `samples: 100` beside one `between` or `one_of`");
+    vary.fail("does not set the number of cases; expected `samples: 100` next to a `between` or `one_of`");
   }
 }
 

@@ -32,14 +32,14 @@ Answer read_answer(const world::YamlFields& step) {
     const world::YamlFields reply = step.at("reply");
     if (reply.text() != kNothing.front()) {
       reply.fail(quoted(reply.text()) +
-                 " is unknown; expected nothing (what is read is compared without `reply`)");
+                 " is unknown; expected nothing (values that are read are compared without `reply`)");
     }
     if (answer.exception) reply.fail("an exception is a reply; expected one of the two");
     answer.silence = SendStep{}.within;
   }
   if (step.has("within")) {
     const world::YamlFields within = step.at("within");
-    if (!answer.silence) within.fail("belongs to `reply: nothing`; expected that beside it");
+    if (!answer.silence) within.fail("needs `reply: nothing`; expected that as well");
     answer.silence = read_within(within);
   }
   return answer;
@@ -61,7 +61,7 @@ Via read_via(const StepsReader& reader, const world::YamlFields& step, const Ent
   std::vector<std::size_t> devices;
   for (const auto& entry : entries) {
     if (entry.target.is_value)
-      field->fail(entry.target.name + " is not a register, and is read without the line; expected no `via`");
+      field->fail(entry.target.name + " is not a register and is read without a line; expected no `via`");
     devices.push_back(entry.target.device);
   }
   return read_via_of(reader, step, devices);
@@ -132,12 +132,12 @@ void read_write(StepsReader& reader, const world::YamlFields& step, const world:
     Target target = reader.trial().target(field, name);
     if (target.is_value) {
       field.fail(name +
-                 " is not a register, and cannot be written over the line like this; expected `send: { text: "
+                 " is not a register and cannot be written over the line; expected `send: { text: "
                  "... }`");
     }
     if (write.answer.silence && is_bit(target)) {
       field.fail(
-          "a bit's register is read before it is written; expected whole registers with `reply: nothing`");
+          "the register of a bit is read before the write; expected whole registers with `reply: nothing`");
     }
     std::string what = reader.trial().value_to_write(field, target, write.answer.exception.has_value());
     sentence.add(name + "=" + world::on_one_line(what));
@@ -177,7 +177,7 @@ void read_expect(StepsReader& reader, const world::YamlFields& step, const world
     if (target.is_value && expect.answer.exception)
       field.fail(name + " is not a register; expected no exception");
     if (target.is_value && expect.answer.silence)
-      field.fail(name + " is not a register, and is read without the line; expected no `reply`");
+      field.fail(name + " is not a register and is read without a line; expected no `reply`");
     world::Tolerance wanted = reader.trial().value_to_expect(field, target);
     sentence.add(name + ": " + wanted.text);
     expect.entries.push_back({.target = std::move(target), .value = std::move(wanted)});

@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, world::YamlFields>> demand_entries(const worl
 std::string refusal_text(const world::YamlFields& field) {
   const std::string text = field.text();
   if (text == "false" || text.empty()) {
-    field.fail("expected true, or a part of what is said of the first mistake");
+    field.fail("expected true, or a part of the message about the first mistake");
   }
   return text == "true" ? "" : text;
 }
@@ -85,11 +85,12 @@ void read_inject(StepsReader& reader, const world::YamlFields& step, const world
   if (value.has("name")) {
     inject.name = value.at("name").text();
     if (inject.name.empty() || inject.name == "all") {
-      value.at("name").fail(understudy::quoted(inject.name) + " is not a name for a fault; expected another");
+      value.at("name").fail(understudy::quoted(inject.name) +
+                            " cannot be the name of a fault; expected another");
     }
     if (std::find(in_force.begin(), in_force.end(), inject.name) != in_force.end()) {
       value.at("name").fail(understudy::quoted(inject.name) +
-                            " is in force already; expected another name, or a `clear` before");
+                            " is already in force; expected another name, or a `clear` first");
     }
   }
   in_force.push_back(inject.name);

@@ -64,7 +64,7 @@ class Numbers final : public world::NameResolver, public world::ValueSource {
       return {static_cast<std::int32_t>(numbers_.size() - 1), quantity.unit};
     } catch (const world::ExpressionError&) {
       throw world::NameError("parameter " + quoted(name) + " is " + quoted(*text) +
-                             ", which cannot be computed with; expected a number, a duration or a voltage");
+                             ", which expressions cannot use; expected a number, a duration or a voltage");
     }
   }
   world::Number value(std::int32_t handle) const override {
@@ -98,11 +98,11 @@ bool is_name(const std::string& name) {
 
 void Parameters::define(const std::string& name, const std::string& value) {
   if (!is_name(name)) {
-    throw world::NameError(quoted(name) +
-                           " is not a name for a parameter; expected letters, digits and _, a letter first");
+    throw world::NameError(
+        quoted(name) + " is not a parameter name; expected letters, digits and _, beginning with a letter");
   }
   if (find(name) != nullptr)
-    throw world::NameError(quoted(name) + " is defined already; expected another name");
+    throw world::NameError(quoted(name) + " is already defined; expected another name");
   values_.emplace(name, value);
 }
 
@@ -147,10 +147,10 @@ std::string Parameters::apply(const std::string& written) const {
       continue;
     }
     const std::size_t end = written.find('}', begin);
-    if (end == std::string::npos) throw world::NameError("'${' does not end; expected '}' behind it");
+    if (end == std::string::npos) throw world::NameError("'${' is not closed; expected '}' after it");
     made += written.substr(at, begin - at) +
             evaluated(std::string_view(written).substr(begin + 2, end - begin - 2));
-    if (made.size() > kLongest) throw world::NameError("grows too long; expected at most a million bytes");
+    if (made.size() > kLongest) throw world::NameError("becomes too long; expected at most a million bytes");
     at = end + 1;
   }
 }

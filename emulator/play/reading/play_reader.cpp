@@ -168,8 +168,7 @@ void PlayReader::define_all(std::uint64_t number, const Case& which, Parameters&
 void PlayReader::require_all_used(std::uint64_t number, const Case& which,
                                   const Parameters& parameters) const {
   const auto fail = [&](const std::string& name, const world::YamlFields& field) {
-    field.fail(understudy::quoted(name) + " is used nowhere; expected ${" + name +
-               "} somewhere in the scenario");
+    field.fail(understudy::quoted(name) + " is not used; expected ${" + name + "} somewhere in the scenario");
   };
   for (const auto& [name, value] : which.values) {
     const bool is_option = !cases_.choice().empty() && name == kOptionParameter;  // the device uses it
@@ -268,7 +267,7 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   for (const world::DeviceSetup& device : scenario.bench.devices) {
     if (device.nv_path.empty()) continue;
     scenario.files.push_back(
-        {device.nv_path, "the memory that " + understudy::quoted(device.settings.name) + " begins with"});
+        {device.nv_path, "the initial memory of " + understudy::quoted(device.settings.name)});
   }
   const Trial trial = make_trial(root, scenario.bench);
   world::Complaints all;
@@ -302,8 +301,8 @@ void PlayReader::require_own_paths(const StepsReader& steps, Scenario& scenario)
   for (const auto& [path, field] : steps.saved()) {
     if (const std::string why = claims.objection_to(path); !why.empty()) field.fail(path + " " + why);
     if (!is_below(path, file_.save_below)) {
-      field.fail(path + " is not below " + (file_.save_below.empty() ? "this folder" : file_.save_below) +
-                 "; expected a path there (`--save-below FOLDER` allows another folder)");
+      field.fail(path + " is outside " + (file_.save_below.empty() ? "this folder" : file_.save_below) +
+                 "; expected a path in it (`--save-below FOLDER` allows another folder)");
     }
     if (const std::string why = why_not_writable(path, ContentKind::nv_image); !why.empty()) {
       field.fail(path + " cannot be written: " + why);

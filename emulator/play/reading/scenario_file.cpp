@@ -142,8 +142,7 @@ class ScenarioFile::Reader {
     if (!root_.has("plays") || !root_.has("parameters")) return;
     for (const auto& [name, value] : root_.at("parameters").entries()) {
       if (!file_.used_parameters.contains(name)) {
-        value.fail(understudy::quoted(name) + " is used nowhere; expected ${" + name +
-                   "} in one of the plays");
+        value.fail(understudy::quoted(name) + " is not used; expected ${" + name + "} in one of the plays");
       }
     }
   }

@@ -21,21 +21,19 @@ inline constexpr world::Form kCasesForm = world::list_form(world::kTextByName);
 inline constexpr world::Form kSamplesForm = world::integer_form(1, 1'000'000'000'000);
 inline constexpr world::Form kTwoTexts = world::list_form(world::kText, 2);
 inline constexpr world::KeyRow kSamplesKey{
-    "samples", "How many values are drawn, no two the same; without it one is drawn for each case.",
-    &kSamplesForm};
-inline constexpr world::KeyRow kSamplesSeedKey{
-    "seed", "Where these draws begin (default: the scenario's seed).", &world::kSeedForm};
+    "samples", "Number of distinct values to draw; without it, one is drawn for each case.", &kSamplesForm};
+inline constexpr world::KeyRow kSamplesSeedKey{"seed", "Seed of these draws (default: the scenario's seed).",
+                                               &world::kSeedForm};
 inline constexpr std::array kRangeKeys{
     world::KeyRow{"from", "The first value: a number, a duration or a voltage.", &world::kText, true},
-    world::KeyRow{"to", "No value is beyond it.", &world::kText, true},
-    world::KeyRow{"step", "From one value to the next.", &world::kText, true}};
+    world::KeyRow{"to", "The limit; no value goes beyond it.", &world::kText, true},
+    world::KeyRow{"step", "The step from one value to the next.", &world::kText, true}};
 inline constexpr std::array kBetweenKeys{
-    world::KeyRow{"between", "The least and the greatest value that is drawn.", &kTwoTexts, true},
-    world::KeyRow{"step", "How far values are apart (default: as finely as the ends are written).",
-                  &world::kText},
+    world::KeyRow{"between", "The smallest and the largest value to draw.", &kTwoTexts, true},
+    world::KeyRow{"step", "The distance between values (default: the precision of the ends).", &world::kText},
     kSamplesKey, kSamplesSeedKey};
 inline constexpr std::array kOneOfKeys{
-    world::KeyRow{"one_of", "Values of which one is drawn.", &world::kTextList, true}, kSamplesKey,
+    world::KeyRow{"one_of", "Values to choose from at random.", &world::kTextList, true}, kSamplesKey,
     kSamplesSeedKey};
 inline constexpr world::Form kRangeForm = world::keys_form(kRangeKeys);
 inline constexpr world::Form kBetweenForm = world::keys_form(kBetweenKeys);
@@ -53,26 +51,26 @@ inline constexpr world::Form kChoiceForm = world::names_form(kOptionsOrValuesFor
 
 // --- keys of a file, and of each of its plays ----------------------------------------------------
 inline constexpr world::KeyRow kNameKey{
-    "name", "What it is about, as a sentence; by default the file's name.", &world::kText};
+    "name", "A sentence that describes the scenario (default: the file's name).", &world::kText};
 inline constexpr world::KeyRow kBenchKey{"bench", "The bench, or the path of its file.", &kBenchOrFileForm};
 inline constexpr world::KeyRow kNvKey{
-    "nv", "What the devices' memories hold at first: files of NV images, by device.", &world::kTextByDevice};
+    "nv", "Initial contents of the devices' memories: NV image files, by device.", &world::kTextByDevice};
 inline constexpr world::KeyRow kFirmwareKey{
-    "firmware", "Another firmware than the bench's: for all devices, or by device.", &kFirmwareForm};
-inline constexpr world::KeyRow kGapKey{"gap", "Time that the host leaves between two requests, beyond t3.5.",
-                                       &world::kDuration};
-inline constexpr world::KeyRow kSeedKey{"seed", "Where randomness begins.", &world::kSeedForm};
+    "firmware", "A firmware version to use instead of the bench's: for all devices, or by device.",
+    &kFirmwareForm};
+inline constexpr world::KeyRow kGapKey{
+    "gap", "Time that the host waits between two requests, in addition to t3.5.", &world::kDuration};
+inline constexpr world::KeyRow kSeedKey{"seed", "The seed of all random choices.", &world::kSeedForm};
 inline constexpr world::KeyRow kParametersKey{"parameters", "Names and values, used as ${name}.",
                                               &world::kTextByName};
-inline constexpr world::KeyRow kCasesKey{"cases", "Rows of parameters; each is a scenario of its own.",
-                                         &kCasesForm};
+inline constexpr world::KeyRow kCasesKey{"cases", "Rows of parameters; each row is a case.", &kCasesForm};
 inline constexpr world::KeyRow kChoiceKey{
     "choice",
-    "A choice that the manual leaves open, with its options: each is a scenario of its own, in which every "
+    "A choice that the manual leaves open, with its options: each option is a case, in which every "
     "device that has the choice has that option. An option may give values to parameters.",
     &kChoiceForm};
 inline constexpr world::KeyRow kVaryKey{
-    "vary", "Values of parameters; each combination is a case, with each row of `cases`.", &kVaryForm};
+    "vary", "Values of parameters; each combination is a case, for each row of `cases`.", &kVaryForm};
 
 /// A play has the keys of a scenario. It may leave out `bench`, and what else the file gives to all of them.
 inline constexpr std::array kPlayKeys{
@@ -87,7 +85,7 @@ inline constexpr std::array kPlayKeys{
     kCasesKey,
     kChoiceKey,
     kVaryKey,
-    world::KeyRow{"steps", "What is done and expected, in this order.", &world::kSteps}};
+    world::KeyRow{"steps", "Actions and expectations, in order.", &world::kSteps}};
 inline constexpr world::Form kPlayForm = world::keys_form(kPlayKeys);
 inline constexpr world::Form kPlaysForm = world::list_form(kPlayForm);
 
@@ -103,8 +101,8 @@ inline constexpr std::array kScenarioKeys{
     kCasesKey,
     kChoiceKey,
     kVaryKey,
-    world::KeyRow{"steps", "What is done and expected, in this order.", &world::kSteps},
-    world::KeyRow{"plays", "Several plays, in place of `steps`: what stands beside it is common to them.",
+    world::KeyRow{"steps", "Actions and expectations, in order.", &world::kSteps},
+    world::KeyRow{"plays", "Several plays instead of `steps`; they share all other keys of the file.",
                   &kPlaysForm}};
 
 }  // namespace understudy::emulator::play

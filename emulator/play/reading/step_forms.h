@@ -11,22 +11,23 @@ namespace understudy::emulator::play {
 inline constexpr world::Form kExceptionForm = world::integer_form(1, 255);
 inline constexpr std::array<std::string_view, 1> kNothing{"nothing"};
 inline constexpr world::Form kNothingForm = world::words_form(kNothing);
-inline constexpr world::KeyRow kViaKey{
-    "via", "The line, where a device is on several; by default the first of them.", &world::kLineName};
+inline constexpr world::KeyRow kViaKey{"via", "The line, if the device is on several (default: the first).",
+                                       &world::kLineName};
 inline constexpr std::array kAnswerKeys{
-    world::KeyRow{"exception", "The Modbus exception that the device is to answer with.", &kExceptionForm},
-    world::KeyRow{"reply", "`nothing`, where no answer may come.", &kNothingForm},
-    world::KeyRow{"within", "For how long none may come (500ms).", &world::kDuration}, kViaKey};
+    world::KeyRow{"exception", "The Modbus exception that the device must return.", &kExceptionForm},
+    world::KeyRow{"reply", "`nothing`: no reply may arrive.", &kNothingForm},
+    world::KeyRow{"within", "How long no reply may arrive (500ms).", &world::kDuration}, kViaKey};
 
 inline constexpr std::array kProgramBesideKeys{world::KeyRow{
-    "refused", "The device must refuse it: `true`, or a part of what is said of its first mistake.",
+    "refused", "The device must refuse it: `true`, or a part of the message about its first mistake.",
     &world::kText}};
 
 inline constexpr std::array kWaitKeys{
-    world::KeyRow{"until", "The condition, looked at in every tick without the line.", &world::kText, true},
-    world::KeyRow{"within", "It fails if this is not long enough.", &world::kDuration, true},
-    world::KeyRow{"takes", "How long it takes from the last write: 3050ms +- 2ms, 1s..2s.", &world::kText},
-    world::KeyRow{"poll", "Reads the registers over the line this often instead.", &world::kDuration},
+    world::KeyRow{"until", "The condition, checked at every tick without using the line.", &world::kText,
+                  true},
+    world::KeyRow{"within", "The step fails after this time.", &world::kDuration, true},
+    world::KeyRow{"takes", "Expected time since the last write: 3050ms +- 2ms, 1s..2s.", &world::kText},
+    world::KeyRow{"poll", "Reads the registers over the line at this interval instead.", &world::kDuration},
     kViaKey};
 inline constexpr world::Form kWaitForm = world::keys_form(kWaitKeys);
 
@@ -34,8 +35,8 @@ inline constexpr std::array<const world::Form*, 2> kAssertWays{&world::kText, &w
 inline constexpr world::Form kAssertForm = world::either_form(kAssertWays);
 
 inline constexpr std::array kSpanKeys{
-    world::KeyRow{"what", "The condition, looked at in every tick.", &world::kText, true},
-    world::KeyRow{"name", "For `end`; by default the condition itself.", &world::kText}};
+    world::KeyRow{"what", "The condition, checked at every tick.", &world::kText, true},
+    world::KeyRow{"name", "A name for `end` (default: the condition itself).", &world::kText}};
 inline constexpr world::Form kSpanKeysForm = world::keys_form(kSpanKeys);
 inline constexpr std::array<const world::Form*, 2> kSpanWays{&world::kText, &kSpanKeysForm};
 inline constexpr world::Form kSpanForm = world::either_form(kSpanWays);
@@ -49,22 +50,22 @@ inline constexpr world::Form kPowerForm = world::names_form(kPowerWordsForm, wor
 inline constexpr std::array<const world::Form*, 2> kReplyLinesWays{&world::kText, &world::kTextList};
 inline constexpr world::Form kReplyLinesForm = world::either_form(kReplyLinesWays);
 inline constexpr std::array kSendKeys{
-    world::KeyRow{"line", "On which line; by default the only one.", &world::kLineName},
+    world::KeyRow{"line", "The line (default: the only one).", &world::kLineName},
     world::KeyRow{"bytes", "In hexadecimal; +crc at the end adds the checksum.", &world::kText, true},
-    world::KeyRow{"reply", "The bytes that must come, or `nothing`.", &world::kText},
+    world::KeyRow{"reply", "The expected bytes, or `nothing`.", &world::kText},
     world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
 inline constexpr std::array kSendTextKeys{
-    world::KeyRow{"line", "On which line; by default the only one.", &world::kLineName},
-    world::KeyRow{"text", "A line of text, without its end.", &world::kText, true},
-    world::KeyRow{"reply", "The line or the lines that must come, or `nothing`.", &kReplyLinesForm},
+    world::KeyRow{"line", "The line (default: the only one).", &world::kLineName},
+    world::KeyRow{"text", "A line of text, without its line ending.", &world::kText, true},
+    world::KeyRow{"reply", "The expected line or lines, or `nothing`.", &kReplyLinesForm},
     world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
 inline constexpr world::Form kSendBytesForm = world::keys_form(kSendKeys);
 inline constexpr world::Form kSendTextForm = world::keys_form(kSendTextKeys);
 inline constexpr std::array<const world::Form*, 2> kSendWays{&kSendBytesForm, &kSendTextForm};
 inline constexpr world::Form kSendForm = world::either_form(kSendWays);
 inline constexpr std::array kHearKeys{
-    world::KeyRow{"line", "On which line; by default the only one.", &world::kLineName},
-    world::KeyRow{"text", "The line or the lines that must come, or `nothing`.", &kReplyLinesForm, true},
+    world::KeyRow{"line", "The line (default: the only one).", &world::kLineName},
+    world::KeyRow{"text", "The expected line or lines, or `nothing`.", &kReplyLinesForm, true},
     world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
 inline constexpr world::Form kHearForm = world::keys_form(kHearKeys);
 
@@ -75,9 +76,9 @@ inline constexpr world::Form kResetForm = world::words_form(kResetWords);
 
 inline constexpr world::Form kTimesForm = world::integer_form(1, 100'000);
 inline constexpr std::array kRepeatKeys{
-    world::KeyRow{"times", "How often.", &kTimesForm, true},
+    world::KeyRow{"times", "The number of rounds.", &kTimesForm, true},
     world::KeyRow{"as", "A name for the number of the round, from 1.", &world::kText},
-    world::KeyRow{"steps", "What is repeated.", &world::kSteps, true}};
+    world::KeyRow{"steps", "The steps to repeat.", &world::kSteps, true}};
 inline constexpr world::Form kRepeatForm = world::keys_form(kRepeatKeys);
 
 inline constexpr std::array<const world::Form*, 2> kRowWays{&world::kText, &world::kTextByName};
@@ -87,7 +88,7 @@ inline constexpr std::array kForKeys{
     world::KeyRow{"each", "The values, or rows of several: [ { n: 1, speed: 200 }, { n: 2, speed: 400 } ].",
                   &kRowsForm, true},
     world::KeyRow{"as", "A name for the value (rows have names already).", &world::kText},
-    world::KeyRow{"steps", "What is done for each.", &world::kSteps, true}};
+    world::KeyRow{"steps", "The steps to run for each value.", &world::kSteps, true}};
 inline constexpr world::Form kForForm = world::keys_form(kForKeys);
 
 }  // namespace understudy::emulator::play

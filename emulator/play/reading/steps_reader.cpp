@@ -99,15 +99,15 @@ void StepsReader::count(const world::YamlFields& where) {
 void StepsReader::count_bytes(const world::YamlFields& where, const Step& step) {
   file_.bytes += step.text.size() + std::visit(BytesOf{}, step.what);
   if (file_.bytes > FileReading::kMostBytes) {
-    where.fail("is too much: the steps have grown beyond " + std::to_string(FileReading::kMostBytes >> 20) +
+    where.fail("is too large: the steps exceed " + std::to_string(FileReading::kMostBytes >> 20) +
                " MiB; expected less, with all loops and cases");
   }
 }
 
 void StepsReader::read_here(const world::YamlFields& list, const Parameters& parameters) {
   if (++depth_ > FileReading::kDeepest) {
-    list.fail("is too deep; expected at most " + std::to_string(FileReading::kDeepest) +
-              " loops, forks and includes in each other");
+    list.fail("is nested too deeply; expected at most " + std::to_string(FileReading::kDeepest) +
+              " levels of loops, forks and includes");
   }
   const Parameters* const outer = std::exchange(parameters_, &parameters);
   const auto steps = list.with_rule(&parameters).elements();
@@ -178,7 +178,7 @@ void StepsReader::read_step(const world::YamlFields& step, const StepRow* row) {
   known.insert(known.end(), row->beside.begin(), row->beside.end());
   for (const auto& [key, value] : step.entries()) {
     if (key != row->key.key && find_row(key) != nullptr)
-      value.fail("is a second step in one; expected `- ` before it");
+      value.fail("is a second step in one entry; expected `- ` before it");
   }
   step.demand_keys(known);
   row->read(*this, step, step.at(row->key.key));

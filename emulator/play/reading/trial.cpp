@@ -187,8 +187,7 @@ std::string Trial::value_to_write(const world::YamlFields& field, const Target& 
                std::string(to_string(table_of(target))) + "'");
   }
   if (row != nullptr && row->access == Access::read && !is_refused) {
-    field.fail(target.name +
-               " cannot be written; it is read-only (expected `exception:` where that is meant)");
+    field.fail(target.name + " cannot be written; it is read-only (use `exception:` if the step tests that)");
   }
   if (!value.names.empty()) return value.text;
   const world::Number number = world::evaluate(value, probes_);
@@ -197,7 +196,7 @@ std::string Trial::value_to_write(const world::YamlFields& field, const Target& 
   };
   const auto fitting = value_for(target, number);
   const bool is_real = target.place && target.place->is_real();
-  if (!fitting && is_real) field.fail(world::number_text(number) + " is more than a 32-bit real can hold");
+  if (!fitting && is_real) field.fail(world::number_text(number) + " is too large for a 32-bit real");
   if (!fitting) field.fail(world::number_text(number) + " is not a whole number; expected one");
   const bool is_judged = row != nullptr && row->ranged && target.place->bit < 0 &&
                          target.place->place.part == Place::Part::whole && !is_refused &&

@@ -47,7 +47,7 @@ void read_span(StepsReader& reader, const world::YamlFields& step, const world::
   span.name = is_named ? value.at("name").text() : world::on_one_line(span.expression);
   auto& open = reader.story().spans;
   if (std::find(open.begin(), open.end(), span.name) != open.end()) {
-    value.fail(quoted(span.name) + " holds already; expected another name, or an `end` before");
+    value.fail(quoted(span.name) + " is already active; expected another name, or an `end` first");
   }
   open.push_back(span.name);
   const std::string text = (never ? "never " : "always ") + world::on_one_line(span.expression);
@@ -73,7 +73,7 @@ void read_wait(StepsReader& reader, const world::YamlFields& step, const world::
     wait.poll = read_some_time(value.at("poll"));
     if (*wait.poll < kShortestPoll) {
       value.at("poll").fail(format_duration(*wait.poll) +
-                            " is less than any request takes; expected 1ms or more");
+                            " is shorter than any request; expected 1ms or more");
     }
     const std::vector<std::size_t> devices = reader.trial().demand_registers_only(value.at("until"));
     text += ", polled every " + format_duration(*wait.poll);
@@ -82,7 +82,7 @@ void read_wait(StepsReader& reader, const world::YamlFields& step, const world::
       text += " via " + via->text();
     }
   } else if (const auto via = value.find(kViaKey.key)) {
-    via->fail("belongs to `poll`: without it nothing is read over a line; expected `poll` beside it");
+    via->fail("needs `poll`, since only `poll` reads over a line; expected `poll` as well");
   }
   reader.add(step, text, std::move(wait));
 }
@@ -117,7 +117,7 @@ void read_end(StepsReader& reader, const world::YamlFields& step, const world::Y
   auto& open = reader.story().spans;
   const auto it = std::find(open.begin(), open.end(), name);
   if (it == open.end()) {
-    value.fail("no `always` or `never` that holds here is called " + quoted(name) + suggestion(name, open));
+    value.fail("no active `always` or `never` is called " + quoted(name) + suggestion(name, open));
   }
   open.erase(it);
   reader.add(step, "end " + name, EndSpanStep{name});

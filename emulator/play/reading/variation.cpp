@@ -46,7 +46,7 @@ const std::span<const world::KeyRow> keys_of(const world::YamlFields& field) {
   if (field.has("from")) return kRangeKeys;
   if (field.has("between")) return kBetweenKeys;
   if (field.has("one_of")) return kOneOfKeys;
-  field.fail("says no values; expected `from`, `between` or `one_of`, as in `{ from: 1, to: 9, step: 2 }`");
+  field.fail("has no values; expected `from`, `between` or `one_of`, as in `{ from: 1, to: 9, step: 2 }`");
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ void Variation::read_list(const world::YamlFields& list) {
     if (!value.is_scalar()) value.fail("expected a value, such as 100, 20ms or on");
     listed_.push_back(value.text());
     if (!seen.insert(listed_.back()).second)
-      value.fail(quoted(listed_.back()) + " is there already; expected each value once");
+      value.fail(quoted(listed_.back()) + " appears twice; expected each value once");
   }
   if (listed_.empty()) list.fail("is empty; expected at least one value");
 }
@@ -141,7 +141,7 @@ void Variation::read_range(bool is_drawn) {
   first_ = counts[0];
   step_ = counts.size() > 2 ? counts[2] : scale_.finest();
   if (scale_.kind() == Amount::Kind::duration && first_ < 0) low.fail("is negative; expected a duration");
-  if (step_ <= 0) all[2].first.fail("is " + all[2].first.text() + "; expected more than nothing");
+  if (step_ <= 0) all[2].first.fail("is " + all[2].first.text() + "; expected more than 0");
   if (counts[1] < first_)
     high.fail(high.text() + " is less than " + low.text() + "; expected the larger one second");
   places_ = static_cast<std::uint64_t>((counts[1] - first_) / step_) + 1;
@@ -162,8 +162,7 @@ void Variation::read_samples(std::uint64_t seed, bool overrides) {
   const world::YamlFields samples = field_.at("samples");
   count_ = static_cast<std::uint64_t>(samples.integer(kSamplesForm));
   if (count_ > places_) {
-    samples.fail("there are only " + std::to_string(places_) +
-                 " values to draw from; expected at most so many");
+    samples.fail("the range has only " + std::to_string(places_) + " values; expected at most that many");
   }
 }
 

@@ -90,8 +90,8 @@ std::string failure_text(const Failure& failure) {
     for (const std::string& line : lines) text += xml_escaped(line) + "\n";
     text += "</pre></details>\n";
   };
-  fold("the last frames before it", failure.frames);
-  fold("the state around it", failure.state);
+  fold("the last frames before the failure", failure.frames);
+  fold("the state at that time", failure.state);
   return text + "</div>\n";
 }
 
@@ -113,7 +113,7 @@ std::string frames_text(const Scene& scene, SimTime from, SimTime to, bool is_op
     if (number == scene.left_out_at && scene.frames_left_out > 0) {
       left_out = scene.frames_left_out;
       rows += "<tr><td></td><td colspan=\"3\" class=\"dim\">" + counted(left_out, "frame") +
-              " left out here</td></tr>\n";
+              " omitted here</td></tr>\n";
     }
     rows += "<tr>" + time_cell(frame->time) + "<td class=\"dim\">" + xml_escaped(frame->line) + "</td><td>" +
             (frame->is_from_host ? arrow("&rarr;", "from the host") : arrow("&larr;", "to the host")) +
@@ -198,7 +198,7 @@ std::string body_of(const ScenarioResult& result) {
     }
   }
   if (!result.manners.empty()) {
-    text += "<h3>the host's manners</h3>\n<ul>\n";
+    text += "<h3>protocol violations by the host</h3>\n<ul>\n";
     for (const std::string& line : result.manners) text += in("li", in("code", xml_escaped(line))) + "\n";
     text += "</ul>\n";
   }
@@ -218,7 +218,7 @@ std::string report_page(std::span<const ScenarioResult> results, std::string_vie
       "</style>\n</head>\n<body>\n<header>\n<h1>Understudy</h1>\n<p>" + summary + "</p>\n" +
       (count > results.size()
            ? "<p class=\"dim\">" + std::to_string(count - results.size()) +
-                 " of these are not shown: they passed, or failed as one that is shown.</p>\n"
+                 " of these are not shown: they passed, or failed in the same way as one that is shown.</p>\n"
            : "") +
       "</header>\n<main>\n<nav aria-label=\"scenarios\">\n<h2 class=\"unseen\">Scenarios</h2>\n" +
       list_of(results) + "</nav>\n";

@@ -42,7 +42,7 @@ std::string words_of(const SeenSignal& signal) {
 }  // namespace
 
 std::string picture_name(const Scene& scene, std::string_view of) {
-  return std::string(of) + ": what moved and switched, from " + format_duration(scene.begin) + " to " +
+  return std::string(of) + ": motion and signals, from " + format_duration(scene.begin) + " to " +
          format_duration(scene.end);
 }
 

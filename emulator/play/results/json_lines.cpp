@@ -84,7 +84,7 @@ class JsonLines final : public ResultsFile {
 
   [[noreturn]] void refuse_line(std::uint64_t number) const {
     throw GrowingFileError("--results: " + path_ + ":" + std::to_string(number) +
-                           ": is not a row of results; expected what `--results` has written");
+                           ": is not a row of results; expected a file that `--results` wrote");
   }
 
   /// What was being written when the run was killed is dropped, but nobody else's file.

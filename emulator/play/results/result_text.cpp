@@ -63,9 +63,10 @@ std::vector<std::string> failure_lines(const ScenarioResult& result) {
   if (!failure.state.empty()) add("  the state at " + format_duration(failure.at) + ":");
   for (const std::string& state : failure.state) add("    " + state);
   if (!result.recording.empty()) add("to run this again: understudy replay " + result.recording);
-  if (!result.like.empty()) add("it failed as this one did, whose recording is kept: " + result.like);
+  if (!result.like.empty())
+    add("it failed in the same way as this one, whose recording is kept: " + result.like);
   if (result.which.is_varied) {
-    add("to play this case alone: understudy run " + result.file + " --filter " +
+    add("to run this case alone: understudy run " + result.file + " --filter " +
         identity_text(identity_of(result.which)));
   }
   return lines;
@@ -84,7 +85,7 @@ void Tally::add(const ScenarioResult& result) {
 std::string summary_line(const Tally& tally) {
   std::string text = std::to_string(tally.passed) + " passed, " + std::to_string(tally.failed) + " failed";
   if (tally.not_reached != 0) text += ", " + std::to_string(tally.not_reached) + " not reached";
-  if (tally.unreadable != 0) text += ", of which " + std::to_string(tally.unreadable) + " could not be read";
+  if (tally.unreadable != 0) text += ", " + std::to_string(tally.unreadable) + " of them could not be read";
   return text + "; " + format_duration(tally.simulated) + " simulated";
 }
 

@@ -164,7 +164,7 @@ class SqliteResults final : public ResultsFile {
     const bool is_ours = step(id) && sqlite3_column_int(id.get(), 0) == kApplicationId;
     const Statement tables = prepare("SELECT count(*) FROM sqlite_master");
     if (is_ours || (step(tables) && sqlite3_column_int(tables.get(), 0) == 0)) return;
-    refuse("it is a database of something else; expected one that `--results` has made, or a free path");
+    refuse("it is another program's database; expected one that `--results` created, or a free path");
   }
 
   void make_tables() {

@@ -19,7 +19,7 @@ namespace understudy::emulator::play {
 
 /// Thrown when the scenario has been abandoned.
 struct StageGivenUp : std::runtime_error {
-  StageGivenUp() : std::runtime_error("the play was given up") {}
+  StageGivenUp() : std::runtime_error("the run was aborted") {}
 };
 
 struct RealStageOptions {

@@ -21,7 +21,7 @@ DoorMaker control_door(const std::string& path) {
       return std::make_unique<ControlServer>(daemon.loop(), path.empty() ? own_control_path() : path, handle);
     } catch (const ControlError& error) {
       if (!path.empty()) throw;
-      log(std::string("no control socket: ") + error.what() + " (--control SOCKET gives this one its own)");
+      log(std::string("no control socket: ") + error.what() + " (--control SOCKET chooses another path)");
       return nullptr;
     }
   };

@@ -96,7 +96,7 @@ std::string why_refused(const Objection& refused) {
     case Refusal::no_register:
     case Refusal::bad_value: break;
   }
-  return "the command does not suit it now" + reason;
+  return "the command is not possible now" + reason;
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ Json input_message(Daemon& daemon, const Json& message) {
     const world::InputName input = world::find_input(known, name);
     for (const world::InputSetup& other : wanted) {
       if (other.device == input.device && other.terminal == input.terminal) {
-        throw MessageError(name + ": is named twice; expected it once");
+        throw MessageError(name + ": appears twice; expected it once");
       }
     }
     wanted.push_back({.device = input.device,
@@ -161,7 +161,7 @@ Json command_message(Daemon& daemon, const Json& message) {
   } catch (const ProgramError& error) {
     throw MessageError(in_line(error.first()));
   }
-  if (refused) throw MessageError(device.name() + " does not take it: " + why_refused(refused));
+  if (refused) throw MessageError(device.name() + " refuses it: " + why_refused(refused));
   return Json{{"ok", true}};
 }
 
@@ -255,7 +255,7 @@ std::string numbers_of_faults(const world::World& world) {
     if (++count > kMostListed) return "one of " + numbers + ", ...";
     numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
   }
-  return numbers.empty() ? "none, as nothing is broken" : "one of " + numbers;
+  return numbers.empty() ? "none, since no fault is in force" : "one of " + numbers;
 }
 
 }  // namespace

@@ -158,7 +158,7 @@ std::optional<std::uint64_t> demand_list(world::LookedNames& known, const Json& 
     if (message.contains("names"))
       throw MessageError("look: is given together with names; expected one of them");
     const std::uint64_t list = demand_count(message, "look");
-    if (!known.is_kept(list)) throw MessageError("look: these names are not kept any more; expected names");
+    if (!known.is_kept(list)) throw MessageError("look: these names are no longer stored; expected names");
     return list;
   }
   if (!message.contains("names")) return std::nullopt;
@@ -191,7 +191,7 @@ Telling look_message(Daemon& daemon, Json message) {
   daemon.catch_up();
   std::vector<world::LookedNames::Looked> values;
   if (list && !known.look(*list, values)) {
-    throw MessageError("look: these names are not kept any more; expected names");
+    throw MessageError("look: these names are no longer stored; expected names");
   }
   ReplyText text;
   text.member("pid", getpid());

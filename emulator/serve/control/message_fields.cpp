@@ -76,7 +76,7 @@ std::uint64_t demand_count(const Json& message, const char* key, std::uint64_t m
 }
 
 void demand_power(const Device& device) {
-  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
+  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it to be on");
 }
 
 std::size_t demand_device(const Daemon& daemon, const Json& message) {

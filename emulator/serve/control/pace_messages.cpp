@@ -91,8 +91,7 @@ void step_message(Daemon& daemon, const Json& message, const ControlServer::Repl
   if (ticks == 0 || end > kHorizon) throw MessageError("ticks: expected 1 to " + std::to_string(kMostTicks));
   const bool begun = daemon.advance(end - now, [&daemon, reply] { reply(time_of_now(daemon).dump()); });
   if (!begun) {
-    throw MessageError(
-        "time runs by itself, or is being advanced already; expected --speed manual, or `pause` first");
+    throw MessageError("time is already running; expected --speed manual, or `pause` first");
   }
 }
 
@@ -112,7 +111,7 @@ Json snapshot_by_name(Daemon& daemon, const Json& message) {
   auto& kept = daemon.onlookers().snapshots;
   if (kept.size() >= Onlookers::kMostSnapshots && !kept.contains(name)) {
     throw MessageError("name: there are " + std::to_string(kept.size()) +
-                       " snapshots already; expected one dropped first");
+                       " snapshots already; expected one to be dropped first");
   }
   daemon.catch_up();
   kept.insert_or_assign(name, Onlookers::Kept{daemon.world().now(), world::save(daemon.world())});

@@ -107,7 +107,7 @@ const Port& demand_port(const Daemon& daemon, const Json& message) {
   if (!message.contains("line")) throw MessageError("'line' is missing; expected one of " + names);
   const std::string wanted = demand_text(message, "line");
   // "01 03" without quotes
-  const std::string hint = bytes_of(wanted) ? "; bytes stand in quotes, as one word" : "";
+  const std::string hint = bytes_of(wanted) ? "; put the bytes in quotes, as one word" : "";
   throw MessageError("line: " + understudy::quoted(wanted) + " is unknown; expected one of " + names + hint);
 }
 
@@ -189,11 +189,11 @@ Json send_message(Daemon& daemon, const Json& message) {
   daemon.catch_up_for_bytes();
   const std::string& name = line.line.name();
   if (port.host_present()) {
-    throw MessageError(
-        name + ": a host has the line open, which would take the answer for its own; expected it closed");
+    throw MessageError(name +
+                       ": a host has the line open and would receive the reply; expected it to be closed");
   }
   if (line.line.due() || line.line.room() < bytes.size()) {
-    throw MessageError(name + ": something is on its way there; expected a line at rest");
+    throw MessageError(name + ": bytes are in transit there; expected an idle line");
   }
   // As from a host that has closed: the answer is seen in `frames`, and goes to nobody.
   const std::uint64_t next = daemon.frames().next_number();

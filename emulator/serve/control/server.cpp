@@ -64,7 +64,7 @@ void remove_dead_socket(const std::string& path) {
   const int descriptor = connect_to(path);
   if (descriptor >= 0) {
     close(descriptor);
-    throw ControlError(path + ": another understudy answers there; expected a free path");
+    throw ControlError(path + ": another understudy uses it; expected a free path");
   }
   if (errno == ECONNREFUSED) unlink(path.c_str());
 }
@@ -93,7 +93,7 @@ ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
   umask(before);
   if (!bound || listen(listener.get(), 64) < 0) {
     throw ControlError(path_ + ": cannot be made: " + std::strerror(bound ? errno : error) +
-                       "; expected a free path in a folder that can be written");
+                       "; expected a free path in a writable folder");
   }
   struct stat status {};
   if (lstat(path_.c_str(), &status) == 0) inode_ = status.st_ino;
@@ -218,7 +218,7 @@ std::string ask_control(const std::string& path, const std::string& message,
                         std::optional<std::chrono::milliseconds> patience) {
   const int descriptor = connect_to(path);
   if (descriptor < 0) {
-    throw ControlError(path + ": nobody answers (" + std::strerror(errno) +
+    throw ControlError(path + ": no answer (" + std::strerror(errno) +
                        "); expected the control socket of a running `understudy serve`");
   }
   if (patience) {
@@ -244,7 +244,7 @@ std::string ask_control(const std::string& path, const std::string& message,
   }
   close(descriptor);
   if (reply.empty() || reply.back() != '\n')
-    throw ControlError(path + ": the daemon went away before it answered");
+    throw ControlError(path + ": the daemon closed the connection before it answered");
   reply.pop_back();
   return reply;
 }

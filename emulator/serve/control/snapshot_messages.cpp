@@ -28,7 +28,8 @@ std::string demand_file(const Json& message) {
   demand_keys(message, {"do", "file"});
   const std::string path = demand_text(message, "file");
   if (!path.starts_with('/')) {
-    throw MessageError("file: " + understudy::quoted(path) + " is not absolute; expected a path from / on");
+    throw MessageError("file: " + understudy::quoted(path) +
+                       " is not absolute; expected a path that begins with /");
   }
   return path;
 }
@@ -69,7 +70,7 @@ void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::
     return [path, reply, taken, why] {
       answer(reply, [&]() -> Json {
         if (why.empty()) return taken;
-        throw MessageError(path + ": file: cannot be written (" + why + "); expected a place for it");
+        throw MessageError(path + ": file: cannot be written (" + why + "); expected a writable path");
       });
     };
   });

@@ -24,7 +24,7 @@ SimTime demand_duration(const Daemon& daemon, const Json& message, const std::st
   const auto duration = field.is_string() ? parse_duration(field.get<std::string>()) : std::nullopt;
   if (!duration) throw is_not(key, field, "a duration with a unit", "one such as \"250ms\"");
   if (*duration > std::chrono::hours(24 * 365))
-    throw MessageError(key + ": is more than a year; expected at most that");
+    throw MessageError(key + ": is more than a year; expected at most a year");
   if (*duration > kHorizon - daemon.world().now()) {
     throw MessageError(key + ": is beyond the end of simulated time; expected at most " +
                        format_duration(kHorizon - daemon.world().now()));
@@ -33,7 +33,7 @@ SimTime demand_duration(const Daemon& daemon, const Json& message, const std::st
 }
 
 constexpr std::string_view kRunsByItself =
-    "time runs by itself, or is being advanced already; expected --speed manual, or `pause` first";
+    "time is already running; expected --speed manual, or `pause` first";
 
 /// What `run-until` waits for.
 struct Condition {

@@ -214,8 +214,8 @@ DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
       if (word == "seek") return answer(reply, [&] { return (*travel)->seek(message); });
       if (!word.empty() && !only_looks(message, word)) {
         return answer(reply, [&]() -> Json {
-          throw MessageError(word +
-                             ": this is a recording, which nothing changes; expected `seek`, or what looks");
+          throw MessageError(
+              word + ": a recording cannot be changed; expected `seek`, or a command that only reads");
         });
       }
       handle_message(daemon, line, reply);

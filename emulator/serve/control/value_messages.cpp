@@ -135,7 +135,7 @@ void demand_accepted(Refusal refusal, const std::string& name, const std::string
 Value value_for(const world::RegisterName& place, const WantedRegister& wanted) {
   if (!place.place.is_real()) return wanted.number.get<std::int64_t>();
   if (const auto value = value_of_number(place.place, wanted.number.get<double>())) return *value;
-  throw MessageError(wanted.name + ": " + wanted.number.dump() + " is more than a 32-bit real can hold");
+  throw MessageError(wanted.name + ": " + wanted.number.dump() + " is too large for a 32-bit real");
 }
 
 /// Each is tried on a device that is made alike, so that all are given or none.
@@ -242,7 +242,7 @@ Json set_message(Daemon& daemon, const Json& message) {
     // Two bits, or halves, of one register would be judged one without the other.
     for (const world::RegisterName& other : places) {
       if (other.device == place.device && other.place.place.is_same_register(place.place.place)) {
-        throw MessageError(name + ": its register is named twice; expected it once");
+        throw MessageError(name + ": its register appears twice; expected it once");
       }
     }
     places.push_back(place);
@@ -263,8 +263,8 @@ Json set_message(Daemon& daemon, const Json& message) {
     }
     if (world.write(places[i].device, writes[i]) == Refusal::none) continue;
     throw MessageError(wanted[i].name + " was not written: " +
-                       (i == 0 ? "the device" : "after what was named before it the device") +
-                       " does not take it now");
+                       (i == 0 ? "the device" : "after the earlier writes the device") +
+                       " does not accept it now");
   }
   for (const auto& [place, value] : values) world.assign(place.device, place.name, value);
   return Json{{"ok", true}};

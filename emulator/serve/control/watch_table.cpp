@@ -18,7 +18,7 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr const char* kNoUnderstudy =
-    "ctl watch: what answers is not an understudy; expected the control socket of `understudy serve`";
+    "ctl watch: this is not the socket of an understudy; expected the control socket of `understudy serve`";
 
 __attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...) {
   std::array<char, 256> text{};
@@ -135,7 +135,7 @@ std::vector<std::string> watch_table(const std::string& status, const std::strin
         "%-13s%s, speed %s%s", "time", now.at("simulated_time").get<std::string>().c_str(),
         now.at("speed").get<std::string>().c_str(), now.at("paused").get<bool>() ? ", paused" : ""));
     const Json& lateness = now.at("lateness");
-    lines.push_back(formatted("%-13sp50 %.0f us, p99 %.0f us, greatest %.0f us, %llu slips", "lateness",
+    lines.push_back(formatted("%-13sp50 %.0f us, p99 %.0f us, max %.0f us, %llu slips", "lateness",
                               lateness.at("p50_us").get<double>(), lateness.at("p99_us").get<double>(),
                               lateness.at("max_us").get<double>(),
                               lateness.at("slips").get<unsigned long long>()));

@@ -274,7 +274,7 @@ void Daemon::judge_stall(WallTime now) {
   // the log.
   const bool worth_a_line = left_out >= Pacer::kLongestStall || (pacer_.slips() & (pacer_.slips() - 1)) == 0;
   if (left_out > WallTime{0} && worth_a_line) {
-    log_("stalled: " + format_duration(left_out) + " of simulated time were left out (stall number " +
+    log_("stalled: " + format_duration(left_out) + " of simulated time were skipped (stall number " +
          std::to_string(pacer_.slips()) + ")");
   }
 }
@@ -373,8 +373,8 @@ void Daemon::work_on_advance() {
 
 std::string_view Daemon::why_no_restore() const {
   if (advance_done_) return "time is being advanced; expected `restore` after that";
-  if (recording_) return "a recording is being made, which cannot go back; expected none";
-  if (trace_) return "a trace is being made, which cannot go back; expected none";
+  if (recording_) return "a recording is in progress and cannot go back in time; expected none";
+  if (trace_) return "a trace is in progress and cannot go back in time; expected none";
   return {};
 }
 

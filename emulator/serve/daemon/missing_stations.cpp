@@ -46,7 +46,7 @@ void MissingStations::look(const pty::CapturedPacket& packet) {
   const std::string others = others_than(line, address);
   if (others.empty() || !is_new(packet.line, address)) return;
   log_("line " + line.line.name() + ": a host asks for station " + std::to_string(address) +
-       ", which is not there; " + others);
+       ", which does not exist; " + others);
 }
 
 bool MissingStations::is_new(std::size_t line, std::uint8_t address) {

@@ -119,8 +119,8 @@ void NvKeeper::claim(const world::DeviceSetup& device) {
   }
   if (!claims_.back()) {
     throw pty::PortError(device.nv_path +
-                         ": nv: another understudy, which is running, keeps a memory there; expected a file, "
-                         "or a folder with --nv, for each");
+                         ": nv: another running understudy uses this memory; expected a separate file, or a "
+                         "separate folder with --nv, for each");
   }
   // Nobody else writes it, so what lies beside it is of a writer that was killed.
   remove_left_beside(file_of(device).string(), ContentKind::nv_image);

@@ -120,8 +120,8 @@ void Port::keep_watch() {
   next_recovery_ = WallTime{0};
   watch();
   if (terminal_->path() != path_before) {
-    log_("line " + line().name() + ": a host that has gone left " + path_before +
-         " claimed (TIOCEXCL), so nobody can open it; the port is " + terminal_->path() + " now");
+    log_("line " + line().name() + ": a host exited and left " + path_before +
+         " claimed (TIOCEXCL), so no other program can open it; the new port is " + terminal_->path());
   }
 }
 
@@ -190,7 +190,7 @@ void Port::pass_on_what_was_left_behind() {
 void Port::ignore_terminal() {
   if (terminal_->poll_presence().opened)
     log_("line " + line().name() + ": a host has opened " + terminal_->path() +
-         ", but a client on TCP has the line; it is not heard until that one goes");
+         ", but a TCP client has the line; the host is ignored until the client disconnects");
   std::array<std::uint8_t, pty::Line::kInputCapacity> ignored;
   constexpr int kMostReadings = 32;  // all that the kernel holds
   for (int i = 0; i < kMostReadings && terminal_->read(ignored) > 0; ++i) {
@@ -359,7 +359,7 @@ void Port::plug_in() {
   if (access_.st_mode != 0 && chown(path, static_cast<uid_t>(-1), access_.st_gid) == 0)
     chmod(path, access_.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
   watch();
-  log_("line " + line().name() + " is plugged in again; the port is " + terminal_->path() + " now");
+  log_("line " + line().name() + " is plugged in again; the port is now " + terminal_->path());
 }
 
 // --- guests --------------------------------------------------------------------------------------

@@ -112,13 +112,13 @@ void TcpDoor::admit(Descriptor socket) {
 
 void TcpDoor::refuse() {
   if (port_.is_unplugged())
-    return log_("a host wants to connect at " + world::to_string(address_) +
-                ", which a fault has pulled out; it is refused");
+    return log_("a host tried to connect at " + world::to_string(address_) +
+                ", but a fault has unplugged the line; the connection was refused");
   log_(is_gateway() && !clients_.empty()
            ? "the gateway at " + world::to_string(address_) + " has " + std::to_string(kMostMasters) +
-                 " masters, and another wants to connect; it is refused"
-           : "a second host wants to connect at " + world::to_string(address_) +
-                 "; the line has one, so it is refused");
+                 " masters, and another tried to connect; the connection was refused"
+           : "a second host tried to connect at " + world::to_string(address_) +
+                 "; the line allows only one, so the connection was refused");
 }
 
 void TcpDoor::let_in(Descriptor socket) {
@@ -147,7 +147,8 @@ bool TcpDoor::hear(TcpClient& client) {
   if (heard == TcpClient::Heard::nothing) return false;
   if (heard == TcpClient::Heard::what_it_speaks) return true;
   if (heard == TcpClient::Heard::something_else)
-    log_("what a client sends at " + world::to_string(address_) + " is not Modbus TCP; it is let go");
+    log_("the bytes from a client at " + world::to_string(address_) +
+         " are not Modbus TCP; the client is disconnected");
   let_go(client);
   return false;
 }

@@ -17,15 +17,16 @@ std::string tty_shim_path() {
     const fs::path path = beside / "lib/understudy/tty_shim.so";
     if (fs::exists(path, error)) return path.string();
   }
-  throw NoTtyShim(
-      folder.string() +
-      ": the library tty_shim.so is not there; expected it in lib/understudy or ../lib/understudy");
+  throw NoTtyShim(folder.string() +
+                  ": tty_shim.so is missing; expected it in lib/understudy or ../lib/understudy");
 }
 
 std::string preload_with_tty_shim() {
   const std::string path = tty_shim_path();
   if (path.find_first_of(" :") != std::string::npos) {
-    throw NoTtyShim(path + ": LD_PRELOAD cannot hold spaces or colons; expected the program elsewhere");
+    throw NoTtyShim(
+        path +
+        ": LD_PRELOAD does not allow spaces or colons in paths; expected the program in another folder");
   }
   const char* const others = std::getenv("LD_PRELOAD");
   return others == nullptr || *others == '\0' ? path : path + ":" + others;

@@ -71,7 +71,7 @@ bool set_unit(GatewaySettings& gateway, std::string_view value) {
 }
 
 constexpr std::array kSettings{
-    SettingRow{"timeout", "a duration of 1ms to 1h such as 200ms, or 0 to say nothing", set_timeout},
+    SettingRow{"timeout", "a duration of 1ms to 1h such as 200ms, or 0 for no reply", set_timeout},
     SettingRow{"exception", "on or off", set_exception},
     SettingRow{"unit", "the number of a station, 1 to 247, or any", set_unit}};
 
@@ -108,7 +108,7 @@ std::string read_host(std::string_view text) {
     return host;
   }
   if (text.find(':') != std::string_view::npos)
-    throw ListeningError("has an address of IPv6 without brackets; expected it as in rtu://[::1]:5020");
+    throw ListeningError("has an IPv6 address without brackets; expected it as in rtu://[::1]:5020");
   const bool is_plain = std::ranges::none_of(text, [](char c) { return c <= ' ' || c == '/' || c == '@'; });
   if (!is_plain) not_an_address();
   return std::string(text);
@@ -125,7 +125,7 @@ TcpAddress parse_tcp_address(std::string_view text) {
   TcpAddress address{.protocol = scheme->protocol, .host = {}};
   if (mark != std::string_view::npos) {
     if (address.protocol != TcpProtocol::modbus_tcp)
-      throw ListeningError("has settings of a gateway; expected them behind modbus-tcp:// only");
+      throw ListeningError("has gateway settings; expected them only with modbus-tcp://");
     for (std::string_view rest = place.substr(mark + 1); !rest.empty();) {
       const std::size_t end = std::min(rest.find('&'), rest.size());
       read_setting(address.gateway, rest.substr(0, end));

@@ -83,7 +83,7 @@ class BenchReader {
 
   std::size_t add_device(const YamlFields& name_field, const std::string& name, const YamlFields& fields) {
     demand_name(name_field, name);
-    if (name == kTime) name_field.fail("is what conditions call the time; expected another name");
+    if (name == kTime) name_field.fail("is the name of the time in conditions; expected another name");
     if (names_.find_device(name) >= 0)
       name_field.fail("two devices are called " + understudy::quoted(name) + "; expected a new name");
     names_.lose_device(name);
@@ -180,14 +180,14 @@ class BenchReader {
     const auto name_of = [&](std::size_t number) { return std::string(model.line.ports[number].name); };
     auto& stations = places_[device].stations;
     if (stations[port] && stations.size() == 1)
-      station.fail("the device is on a line already; expected it on one line");
+      station.fail("the device is already on a line; expected it on one line");
     if (stations[port])
       station.fail("the device's port " + name_of(port) +
-                   " is on a line already; expected another `port`, or the device on one line");
+                   " is already on a line; expected another `port`, or the device on one line");
     stations[port] = station;
     for (const auto& [other, other_port] : line.stations) {
       if (other != device) continue;
-      station.fail("the device is on this line already, by its port " + name_of(other_port) +
+      station.fail("the device is already on this line, with its port " + name_of(other_port) +
                    "; expected another line");
     }
     return port;

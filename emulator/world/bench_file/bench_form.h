@@ -23,26 +23,25 @@ inline constexpr std::array<const Form*, 2> kNvWays{&kText, &kNvValuesForm};
 inline constexpr Form kNvForm = either_form(kNvWays);
 inline constexpr Form kAddressForm = integer_form(0, 255);
 
-inline constexpr KeyRow kNameKey{"name", "What the device is called: letters, digits, _ and -.", &kText,
-                                 true};
+inline constexpr KeyRow kNameKey{"name", "The device's name: letters, digits, _ and -.", &kText, true};
 inline constexpr KeyRow kModelKey{
     "model", "A model, as `understudy models` lists them, or the path of a model file.", &kText, true};
-inline constexpr KeyRow kAddressKey{"address", "The station number (default: 1, or what its memory says).",
+inline constexpr KeyRow kAddressKey{"address", "The station number (default: 1, or the one in its memory).",
                                     &kAddressForm};
-inline constexpr KeyRow kPortKey{
-    "port", "By which of the device's ports it stands there (default: its first).", &kText};
+inline constexpr KeyRow kPortKey{"port", "The port of the device on this line (default: its first).", &kText};
 inline constexpr KeyRow kFirmwareKey{"firmware", "Its firmware version (default: the newest).", &kText};
 inline constexpr Form kModulesForm = integer_form(1, 255);
-inline constexpr KeyRow kModulesKey{"modules", "How many modules it has, if it is a chain.", &kModulesForm};
+inline constexpr KeyRow kModulesKey{"modules", "Number of modules, if it is a chain.", &kModulesForm};
 inline constexpr std::array<const Form*, 2> kSetValueWays{&kRegisterValueForm, &kText};
 inline constexpr Form kSetValueForm = either_form(kSetValueWays);  // text: a real number
 inline constexpr Form kSetForm = names_form(kSetValueForm);
 inline constexpr KeyRow kSetKey{"set", "Registers (or values, by name) written at power-up, in this order.",
                                 &kSetForm};
-inline constexpr KeyRow kChoicesKey{"choices", "What to do where the manual leaves it open.", &kTextByName};
-inline constexpr KeyRow kDipKey{"dip", "The switches on its housing.", &kLevelByName};
+inline constexpr KeyRow kChoicesKey{"choices", "Options for questions that the manual leaves open.",
+                                    &kTextByName};
+inline constexpr KeyRow kDipKey{"dip", "Settings of the switches on its housing.", &kLevelByName};
 inline constexpr KeyRow kProgramKey{"program", "The path of a listing, or the listing itself.", &kText};
-inline constexpr KeyRow kNvKey{"nv", "The file of its non-volatile memory, or what it holds at first.",
+inline constexpr KeyRow kNvKey{"nv", "The file of its non-volatile memory, or its initial contents.",
                                &kNvForm};
 
 inline constexpr std::array kDeviceKeys{kModelKey,   kFirmwareKey, kModulesKey, kSetKey,
@@ -71,15 +70,16 @@ inline constexpr Form kTrueOrFalseForm = words_form(kTrueOrFalse);
 inline constexpr std::array<std::string_view, 2> kOnOrOff{"on", "off"};
 inline constexpr Form kOnOrOffForm = words_form(kOnOrOff);
 inline constexpr std::array kLineKeys{
-    KeyRow{"link", "Where hosts open it; relative to this file.", &kText},
-    KeyRow{"listen", "Where it is reached by TCP, such as rfc2217://127.0.0.1:5020.", &kListenForm},
-    KeyRow{"pty", "Whether it has a pseudo-terminal (true), or is reached by TCP only.", &kTrueOrFalseForm},
-    KeyRow{"baud", "The speed that the devices are set to; by default the factory's.", &kBaudForm},
-    KeyRow{"baud_tolerance", "How much faster or slower a host may be and still be heard (default: 2%).",
-           &kText},
-    KeyRow{"byte_timeout", "How long the rest of a frame is waited for (default: 200ms).", &kText},
-    KeyRow{"timing", "Whether bytes take their time.", &kTimingForm},
-    KeyRow{"echo", "Whether hosts hear their own bytes (off), as behind some RS485 adapters.", &kOnOrOffForm},
+    KeyRow{"link", "The path that hosts open; relative to this file.", &kText},
+    KeyRow{"listen", "The address where it accepts TCP clients, such as rfc2217://127.0.0.1:5020.",
+           &kListenForm},
+    KeyRow{"pty", "Whether it has a pseudo-terminal (true), or accepts only TCP clients.", &kTrueOrFalseForm},
+    KeyRow{"baud", "The speed of the devices (default: the factory setting).", &kBaudForm},
+    KeyRow{"baud_tolerance", "How much a host's speed may differ from the line's (default: 2%).", &kText},
+    KeyRow{"byte_timeout", "How long to wait for the rest of a frame (default: 200ms).", &kText},
+    KeyRow{"timing", "Whether bytes take as long as on a real line.", &kTimingForm},
+    KeyRow{"echo", "Whether hosts receive their own bytes (off), as with some RS485 adapters.",
+           &kOnOrOffForm},
     KeyRow{"stations", "The devices on the line.", &kStationsForm, true}};
 
 // --- the machine ---------------------------------------------------------------------------------
@@ -91,11 +91,11 @@ inline constexpr Form kPerRevolutionForm = integer_form(1, 10'000'000);
 inline constexpr KeyRow kHysteresisKey{"hysteresis", "Pulses between on and off.", &kHysteresisForm};
 inline constexpr std::array<std::string_view, 2> kContacts{"opens", "closes"};
 inline constexpr Form kContactForm = words_form(kContacts);
-inline constexpr KeyRow kContactKey{"contact", "What it does where it is on: closes (default), or opens.",
+inline constexpr KeyRow kContactKey{"contact", "What its contact does when on: closes (default), or opens.",
                                     &kContactForm};
 inline constexpr std::array kHomeKeys{
     KeyRow{"at", "The first position where the switch is on.", &kPositionForm, true},
-    KeyRow{"width", "How many positions it is on for.", &kWidthForm, true}, kHysteresisKey, kContactKey,
+    KeyRow{"width", "For how many positions it is on.", &kWidthForm, true}, kHysteresisKey, kContactKey,
     KeyRow{"input", "The input that it is wired to; by default the controller's own.", &kText}};
 inline constexpr std::array kLimitKeys{
     KeyRow{"lower", "The lower switch is on there and below.", &kPositionForm},
@@ -108,16 +108,16 @@ inline constexpr std::array kLimitKeys{
            &kText}};
 inline constexpr std::array kIndexKeys{
     KeyRow{"at", "The first position of one (0).", &kPositionForm},
-    KeyRow{"width", "How many positions it is on for (1).", &kWidthForm},
-    KeyRow{"period", "How far one is from the next; by default a revolution of the motor.", &kWidthForm},
+    KeyRow{"width", "For how many positions it is on (1).", &kWidthForm},
+    KeyRow{"period", "The distance from one to the next (default: a revolution of the motor).", &kWidthForm},
     KeyRow{"input", "The input that it is wired to; by default the controller's own.", &kText}};
 inline constexpr Form kIndexForm = keys_form(kIndexKeys);
 inline constexpr std::array<std::string_view, 2> kEncoderPlaces{"wheel", "machine"};
 inline constexpr Form kEncoderPlaceForm = words_form(kEncoderPlaces);
 inline constexpr std::array kEncoderKeys{
-    KeyRow{"per_revolution", "Its counts for a revolution.", &kPerRevolutionForm, true},
-    KeyRow{"motor_pulses_per_revolution", "The motor's pulses for one.", &kPerRevolutionForm},
-    KeyRow{"reversed", "Whether it counts the other way.", &kTrueOrFalseForm},
+    KeyRow{"per_revolution", "Its counts per revolution.", &kPerRevolutionForm, true},
+    KeyRow{"motor_pulses_per_revolution", "The motor's pulses per revolution.", &kPerRevolutionForm},
+    KeyRow{"reversed", "Whether it counts in the opposite direction.", &kTrueOrFalseForm},
     KeyRow{"on", "What turns it: the machine (default), or a hand wheel.", &kEncoderPlaceForm},
     KeyRow{"index", "Its index pulse, once a revolution.", &kIndexForm}};
 inline constexpr std::array kDriveKeys{
@@ -129,10 +129,10 @@ inline constexpr Form kLimitsForm = keys_form(kLimitKeys);
 inline constexpr Form kEncoderForm = keys_form(kEncoderKeys);
 inline constexpr Form kDriveForm = keys_form(kDriveKeys);
 inline constexpr std::array kMachineKeys{
-    KeyRow{"position", "Where the machine stands at first (0).", &kPositionForm},
+    KeyRow{"position", "The machine's initial position (0).", &kPositionForm},
     KeyRow{"travel", "The hard stops; pulses beyond are lost.", &kTravelForm},
     KeyRow{"home", "The home switch.", &kHomeForm},
-    KeyRow{"near_home", "The switch that tells that home is near.", &kHomeForm},
+    KeyRow{"near_home", "The near-home switch.", &kHomeForm},
     KeyRow{"mark", "A mark, or a sensor for one.", &kHomeForm},
     KeyRow{"limits", "The limit switches.", &kLimitsForm},
     KeyRow{"encoder", "The encoder.", &kEncoderForm},
@@ -149,19 +149,20 @@ inline constexpr Form kFaultForm = keys_form(kFaultKeys);
 inline constexpr Form kFaultsForm = list_form(kFaultForm);
 inline constexpr Form kSeedForm = integer_form(0, INT64_MAX);
 
-inline constexpr KeyRow kLinesKey{"lines", "The serial lines, by names of yours.", &kLinesForm, true};
-inline constexpr KeyRow kDevicesKey{"devices", "Devices with more to say, by names of yours.", &kDevicesForm};
-inline constexpr KeyRow kPlantKey{"plant", "The machine on each axis: feeder.A and what it is like.",
+inline constexpr KeyRow kLinesKey{"lines", "The serial lines, by names that you choose.", &kLinesForm, true};
+inline constexpr KeyRow kDevicesKey{"devices", "Devices with more settings, by names that you choose.",
+                                    &kDevicesForm};
+inline constexpr KeyRow kPlantKey{"plant", "The machine on each axis, by the axis, such as feeder.A.",
                                   &kPlantForm};
 inline constexpr KeyRow kWiresKey{
     "wires",
     "From an output, or a machine's switch, to an input, or one of a drive (servo, alarm_clear): "
     "feeder.DOUT_4 -> turner.DIN_10.",
     &kTextList};
-inline constexpr KeyRow kInputsKey{"inputs", "What inputs are given at first.", &kTextByName};
-inline constexpr KeyRow kFaultsKey{"faults", "What is broken at first: { stall: feeder.A }.", &kFaultsForm};
+inline constexpr KeyRow kInputsKey{"inputs", "Initial levels of inputs.", &kTextByName};
+inline constexpr KeyRow kFaultsKey{"faults", "Initial faults: { stall: feeder.A }.", &kFaultsForm};
 
-inline constexpr KeyRow kSeedKey{"seed", "Where randomness begins.", &kSeedForm};
+inline constexpr KeyRow kSeedKey{"seed", "The seed of all random choices.", &kSeedForm};
 
 inline constexpr std::array kBenchKeys{kVersionKey, kLinesKey,  kDevicesKey, kPlantKey,
                                        kWiresKey,   kInputsKey, kFaultsKey,  kSeedKey};

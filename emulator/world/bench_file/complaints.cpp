@@ -47,7 +47,7 @@ void Complaints::throw_if_any() const {
     const std::size_t more = sorted.size() - kMostTold;
     sorted.resize(kMostTold);
     const FileError rest("and " + std::to_string(more) + " more; the first " + std::to_string(kMostTold) +
-                         " are told");
+                         " are shown");
     sorted.push_back(rest.complaints().front());
   }
   throw FileError(std::move(sorted));

@@ -216,7 +216,7 @@ void demand_name(const YamlFields& field, const std::string& name) {
 }
 
 std::string path_in(const std::optional<std::string>& folder, const YamlFields& field) {
-  if (!folder) field.fail("is a path; expected none in a recording, which has everything in itself");
+  if (!folder) field.fail("is a path; expected none, since a recording contains everything");
   if (field.text().empty()) field.fail("is empty; expected a path");
   return (std::filesystem::path(*folder) / field.text()).lexically_normal().string();
 }

@@ -73,16 +73,16 @@ std::vector<TcpAddress> read_listen(const YamlFields& listen, const std::vector<
 
 void demand_ports(const YamlFields& fields, const LineSetup& line, const Bench& bench) {
   if (!line.has_pty && line.tcp.empty())
-    fields.at("pty").fail("leaves the line without a port; expected `listen` beside it");
+    fields.at("pty").fail("leaves the line without a port; expected `listen` as well");
   if (!line.has_pty && !line.link.empty())
-    fields.at("link").fail("is of a pseudo-terminal, and `pty` is false; expected one of the two");
+    fields.at("link").fail("needs a pseudo-terminal, but `pty` is false; expected one of the two");
   const bool is_text =
       !line.stations.empty() && speech_of(*bench.devices[line.stations.front().device].model).carries_text();
   const bool has_modbus_tcp =
       std::ranges::find(line.tcp, TcpProtocol::modbus_tcp, &TcpAddress::protocol) != line.tcp.end();
   if (is_text && has_modbus_tcp)
     fields.at("listen").fail(
-        "the line speaks lines of text, not Modbus; expected rtu:// or rfc2217://, which carry any bytes");
+        "the line carries lines of text, not Modbus; expected rtu:// or rfc2217://, which carry any bytes");
 }
 
 std::string read_link(const YamlFields& link, const std::optional<std::string>& folder,
@@ -91,7 +91,7 @@ std::string read_link(const YamlFields& link, const std::optional<std::string>& 
   const std::string written = link.text();
   if (written.find("://") != std::string::npos)
     link.fail(understudy::quoted(written) +
-              " is an address of a network; expected a path for a pseudo-terminal (`listen` has addresses)");
+              " is a network address; expected a path for a pseudo-terminal (`listen` has addresses)");
   std::string path = path_in(folder, link);
   if (one_line(path) != path) link.fail("has a control character; expected a path without one");
   const std::string name = fs::path(path).filename().string();
@@ -104,7 +104,7 @@ std::string read_link(const YamlFields& link, const std::optional<std::string>& 
   if (name.empty() || name == "." || name == ".." || there == fs::file_type::directory)
     link.fail(understudy::quoted(written) + " is a folder; expected a path for the link in it");
   if (there == fs::file_type::character || there == fs::file_type::block)
-    link.fail(understudy::quoted(written) + " is a device of this machine; expected a path that is free");
+    link.fail(understudy::quoted(written) + " is a device file of this machine; expected a free path");
   const auto absolute = [](const std::string& some) { return fs::weakly_canonical(fs::absolute(some)); };
   for (const LineSetup& other : lines) {
     if (!other.link.empty() && absolute(other.link) == absolute(path))

@@ -120,8 +120,7 @@ void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& set
   complaints.attempt([&] {
     if (setup.pulses_per_revolution > 0 || encoder.has("motor_pulses_per_revolution")) return;
     if (!setup.has_wheel)
-      encoder.fail(
-          "turns with a motor of unknown pulses a revolution; expected `motor_pulses_per_revolution`");
+      encoder.fail("needs the pulses per revolution of the motor; expected `motor_pulses_per_revolution`");
     setup.pulses_per_revolution = 1;  // no motor turns it
   });
   keys.read("reversed",

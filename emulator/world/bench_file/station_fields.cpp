@@ -40,8 +40,9 @@ void demand_room(const YamlFields& station, const StationSetup& wanted, const Li
   const StationSetup& lone = is_alone(wanted) ? wanted : line.stations.front();
   const LineRules& rules = rules_of(lone);
   const std::string why =
-      rules.station_numbers ? " is there by " + std::string(rules.ports[lone.port].name) + ", an RS232 port,"
-                            : " speaks " + std::string(rules.protocol.name);
+      rules.station_numbers
+          ? " is on this line with " + std::string(rules.ports[lone.port].name) + ", an RS232 port,"
+          : " speaks " + std::string(rules.protocol.name);
   station.fail(quoted(bench.devices[lone.device].settings.name) + why +
                " and must be alone on its line; expected no other station on it");
 }

@@ -115,9 +115,9 @@ constexpr std::array kPlainWords{
                "of spaces before the keys of one map"},
     PlainWords{"end of map not found", is_glued_key,
                "this line has no space after its ':'; expected `key: value`"},
-    PlainWords{"illegal map key", always, "a key cannot stand here; expected it on a line of its own"},
+    PlainWords{"illegal map key", always, "a key is not allowed here; expected it on a line of its own"},
     PlainWords{"end of map not found", is_in_line,
-               "something follows a value that is complete; expected quotes around all of the text"},
+               "more text follows a complete value; expected quotes around all of the text"},
     PlainWords{"end of map not found", always, kOtherIndentation},
     PlainWords{"end of sequence not found", always, kOtherIndentation},
     PlainWords{"end of map flow not found", goes_on, kMissingComma},
@@ -127,16 +127,16 @@ constexpr std::array kPlainWords{
     PlainWords{"end of sequence flow not found", always,
                "a '[' before this is not closed; expected ',' or ']' here"},
     PlainWords{"illegal flow end", always,
-               "this bracket or brace closes nothing that is open; expected one '[' or '{' for each"},
+               "this bracket or brace has no matching '[' or '{'; expected one for each"},
     PlainWords{"illegal block entry", always,
-               "a list's '- ' cannot stand here; expected it at the beginning of a line"},
+               "a list's '- ' is not allowed here; expected it at the beginning of a line"},
     PlainWords{"illegal EOF in scalar", always, "a quote is not closed; expected another at the text's end"},
     PlainWords{"unknown token", always, "a text cannot begin with this sign; expected quotes around it"},
     PlainWords{"the referenced anchor is not defined", always,
                "no text before this has this anchor; expected `&name` before `*name`, or quotes around a "
                "text with '*'"},
     PlainWords{"unknown escape character", always,
-               "a '\\' and a letter that mean nothing together; expected '\\\\' for the sign itself, or "
+               "this escape sequence does not exist; expected '\\\\' for the sign itself, or "
                "single quotes"},
     PlainWords{"unexpected character in block scalar", always,
                "something follows a '|' or '>'; expected the text on the lines below"},
@@ -272,7 +272,8 @@ std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::s
       throw FileError({file, second.mark.line + 1, second.mark.column + 1},
                       what + ": a second document begins here; expected one");
     }
-    throw not_yaml(stop, file, what, "this belongs to nothing before it; expected one map, `key: value`");
+    throw not_yaml(stop, file, what,
+                   "this does not belong to the map before it; expected one map, `key: value`");
   } catch (const YAML::Exception& error) {
     throw not_yaml(Stop(text, error.mark), file, what, error.msg);
   }

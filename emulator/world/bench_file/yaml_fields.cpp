@@ -256,7 +256,7 @@ bool YamlFields::on_or_off() const {
   const std::string word = text();
   const bool on = word == "on" || word == "true" || word == "1";
   if (!on && word != "off" && word != "false" && word != "0")
-    fail(understudy::quoted(word) + " is neither; expected on or off");
+    fail(understudy::quoted(word) + " is neither on nor off; expected one of them");
   return on;
 }
 

@@ -31,8 +31,9 @@ struct Hint {
 constexpr std::array<Hint, 4> kHints = {{
     {"=", "'=' is not an operator; expected '==' to compare"},
     {"<>", "'<>' is not an operator; expected '!='"},
-    {"+-", "'+-' has no place here; expected it once behind '==' or '!=' and a value, as in x == 3050 +- 2"},
-    {"..", "a range has no place here; expected low <= x && x <= high"},
+    {"+-",
+     "'+-' is not allowed here; expected it once, after '==' or '!=' and a value, as in x == 3050 +- 2"},
+    {"..", "a range is not allowed here; expected low <= x && x <= high"},
 }};
 
 struct ExpressionFunctionRow {
@@ -186,7 +187,7 @@ bool ExpressionParser::percentage(std::int64_t& millionths) {
   // The sign touches the number, which tells it from a remainder.
   const bool is_percentage = token_.kind == Token::Kind::number && text_.substr(token_.end).starts_with('%');
   if (!is_percentage) return false;
-  if (token_.unit != Unit::none) fail(offset(), "'%' behind " + kind_of(token_.unit) + "; expected a number");
+  if (token_.unit != Unit::none) fail(offset(), "'%' after " + kind_of(token_.unit) + "; expected a number");
   constexpr std::int64_t kMost = 1'000'000;
   if (token_.number > kMost) fail(offset(), "expected a tolerance of at most a million percent");
   // A decimal number of six places, times a million, is nearest to the whole number that is meant.

@@ -79,7 +79,7 @@ Term combined(const BinaryRow& row, const Term& left, const Term& right) {
         throw MisfitError("comparisons do not chain; write a " + sign + " b && b " + sign + " c");
       }
       if (either_is(Term::Form::negation)) {
-        throw MisfitError("'!' beside '" + sign + "' needs parentheses: !(a " + sign + " b), or (!a) " +
+        throw MisfitError("'!' next to '" + sign + "' needs parentheses: !(a " + sign + " b), or (!a) " +
                           sign + " b");
       }
       check_units(left, right, sign);
@@ -100,7 +100,7 @@ Term combined(const BinaryRow& row, const Term& left, const Term& right) {
     default:
       if (either_is(Term::Form::comparison)) {
         throw MisfitError("'" + sign +
-                          "' beside a comparison needs parentheses, because the comparison comes " +
+                          "' next to a comparison needs parentheses, because the comparison comes " +
                           "first: (a " + sign + " b) == c");
       }
       check_bits(sign, left, right);

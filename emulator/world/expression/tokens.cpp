@@ -218,7 +218,7 @@ Token Lexer::number() {
     double value = 0;
     const auto error = std::from_chars(plain.data(), plain.data() + plain.size(), value).ec;
     // What is too small to tell from 0 is refused too: it was not meant as 0.
-    if (error != std::errc{}) fail(begin, written + " is beyond what a real number holds");
+    if (error != std::errc{}) fail(begin, written + " is too large for a real number");
     token.number = value;
   }
   return token;

@@ -232,7 +232,7 @@ Fault find_fault(const KnownDevices& devices, const FaultText& text) {
       throw NameError("before and after are missing; expected one of them");
     }
     if (is_done_at_once(fault.kind) && fault.trigger.lasts != SimTime{0}) {
-      throw NameError("for: it is over at once; expected none");
+      throw NameError("for: this fault has no duration; expected none");
     }
   } catch (const NameError& error) {
     // "field: what is wrong" where it is about one that was given.

@@ -99,10 +99,11 @@ void demand_sense(const FaultTrigger& trigger) {
   };
   const bool is_moment = trigger.at >= SimTime{0};
   const bool has_span = trigger.from > SimTime{0} || trigger.to != kForever;
-  demand(!is_moment || !has_span, "at: does not go with from and to; expected one or the other");
+  demand(!is_moment || !has_span, "at: cannot be combined with from and to; expected one or the other");
   demand(!is_moment || trigger.times == 0, "at: happens only once; expected it without times");
   demand(trigger.from < trigger.to, "to: is not after from; expected a later time");
-  demand(trigger.seed < 0 || trigger.chance != 0, "seed: nothing is left to chance; expected chance as well");
+  demand(trigger.seed < 0 || trigger.chance != 0,
+         "seed: has no effect without chance; expected chance as well");
 }
 
 std::vector<std::pair<std::string, std::string>> fields_of(const FaultTrigger& trigger) {

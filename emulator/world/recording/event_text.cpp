@@ -52,7 +52,7 @@ std::string text_of(const RecordedEvent& event, const World& world) {
   switch (event.what) {
     case What::opened: return "a host opens " + line();
     case What::closed: return "the host closes " + line();
-    case What::purged: return "the host takes back what is not on " + line() + " yet";
+    case What::purged: return "the host discards unsent bytes on " + line();
     case What::settings: return "the host sets " + line() + ": " + settings_text(event.host);
     case What::input: {
       const auto& terminals = world.known()[event.where].model->terminals;

@@ -88,7 +88,7 @@ Json parse_line(std::string_view line) {
     if (!parsed.is_object()) throw RecordingError("line: is not an object; expected one");
     return parsed;
   } catch (const Json::exception&) {
-    throw RecordingError("line: is torn or not JSON; expected one object");
+    throw RecordingError("line: is damaged or not JSON; expected one object");
   }
 }
 
@@ -159,7 +159,7 @@ Fault fault_at(const Json& object, const KnownDevices& devices) {
   if (!fault.is_object() || fault.empty()) throw RecordingError("fault: is not an object; expected one");
   FaultText text{};
   for (const auto& [name, value] : fault.items()) {
-    if (!value.is_string()) throw RecordingError("fault: holds something that is not text; expected texts");
+    if (!value.is_string()) throw RecordingError("fault: has a value that is not text; expected texts");
     if (&value != &fault.front()) {
       text.fields.emplace_back(name, value.get<std::string>());
       continue;
@@ -205,7 +205,7 @@ std::string to_line(const RecordingHeader& header) {
 RecordingHeader parse_header(std::string_view text) {
   const Json line = parse_line(text);
   if (!line.contains("understudy") || !line.contains("kind") || line["kind"] != kRecordingKind) {
-    throw RecordingError("kind: is missing or something else; expected a recording");
+    throw RecordingError("kind: is missing or different; expected a recording");
   }
   number_at(line, "understudy", kRecordingFormat, kRecordingFormat);
   RecordingHeader header;

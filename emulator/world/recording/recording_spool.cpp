@@ -60,7 +60,7 @@ void RecordingSpool::put_aside() {
   std::string why = why_no_older_part(kept);
   const std::optional<FileAccess> access = access_of(path);
   if (why.empty() && std::rename(path.c_str(), kept.c_str()) != 0) why = std::strerror(errno);
-  if (!why.empty()) throw GrowingFileError("it cannot be put aside as " + kept + ": " + why);
+  if (!why.empty()) throw GrowingFileError("it cannot be renamed to " + kept + ": " + why);
   before_ = std::move(file_);
   if (access) make_like(path, *access);
   file_ = std::make_unique<GrowingFile>(path, ContentKind::recording, log_);

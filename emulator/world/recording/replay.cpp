@@ -99,7 +99,7 @@ std::string text_of(const World& world, std::size_t line, SimTime at,
 std::string compare(const World& world, Speeches& speeches, const RecordedEvent& recorded,
                     std::uint64_t bytes_before) {
   const std::string expected = text_of(world, recorded.where, recorded.at, recorded.bytes);
-  if (speeches.waiting().empty()) return "expected " + expected + "; nothing was said";
+  if (speeches.waiting().empty()) return "expected " + expected + "; nothing was sent";
   const Speeches::Speech said = speeches.waiting().front();
   speeches.waiting().pop_front();
   const std::string came = text_of(world, said.line, said.at, said.bytes);
@@ -127,7 +127,7 @@ std::string compare_state(const World& world, const RecordingHeader& header, con
     if (part.name == kEdgePart) part = replayed.parts.back();
   }
   const std::string found = difference(world, recorded, replayed);
-  return found.empty() ? found : "ends in another state: " + found + " (recorded against replayed)";
+  return found.empty() ? found : "ends in a different state: " + found + " (recorded against replayed)";
 }
 
 /// A recording's lines; what is wrong with one is told with its number.

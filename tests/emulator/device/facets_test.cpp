@@ -54,9 +54,9 @@ TEST(Facets, NoProgramIsTakenWhereThereIsNone) {
     load_program(toy.device, "1");
     FAIL() << "taken";
   } catch (const ProgramError& error) {
-    EXPECT_STREQ(error.what(), "toy takes no program from a file; expected none");
+    EXPECT_STREQ(error.what(), "toy cannot load a program from a file; expected none");
   }
-  EXPECT_EQ(why_no_value(toy.device, "R0"), "nothing of toy is called 'R0'; there is none");
+  EXPECT_EQ(why_no_value(toy.device, "R0"), "toy has no value called 'R0'; there is none");
 }
 
 }  // namespace facets_test

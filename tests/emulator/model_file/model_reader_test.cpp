@@ -72,19 +72,19 @@ TEST(ModelReader, SaysWhatIsWrongWithAnAxis) {
        "axes.A.ready: 'STATUS.0' shows A.busy already; expected another place for A.ready"},
       {"busy: STATUS, ready: STATUS.3", 29,
        "axes.A.ready: 'STATUS.3' shows A.busy already; expected another place for A.ready"},
-      {"start: CONTROL.GO", 15, "axes.A.start: is of no use alone; expected `target` as well"},
+      {"start: CONTROL.GO", 15, "axes.A.start: has no effect alone; expected `target` as well"},
       {"start: STATUS.2, target: TARGET, speed: SPEED", 15,
        "axes.A.start: 'STATUS' cannot be written; expected a register that hosts write"},
       {"start: TARGET, target: TARGET, speed: SPEED", 15,
-       "axes.A.start: 'TARGET' has 32 bits, which may come in halves; expected 16 bits, or a coil"},
+       "axes.A.start: 'TARGET' has 32 bits, which hosts can write in halves; expected 16 bits, or a coil"},
       {"start: CONTROL == x, target: TARGET, speed: SPEED", 15,
        "axes.A.start: 'x' is not a number; expected one, as in COMMAND == 2"},
       {"start: CONTROL.MODE == 16, target: TARGET, speed: SPEED", 15,
-       "axes.A.start: '16' is never there; expected 0 to 15"},
+       "axes.A.start: '16' never occurs; expected 0 to 15"},
       {"stop: GAIN", 14, "axes.A.stop: 'GAIN' is a real number; expected a bit, or a whole number"},
       {"enable: STATUS.3, busy: STATUS.BUSY", 16, ""},  // see below
       {"forward: TEMPERATURE, speed: 5", 17,
-       "axes.A.forward: 'TEMPERATURE' never changes; expected what hosts write, or an input"},
+       "axes.A.forward: 'TEMPERATURE' never changes; expected a register that hosts write, or an input"},
       {"acceleration_time: SPEED", 27,
        "axes.A.acceleration_time: 'SPEED' has the unit 'pps'; expected a unit of time in the list, such as "
        "ms, "
@@ -92,7 +92,7 @@ TEST(ModelReader, SaysWhatIsWrongWithAnAxis) {
       {"acceleration_time: 250", 27,
        "axes.A.acceleration_time: '250' has no unit; expected a duration such as 250ms, or a register"},
       {"acceleration_time: RAMP, acceleration: 5", 27,
-       "axes.A.acceleration_time: is given beside `acceleration`; expected one of the two"},
+       "axes.A.acceleration_time: cannot be combined with `acceleration`; expected one of the two"},
       {"pulses_per_count: 0", 26,
        "axes.A.pulses_per_count: '0' is not possible; expected a whole number above 0, or two as in 25/4"},
       {"pps_per_count: -1", 23,
@@ -103,7 +103,7 @@ TEST(ModelReader, SaysWhatIsWrongWithAnAxis) {
        "axes.A.inputs.home: 'DI1' is not an input; `inputs` of the model has none"},
       {"while_busy: wait", 20,
        "axes.A.while_busy: 'wait' is not possible; expected one of replace, ignore, refuse"},
-      {"while_disabled: refuse", 24, "axes.A.while_disabled: is of no use alone; expected `enable` as well"},
+      {"while_disabled: refuse", 24, "axes.A.while_disabled: has no effect alone; expected `enable` as well"},
   };
   for (const WrongAxis& wrong : kWrong) {
     if (std::string(wrong.complaint).empty()) continue;
@@ -141,9 +141,9 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"line: { silence: 0ms }\n", 1, 18,
        "line.silence: '0ms' is not possible; expected more than 0, up to 1s"},
       {"outputs: { DO1: STATUS.3 }\nshows: { STATUS.2: SPEED > 5 }\n", 1, 17,
-       "outputs.DO1: 'STATUS.3' never changes; expected what hosts write, or what shows something"},
+       "outputs.DO1: 'STATUS.3' never changes; expected a register that hosts write, or that shows a value"},
       {"axes: { A: { stop: SPEED == 9001 } }\n", 1, 20,
-       "axes.A.stop: '9001' is never there; expected 0 to 9000"},
+       "axes.A.stop: '9001' never occurs; expected 0 to 9000"},
       {"line: { station_in: TARGET }\n", 1, 21,
        "line.station_in: 'TARGET' cannot hold it; expected a holding register of 16 bits"},
       {"line: { station_in: CONTROL }\n", 1, 21,
@@ -169,7 +169,7 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"follows: { TEMPERATURE: { of: TEMPERATURE } }\n", 1, 31,
        "follows.TEMPERATURE.of: is the register itself; expected another one"},
       {"follows: { TEMPERATURE: { of: SPEED, rest: 5 } }\n", 1, 44,
-       "follows.TEMPERATURE.rest: is of no use alone; expected `while` as well"},
+       "follows.TEMPERATURE.rest: has no effect alone; expected `while` as well"},
       {"follows: { TEMPERATURE: { of: SPEED, rate: 0 } }\n", 1, 44,
        "follows.TEMPERATURE.rate: '0' is not possible; expected a number above 0"},
       {"follows: { TEMPERATURE: { of: SPEED, every: 0ms } }\n", 1, 45,
@@ -177,7 +177,7 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"follows: { SPEED: { of: 5 } }\n", 1, 19,
        "follows.SPEED: 'SPEED' is written by hosts; expected a register that they only read (R)"},
       {"shows: { STATUS.1: TEMPERATURE>5 }\n", 1, 20,
-       "shows.STATUS.1: '>' has no blanks around it; expected them, as in TEMPERATURE > LIMIT"},
+       "shows.STATUS.1: '>' has no spaces around it; expected them, as in TEMPERATURE > LIMIT"},
       {"shows: { STATUS.1: SPEED > 5, SWITCH: STATUS > 0 }\n", 1, 39,
        "shows.SWITCH: compares a register that shows a relation itself; expected registers without one"},
       {"momentary: [ STATUS ]\n", 1, 14,
@@ -185,7 +185,8 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"momentary: [ RUN ]\naxes: { A: { forward: RUN, speed: 5 } }\n", 2, 23,
        "axes.A.forward: 'RUN' is momentary; expected a register that keeps what is written"},
       {"follows: { TEMPERATURE: { of: SPEED } }\naxes: { A: { forward: TEMPERATURE, speed: 5 } }\n", 2, 23,
-       "axes.A.forward: 'TEMPERATURE' shows something there; expected what hosts write, or an input"},
+       "axes.A.forward: 'TEMPERATURE' shows a value there; expected a register that hosts write, or an "
+       "input"},
   };
   for (const WrongPart& wrong : kWrong) {
     const std::string came = complaint(wrong.lines);
@@ -291,7 +292,7 @@ TEST(ModelFiles, GiveTheSameModelForTheSameText) {
 
 TEST(ModelFiles, RefuseTheNameOfAModelThatThereIs) {
   EXPECT_EQ(complaint_about("understudy: 1\nmodel: slim\nregisters: \"address,name\\n0,A\\n\"\n"),
-            "m.yaml:2:8: model: 'slim' is a model of this program's own; expected another name");
+            "m.yaml:2:8: model: 'slim' is a built-in model; expected another name");
 }
 
 class ModelFilesInAFolder : public testing::Test {
@@ -359,8 +360,8 @@ TEST(ModelFiles, InARecordingHaveTheirListInside) {
     FAIL() << "it was read";
   } catch (const FileError& error) {
     EXPECT_STREQ(error.what(),
-                 "it.model:3:12: registers: is a path; expected the list itself in a recording, which "
-                 "has everything in itself");
+                 "it.model:3:12: registers: is a path; expected the list itself, since a recording contains "
+                 "everything");
   }
 }
 

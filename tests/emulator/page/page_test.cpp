@@ -150,7 +150,7 @@ TEST(PageSockets, WithoutTheTokenAreClosedAndHearNothing) {
     ASSERT_TRUE(browser.open_socket(rig.page.port()));
     browser.write(TestBrowser::frame(first));
     EXPECT_TRUE(browser.hear().is_null()) << first;
-    EXPECT_EQ(browser.why(), "the token is not this page's") << first;
+    EXPECT_EQ(browser.why(), "the token is wrong") << first;
   }
   EXPECT_EQ(rig.browser()->why(), "");
   EXPECT_EQ(rig.hello["read_only"], false);

@@ -227,9 +227,9 @@ TEST(Languages, AScenarioExpectsThatAProgramIsRefused) {
   EXPECT_EQ(failure(wrong + "    refused: true\n  - expect: { it.Program_Refused: 1 }\n"), "");
   EXPECT_EQ(failure(wrong + "    refused: \"line 2, column 1: 'FLY'\"\n"), "");
   EXPECT_NE(
-      failure(wrong + "    refused: is full\n").find("it refuses the program for another reason: line 2"),
+      failure(wrong + "    refused: is full\n").find("it refused the program for another reason: line 2"),
       std::string::npos);
-  EXPECT_NE(failure(good + "    refused: true\n").find("it has taken the program; expected it refused"),
+  EXPECT_NE(failure(good + "    refused: true\n").find("it accepted the program; expected a refusal"),
             std::string::npos);
   // For what the device is doing, and not for its text.
   EXPECT_EQ(failure("  - write: { it.Absent: 1 }\n" + good +
@@ -391,7 +391,7 @@ const Model& silent() {
 TEST(Languages, AModelAndItsDevicesAgreeOnThem) {
   EXPECT_THROW(make_device(silent(), settings_with()), std::logic_error);
   EXPECT_EQ(told(check_program(silent(), "", {})),
-            std::vector<std::string>{"workbench takes no program from a file; expected none"});
+            std::vector<std::string>{"workbench cannot load a program from a file; expected none"});
 }
 
 }  // namespace language_test

@@ -157,8 +157,8 @@ TEST(Plays, AreLinted) {
   std::string all;
   for (const std::string& finding : results.front().manners) all += finding + "\n";
   for (const char* wanted :
-       {"1 write to it.Servo_X, which can only be read", "1 write to it.Servo_Y, which can only be read",
-        "1 write to it.Servo_Z, which can only be read", "changes of it.Gain_X, which is kept in EEPROM"}) {
+       {"1 write to it.Servo_X, which is read-only", "1 write to it.Servo_Y, which is read-only",
+        "1 write to it.Servo_Z, which is read-only", "changes of it.Gain_X, which is stored in EEPROM"}) {
     EXPECT_NE(all.find(wanted), std::string::npos) << wanted << " in\n" << all;
   }
 }
@@ -212,7 +212,7 @@ TEST(Plays, AreTracedWithReals) {
 TEST(Plays, WhatCannotBeWrittenIsAnErrorOfTheFile) {
   const std::pair<const char*, const char*> cases[] = {
       {"write: { it.Servo_X: 1 }",
-       "it.Servo_X cannot be written; it is read-only (expected `exception:` where that is meant)"},
+       "it.Servo_X cannot be written; it is read-only (use `exception:` if the step tests that)"},
       {"write: { it.Module_ID: 1 }",
        "it.Module_ID cannot be written; no function writes to the table 'input'"},
       {"write: { it.discrete.0x0003: 1 }",

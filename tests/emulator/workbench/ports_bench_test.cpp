@@ -86,13 +86,13 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
       {lines_ab(mill, "{ device: mill, port: HMMI }", one),
        "bench.yaml:4:42: lines.b.stations[0].port: 'HMMI' is not a port of workbench; the nearest is 'HMI'"},
       {lines_ab(mill, mill, one),
-       "bench.yaml:4:20: lines.b.stations[0]: the device's port PC is on a line already; expected another "
+       "bench.yaml:4:20: lines.b.stations[0]: the device's port PC is already on a line; expected another "
        "`port`, or the device on one line"},
       {lines_ab("{ device: mill, port: HMI }", "{ device: mill, port: HMI }", one),
-       "bench.yaml:4:20: lines.b.stations[0]: the device's port HMI is on a line already; expected another "
+       "bench.yaml:4:20: lines.b.stations[0]: the device's port HMI is already on a line; expected another "
        "`port`, or the device on one line"},
       {lines_ab("{ device: mill }, { device: mill, port: HMI }", "{ name: x, model: workbench }", one),
-       "bench.yaml:3:38: lines.a.stations[1]: the device is on this line already, by its port PC; expected "
+       "bench.yaml:3:38: lines.a.stations[1]: the device is already on this line, with its port PC; expected "
        "another line"},
       {lines_ab(mill, "{ device: mill, port: HMI }", devices),
        "bench.yaml:7:10: devices.lathe: the device is on no line; expected a station that names it"},
@@ -124,7 +124,8 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
        "bench.yaml:4:56: lines.b.stations[0].address: '248' is not possible; expected a whole number from 0 "
        "to 247"},
       {lines_ab(mill, "{ device: mill, port: HMI }, { device: lathe, address: 2 }", devices),
-       "bench.yaml:4:49: lines.b.stations[1]: 'mill' is there by HMI, an RS232 port, and must be alone on "
+       "bench.yaml:4:49: lines.b.stations[1]: 'mill' is on this line with HMI, an RS232 port, and must be "
+       "alone on "
        "its "
        "line; expected no other station on it"},
       {"understudy: 1\nlines:\n  a: { stations: [ { device: mill } ] }\n"
@@ -135,10 +136,10 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
       // All in one round.
       {lines_ab("{ device: mill, port: X }, { device: lathe }", "{ device: lathe }, { device: mil }",
                 devices),
-       "bench.yaml:3:42: lines.a.stations[0].port: 'X' is not a port of workbench; expected one of PC, HMI\n"
-       "bench.yaml:4:20: lines.b.stations[0]: the device's port PC is on a line already; expected another "
-       "`port`, or the device on one line\n"
-       "bench.yaml:4:49: lines.b.stations[1].device: no device is called 'mil'; the nearest is 'mill'"},
+       "bench.yaml:3:42: lines.a.stations[0].port: 'X' is not a port of workbench; expected one of PC, "
+       "HMI\nbench.yaml:4:20: lines.b.stations[0]: the device's port PC is already on a line; expected "
+       "another `port`, or the device on one line\nbench.yaml:4:49: lines.b.stations[1].device: no device is "
+       "called 'mil'; the nearest is 'mill'"},
   };
   for (const auto& [text, complaint] : cases) EXPECT_EQ(complaints_of(text), complaint) << text;
 }

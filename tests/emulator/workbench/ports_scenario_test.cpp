@@ -81,12 +81,12 @@ TEST(Via, IsToldInTheStepAndItsFailure) {
       "wait until mill.D0 == 6 within 1s, polled every 20ms via hmi");
   const std::string dropped =
       failure_of("  - inject: { drop: hmi }\n  - write: { mill.D0: 5 }\n    via: hmi\n");
-  EXPECT_NE(dropped.find("write mill.D0 on line hmi: no reply; expected it done"), std::string::npos)
+  EXPECT_NE(dropped.find("write mill.D0 on line hmi: no reply; expected success"), std::string::npos)
       << dropped;
   const std::string usual = failure_of("  - inject: { drop: pc }\n  - expect: { mill.D0: 0 }\n");
-  EXPECT_NE(usual.find("read mill.D0 on line pc: no reply; expected it done"), std::string::npos) << usual;
+  EXPECT_NE(usual.find("read mill.D0 on line pc: no reply; expected success"), std::string::npos) << usual;
   const std::string alone = failure_of("  - inject: { drop: pc }\n  - expect: { lathe.D0: 0 }\n");
-  EXPECT_NE(alone.find("read lathe.D0: no reply; expected it done"), std::string::npos) << alone;
+  EXPECT_NE(alone.find("read lathe.D0: no reply; expected success"), std::string::npos) << alone;
 }
 
 TEST(Via, IsRefusedWhereItCannotBe) {
@@ -98,9 +98,8 @@ TEST(Via, IsRefusedWhereItCannotBe) {
       {"  - wait: { until: mill.D0 == lathe.D0, within: 1s, poll: 20ms, via: hmi }\n",
        "test.yaml:10:70: steps[0].wait.via: lathe is not on line 'hmi'; expected pc"},
       {"  - wait: { until: mill.D0 == 1, within: 1s, via: hmi }\n",
-       "test.yaml:10:51: steps[0].wait.via: belongs to `poll`: without it nothing is read over a line; "
-       "expected "
-       "`poll` beside it"},
+       "test.yaml:10:51: steps[0].wait.via: needs `poll`, since only `poll` reads over a line; expected "
+       "`poll` as well"},
       {"  - advance: 1ms\n    via: hmi\n",
        "test.yaml:11:10: steps[0].via: is not a key here; expected one of advance"},
       {"  - write: { mill.D0: 5 }\n    via: usb\n  - expect: { mill.D0: 5 }\n    via: usb\n",

@@ -97,9 +97,8 @@ TEST(ServedNames, ExpressionsAndStatusKnowThem) {
 TEST(ServedNames, ADeviceThatFailsMeanwhileTakesNoMore) {
   Served served;
   const Json reply = served.ask({{"do", "set"}, {"values", {{"Absent", 1}, {"holding.Position_X", 5}}}});
-  EXPECT_EQ(
-      reply.value("error", ""),
-      "holding.Position_X was not written: after what was named before it the device does not take it now");
+  EXPECT_EQ(reply.value("error", ""),
+            "holding.Position_X was not written: after the earlier writes the device does not accept it now");
   EXPECT_EQ(served.get("Absent"), 1);
   EXPECT_EQ(served.get("holding.Position_X"), 0);
   EXPECT_EQ(served.complaint_of_setting("holding.Position_X", 5),
@@ -110,7 +109,7 @@ TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
   Served served;
   const std::tuple<const char*, Json, const char*> cases[] = {
       {"Gain_Z", 10.5, "Gain_Z: 10.5 is out of range; expected 0 to 10"},
-      {"Gain_Z", 1e300, "Gain_Z: 1e+300 is more than a 32-bit real can hold"},
+      {"Gain_Z", 1e300, "Gain_Z: 1e+300 is too large for a 32-bit real"},
       {"Speed_X", 2.5, "Speed_X: 2.5 is not a whole number; expected 1 to 4000"},
       {"Output_9", 2, "Output_9: 2 is out of range; expected 0 or 1"},
       {"Mode.PROGRAM", 16, "Mode.PROGRAM: 16 is out of range; expected 0 to 15"},
@@ -118,7 +117,7 @@ TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
       {"Offset.15", 1, "Offset.15: 1 is out of range; expected Offset within -500 to 500"},
       {"holding.Position_X_L", 1,
        "holding.Position_X_L cannot be written alone; expected the whole Position_X"},
-      {"Command0", kStop, "Command0 takes whole messages; expected a request from the line"},
+      {"Command0", kStop, "Command0 accepts only whole messages; expected a request from the line"},
       {"Servo_X", 1, "Servo_X cannot be written; it is read-only"},
       {"Position_X", 1,
        "it: 'Position_X' is in several tables; expected one of holding.Position_X, input.Position_X"},
@@ -129,7 +128,8 @@ TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
       {"Mode.PROGRAM: 16",
        "60: lines.rs485.stations[0].set.Mode.PROGRAM: 16 is out of range; expected 0 to 15"},
       {"Command0: 5",
-       "56: lines.rs485.stations[0].set.Command0: takes whole messages; expected a request from the line"},
+       "56: lines.rs485.stations[0].set.Command0: accepts only whole messages; expected a request from the "
+       "line"},
       {"input.20: 5", "56: lines.rs485.stations[0].set.input.20: cannot be written; it is read-only"},
   };
   for (const auto& [set, complaint] : of_benches) {
@@ -156,9 +156,9 @@ TEST(ServedNames, ACommandIsGivenByItsName) {
   EXPECT_EQ(served.complaint_of_setting("Word_Order", 1), "");
   EXPECT_EQ(command({}, "MOVE Z 65537"), "");
   EXPECT_EQ(served.get("STATE.WAITING"), 3);
-  EXPECT_EQ(command({}, "STOP"), "it does not take it: it is busy (reason 193)") << "the FIFO holds three";
+  EXPECT_EQ(command({}, "STOP"), "it refuses it: it is busy (reason 193)") << "the FIFO holds three";
   served.ask({{"do", "set"}, {"values", {{"Absent", 1}}}});
-  EXPECT_EQ(command({}, "STOP"), "it does not take it: it has failed (reason 194)");
+  EXPECT_EQ(command({}, "STOP"), "it refuses it: it has failed (reason 194)");
   served.ask({{"do", "set"}, {"values", {{"Absent", 0}, {"Run", 1}}}});
   served.daemon.world().advance_to(std::chrono::seconds(30));
   EXPECT_EQ(served.get("input.Position_X"), -70000);
@@ -171,7 +171,7 @@ TEST(ServedNames, ACommandIsGivenByItsName) {
   EXPECT_NE(command("mil", "STOP").find("'mil'"), std::string::npos);
   EXPECT_EQ(served.ask({{"do", "command"}})["error"], "'text' is missing");
   served.ask({{"do", "power"}, {"to", "off"}});
-  EXPECT_EQ(command({}, "STOP"), "it has no power; expected it switched on");
+  EXPECT_EQ(command({}, "STOP"), "it has no power; expected it to be on");
 }
 
 TEST(ServedNames, ATurnsComplaintIsNotToldTwice) {

@@ -78,7 +78,7 @@ TEST(WindowNames, TheSameInRealTimeWithLibmodbus) {
 TEST(WindowNames, AFailedCommandIsToldByItsName) {
   const std::string text =
       failure_of("  - write: { mill.Absent: 1 }\n  - command: { mill: MOVE X 5 }\n    via: pc\n");
-  EXPECT_NE(text.find("command mill: MOVE X 5 on line pc: exception 4 (device failure); expected it done"),
+  EXPECT_NE(text.find("command mill: MOVE X 5 on line pc: exception 4 (device failure); expected success"),
             std::string::npos)
       << text;
   // And so are the frames.

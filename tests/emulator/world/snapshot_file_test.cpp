@@ -32,7 +32,8 @@ TEST(SnapshotFile, IsOfItsBenchAndAsItWasWritten) {
   const World world(parse_bench(models::all_models(), two_devices("wire", 19200), "two.yaml", "."), {}, {});
   const std::string text = to_text(save(world), 7);
   EXPECT_EQ(complaint(text, 7), "");
-  EXPECT_EQ(complaint(text, 8), "bench: is of another bench; expected the one that it was taken from");
+  EXPECT_EQ(complaint(text, 8),
+            "bench: is a different bench; expected the one that the snapshot was taken from");
   const auto with = [&](const std::string& what, const std::string& other) {
     std::string changed = text;
     changed.replace(changed.find(what), what.size(), other);
@@ -41,7 +42,7 @@ TEST(SnapshotFile, IsOfItsBenchAndAsItWasWritten) {
   EXPECT_EQ(with("\"understudy\": 1", "\"understudy\": 2"), "understudy: is in another format; expected 1");
   EXPECT_EQ(with("snapshot", "nv-image"), "kind: is 'nv-image'; expected snapshot");
   EXPECT_EQ(with("\"simulated_time_ns\": 0", "\"simulated_time_ns\": 1"),
-            "checksum: is not that of the state; expected a file as it was written");
+            "checksum: does not match the state; expected the file as it was written");
 }
 
 }  // namespace snapshot_file_test

@@ -282,10 +282,9 @@ TEST(Snapshot, WhatIsOfAnotherWorldIsRefusedAndChangesNothing) {
     EXPECT_EQ(refusal_of(world, bad), what);
     EXPECT_EQ(save(world), good) << what;
   };
-  refused("edge: is missing where it was expected", [](WorldState& s) { s.parts.pop_back(); });
-  refused("world: is missing where it was expected", [](WorldState& s) { s.parts.clear(); });
-  refused("device turner: is missing where it was expected",
-          [](WorldState& s) { s.parts[2].name = "device other"; });
+  refused("edge: is missing", [](WorldState& s) { s.parts.pop_back(); });
+  refused("world: is missing", [](WorldState& s) { s.parts.clear(); });
+  refused("device turner: is missing", [](WorldState& s) { s.parts[2].name = "device other"; });
   refused("edge: is not of this world", [](WorldState& s) { s.parts.push_back(s.parts.back()); });
   for (std::size_t i = 0; i < good.parts.size(); ++i) {
     refused(good.parts[i].name + ": the bytes end too early",
@@ -316,14 +315,15 @@ TEST(Snapshot, IsRefusedWhereALineHearsItsHostDifferently) {
   World patient(bench, {.patience = 1s}, {});
   for (World* world : {&tolerant, &strict, &any_speed, &patient}) world->advance_to(20ms);
   EXPECT_EQ(refusal_of(tolerant, save(strict)),
-            "line rs485: was saved with strict framing; expected a world that has it too");
+            "line rs485: was saved with strict framing; expected a bench that has it too");
   EXPECT_EQ(refusal_of(strict, save(tolerant)),
-            "line rs485: was saved with tolerant framing; expected a world without strict framing");
+            "line rs485: was saved with tolerant framing; expected a bench without strict framing");
   EXPECT_EQ(refusal_of(tolerant, save(any_speed)),
-            "line rs485: was saved where a host of any speed is heard; expected a world where it is");
-  EXPECT_EQ(
-      refusal_of(any_speed, save(tolerant)),
-      "line rs485: was saved where a host of another speed is not heard; expected a world where it is not");
+            "line rs485: was saved by a bench that accepts hosts of any speed; expected a bench that accepts "
+            "them too");
+  EXPECT_EQ(refusal_of(any_speed, save(tolerant)),
+            "line rs485: was saved by a bench that ignores hosts of another speed; expected a bench that "
+            "ignores them too");
   EXPECT_EQ(refusal_of(tolerant, save(patient)), "") << "a daemon at another speed is more patient";
   EXPECT_EQ(refusal_of(strict, save(strict)), "");
 }

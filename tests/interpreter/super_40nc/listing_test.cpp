@@ -272,7 +272,7 @@ TEST(Super40ncListing, AnswersWordsOfOtherPlcsWithItsOwn) {
            {"ORD> D0 K5", "'ORD>' is not an instruction; expected OR>, as every register has 32 bits"},
            {"DMOV K1 D0", "'DMOV' is not an instruction; expected MOV, as every register has 32 bits"},
            {"MOVP K1 D0",
-            "'MOVP' is not an instruction; expected MOV, behind an LDP where it is to act once"},
+            "'MOVP' is not an instruction; expected MOV, after an LDP if it must act only once"},
            {"ANDI X0", "'ANDI' is not an instruction; expected ANI"},
            {"CALL K1", "'CALL' is not an instruction; expected CAL"},
            {"NOT", "'NOT' is not an instruction; expected INV"},
@@ -283,11 +283,11 @@ TEST(Super40ncListing, AnswersWordsOfOtherPlcsWithItsOwn) {
            {"MOV K1.5 D0", "'K1.5' is not an operand; expected K and a whole decimal number"},
            {"MOV E1.5 D0",
             "'E1.5' is not an operand: constants are whole numbers; expected K and a decimal number"},
-           {"MOV K4M0 D0", "'K4M0' is not an operand: contacts do not stand together as a number" + any},
+           {"MOV K4M0 D0", "'K4M0' is not an operand: contacts cannot form a number" + any},
            {"MOV D0Z1 D1", "'D0Z1' is not an operand: there are no index registers" + any},
            {"MOV Z1 D1", "'Z1' is not an operand: there are no index registers" + any},
            {"MOV R0 D0", "'R0' is not an operand" + any},
-           {"LD S0", "step relay S0 cannot stand in a program" + any},
+           {"LD S0", "step relay S0 is not allowed in a program" + any},
            {"CAL P1", "'P1' is not an operand: a label is a constant; expected K and its number"},
            {"LD SM400", "'SM400' is not an operand" + any}}) {
     const Checked checked = check("AREA C\n" + each.line + "\nEND\n");

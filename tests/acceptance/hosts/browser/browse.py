@@ -126,14 +126,14 @@ def look_at_panels(visit):
 
 def time_stands_and_goes(visit):
     visit.press('stop time')
-    visit.until('time is stopped', lambda: visit.find('button[title="let time go on"]'))
+    visit.until('time is stopped', lambda: visit.find('button[title="resume time"]'))
     before = time_ns(visit.arguments)
-    visit.press('on by 10 ms')
+    visit.press('advance by 10 ms')
     visit.until('ten ticks were stepped', lambda: time_ns(visit.arguments) - before in range(9_000_001, 10_000_001))
     time.sleep(0.3)
     if time_ns(visit.arguments) - before > 10_000_000:
         fail('time goes on though it was stopped')
-    visit.press('let time go on')
+    visit.press('resume time')
     visit.until('time goes on', lambda: time_ns(visit.arguments) - before > 20_000_000)
 
 

@@ -25,7 +25,7 @@ import doing
 MODELS = ['simple2-r3', 'super-40nc', 'rs-m8194h', 'slim']
 BROWSERS = 16
 # Of a recording: what only looks, or is the browser's own.
-HARMLESS = re.compile('save|freeze|scale|take|hold the list still|read it again|further|back|the choice|forget the path|pcapng|close')
+HARMLESS = re.compile('save|freeze|scale|remove|pause the list|read it again|next|previous|back|the choice|clear the path|pcapng|close')
 
 BENCH = """understudy: 1
 lines:
@@ -138,13 +138,13 @@ def host(options):
         visit.until('the axis moves as the host said', lambda: shown() > 2000)
         visit.picture('moving')
         visit.press('stop time')
-        visit.until('time is stopped', lambda: visit.find('button[title="let time go on"]'))
+        visit.until('time is stopped', lambda: visit.find('button[title="resume time"]'))
         time.sleep(0.3)
         before = shown()
         time.sleep(0.5)
         if shown() != before:
             browse.fail('the axis moves though time stands')
-        visit.press('let time go on')
+        visit.press('resume time')
         visit.until('and moves on', lambda: shown() > before)
         visit.show('Bus')
         visit.until('the bus says what was written', lambda: any('Aaxis_SVON' in text for text in visit.texts('.frames .words')))
@@ -155,7 +155,7 @@ def host(options):
         stage.host_writes(0xF010, 1)
         stage.host_writes(0x1011, 1)
         visit.until('it looks for its home', lambda: stage.value('feeder.A.speed') != 0)
-        switch = lambda: visit.find('button[title^="home of A"][title$="hold or let go"]')[0]
+        switch = lambda: visit.find('button[title^="home of A"][title$="hold or release"]')[0]
         visit.until('its home switch can be pressed', switch)
         switch().click()
         visit.until('the switch is held', lambda: switch().get_attribute('aria-pressed') == 'true')
@@ -206,7 +206,7 @@ def burst(options):
         visit.picture('burst')
         doing.select(visit, 'which frames', 'all')
         capture = doing.saved(visit, 'a capture', 'save these frames as a capture')
-        if b'frames before this one are not here' not in capture:
+        if b'frames are missing before this one' not in capture:
             browse.fail('the capture does not say what is missing in it')
         visit.close()
 
@@ -266,7 +266,7 @@ def recording(options):
         visit.until('frames are there', lambda: len(visit.find('.frames tbody tr')) > 0)
         drag(0)
         visit.until('and forgotten where they have not been yet', lambda: len(visit.find('.frames tbody tr')) <= 1)
-        visit.press('on by one frame')
+        visit.press('forward by one frame')
         visit.until('the next frame is gone to', lambda: visit.find('.frames tbody tr'))
         visit.show('Axes')
         keys = lambda text: visit.driver.find_element(By.CSS_SELECTOR, '.travel button').send_keys(text)

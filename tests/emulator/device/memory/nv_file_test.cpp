@@ -282,7 +282,7 @@ TEST_F(NvFile, ThatCannotBeReplacedIsToldOnceAndStays) {
   ASSERT_EQ(news.size(), 1u);
   EXPECT_EQ(news[0], path() +
                          ": cannot be written (it is a directory; expected a regular file, or a free path); "
-                         "what it held before stays");
+                         "the file keeps its previous contents");
   EXPECT_TRUE(fs::exists(path() + "/in the way"));
   EXPECT_EQ(file_count(), 1u) << "nothing is left beside it";
   EXPECT_TRUE(writer.take_news().empty());
@@ -292,7 +292,7 @@ TEST_F(NvFile, ThatCannotBeReplacedIsToldOnceAndStays) {
     writer.write(path(), numbered(1));
     writer.flush();
   }
-  EXPECT_EQ(writer.take_news(), std::vector<std::string>{path() + ": is written again"});
+  EXPECT_EQ(writer.take_news(), std::vector<std::string>{path() + ": can be written again"});
   EXPECT_EQ(text_of(path()), numbered(1));
 }
 
@@ -301,10 +301,10 @@ TEST_F(NvFile, InAFolderThatIsNotThereIsTold) {
   writer.write(path("gone/feeder.json"), numbered(1));
   writer.write(path(), "another's");
   writer.flush();
-  EXPECT_EQ(
-      writer.take_news(),
-      std::vector<std::string>{path("gone/feeder.json") +
-                               ": cannot be written (No such file or directory); what it held before stays"});
+  EXPECT_EQ(writer.take_news(),
+            std::vector<std::string>{
+                path("gone/feeder.json") +
+                ": cannot be written (No such file or directory); the file keeps its previous contents"});
   EXPECT_EQ(text_of(path()), "another's") << "one file's trouble is not another's";
 }
 
@@ -337,7 +337,7 @@ TEST_F(NvFile, OnAFullDiskTheOldImageIsKeptAndNoPartialOneIsLeft) {
     writer.flush();
     const auto news = writer.take_news();
     ASSERT_EQ(news.size(), 1u);
-    EXPECT_EQ(news[0], path() + ": cannot be written (File too large); what it held before stays");
+    EXPECT_EQ(news[0], path() + ": cannot be written (File too large); the file keeps its previous contents");
     EXPECT_EQ(text_of(path()), old);
     EXPECT_EQ(file_count(), 1u);
   }
@@ -367,8 +367,8 @@ TEST_F(NvFile, InAFolderThatMayNotBeWrittenIsTold) {
     writer.write(path(), numbered(2));
     writer.flush();
     EXPECT_EQ(writer.take_news(),
-              std::vector<std::string>{path() +
-                                       ": cannot be written (Permission denied); what it held before stays"});
+              std::vector<std::string>{
+                  path() + ": cannot be written (Permission denied); the file keeps its previous contents"});
   }
   EXPECT_EQ(text_of(path()), numbered(1));
   fs::permissions(path("."), fs::perms::owner_all);

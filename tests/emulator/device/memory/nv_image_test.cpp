@@ -80,7 +80,8 @@ TEST(NvImage, TornAnywhereIsRefusedWithTheLineOfTheTear) {
   for (std::size_t size = 0; size + 1 < whole.size(); ++size) {
     const std::string torn = whole.substr(0, size);
     const auto line = 1 + std::count(torn.begin(), torn.end(), '\n');
-    EXPECT_EQ(complaint(torn), "line " + std::to_string(line) + ": is torn or not JSON; expected an NV image")
+    EXPECT_EQ(complaint(torn),
+              "line " + std::to_string(line) + ": is damaged or not JSON; expected an NV image")
         << "after " << size << " bytes";
   }
   EXPECT_EQ(parse_nv_image(whole.substr(0, whole.size() - 1)), kExample) << "nothing of it is missing";
@@ -94,7 +95,7 @@ TEST(NvImage, ATailOfAnotherImageBehindItIsRefused) {
   const std::string head = to_json(shorter);
   ASSERT_LT(head.size(), longer.size());
   const std::string mixed = head + longer.substr(head.size());
-  EXPECT_NE(complaint(mixed).find(": is torn or not JSON"), std::string::npos) << complaint(mixed);
+  EXPECT_NE(complaint(mixed).find(": is damaged or not JSON"), std::string::npos) << complaint(mixed);
 }
 
 TEST(NvImage, OneDamagedByteGivesAnImageOrOneLine) {
@@ -125,14 +126,14 @@ struct Refused {
 TEST(NvImage, RefusesWhatIsNoImage) {
   const std::string head = R"({"understudy": 1, "kind": "nv-image", "model": "m", )";
   const Refused cases[] = {
-      {"nothing", "", "line 1: is torn or not JSON; expected an NV image"},
-      {"spaces", " \n\n ", "line 3: is torn or not JSON; expected an NV image"},
-      {"YAML", "understudy: 1\nlines: {}\n", "line 1: is torn or not JSON; expected an NV image"},
-      {"zero bytes", std::string(4096, '\0'), "line 1: is torn or not JSON; expected an NV image"},
+      {"nothing", "", "line 1: is damaged or not JSON; expected an NV image"},
+      {"spaces", " \n\n ", "line 3: is damaged or not JSON; expected an NV image"},
+      {"YAML", "understudy: 1\nlines: {}\n", "line 1: is damaged or not JSON; expected an NV image"},
+      {"zero bytes", std::string(4096, '\0'), "line 1: is damaged or not JSON; expected an NV image"},
       {"no Unicode", with_registers("{\"\xff\xfe\": 1}"),
-       "line 1: is torn or not JSON; expected an NV image"},
+       "line 1: is damaged or not JSON; expected an NV image"},
       {"two images", to_json(kExample) + to_json(kExample),
-       "line 15: is torn or not JSON; expected an NV image"},
+       "line 15: is damaged or not JSON; expected an NV image"},
       {"a list", "[]", "understudy: is missing; expected an NV image"},
       {"a number", "7", "understudy: is missing; expected an NV image"},
       {"null", "null", "understudy: is missing; expected an NV image"},
@@ -165,7 +166,7 @@ TEST(NvImage, RefusesWhatIsNoImage) {
        head + R"("firmware": "1.52", "registers": {}, "blocks": [{"files": {}}]})",
        "blocks: is not an object; expected kinds of blocks"},
       {"a list of blocks, cut off", R"({"blocks": [{"files": {"f1": "a)",
-       "line 1: is torn or not JSON; expected an NV image"},
+       "line 1: is damaged or not JSON; expected an NV image"},
       {"a key with a newline, twice", R"({"a\nb": 1, "a\nb": 1})", "'a?b': appears twice; expected it once"},
   };
   for (const Refused& c : cases) {
@@ -202,7 +203,7 @@ TEST(NvImage, HoldsRealNumbersAndAProgram) {
   };
   EXPECT_EQ(reals("[1]"), "reals: is not an object; expected names and values");
   EXPECT_EQ(reals(R"({"R0": "1"})"), "reals: 'R0': is not a number; expected one");
-  EXPECT_EQ(reals(R"({"R0": 1e999})"), "a number is beyond all bounds; expected one that 64 bits hold");
+  EXPECT_EQ(reals(R"({"R0": 1e999})"), "a number is too large; expected one that fits into 64 bits");
   EXPECT_EQ(reals(R"({"R0": 1, "R0": 2})"), "line 1: 'R0': appears twice; expected it once");
 }
 
@@ -218,12 +219,12 @@ TEST(NvImage, TakesWholeNumbersOf64BitsOnly) {
   }
   for (const char* value : {"1e999", "-1e999"}) {
     EXPECT_EQ(complaint(with_registers(std::string("{\"a\": ") + value + "}")),
-              "a number is beyond all bounds; expected one that 64 bits hold")
+              "a number is too large; expected one that fits into 64 bits")
         << value;
   }
   for (const char* value : {"01", "+1", "0x10", "1_000", "NaN", ".5", "--1", "1 2"}) {
     EXPECT_EQ(complaint(with_registers(std::string("{\"a\": ") + value + "}")),
-              "line 1: is torn or not JSON; expected an NV image")
+              "line 1: is damaged or not JSON; expected an NV image")
         << value;
   }
 }
@@ -236,9 +237,9 @@ TEST(NvImage, IsNotBroughtDownByItsSize) {
   EXPECT_EQ(complaint(nest), "understudy: is missing; expected an NV image");
   EXPECT_EQ(complaint(with_registers(std::string(kDeep, '[') + std::string(kDeep, ']'))),
             "registers: is not an object; expected names and values");
-  EXPECT_EQ(complaint(std::string(5'000'000, '[')), "line 1: is torn or not JSON; expected an NV image");
+  EXPECT_EQ(complaint(std::string(5'000'000, '[')), "line 1: is damaged or not JSON; expected an NV image");
   EXPECT_EQ(complaint(with_registers("{\"a\": " + std::string(1'000'000, '9') + "}")),
-            "a number is beyond all bounds; expected one that 64 bits hold");
+            "a number is too large; expected one that fits into 64 bits");
   const std::string long_name(2'000'000, 'n');
   EXPECT_EQ(parse_nv_image(with_registers("{\"" + long_name + "\": 1}")).registers.front().first, long_name);
   std::string many = "{";
@@ -307,8 +308,8 @@ TEST(NvImageOfADevice, IsRefusedWhereItSuitsAnotherOne) {
        "model: is the memory of a 'rsm8194h'; expected one of simple2-r3"},
       {with("PROG_MEM32", 1), "no register is called 'PROG_MEM32'"},
       {with("", 1), "registers: "},
-      {with("Cord_A", 1), "'Cord_A' is not kept through power-off"},
-      {with("PROG_VAR0", 1), "'PROG_VAR0' is not kept through power-off"},
+      {with("Cord_A", 1), "'Cord_A' is not persistent"},
+      {with("PROG_VAR0", 1), "'PROG_VAR0' is not persistent"},
       {with("PROG_MEM0_RegL", 1), "registers: "},  // half a register
       {with("Parms_Speed1.3", 1), "registers: "},  // a bit of one
       {with("Parms_Speed1", 65'536), "'Parms_Speed1': 65536 does not fit"},

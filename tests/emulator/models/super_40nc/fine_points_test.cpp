@@ -215,7 +215,7 @@ TEST(Super40ncFinePoints, AnOnlookerSeesWhatWentWrong) {
            Case{"X", "DRV K100\nTMR K9999\nEND\n", "M8100", waiting, "TMR K9999",
                 "D8094 = 16 at step 1500: an axis that this program does not own, by D9003 (C21)"},
            Case{"C", "CW K500 K0 K70 K0\nEND\n", "M8000", stopped, "CW K500 K0 K70 K0",
-                "D8094 = 17 at step 0: an arc that cannot be"},
+                "D8094 = 17 at step 0: an impossible arc"},
            Case{"U", "NOP\nJMP K5\nEND\n", "M8400", failed, "JMP K5",
                 "D8094 = 3 at step 3001: a label that does not exist"},
            Case{"U", "NOP\nEND\n", "M8400", stopped, "", ""},

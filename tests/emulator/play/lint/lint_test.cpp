@@ -71,7 +71,7 @@ TEST_F(LintTest, TellsOfRequestsThatFollowTooSoon) {
   send(kRead, kReplyEnds + 700us);                       // 10,043,749 ns
   send(kRead, kReplyEnds + 700us + kReplyEnds + 300us);  // after the second reply
   EXPECT_EQ(findings_at(1s), Texts{"rs485: 2 requests began before the line had been silent for 750us (after "
-                                   "300us at the worst); first at 10.043749ms"});
+                                   "300us at worst); first at 10.043749ms"});
 }
 
 TEST_F(LintTest, TellsOfRequestsThatDoNotWaitForTheAnswer) {
@@ -79,15 +79,15 @@ TEST_F(LintTest, TellsOfRequestsThatDoNotWaitForTheAnswer) {
   send(kRead, kRequestEnds + 400us);  // the answer begins 350 us later
   const Texts findings = findings_at(1s);
   ASSERT_EQ(findings.size(), 2U);
-  EXPECT_EQ(findings[1], "rs485: 1 request began before the answer to the one before; first at 4.983333ms");
+  EXPECT_EQ(findings[1],
+            "rs485: 1 request began before the reply to the previous request; first at 4.983333ms");
 }
 
 TEST_F(LintTest, TellsOfAHostThatTalksIntoTheAnswer) {
   send(kRead, 0ns);
   send(kRead, 6ms);  // the answer has begun at 5.3 ms
-  EXPECT_EQ(findings_at(1s),
-            Texts{"rs485: 1 request began before the line had been silent for 750us (while a "
-                  "station spoke at the worst); first at 6ms"});
+  EXPECT_EQ(findings_at(1s), Texts{"rs485: 1 request began before the line had been silent for 750us (while "
+                                   "a station was sending at worst); first at 6ms"});
 }
 
 TEST_F(LintTest, TellsOfGapsWithinAFrame) {
@@ -101,9 +101,9 @@ TEST_F(LintTest, TellsOfGapsWithinAFrame) {
   EXPECT_EQ(findings_at(1s), Texts{});
   send_in_halves(1s, 800us);
   send_in_halves(2s, 3ms);
-  EXPECT_EQ(findings_at(3s),
-            Texts{"rs485: 2 requests had gaps of more than 750us between two bytes (3ms at the "
-                  "worst); first at 1s"});
+  EXPECT_EQ(
+      findings_at(3s),
+      Texts{"rs485: 2 requests had gaps of more than 750us between two bytes (3ms at worst); first at 1s"});
 }
 
 TEST_F(LintTest, TellsOfStationsThatAreNotThere) {
@@ -114,8 +114,8 @@ TEST_F(LintTest, TellsOfStationsThatAreNotThere) {
   Bytes broken = framed({8, 3, 0, 1, 0, 1});
   broken.back() ^= 1;  // nobody knows whom that was for
   send(broken, 400ms);
-  EXPECT_EQ(findings_at(1s), (Texts{"rs485: 1 request to station 7, which is not there; first at 200ms",
-                                    "rs485: 2 requests to station 9, which is not there; first at 0s"}));
+  EXPECT_EQ(findings_at(1s), (Texts{"rs485: 1 request to station 7, which does not exist; first at 200ms",
+                                    "rs485: 2 requests to station 9, which does not exist; first at 0s"}));
 }
 
 TEST_F(LintTest, ADeviceWithoutPowerIsThereAllTheSame) {
@@ -130,7 +130,7 @@ TEST_F(LintTest, TellsOfWritesToWhatCanOnlyBeRead) {
   write(0x1014, 1, 200ms);                                          // Aaxis_SVON may be written
   const Texts findings = findings_at(1s);
   ASSERT_FALSE(findings.empty());
-  EXPECT_EQ(findings.front(), "rs485: 1 write to feeder.HW_Code, which can only be read; first at 0s");
+  EXPECT_EQ(findings.front(), "rs485: 1 write to feeder.HW_Code, which is read-only; first at 0s");
   for (const std::string& finding : findings) EXPECT_EQ(finding.find("SVON"), std::string::npos) << finding;
 }
 
@@ -140,7 +140,7 @@ TEST_F(LintTest, ReportsEepromRegistersThatAreChangedRepeatedly) {
   for (int i = 0; i < 11; ++i) write(kKept, 1 - i % 2, i * 10s);
   // 10 s from one to the next; 100,000 of them are 1,000,000 s, 11.57 days.
   EXPECT_EQ(findings_at(200s),
-            Texts{"rs485: 11 changes of feeder.DIN0_Aaxis_Alarm, which is kept in EEPROM: at this rate its "
+            Texts{"rs485: 11 changes of feeder.DIN0_Aaxis_Alarm, which is stored in EEPROM: at this rate its "
                   "100000 writes last for 11.5 days; first at 0s"});
 }
 
@@ -181,7 +181,7 @@ TEST_F(InstantLintTest, WhereBytesTakeNoTimeTheHostIsNotHeldToAny) {
   send({kRead.begin(), kRead.begin() + 4}, 1s);
   send({kRead.begin() + 4, kRead.end()}, 1s + 5ms);
   send(framed({9, 3, 0, 1, 0, 1}), 2s);
-  EXPECT_EQ(findings_at(3s), Texts{"rs485: 1 request to station 9, which is not there; first at 2s"});
+  EXPECT_EQ(findings_at(3s), Texts{"rs485: 1 request to station 9, which does not exist; first at 2s"});
 }
 
 // --- in scenarios ----------------------------------------------------------------------------------
@@ -197,7 +197,7 @@ const std::string kAbsent = "  - send: { bytes: 05 03 00 01 00 01 +crc, reply: n
 TEST(LintOfScenarios, IsInTheirResults) {
   EXPECT_EQ(played(kServoOn + kExampleMove, "", with_lint()).manners, Texts{});
   const ScenarioResult result = played(kAbsent + kServoOn + kAbsent, "", with_lint());
-  EXPECT_EQ(result.manners, Texts{"rs485: 2 requests to station 5, which is not there; first at 0s"});
+  EXPECT_EQ(result.manners, Texts{"rs485: 2 requests to station 5, which does not exist; first at 0s"});
 }
 
 TEST(LintOfScenarios, GoesOnBehindARestoreWithoutTakingItForHaste) {

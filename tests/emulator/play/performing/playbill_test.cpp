@@ -198,7 +198,8 @@ TEST_F(PlaybillOf, TwoCasesNeverSaveOneFile) {
     other.read({.file = 0, .number = number_of_first + 1331});
     ADD_FAILURE() << "expected it to throw";
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("after-17.json is what another case saves"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("after-17.json is also saved by another case"),
+              std::string::npos)
         << error.what();
   }
 }

@@ -154,7 +154,7 @@ TEST(RunnerOverTheLine, ExceptionsAreExpectedOrTold) {
   failure = failing("  - { write: { feeder.Aaxis_Speed: 1 }, exception: 3 }\n");
   EXPECT_EQ(failure.what, "write feeder.Aaxis_Speed: done; expected exception 3 (illegal data value)");
   failure = failing("  - expect: { feeder.0x0999: 0 }\n");
-  EXPECT_EQ(failure.what, "read feeder.0x0999: exception 2 (illegal data address); expected it done");
+  EXPECT_EQ(failure.what, "read feeder.0x0999: exception 2 (illegal data address); expected success");
 }
 
 TEST(RunnerOverTheLine, AnAnswerMayBeExpectedNotToCome) {
@@ -220,9 +220,9 @@ TEST(RunnerOverTheLine, TheLastTenFramesAreTold) {
 TEST(RunnerOverTheLine, WithoutPowerThereIsNoReply) {
   const ScenarioResult result = played("  - power: { feeder: off }\n  - expect: { feeder.STATUS: 0 }\n");
   ASSERT_TRUE(result.failure);
-  EXPECT_EQ(result.failure->what, "read feeder.STATUS: no reply; expected it done");
+  EXPECT_EQ(result.failure->what, "read feeder.STATUS: no reply; expected success");
   EXPECT_EQ(result.failure->at, SimTime{504'583'333});  // 8 characters and 500 ms
-  EXPECT_EQ(result.failure->state[0], "feeder: without power");
+  EXPECT_EQ(result.failure->state[0], "feeder: no power");
 }
 
 TEST(RunnerOverTheLine, SentBytesAreAnsweredExactly) {

@@ -90,7 +90,7 @@ TEST(RunnerTimes, NothingGoesOnBeyondTheEndOfTime) {
   // 100 years of 365 days are 876000 hours.
   const ScenarioResult result = passing("  - advance: 876000h\n");
   EXPECT_EQ(result.steps.back().end, kHorizon);
-  const std::string beyond = " from now on is beyond the end of simulated time; expected at most ";
+  const std::string beyond = " from now is beyond the end of simulated time; expected at most ";
   for (const auto& [steps, what] : std::vector<std::pair<std::string, std::string>>{
            {"  - advance: 876000h\n  - advance: 876000h\n  - advance: 876000h\n",
             "3153600000s" + beyond + "0s"},
@@ -118,7 +118,7 @@ TEST(RunnerTimes, WithoutAWriteItTakesFromPowerUpOn) {
 TEST(RunnerTimes, WhatDoesNotComeTrueFailsAtTheEndOfItsTime) {
   const Failure failure =
       failing(kServoOn + kExampleMove + "  - wait: { until: feeder.STATUS.4 == 0, within: 3s }\n");
-  EXPECT_EQ(failure.what, "'feeder.STATUS.4 == 0' did not come true within 3s");
+  EXPECT_EQ(failure.what, "'feeder.STATUS.4 == 0' did not become true within 3s");
   EXPECT_EQ(failure.expected, "feeder.STATUS.4 == 0 within 3s");
   EXPECT_EQ(failure.came, "feeder.STATUS.4 == 0  (feeder.STATUS.4 is 1)");
   EXPECT_EQ(failure.at, SimTime{29'286'458} + std::chrono::seconds(3));
@@ -152,7 +152,7 @@ TEST(RunnerPolls, AreAsFastAsTheLineIfTheyAreToBeFaster) {
   // 0.
   const ScenarioResult result = played("  - wait: { until: feeder.STATUS == 1, within: 1s, poll: 1ms }\n");
   ASSERT_TRUE(result.failure);
-  EXPECT_EQ(result.failure->what, "'feeder.STATUS == 1' did not come true within 1s, polled every 1ms");
+  EXPECT_EQ(result.failure->what, "'feeder.STATUS == 1' did not become true within 1s, polled every 1ms");
   EXPECT_EQ(result.failure->came, "feeder.STATUS == 1  (feeder.STATUS is 0)");
 }
 

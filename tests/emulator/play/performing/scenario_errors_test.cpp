@@ -91,27 +91,27 @@ TEST_F(ScenarioErrors, TheBench) {
             "NV image");
   folder_.write("torn.json", "{ \"understudy\": 1,");
   EXPECT_EQ(folder_.complaint(with("nv: { feeder: torn.json }")),
-            "torn.json:1: is torn or not JSON; expected an NV image");
+            "torn.json:1: is damaged or not JSON; expected an NV image");
 }
 
 TEST_F(ScenarioErrors, ParametersAndCases) {
   const std::string used = "name: ${a}";
   expect_complaints({
       {with("parameters: { a: 1 }"),
-       "3: parameters.a: 'a' is used nowhere; expected ${a} somewhere in the scenario"},
+       "3: parameters.a: 'a' is not used; expected ${a} somewhere in the scenario"},
       {with("parameters: { a: 1, a: 2 }\n" + used), "3: parameters.a: is given twice; expected it once"},
       {with("parameters: { and: 1 }"),
-       "3: parameters.and: 'and' is not a name for a parameter; expected letters, digits and _, a letter "
-       "first"},
+       "3: parameters.and: 'and' is not a parameter name; expected letters, digits and _, beginning with a "
+       "letter"},
       {with("parameters: { a: [ 1 ] }\n" + used), "3: parameters.a: expected a word or a number"},
       {with("parameters: { a: \"${b}\", b: 1 }\n" + used),
        "3: parameters.a: column 1 of 'b': no parameter is called 'b'; there are none"},
       {with("cases: []"), "3: cases: is empty; expected at least one row"},
       {with("cases: [ {} ]"), "3: cases[0]: is empty; expected a parameter's value, as in `{ speed: 100 }`"},
       {with("cases: [ { a: 1 } ]"),
-       "3: cases[0].a: 'a' is used nowhere; expected ${a} somewhere in the scenario  (a=1)"},
+       "3: cases[0].a: 'a' is not used; expected ${a} somewhere in the scenario  (a=1)"},
       {with("cases: [ { a: 1 }, { b: 1 } ]\n" + used),
-       "3: cases[1].b: is not a parameter, nor in the first case; expected 'a'"},
+       "3: cases[1].b: is neither a parameter nor in the first case; expected 'a'"},
       {with("cases: [ { a: 1, b: 2 }, { a: 2 } ]\nname: ${a}${b}"),
        "4: name: column 1 of 'b': no parameter is called 'b'; expected 'a'  (a=2)"},
       {with("cases: [ { a: 1 }, { a: 1 } ]\n" + used),
@@ -130,21 +130,21 @@ TEST_F(ScenarioErrors, WhatIsNoStep) {
       {"advance", ": expected a step, as in `- advance: 250ms`"},
       {"{}", ": is empty; expected a step, as in `- advance: 250ms`"},
       {"wirte: { feeder.Aaxis_SVON: 1 }", ".wirte: is not a step; the nearest is 'write'"},
-      {"{ advance: 1ms, say: x }", ".say: is a second step in one; expected `- ` before it"},
+      {"{ advance: 1ms, say: x }", ".say: is a second step in one entry; expected `- ` before it"},
       {"{ advance: 1ms, exception: 3 }", ".exception: is not a key here; expected one of advance"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, exeption: 3 }",
        ".exeption: is not a key here; expected one of write, exception, reply, within, via (the nearest "
        "is 'exception')"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, reply: 1 }",
-       ".reply: '1' is unknown; expected nothing (what is read is compared without `reply`)"},
+       ".reply: '1' is unknown; expected nothing (values that are read are compared without `reply`)"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, within: 1s }",
-       ".within: belongs to `reply: nothing`; expected that beside it"},
+       ".within: needs `reply: nothing`; expected that as well"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, reply: nothing, within: 0s }",
        ".within: takes no time; expected some"},
       {"{ expect: { feeder.HW_Code: 1 }, reply: nothing, exception: 2 }",
        ".reply: an exception is a reply; expected one of the two"},
       {"{ write: { feeder.DOUT_ALL.1: 1 }, reply: nothing }",
-       ".write.feeder.DOUT_ALL.1: a bit's register is read before it is written; expected whole registers "
+       ".write.feeder.DOUT_ALL.1: the register of a bit is read before the write; expected whole registers "
        "with `reply: nothing`"},
       {"{ say: x, say: y }", ".say: is given twice; expected it once"},
       {"advance: 0ms", ".advance: takes no time; expected some"},
@@ -197,9 +197,8 @@ TEST_F(ScenarioErrors, Registers) {
       {"write: { 'feeder[\"Cord_A\"': 1 }",
        ".write.feeder[\"Cord_A\": column 16 of 'feeder[\"Cord_A\"': expected ']' after the quoted name"},
       {"write: { feeder.HW_Code: 1 }",
-       ".write.feeder.HW_Code: feeder.HW_Code cannot be written; it is read-only (expected `exception:` "
-       "where "
-       "that is meant)"},
+       ".write.feeder.HW_Code: feeder.HW_Code cannot be written; it is read-only (use `exception:` if the "
+       "step tests that)"},
       {"write: { feeder.Aaxis_AccTime: 3001 }",
        ".write.feeder.Aaxis_AccTime: 3001 is out of range for feeder.Aaxis_AccTime; expected 0 to 3000"},
       {"write: { feeder.Aaxis_AccTime: 2 * 1501 }",
@@ -250,7 +249,7 @@ TEST_F(ScenarioErrors, BytesAndLines) {
   expect_complaints(
       {{"understudy: 1\nbench:\n  lines:\n    a: { stations: [ { name: x, model: simple2-r3 } ] }\n"
         "    b: { stations: [ { name: y, model: simple2-r3 } ] }\nsteps: [ send: { bytes: 01 } ]\n",
-        "6: steps[0].send: 'line' is missing, and there are several; expected it here"}});
+        "6: steps[0].send: 'line' is missing, but the bench has several; expected it here"}});
 }
 
 TEST_F(ScenarioErrors, Conditions) {
@@ -281,17 +280,16 @@ TEST_F(ScenarioErrors, Conditions) {
       {"assert: [ feeder.power, time ]", ".assert[1]: is a duration; expected a number, or a condition"},
       {"never: { name: x }", ".never: 'what' is missing; expected it here"},
       {"always: 1", ".always: '1' never changes; expected a condition that names something"},
-      {"end: slow", ".end: no `always` or `never` that holds here is called 'slow'; there is none"},
+      {"end: slow", ".end: no active `always` or `never` is called 'slow'; there is none"},
   });
-  EXPECT_EQ(
-      folder_.complaint(ScenarioFolder::scenario_of("  - never: { what: feeder.power, name: slow }\n"
-                                                    "  - end: slwo\n")),
-      "scenario.yaml:5: steps[1].end: no `always` or `never` that holds here is called 'slwo'; the nearest "
-      "is 'slow'");
+  EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of("  - never: { what: feeder.power, name: slow }\n"
+                                                          "  - end: slwo\n")),
+            "scenario.yaml:5: steps[1].end: no active `always` or `never` is called 'slwo'; the nearest "
+            "is 'slow'");
   EXPECT_EQ(
       folder_.complaint(ScenarioFolder::scenario_of("  - never: feeder.power\n  - always: feeder.power\n")),
-      "scenario.yaml:5: steps[1].always: 'feeder.power' holds already; expected another name, or an `end` "
-      "before");
+      "scenario.yaml:5: steps[1].always: 'feeder.power' is already active; expected another name, or an "
+      "`end` first");
 }
 
 TEST_F(ScenarioErrors, FromOutside) {
@@ -304,7 +302,7 @@ TEST_F(ScenarioErrors, FromOutside) {
       {"inject: { name: x }", ".inject: is empty; expected a fault, as in `{ stall: feeder.A }`"},
       {"inject: { stall: feeder.C }", ".inject: no axis of feeder is called 'C'; expected one of A, B"},
       {"inject: { stall: feeder.A, name: all }",
-       ".inject.name: 'all' is not a name for a fault; expected another"},
+       ".inject.name: 'all' cannot be the name of a fault; expected another"},
       {"clear: jam", ".clear: no fault in force here is called 'jam'; there is none"},
       {"power: { feeder: down }", ".power.feeder: 'down' is unknown; expected on, off or cycle"},
       {"power: { feder: on }", ".power.feder: no device is called 'feder'; the nearest is 'feeder'"},
@@ -322,8 +320,8 @@ TEST_F(ScenarioErrors, FromOutside) {
   EXPECT_EQ(complaint(jam + "  - clear: jma\n"),
             "scenario.yaml:5: steps[1].clear: no fault in force here is called 'jma'; the nearest is 'jam'");
   EXPECT_EQ(complaint(jam + jam),
-            "scenario.yaml:5: steps[1].inject.name: 'jam' is in force already; expected another name, or a "
-            "`clear` before");
+            "scenario.yaml:5: steps[1].inject.name: 'jam' is already in force; expected another name, or a "
+            "`clear` first");
   EXPECT_EQ(complaint(jam + "  - clear: all\n  - clear: jam\n"),
             "scenario.yaml:6: steps[2].clear: no fault in force here is called 'jam'; there is none");
   folder_.write("bad.lst", "        SVON_A\n        Fly MEM0\n        END\n");
@@ -333,9 +331,8 @@ TEST_F(ScenarioErrors, FromOutside) {
   folder_.write("mill.json",
                 to_json({.model = "simple2-r3", .firmware = "1.52", .registers = {{"Aaxis_SVON", 1}}}));
   EXPECT_EQ(complaint("  - memory: { feeder: mill.json }\n"),
-            "scenario.yaml:4: steps[0].memory.feeder: registers: 'Aaxis_SVON' is not kept through power-off; "
-            "expected "
-            "one that is");
+            "scenario.yaml:4: steps[0].memory.feeder: registers: 'Aaxis_SVON' is not persistent; expected a "
+            "persistent register");
 }
 
 TEST_F(ScenarioErrors, TheCourseOfThings) {
@@ -349,14 +346,14 @@ TEST_F(ScenarioErrors, TheCourseOfThings) {
       {"repeat: { times: 0, steps: [ advance: 1ms ] }",
        ".repeat.times: '0' is not possible; expected a whole number from 1 to 100000"},
       {"repeat: { times: 2, as: and, steps: [ advance: 1ms ] }",
-       ".repeat.as: 'and' is not a name for a parameter; expected letters, digits and _, a letter first"},
+       ".repeat.as: 'and' is not a parameter name; expected letters, digits and _, beginning with a letter"},
       {"repeat: { times: 2, as: i, steps: [ repeat: { times: 2, as: i, steps: [ advance: 1ms ] } ] }",
-       ".repeat.steps[0].repeat.as: 'i' is defined already; expected another name"},
+       ".repeat.steps[0].repeat.as: 'i' is already defined; expected another name"},
       {"for: { each: [], as: i, steps: [ advance: 1ms ] }",
        ".for.each: is empty; expected at least one value"},
       {"for: { each: [ 1 ], steps: [ advance: 1ms ] }", ".for: 'as' is missing; expected it here"},
       {"for: { each: [ { a: 1 } ], as: b, steps: [ advance: 1ms ] }",
-       ".for.as: names a value, but there are rows, whose values have names; expected no `as`"},
+       ".for.as: names a value, but the rows name their values; expected no `as`"},
       {"for: { each: [ 1, 2 ], as: n, steps: [ advance: \"${m}ms\" ] }",
        ".for.steps[0].advance: column 1 of 'm': no parameter is called 'm'; expected 'n'"},
       {"include: none.yaml",
@@ -402,8 +399,9 @@ TEST_F(ScenarioErrors, IncludedFiles) {
                   "understudy: 1\nsteps: [ include: deep" + std::to_string(i + 1) + ".yaml ]\n");
   }
   // The scenario's own steps are the first level, those of deep30.yaml the 32nd.
-  EXPECT_EQ(complaint("deep0.yaml"),
-            "deep31.yaml:2: steps: is too deep; expected at most 32 loops, forks and includes in each other");
+  EXPECT_EQ(
+      complaint("deep0.yaml"),
+      "deep31.yaml:2: steps: is nested too deeply; expected at most 32 levels of loops, forks and includes");
 }
 
 TEST_F(ScenarioErrors, AreOneLineWhateverIsQuotedInThem) {

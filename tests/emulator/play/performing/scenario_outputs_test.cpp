@@ -39,9 +39,9 @@ TEST_F(ScenarioOutputs, AreNothingThatIsRead) {
        "4: steps[0].save.feeder: indexing.lst is the program of 'feeder'" + own},
       // Not there yet, but the next run would begin with it.
       {"programmed.yaml", "  - save: { feeder: kept.json }\n",
-       "4: steps[0].save.feeder: kept.json is the memory that 'feeder' begins with" + own},
+       "4: steps[0].save.feeder: kept.json is the initial memory of 'feeder'" + own},
       {"feeder.yaml\nnv: { turner: after.json }", "  - save: { feeder: after.json }\n",
-       "5: steps[0].save.feeder: after.json is the memory that 'turner' begins with" + own},
+       "5: steps[0].save.feeder: after.json is the initial memory of 'turner'" + own},
       {"feeder.yaml", "  - program: { feeder: indexing.lst }\n  - save: { feeder: indexing.lst }\n",
        "5: steps[1].save.feeder: indexing.lst is a program that a step loads" + own},
       {"feeder.yaml", "  - memory: { feeder: after.json }\n  - save: { feeder: after.json }\n",
@@ -82,12 +82,12 @@ TEST_F(ScenarioOutputs, StayBelowTheScenariosFolder) {
   EXPECT_EQ(complaint_of("inner/../new.json"), "");
   EXPECT_EQ(complaint_of("leads in.json"), "");
   EXPECT_EQ(complaint_of("/tmp/new.json"),
-            "scenario.yaml:4: steps[0].save.feeder: /tmp/new.json is not below " + own +
-                "; expected a path there (`--save-below FOLDER` allows another folder)");
+            "scenario.yaml:4: steps[0].save.feeder: /tmp/new.json is outside " + own +
+                "; expected a path in it (`--save-below FOLDER` allows another folder)");
   fs::create_directory(own + "-2");
   for (const std::string& path : {std::string("../new.json"), std::string("elsewhere/new.json"),
                                   std::string("leads out.json"), own + "-2/new.json"}) {
-    EXPECT_NE(complaint_of(path).find(" is not below "), std::string::npos) << path;
+    EXPECT_NE(complaint_of(path).find(" is outside "), std::string::npos) << path;
   }
   fs::remove(own + "-2");
   const std::string scenario = ScenarioFolder::scenario_of("  - save: { feeder: /tmp/new.json }\n");

@@ -19,7 +19,7 @@ TEST(StateText, SaysThatAnInputIsYetToBeRead) {
   EXPECT_EQ(state_text(world).back(), "x: DIN_4 on") << "inputs are looked at when the power comes";
   world.advance_to(kTickLength);
   world.set_external_input(0, find_terminal(world.device(0).model(), "DIN_1"), 1);
-  EXPECT_EQ(state_text(world).back(), "x: DIN_1 on (to be read at the next tick), DIN_4 on");
+  EXPECT_EQ(state_text(world).back(), "x: DIN_1 on (read at the next tick), DIN_4 on");
   world.advance_to(2 * kTickLength);
   EXPECT_EQ(state_text(world).back(), "x: DIN_1 on, DIN_4 on");
 }

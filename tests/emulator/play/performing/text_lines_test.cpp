@@ -97,7 +97,7 @@ const std::vector<Failing> kFailing{
     {"  - send: { text: N0=1, reply: OK, within: 100ms }\n", "the reply is nothing; expected \"OK\""},
     {"  - send: { text: SAY a, reply: nothing, within: 100ms }\n", "the reply is \"a\"; expected nothing"},
     {"  - hear: { text: HELLO, within: 100ms }\n  - hear: { text: a, within: 50ms }\n",
-     "what comes is nothing; expected \"a\""},
+     "received nothing; expected \"a\""},
     {"  - send: { text: N0=6 }\n  - expect: { robot.N0: 7 }\n", "robot.N0 is 6; expected 7"},
 };
 
@@ -167,7 +167,7 @@ TEST(TextSteps, WhatTheyCannotSayIsToldBeforehand) {
   EXPECT_EQ(refusal("  - hear: { text: a, within: 0s }\n"),
             "test.yaml:5: steps[0].hear.within: takes no time; expected some");
   EXPECT_NE(refusal("  - write: { robot.N0: 1 }\n").find("is not a register"), std::string::npos);
-  EXPECT_NE(refusal("  - expect: { robot.N1: 1 }\n").find("nothing of robot is called 'N1'"),
+  EXPECT_NE(refusal("  - expect: { robot.N1: 1 }\n").find("robot has no value called 'N1'"),
             std::string::npos);
   const std::string modbus =
       "understudy: 1\nbench: { lines: { a: { stations: [ { name: f, model: simple2-r3 } ] } } }\nsteps:\n"

@@ -31,7 +31,7 @@ TEST(TraceTable, CsvErrorsHaveTheirLine) {
       {"time,a\n", "t.csv:1: is not a trace; expected a first line that begins with time_ms"},
       {"time_ms,a\n0,1\nx,2\n", "t.csv:3: time_ms: 'x' is not a time; expected whole milliseconds"},
       {"time_ms,a\n5,1\n5,2\n",
-       "t.csv:3: time_ms: '5' is not later than the line before; expected times that ascend"},
+       "t.csv:3: time_ms: '5' is not later than the line before; expected ascending times"},
       {"time_ms,a,b\n0,1\n", "t.csv:2: has 1 values; expected 2"},
       {"time_ms,a\n0,1,2\n", "t.csv:2: has too many values; expected 1"},
       {"time_ms,a\n0,one\n", "t.csv:2: a: 'one' is not a number; expected one"},
@@ -99,7 +99,7 @@ TEST(PlotScript, RefusesWhatCannotBeDrawn) {
   const auto script = [&](std::vector<std::string> also) {
     return complaint_of([&] { plot_script(still, also, PlotFormat::png, "p", "t.csv"); });
   };
-  EXPECT_EQ(script({}), "t.csv: nothing in it changes; expected something to draw");
+  EXPECT_EQ(script({}), "t.csv: none of its values change; expected at least one that does");
   EXPECT_EQ(script({"f.A.positon"}),
             "t.csv: no column is called 'f.A.positon'; the nearest is 'f.A.position'");
   EXPECT_EQ(script({"f.A.position"}), "nothing");

@@ -65,11 +65,11 @@ TEST_F(ParametersTest, AValueIsComputedBeforeItIsUsed) {
 TEST_F(ParametersTest, ComplainOfWhatTheyAreNot) {
   const std::pair<const char*, const char*> rows[] = {
       {"${sped}", "column 1 of 'sped': no parameter is called 'sped'; the nearest is 'speed'"},
-      {"${speed", "'${' does not end; expected '}' behind it"},
+      {"${speed", "'${' is not closed; expected '}' after it"},
       {"${}", "column 1 of '': unexpected end; expected a name, a number or '('"},
       {"${speed + }", "column 9 of 'speed + ': unexpected end; expected a name, a number or '('"},
       {"${word + 1}",
-       "column 1 of 'word + 1': parameter 'word' is 'feeder', which cannot be computed with; expected a "
+       "column 1 of 'word + 1': parameter 'word' is 'feeder', which expressions cannot use; expected a "
        "number, a duration or a voltage"},
       {"${speed / 0}", "column 7 of 'speed / 0': division by zero  (speed is 200)"},
   };

@@ -121,10 +121,10 @@ TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
       {head + "steps: [ advance: 1ms ]\nplays: [ { name: a, steps: [ advance: 1ms ] } ]\n",
        "3: steps: stands beside `plays`; expected them in one of the plays"},
       {head + "parameters: { far: 1 }\nplays: [ { name: a, steps: [ advance: 1ms ] } ]\n",
-       "3: parameters.far: 'far' is used nowhere; expected ${far} in one of the plays"},
+       "3: parameters.far: 'far' is not used; expected ${far} in one of the plays"},
       {head + "parameters: { far: 1 }\nplays: [ { name: a, parameters: { near: 1 }, steps: [ advance: "
               "\"${far}ms\" ] } ]\n",
-       "4: plays[0].parameters.near: 'near' is used nowhere; expected ${near} somewhere in the scenario"},
+       "4: plays[0].parameters.near: 'near' is not used; expected ${near} somewhere in the scenario"},
       {"understudy: 1\nplays: [ { name: a, steps: [ advance: 1ms ] } ]\n",
        "2: plays[0]: 'bench' is missing; expected it here"},
       {of_choice("{ loop_cuont: [ passes ] }"),
@@ -139,7 +139,8 @@ TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
       {of_choice("{ loop_count: [ passes ] }\ncases: [ { speed: 1 } ]"),
        "3: choice: stands beside `cases`; expected one of them"},
       {of_choice("{ loop_count: { passes: { speed: 1 }, further_passes: { sped: 1 } } }"),
-       "3: choice.loop_count.further_passes.sped: is not a parameter, nor in the first case; the nearest is "
+       "3: choice.loop_count.further_passes.sped: is neither a parameter nor in the first case; the nearest "
+       "is "
        "'speed'"},
   };
   for (const auto& wrong : kCases) {

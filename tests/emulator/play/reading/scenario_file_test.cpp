@@ -154,7 +154,7 @@ TEST_F(ScenarioFile, StepsMayNotGrowBeyondAllBounds) {
       "understudy: 1\nbench: feeder.yaml\nparameters:\n  a: " + std::string(100, 'x') +
       "\n  b: ${a}${a}${a}${a}${a}${a}${a}${a}${a}${a}\n  c: ${b}${b}${b}${b}${b}\nsteps:\n";
   const std::string beyond =
-      "scenario.yaml:8: steps[0].repeat.steps[0]: is too much: the steps have grown beyond 64 MiB; expected "
+      "scenario.yaml:8: steps[0].repeat.steps[0]: is too large: the steps exceed 64 MiB; expected "
       "less, with all loops and cases";
   EXPECT_EQ(folder_.complaint(scenario + "  - repeat: { times: 6000, steps: [ { say: '${c}' } ] }\n"), "");
   EXPECT_EQ(folder_.complaint(scenario + "  - repeat: { times: 99999, steps: [ { say: '${c}' } ] }\n"),
@@ -163,7 +163,7 @@ TEST_F(ScenarioFile, StepsMayNotGrowBeyondAllBounds) {
   folder_.write("long.lst", std::string(1 << 20, ';') + "\n        END\n");
   EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of(
                 "  - repeat: { times: 99999, steps: [ program: { feeder: long.lst } ] }\n")),
-            "scenario.yaml:4: steps[0].repeat.steps[0]: is too much: the steps have grown beyond 64 MiB; "
+            "scenario.yaml:4: steps[0].repeat.steps[0]: is too large: the steps exceed 64 MiB; "
             "expected less, with all loops and cases");
 }
 

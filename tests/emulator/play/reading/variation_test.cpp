@@ -170,14 +170,14 @@ TEST(Variation, WhatIsWrongIsSaidWithItsPlace) {
             "p: expected values, as in `[ 1, 2 ]`, `{ from: 1, to: 9, step: 2 }` or `{ between: [ 1, 9 ], "
             "samples: 5 }`"},
            {"[]", "p: is empty; expected at least one value"},
-           {"[ 1, 2, 1 ]", "p[2]: '1' is there already; expected each value once"},
+           {"[ 1, 2, 1 ]", "p[2]: '1' appears twice; expected each value once"},
            {"[ [ 1 ] ]", "p[0]: expected a value, such as 100, 20ms or on"},
            {"{ fro: 1 }",
-            "p: says no values; expected `from`, `between` or `one_of`, as in `{ from: 1, to: 9, step: 2 }`"},
+            "p: has no values; expected `from`, `between` or `one_of`, as in `{ from: 1, to: 9, step: 2 }`"},
            {"{ from: 1, to: 9, stop: 2 }",
             "p.stop: is not a key here; expected one of from, to, step (the nearest is 'step')"},
            {"{ from: 9, to: 1, step: 1 }", "p.to: 1 is less than 9; expected the larger one second"},
-           {"{ from: 1, to: 9, step: 0 }", "p.step: is 0; expected more than nothing"},
+           {"{ from: 1, to: 9, step: 0 }", "p.step: is 0; expected more than 0"},
            {"{ from: 1, to: 9ms, step: 1 }", "p.to: is a duration; expected a number as 1 is"},
            {"{ from: a, to: 9, step: 1 }",
             "p.from: 'a' is not an amount; expected a number, a duration or a voltage, such as 12, 0.5, 20ms "
@@ -188,8 +188,8 @@ TEST(Variation, WhatIsWrongIsSaidWithItsPlace) {
            {"{ from: -1ms, to: 1ms, step: 1ms }", "p.from: is negative; expected a duration"},
            {"{ between: [ 1, 2, 3 ] }", "p.between: expected two values, as in `[ 1, 9 ]`"},
            {"{ between: [ 1, 9 ], samples: 10 }",
-            "p.samples: there are only 9 values to draw from; expected at most so many"},
-           {"{ one_of: [ a, a ] }", "p.one_of[1]: 'a' is there already; expected each value once"}}) {
+            "p.samples: the range has only 9 values; expected at most that many"},
+           {"{ one_of: [ a, a ] }", "p.one_of[1]: 'a' appears twice; expected each value once"}}) {
     try {
       of(row.yaml);
       ADD_FAILURE() << row.yaml;

@@ -167,17 +167,16 @@ TEST_F(Vary, WhatIsWrongIsSaidWithItsPlace) {
            {text("vary: [ 1 ]\n", {}), "3: vary: expected a map, as in `key: value`"},
            {text("vary: { a: [ 1 ], a: [ 2 ] }\n", {"a"}), "3: vary.a: is given twice; expected it once"},
            {text("vary: { a: [ 1 ] }\n", {}),
-            "3: vary.a: 'a' is used nowhere; expected ${a} somewhere in the scenario  (a=1)"},
+            "3: vary.a: 'a' is not used; expected ${a} somewhere in the scenario  (a=1)"},
            {text("vary: { a: [ \"${b}\" ] }\n", {"a"}),
             "3: vary.a[0]: column 1 of 'b': no parameter is called 'b'; there are none"},
            {text("vary: { \"a b\": [ 1 ] }\n", {}),
-            "3: vary.a b: 'a b' is not a name for a parameter; expected letters, digits and _, a letter "
-            "first  "
-            "(a b=1)"},
+            "3: vary.a b: 'a b' is not a parameter name; expected letters, digits and _, beginning with a "
+            "letter  (a b=1)"},
            {text("cases: [ { a: 1 } ]\nvary: { a: [ 1 ] }\n", {"a"}),
-            "4: vary.a: is given by `cases` already; expected it in one of them"},
+            "4: vary.a: is already given by `cases`; expected it in one of the two"},
            {text("vary: { a: { between: [ 1, 2 ] } }\n", {"a"}),
-            "3: vary: does not say how many cases there are; expected `samples: 100` beside one `between` or "
+            "3: vary: does not set the number of cases; expected `samples: 100` next to a `between` or "
             "`one_of`"},
            {"understudy: 1\nbench: feeder.yaml\nvary: { ramp: [ 100, 5000 ] }\n"
             "steps: [ write: { feeder.Aaxis_AccTime: \"${ramp}\" } ]\n",

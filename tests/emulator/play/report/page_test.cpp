@@ -170,7 +170,7 @@ TEST(ReportPage, SaysWhatAPictureShows) {
   const std::string page = page_of(kServoOn + kExampleMove +
                                    "  - input: { feeder.DIN_10: on }\n  - advance: 3200ms\n"
                                    "  - assert: feeder.Cord_A == 1\n");
-  EXPECT_NE(page.find("role=\"img\" aria-label=\"test: what moved and switched, from 0s to 3."),
+  EXPECT_NE(page.find("role=\"img\" aria-label=\"test: motion and signals, from 0s to 3."),
             std::string::npos);
   EXPECT_NE(page.find("<desc>feeder.A.position goes from 0 to 32000 pulses, between 0 and 32000; "),
             std::string::npos);

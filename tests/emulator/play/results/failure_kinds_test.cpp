@@ -28,7 +28,7 @@ TEST(FailureKind, IsTheStepAndTheWordsWithoutNumbers) {
                         {"the reply was 01 03 02 C0 01", "the reply was #"},
                         {"the reply was C0 FF", "the reply was #"},
                         {"it was 5 13; expected 10 20", "it was #; expected #"},
-                        {"no reply to it, but F7; expected one", "no reply to it, but #; expected one"},
+                        {"an unexpected reply: F7; expected one", "an unexpected reply: #; expected one"},
                         {"D0 is 5; expected A1", "D0 is #; expected #"},
                         {"FF AB.C0 is 1", "FF AB.C0 is #"},
                         {"mill.D800 is 7", "mill.D800 is #"},

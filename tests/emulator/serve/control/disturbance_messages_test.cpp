@@ -60,7 +60,7 @@ TEST(PowerMessages, OffMakesADeviceUnreachableAndOnRestartsIt) {
   run(rig, 2);
   EXPECT_EQ(rig.value("turner.DIN_10"), 1);
   EXPECT_EQ(rig.reply_to(power("feeder", "off")), kDone);
-  const std::string no_power = "feeder has no power; expected it switched on";
+  const std::string no_power = "feeder has no power; expected it to be on";
   EXPECT_EQ(error_of(rig, R"({"do":"get","names":["feeder.Aaxis_Speed"]})"), no_power);
   EXPECT_EQ(error_of(rig, R"({"do":"get","names":["turner.Aaxis_Speed","feeder.HW_Code"]})"), no_power);
   EXPECT_EQ(error_of(rig, R"({"do":"set","values":{"turner.Aaxis_Speed":8,"feeder.Aaxis_Speed":1}})"),
@@ -310,7 +310,7 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
        "feeder.A has no encoder; expected one in `plant`"},
 
       {R"({"do":"clear","number":1})",
-       "number: 1 is not a fault in force; expected none, as nothing is broken"},
+       "number: 1 is not a fault in force; expected none, since no fault is in force"},
       {R"({"do":"clear","number":"all"})", "number: 'all' is not a whole number; expected one"},
       {R"({"do":"clear","number":null})", "number: null is not a whole number; expected one"},
       {R"({"do":"clear","all":true})", "'all' is not a key of this message"},

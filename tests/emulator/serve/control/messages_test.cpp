@@ -133,7 +133,7 @@ TEST(ControlMessages, GetKnowsWhateverConditionsKnow) {
 TEST(ControlMessages, WithoutPowerThereAreNoRegistersToGet) {
   DaemonRig rig;
   rig.ask(R"({"do":"power","device":"feeder","to":"off"})");
-  const std::string refused = R"({"ok":false,"error":"feeder has no power; expected it switched on"})";
+  const std::string refused = R"({"ok":false,"error":"feeder has no power; expected it to be on"})";
   EXPECT_EQ(rig.reply_to(R"({"do":"get","names":["turner.Cord_A","feeder.Cord_A"]})"), refused);
   EXPECT_EQ(rig.reply_to(R"({"do":"eval","expression":"feeder.Cord_A"})"), refused);
   EXPECT_EQ(rig.reply_to(R"({"do":"get","names":["feeder.power","feeder.A.position"]})"),
@@ -304,7 +304,7 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
       {by("\"\""), "by: ''" + no_time},
       {by("[\"1s\"]"), "by: [\"1s\"]" + no_time},
       {by("\"99999999999999999999s\""), "by: '99999999999999999999s'" + no_time},
-      {by("\"8761h\""), "by: is more than a year; expected at most that"},
+      {by("\"8761h\""), "by: is more than a year; expected at most a year"},
   };
   DaemonRig rig;
   for (const Bad& bad : cases) {

@@ -218,20 +218,20 @@ TEST(LineByHand, IsObeyedWithoutAWordOnTheLine) {
   EXPECT_EQ(refusal_of("VM=321"), "");
   EXPECT_EQ(bench.value("d.VM"), 321);
   EXPECT_EQ(refusal_of("G"), "");
-  EXPECT_EQ(refusal_of("G"), "d does not take it: it is busy (reason 3)") << "it runs already";
-  EXPECT_EQ(refusal_of("nonsense"), "d does not take it: the command does not suit it now (reason 1)");
+  EXPECT_EQ(refusal_of("G"), "d refuses it: it is busy (reason 3)") << "it runs already";
+  EXPECT_EQ(refusal_of("nonsense"), "d refuses it: the command is not possible now (reason 1)");
   bench.run(20);
   EXPECT_EQ(frames(), before) << "its answers are nobody's";
   // A number is the program's.
   bench.ask({{"do", "input"}, {"values", {{"d.IN3", 1}}}});
   bench.run(20);
-  EXPECT_EQ(refusal_of("VM=322"), "d does not take it: it is busy");
+  EXPECT_EQ(refusal_of("VM=322"), "d refuses it: it is busy");
   EXPECT_EQ(refusal_of("EXIT"), "");
   EXPECT_EQ(refusal_of("VM=322"), "");
   // What a host is typing into the editor is its own.
   bench.act("text PA");
   bench.run(100);
-  EXPECT_EQ(refusal_of("VM=323"), "d does not take it: it is busy");
+  EXPECT_EQ(refusal_of("VM=323"), "d refuses it: it is busy");
   EXPECT_EQ(bench.value("d.VM"), 322);
 }
 

@@ -131,8 +131,7 @@ TEST(ControlServer, LeavesALiveSocketAlone) {
   ServerRig first;
   first.serve(first.path);
   ServerRig second;
-  EXPECT_EQ(refusal(second, first.path),
-            first.path + ": another understudy answers there; expected a free path");
+  EXPECT_EQ(refusal(second, first.path), first.path + ": another understudy uses it; expected a free path");
   Client client(first.path);
   client.say("still there?\n");
   first.settle();

@@ -19,7 +19,7 @@ TEST(WatchTable, ShowsWhatMovesAndWhatIsOn) {
   const auto lines = watch_table(status, "", 0);
   const std::vector<std::string> expected{
       "time         61ms, speed manual",
-      "lateness     p50 0 us, p99 0 us, greatest 0 us, 0 slips",
+      "lateness     p50 0 us, p99 0 us, max 0 us, 0 slips",
       "rs485        19200 8E1, host closed, 0 bytes in, 0 out",
       "",
       "feeder       simple2-r3, firmware 1.52",
@@ -77,7 +77,7 @@ TEST(WatchValues, ShowsWhatWasNamedAndWhyThereIsNone) {
   EXPECT_EQ(get_message({"time"}), R"({"do":"get","names":["time"]})");
   rig.ask(R"({"do":"power","device":"feeder","to":"off"})");
   EXPECT_EQ(watch_values(rig.reply_to(get_message(names))),
-            std::vector<std::string>{"feeder has no power; expected it switched on"});
+            std::vector<std::string>{"feeder has no power; expected it to be on"});
   EXPECT_EQ(why_refused(rig.reply_to(get_message({"turner.HW_Cod"}))),
             "turner: no register is called 'HW_Cod'; the nearest is 'HW_Code'");
   EXPECT_THROW(why_refused("hello"), ControlError);

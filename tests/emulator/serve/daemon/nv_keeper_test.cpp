@@ -116,8 +116,8 @@ TEST(ReadMemories, RefusesWhatIsNoMemoryOfTheDeviceAndLeavesItAlone) {
   const TestFolder folder;
   const std::string whole = image_text({{"Parms_Speed1", 5}});
   const std::pair<std::string, const char*> cases[] = {
-      {whole.substr(0, whole.size() / 2), ": is torn or not JSON"},
-      {"", "turner.json:1: is torn or not JSON"},
+      {whole.substr(0, whole.size() / 2), ": is damaged or not JSON"},
+      {"", "turner.json:1: is damaged or not JSON"},
       {"{}", "understudy: is missing"},
       {image_text({}, "super-40nc"), "model: is the memory of a 'super-40nc'"},
       {image_text({{"Parms_Speed17", 5}}), "'Parms_Speed17'"},
@@ -156,7 +156,7 @@ TEST(ReadMemories, TellsAllThatIsWrongWithAllOfThem) {
     ASSERT_EQ(error.complaints().size(), 4u) << error.what();
     const std::string begins[] = {
         feeder + ": firmware: '9.99' is unknown", feeder + ": registers: 'Cord_A' is",
-        feeder + ": registers: 'Parms_Speed1': 70000 does", turner + ":2: is torn or not JSON"};
+        feeder + ": registers: 'Parms_Speed1': 70000 does", turner + ":2: is damaged or not JSON"};
     for (std::size_t i = 0; i < std::size(begins); ++i) {
       EXPECT_EQ(error.complaints()[i].text.rfind(begins[i], 0), 0u) << error.complaints()[i].text;
     }
@@ -330,10 +330,9 @@ TEST(NvKeeper, ReportsAnUnwritableFileEvenInAQuietWorld) {
   ASSERT_TRUE(kept.keeper->next_look()) << "it wants to hear what became of it";
   kept.look_until_quiet(1s);
   ASSERT_EQ(kept.log.size(), 1u);
-  EXPECT_EQ(kept.log[0],
-            kept.folder.path +
-                "/gone/feeder.json: cannot be written (No such file or directory); what it held before "
-                "stays");
+  EXPECT_EQ(kept.log[0], kept.folder.path +
+                             "/gone/feeder.json: cannot be written (No such file or directory); the file "
+                             "keeps its previous contents");
   // Once it can be written, that is told, and the file has everything.
   fs::create_directory(kept.folder.path + "/gone");
   kept.write("feeder.PROG_MEM0", 9);
@@ -371,8 +370,8 @@ TEST(NvKeeper, IsTheOnlyOneOfAFile) {
     FAIL();
   } catch (const pty::PortError& error) {
     EXPECT_EQ(error.what(), folder.path +
-                                "/nv/turner.json: nv: another understudy, which is running, keeps a "
-                                "memory there; expected a file, or a folder with --nv, for each");
+                                "/nv/turner.json: nv: another running understudy uses this memory; expected "
+                                "a separate file, or a separate folder with --nv, for each");
   }
   first.reset();
   EXPECT_NO_THROW(keep());

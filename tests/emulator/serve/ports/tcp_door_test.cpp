@@ -349,7 +349,7 @@ TEST_P(EachProtocol, IsGoneWhileItIsUnplugged) {
   EXPECT_TRUE(before.sees_the_end());
   EXPECT_TRUE(DoorClient(rig).sees_the_end());
   EXPECT_EQ(rig.log.size(), 1U);
-  EXPECT_NE(rig.log.back().find("which a fault has pulled out"), std::string::npos) << rig.log.back();
+  EXPECT_NE(rig.log.back().find("but a fault has unplugged the line"), std::string::npos) << rig.log.back();
   rig.world.clear_fault(fault);
   rig.run();
   expect_served(rig, "plugged in again");

@@ -37,7 +37,7 @@ TEST(Complaints, AreTwentyAtMost) {
   } catch (const FileError& error) {
     ASSERT_EQ(error.complaints().size(), 21U);
     EXPECT_EQ(error.complaints()[19].text, "a.yaml:20:1: wrong");
-    EXPECT_EQ(error.complaints()[20].text, "and 5 more; the first 20 are told");
+    EXPECT_EQ(error.complaints()[20].text, "and 5 more; the first 20 are shown");
   }
 }
 
@@ -72,7 +72,7 @@ seed: -1
             R"(bench.yaml:1: understudy: '2' is not possible; expected a whole number from 1 to 1
 bench.yaml:4: lines.a.bud: is not a key here; expected one of link, listen, pty, baud, baud_tolerance, byte_timeout, timing, echo, stations (the nearest is 'baud')
 bench.yaml:5: lines.a.baud: 'fast' is not possible; expected a whole number from 1 to 4000000
-bench.yaml:6: lines.a.link: 'tcp://:1502' is an address of a network; expected a path for a pseudo-terminal (`listen` has addresses)
+bench.yaml:6: lines.a.link: 'tcp://:1502' is a network address; expected a path for a pseudo-terminal (`listen` has addresses)
 bench.yaml:8: lines.a.stations[0].adress: is not a key here; expected one of name, model, address, port, firmware, modules, set, choices, dip, program, nv (the nearest is 'address')
 bench.yaml:8: lines.a.stations[0].firmware: 'new' is not a version; expected one like "1.52"
 bench.yaml:8: lines.a.stations[0].set.Aaxis_Speed: 'fast' is not possible; expected a whole number from -2147483648 to 4294967295
@@ -123,7 +123,7 @@ bench.yaml:13:23: lines.a.stations[0].set.Aaxis_Sped: no register is called 'Aax
 bench.yaml:14:27: lines.a.stations[0].choices.stopp: no choice is called 'stopp'; the nearest is 'stop'
 bench.yaml:14:49: lines.a.stations[0].choices.servo_at_power_up: choice 'servo_at_power_up' has no option 'maybe'; expected one of off|on
 bench.yaml:15:22: lines.a.stations[0].dip.DIP9: 'DIP9' is not a switch of simple2-r3; the nearest is 'DIP1'
-bench.yaml:15:32: lines.a.stations[0].dip.DIP1: 'perhaps' is neither; expected on or off
+bench.yaml:15:32: lines.a.stations[0].dip.DIP1: 'perhaps' is neither on nor off; expected one of them
 bench.yaml:15:47: lines.a.stations[0].dip.DIP8: 'DIP8' is not a switch of simple2-r3; the nearest is 'DIP1'
 x.program:2:1: mnemonic: no instruction is called 'NONSENSE'; expected an instruction, such as Delay_mSec)");
 }
@@ -167,7 +167,7 @@ bench.yaml:6: lines.a.stations[1].firmware: 'new' is not a version; expected one
 bench.yaml:6: lines.a.stations[1].modules: 'many' is not possible; expected a whole number from 1 to 255
 bench.yaml:6: lines.a.stations[1].nv: is empty; expected a path
 bench.yaml:7: lines.a.stations[1].set.P: 'fast' is not a number; expected one
-bench.yaml:7: lines.a.stations[1].dip.D: 'perhaps' is neither; expected on or off
+bench.yaml:7: lines.a.stations[1].dip.D: 'perhaps' is neither on nor off; expected one of them
 bench.yaml:7: lines.a.stations[1].choices.c: expected a word or a number
 bench.yaml:7: lines.a.stations[1].program: /nowhere/x.lst cannot be read (No such file or directory); expected a listing
 bench.yaml:8: lines.a.stations[2]: 'model' is missing; expected it here

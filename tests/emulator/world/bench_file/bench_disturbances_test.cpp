@@ -97,7 +97,7 @@ TEST(BenchErrors, AnEncoderKnowsTheMotorThatTurnsIt) {
            what + " } }\n";
   };
   const std::string unknown =
-      "4: plant.x.X.encoder: turns with a motor of unknown pulses a revolution; expected "
+      "4: plant.x.X.encoder: needs the pulses per revolution of the motor; expected "
       "`motor_pulses_per_revolution`";
   expect_complaints({{with_encoder("per_revolution: 4000"), unknown},
                      {with_encoder("per_revolution: 4000, index: { at: 40 }"), unknown},
@@ -154,13 +154,15 @@ TEST(BenchErrors, SwitchesOnTheHousing) {
        at + ".dip.DIP3: 'DIP3' is not a switch of simple2-r3; the nearest is 'DIP1'"},
       {and_then("", "dip: { DIN_1: on }"),
        at + ".dip.DIN_1: 'DIN_1' is not a switch of simple2-r3; expected one of DIP1, DIP2"},
-      {and_then("", "dip: { DIP1: maybe }"), at + ".dip.DIP1: 'maybe' is neither; expected on or off"},
-      {and_then("", "dip: { DIP1: 2 }"), at + ".dip.DIP1: '2' is neither; expected on or off"},
+      {and_then("", "dip: { DIP1: maybe }"),
+       at + ".dip.DIP1: 'maybe' is neither on nor off; expected one of them"},
+      {and_then("", "dip: { DIP1: 2 }"), at + ".dip.DIP1: '2' is neither on nor off; expected one of them"},
       {and_then("", "dip: [ DIP1 ]"), at + ".dip: expected a map, as in `key: value`"},
       {and_then("", "dip: { DIP1: on, DIP1: off }"), at + ".dip.DIP1: is given twice; expected it once"},
       {"understudy: 1\nlines:\n  a: { baud: 19200, stations: [ { name: x, model: simple2-r3, dip: { DIP1: on "
        "} } ] }\n",
-       "3: lines.a.stations[0].dip: the switches say 115200 baud, the line 19200; expected the same"},
+       "3: lines.a.stations[0].dip: the switches select 115200 baud, but the line has 19200; expected the "
+       "same"},
   });
 }
 
@@ -255,8 +257,8 @@ TEST(BenchErrors, Faults) {
        "6: faults[0].when: column 1 of 'x.A.puls > 5': axis A has no 'puls'; the nearest is 'pulses'"},
       {fault("drop: x, when: time"), "6: faults[0].when: 'time' is a duration; expected a condition"},
       {fault("drop: x, when: x.A.greatest_speed > 5"),
-       "6: faults[0].when: 'x.A.greatest_speed' cannot be waited for; expected something that the "
-       "world itself knows"},
+       "6: faults[0].when: 'x.A.greatest_speed' cannot be used in a fault; expected a value that the bench "
+       "itself has"},
       {fault("drop: x, address: Aaxis_Sped"),
        "6: faults[0].address: x: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'"},
       {fault("encoder_noise: x.A, counts: 4"), at + "x.A has no encoder; expected one in `plant`"},

@@ -155,12 +155,12 @@ TEST(BenchErrors, Lines) {
       {with_line("listen: [ 'rtu://:1', 'rfc2217://127.0.0.1:1' ], " + kStation),
        "3: lines.a.listen[1]: appears twice; expected it once"},
       {with_line("listen: 'modbus-tcp://:1', stations: [ { name: x, model: slim } ]"),
-       "3: lines.a.listen: the line speaks lines of text, not Modbus; expected rtu:// or rfc2217://, which "
+       "3: lines.a.listen: the line carries lines of text, not Modbus; expected rtu:// or rfc2217://, which "
        "carry any bytes"},
       {with_line("pty: false, " + kStation),
-       "3: lines.a.pty: leaves the line without a port; expected `listen` beside it"},
+       "3: lines.a.pty: leaves the line without a port; expected `listen` as well"},
       {with_line("pty: false, link: p, listen: 'rtu://:0', " + kStation),
-       "3: lines.a.link: is of a pseudo-terminal, and `pty` is false; expected one of the two"},
+       "3: lines.a.link: needs a pseudo-terminal, but `pty` is false; expected one of the two"},
       {with_line("timing: fast, " + kStation),
        "3: lines.a.timing: 'fast' is not a timing; expected wire or instant"},
       {with_line("link: '', " + kStation), "3: lines.a.link: is empty; expected a path"},
@@ -168,7 +168,7 @@ TEST(BenchErrors, Lines) {
        "3: lines.a.link: has a control character; expected a path without one"},
       {with_line("link: [ a ], " + kStation), "3: lines.a.link: expected a word or a number"},
       {with_line("link: \"tcp://:1502\", " + kStation),
-       "3: lines.a.link: 'tcp://:1502' is an address of a network; expected a path for a pseudo-terminal "
+       "3: lines.a.link: 'tcp://:1502' is a network address; expected a path for a pseudo-terminal "
        "(`listen` has addresses)"},
       {with_line("link: /, " + kStation),
        "3: lines.a.link: '/' is a folder; expected a path for the link in it"},
@@ -177,9 +177,9 @@ TEST(BenchErrors, Lines) {
       {with_line("link: /tmp, " + kStation),
        "3: lines.a.link: '/tmp' is a folder; expected a path for the link in it"},
       {with_line("link: /dev/null, " + kStation),
-       "3: lines.a.link: '/dev/null' is a device of this machine; expected a path that is free"},
+       "3: lines.a.link: '/dev/null' is a device file of this machine; expected a free path"},
       {with_station("{ name: time, model: simple2-r3 }"),
-       "5: lines.a.stations[0].name: is what conditions call the time; expected another name"},
+       "5: lines.a.stations[0].name: is the name of the time in conditions; expected another name"},
       {with_line("link: ./p, " + kStation) +
            "  b: { link: sub/../p, stations: [ { name: y, model: simple2-r3 } ] }\n",
        "4: lines.b.link: line 'a' has the same link; expected another path"},
@@ -227,7 +227,7 @@ TEST(BenchErrors, Devices) {
        "5: lines.a.stations[0].device: no device is called 'mil'; the nearest is 'mill'"},
       {and_then(mill), "7: devices.mill: the device is on no line; expected a station that names it"},
       {with_station("{ device: mill }\n      - { device: mill, address: 2 }") + mill,
-       "6: lines.a.stations[1]: the device is on a line already; expected it on one line"},
+       "6: lines.a.stations[1]: the device is already on a line; expected it on one line"},
       {and_then("devices: [ mill ]\n"), "6: devices: expected a map, as in `key: value`"},
       {and_then("devices:\n  x: { model: simple2-r3 }\n"),
        "5: lines.a.stations[0].name: two devices are called 'x'; expected a new name"},

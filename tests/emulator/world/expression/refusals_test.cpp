@@ -85,8 +85,8 @@ TEST(ExpressionRefusals, InvalidNumbersAndNamesAreRefused) {
       {"1__0", 2, "'_' in a number; expected it between two digits only"},
       {"1_", 2, "'_' in a number; expected it between two digits only"},
       {"1_.5", 2, "'_' in a number; expected it between two digits only"},
-      {"1e999", 1, "'1e999' is beyond what a real number holds"},
-      {"1e-999", 1, "'1e-999' is beyond what a real number holds"},
+      {"1e999", 1, "'1e999' is too large for a real number"},
+      {"1e-999", 1, "'1e-999' is too large for a real number"},
       {"1e3s", 1, "'1e3s' has an exponent and a unit; expected one of them"},
       {"0.5ns", 1, "'0.5ns' is finer than a nanosecond or longer than a century"},
       {"9999999h", 1, "'9999999h' is finer than a nanosecond or longer than a century"},
@@ -108,19 +108,19 @@ TEST(ExpressionRefusals, InvalidNumbersAndNamesAreRefused) {
 TEST(ExpressionRefusals, PitfallsOfCNeedParentheses) {
   expect_refusals({
       {"a & 4 == 4", 3,
-       "'&' beside a comparison needs parentheses, because the comparison comes first: (a & b) == c"},
+       "'&' next to a comparison needs parentheses, because the comparison comes first: (a & b) == c"},
       {"a == 4 & 4", 8,
-       "'&' beside a comparison needs parentheses, because the comparison comes first: (a & b) == c"},
+       "'&' next to a comparison needs parentheses, because the comparison comes first: (a & b) == c"},
       {"a | b != 0", 3,
-       "'|' beside a comparison needs parentheses, because the comparison comes first: (a | b) == c"},
+       "'|' next to a comparison needs parentheses, because the comparison comes first: (a | b) == c"},
       {"a ^ b < 0", 3,
-       "'^' beside a comparison needs parentheses, because the comparison comes first: (a ^ b) == c"},
+       "'^' next to a comparison needs parentheses, because the comparison comes first: (a ^ b) == c"},
       {"0 < a < 10", 7, "comparisons do not chain; write a < b && b < c"},
       {"a == b == c", 8, "comparisons do not chain; write a == b && b == c"},
       {"a < b == true", 7, "comparisons do not chain; write a == b && b == c"},
-      {"not a == b", 7, "'!' beside '==' needs parentheses: !(a == b), or (!a) == b"},
-      {"!a < b", 4, "'!' beside '<' needs parentheses: !(a < b), or (!a) < b"},
-      {"a == !b", 3, "'!' beside '==' needs parentheses: !(a == b), or (!a) == b"},
+      {"not a == b", 7, "'!' next to '==' needs parentheses: !(a == b), or (!a) == b"},
+      {"!a < b", 4, "'!' next to '<' needs parentheses: !(a < b), or (!a) < b"},
+      {"a == !b", 3, "'!' next to '==' needs parentheses: !(a == b), or (!a) == b"},
   });
 }
 
@@ -159,18 +159,18 @@ TEST(ExpressionRefusals, BitOperatorsOnRealNumbersAreRefused) {
 
 TEST(ExpressionRefusals, MisplacedTolerancesAreRefused) {
   constexpr std::string_view place =
-      "'+-' has no place here; expected it once behind '==' or '!=' and a value, as in x == 3050 +- 2";
+      "'+-' is not allowed here; expected it once, after '==' or '!=' and a value, as in x == 3050 +- 2";
   expect_refusals({
       {"a <= 5 +- 2", 8, place},
       {"a +- 2", 3, place},
       {"5+-2", 2, place},  // not 5 + -2: the same text means the same after `==`
       {"a == 5 +- 2 +- 1", 13, place},
       {"a == (5 +- 2)", 9, place},
-      {"a == 5 +- 1s%", 11, "'%' behind a duration; expected a number"},
+      {"a == 5 +- 1s%", 11, "'%' after a duration; expected a number"},
       {"a == 5 +- 2000000%", 11, "expected a tolerance of at most a million percent"},
       {"a == 5 +- 5%3", 13, "unexpected '3'; expected an operator or the end"},
-      {"a == 1..5", 7, "a range has no place here; expected low <= x && x <= high"},
-      {"a..b", 2, "a range has no place here; expected low <= x && x <= high"},
+      {"a == 1..5", 7, "a range is not allowed here; expected low <= x && x <= high"},
+      {"a..b", 2, "a range is not allowed here; expected low <= x && x <= high"},
   });
 }
 

@@ -88,9 +88,10 @@ TEST(Tolerance, RefusesInOneLine) {
       {"5 +- -2", Unit::none, "column 3 of '5 +- -2': a tolerance below zero (-2)"},
       {"200..100", Unit::none, "column 1 of '200..100': the range ends before it begins"},
       {"1..2..3", Unit::none,
-       "column 5 of '1..2..3': a range has no place here; expected low <= x && x <= high"},
+       "column 5 of '1..2..3': a range is not allowed here; expected low <= x && x <= high"},
       {"5 +- 2 +- 1", Unit::none,
-       "column 8 of '5 +- 2 +- 1': '+-' has no place here; expected it once behind '==' or '!=' and a value, "
+       "column 8 of '5 +- 2 +- 1': '+-' is not allowed here; expected it once, after '==' or '!=' and a "
+       "value, "
        "as in "
        "x == 3050 +- 2"},
       {"feeder.Cord_A", Unit::none,
@@ -99,7 +100,7 @@ TEST(Tolerance, RefusesInOneLine) {
       {"5 / 0", Unit::none, "column 3 of '5 / 0': division by zero"},
       {"5 +- 1 / 0", Unit::none, "column 8 of '5 +- 1 / 0': division by zero"},
       {"5 +- 1% 2", Unit::none, "column 9 of '5 +- 1% 2': unexpected '2'; expected an operator or the end"},
-      {"5 +- 1ms%", Unit::none, "column 6 of '5 +- 1ms%': '%' behind a duration; expected a number"},
+      {"5 +- 1ms%", Unit::none, "column 6 of '5 +- 1ms%': '%' after a duration; expected a number"},
       {"five", Unit::none,
        "column 1 of 'five': a name, 'five', where a value, a tolerance or a range is expected"},
   };

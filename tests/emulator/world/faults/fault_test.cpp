@@ -149,7 +149,7 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
            {"turn feeder.A in=2s", "turn: counts is missing; expected -1000000000 to 1000000000"},
            {"turn feeder.A counts=1 in=1500us",
             "turn: in: '1500us' is not possible; expected whole milliseconds"},
-           {"turn feeder.A counts=1 for=1s", "turn: for: it is over at once; expected none"},
+           {"turn feeder.A counts=1 for=1s", "turn: for: this fault has no duration; expected none"},
            {"drop feeder station=248", "drop: station: 248 is out of range; expected 0 to 247"},
            {"drop feeder station=-1", "drop: station: -1 is out of range; expected 0 to 247"},
            {"drop feeder address=0x10000", "drop: address: 65536 is out of range; expected 0 to 65535"},
@@ -162,10 +162,10 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
            {"drop feeder for=0s", "drop: for: 0s" + hours + "1ns to 8760h"},
            {"drop feeder at=9000h", "drop: at: 32400000s" + hours + "0s to 8760h"},
            {"drop feeder at=5ms from=1ms",
-            "drop: at: does not go with from and to; expected one or the other"},
+            "drop: at: cannot be combined with from and to; expected one or the other"},
            {"drop feeder at=5ms times=2", "drop: at: happens only once; expected it without times"},
            {"drop feeder from=5ms to=5ms", "drop: to: is not after from; expected a later time"},
-           {"drop feeder seed=5", "drop: seed: nothing is left to chance; expected chance as well"},
+           {"drop feeder seed=5", "drop: seed: has no effect without chance; expected chance as well"},
            {"drop feeder chance=5",
             "drop: chance: '5' is not possible; expected more than 0% up to 100%, as in 0.5%"},
            {"drop feeder chance=0%",
@@ -189,7 +189,7 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
             "encoder_noise: period: '3ms' is not possible; expected an even number of milliseconds"},
            {"encoder_noise feeder.A counts=1 period=1ms",
             "encoder_noise: period: 1ms is out of range; expected 2ms to 8760h"},
-           {"slip feeder.A pulses=1 for=3ms", "slip: for: it is over at once; expected none"},
+           {"slip feeder.A pulses=1 for=3ms", "slip: for: this fault has no duration; expected none"},
        }) {
     EXPECT_EQ(refusal(two(), fault_words(text)), why) << text;
   }

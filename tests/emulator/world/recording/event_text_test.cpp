@@ -25,7 +25,7 @@ TEST(EventText, SaysWhatCameFromOutsideBesideBytes) {
        "the host sets rs485: 19200 baud, 1 stop bit"},
       {R"("do":"settings","line":0,"baud":9600,"stop_bits":1,"data_bits":7,"parity":"odd")",
        "the host sets rs485: 9600 7O1"},
-      {R"("do":"purge","line":0)", "the host takes back what is not on rs485 yet"},
+      {R"("do":"purge","line":0)", "the host discards unsent bytes on rs485"},
       {R"("do":"settings","line":0)", "the host sets rs485: as the line has it"},
       {R"("do":"power","device":1,"on":false)", "power robot off"},
       {R"("do":"power","device":0,"on":true)", "power feeder on"},

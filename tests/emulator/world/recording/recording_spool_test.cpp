@@ -96,7 +96,7 @@ TEST(RecordingSpool, ThatCannotBePutAsideEndsWithAWord) {
   fs::create_directories(rig.path + ".1/in the way");
   rig.talk(recording, 1000);
   ASSERT_EQ(rig.log.size(), 1U);
-  EXPECT_NE(rig.log[0].find("the recording ends here: it cannot be put aside as "), std::string::npos);
+  EXPECT_NE(rig.log[0].find("the recording ends here: it cannot be renamed to "), std::string::npos);
 }
 
 TEST(RecordingSpool, ReplacesNoOlderPartThatIsNoRecording) {

@@ -114,7 +114,7 @@ TEST(Replay, NamesTheFieldInWhichItEndsInAnotherState) {
   busy.world().set_external_input(0, 0, busy.world().device(0).input(0) == 0 ? 1 : 0);
   const ReplayResult moved = ended_with(save(busy.world()));
   EXPECT_EQ(moved.verdict, Verdict::different);
-  EXPECT_TRUE(moved.difference.starts_with("ends in another state: ")) << moved.difference;
+  EXPECT_TRUE(moved.difference.starts_with("ends in a different state: ")) << moved.difference;
   EXPECT_NE(moved.difference.find("inputs[0]"), std::string::npos) << moved.difference;
   EXPECT_TRUE(moved.difference.ends_with("(recorded against replayed)")) << moved.difference;
   EXPECT_EQ(ended_with(save(busy.world()), "0.0.1").verdict, Verdict::same) << "of another version";
@@ -142,7 +142,7 @@ TEST(Replay, ReportsWhatIsMissingOrExtraOrAtAnotherTime) {
   const std::string text = "01 06 10 14 00 01 0C CE on rs485 at ";
   EXPECT_EQ(play(header + request + end).result.difference, "got " + text + "5.333333ms; expected nothing");
   EXPECT_EQ(play(header + request + reply("5333333") + reply("6000000") + end).result.difference,
-            "expected " + text + "6ms; nothing was said");
+            "expected " + text + "6ms; nothing was sent");
   EXPECT_EQ(play(header + request + reply("5333334") + end).result.difference,
             "expected " + text + "5.333334ms; got " + text + "5.333333ms");
 }
@@ -226,10 +226,10 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
       to_line(RecordingHeader{.version = "1", .bench = bench, .options = {}, .snapshot = {}}) + "\n";
   const auto event = [&](const std::string& line) { return refusal(header + line + "\n"); };
   EXPECT_EQ(refusal(""), "a.jsonl:1: recording: is empty or cannot be read; expected a header");
-  EXPECT_EQ(refusal("{\n"), "a.jsonl:1: line: is torn or not JSON; expected one object");
+  EXPECT_EQ(refusal("{\n"), "a.jsonl:1: line: is damaged or not JSON; expected one object");
   EXPECT_EQ(refusal("[]\n"), "a.jsonl:1: line: is not an object; expected one");
   EXPECT_EQ(refusal("{\"understudy\":1,\"kind\":\"nv-image\"}\n"),
-            "a.jsonl:1: kind: is missing or something else; expected a recording");
+            "a.jsonl:1: kind: is missing or different; expected a recording");
   EXPECT_EQ(refusal(to_line(RecordingHeader{
                         .version = "1", .bench = "understudy: 1", .options = {}, .snapshot = {}}) +
                     "\n"),
@@ -270,7 +270,7 @@ TEST(Replay, ARecordingNamesNoPaths) {
                 "\n"),
         "a.jsonl:1: bench: bench:1:" + std::to_string(bench.find("\"" + path) + 1) +
             ": lines.l.stations[0]." + key +
-            ": is a path; expected none in a recording, which has everything in itself");
+            ": is a path; expected none, since a recording contains everything");
   }
   const std::string linked =
       R"({"understudy":1,"lines":{"l":{"link":"/tmp/p","stations":[{"name":"d","model":"simple2-r3"}]}}})";

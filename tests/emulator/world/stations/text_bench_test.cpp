@@ -128,7 +128,7 @@ TEST(TextBench, ExpressionsKnowItsValues) {
     value("robot.N1");
     ADD_FAILURE() << "there is none";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("nothing of robot is called 'N1'"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("robot has no value called 'N1'"), std::string::npos)
         << error.what();
   }
   world.switch_power(0, false);
@@ -156,7 +156,7 @@ TEST(TextBench, IsLookedAtAndSetPastItsLine) {
             R"({"ok":true,"values":{"robot.N0":8,"robot.R0":1.5,"feeder.Aaxis_Speed":20}})");
   // All or nothing.
   EXPECT_EQ(ask(R"({"do":"set","values":{"robot.N0":9,"robot.R1":1}})"),
-            R"({"ok":false,"error":"nothing of robot is called 'R1'; the nearest is 'R0'"})");
+            R"({"ok":false,"error":"robot has no value called 'R1'; the nearest is 'R0'"})");
   EXPECT_EQ(ask(R"({"do":"set","values":{"robot.ECHO":5,"robot.N0":9}})"),
             R"({"ok":false,"error":"ECHO: is out of range; expected 0 or 1"})");
   EXPECT_EQ(ask(R"({"do":"get","names":["robot.N0"]})"), R"({"ok":true,"values":{"robot.N0":8}})");

@@ -105,8 +105,8 @@ TEST_F(BenchInventoryTest, JudgesFaultsAsTheWorldDoes) {
       {"stall",
        "feeder.A",
        {{"when", "feeder.A.greatest_speed > 5"}},
-       "stall: when: 'feeder.A.greatest_speed' cannot be waited for; expected something that the world "
-       "itself knows"},
+       "stall: when: 'feeder.A.greatest_speed' cannot be used in a fault; expected a value that the bench "
+       "itself has"},
       {"stall", "feeder.A", {{"when", "time"}}, nullptr},
       {"stall", "feeder.A", {{"when", "feeder.Cord_Q > 5"}}, nullptr},
   };
