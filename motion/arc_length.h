@@ -51,7 +51,7 @@ inline double length_by_vector(const Path& path) {
 inline double share_by_vector(const Path& path, double along) {
   const double growth = growth_u(path);
   if (growth == 0) return along / path.length_u;
-  constexpr int kMostSteps = 8;  // four were the most needed in millions of spirals
+  constexpr int kMaxSteps = 8;  // four were the most needed in millions of spirals
   const double turned = std::abs(path.sweep_rad);
   const double across_squared = growth * growth + path.rise.squaredNorm();
   const double from = turned * path.begin_radius_u;
@@ -67,7 +67,7 @@ inline double share_by_vector(const Path& path, double along) {
   // For nearly equal radii the guess is already exact.
   const double least = std::min(first, last) * std::min(first, last);
   if (gain * gain * across_squared <= 1e-16 * least * least) return share;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const double here = std::max(0.0, from + gain * share);
     const double error = share * mean_pace(from, here, across_squared) - along;
     const double better = std::clamp(share - error / std::sqrt(here * here + across_squared), 0.0, 1.0);

@@ -26,8 +26,8 @@ double constant_speed(const Segment& segment) {
 /// Returns the last pulse sent before the profile is at `place_u`; a pulse exactly there belongs to what
 /// follows.
 std::int64_t last_pulse_before(double place_u, double tolerance) {
-  constexpr double kMost = 9e18;
-  if (!(place_u < kMost)) return INT64_MAX;
+  constexpr double kMax = 9e18;
+  if (!(place_u < kMax)) return INT64_MAX;
   return static_cast<std::int64_t>(std::ceil(place_u - tolerance)) - 1;
 }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double kTick_s = 1 / kTicksPerSecond;
 
 /// No drive is this fast. A state from outside may claim it, and must not keep its tick running for ever.
-constexpr std::int64_t kMostInATick = 1'000'000;
+constexpr std::int64_t kMaxInATick = 1'000'000;
 
 Instant later(const Instant& one, const Instant& other) { return is_before(one, other) ? other : one; }
 
@@ -85,7 +85,7 @@ void AxisTick::find_next() {
     axis_.watch(here_);
     const std::int64_t travel = axis_.base_pulses + drive.direction * drive.pulses_at(tick_);
     if (travel < axis_.watch_low || travel > axis_.watch_high) {
-      const bool too_fast = std::abs(travel - axis_.travel_pulses) > kMostInATick;
+      const bool too_fast = std::abs(travel - axis_.travel_pulses) > kMaxInATick;
       const std::int64_t edge = too_fast                    ? travel
                                 : travel > axis_.watch_high ? axis_.watch_high + 1
                                                             : axis_.watch_low - 1;
@@ -107,7 +107,7 @@ void AxisTick::find_next() {
         carried_ > 0 ? axis_.watch_high - axis_.travel_pulses : axis_.travel_pulses - axis_.watch_low;
     if (left > room) {
       next_ = What::carried_edge;
-      moment_ = moment_of_carried(come_ + (left > kMostInATick ? left : room + 1));
+      moment_ = moment_of_carried(come_ + (left > kMaxInATick ? left : room + 1));
     }
   }
 }
@@ -163,7 +163,7 @@ void AxisTick::look() {
       const std::int64_t left = std::abs(carried_) - come_;
       const std::int64_t room =
           carried_ > 0 ? axis_.watch_high - axis_.travel_pulses : axis_.travel_pulses - axis_.watch_low;
-      const std::int64_t pulses = left > kMostInATick ? left : room + 1;
+      const std::int64_t pulses = left > kMaxInATick ? left : room + 1;
       come_ += pulses;
       at_ = moment_;
       const int way = carried_ < 0 ? -1 : +1;
@@ -186,7 +186,7 @@ void AxisTick::look() {
 void AxisTick::go_to_edge() {
   PulseDrive& drive = axis_.drive;
   const std::int64_t travel = axis_.base_pulses + drive.direction * drive.pulses_at(tick_);
-  const bool too_fast = std::abs(travel - axis_.travel_pulses) > kMostInATick;
+  const bool too_fast = std::abs(travel - axis_.travel_pulses) > kMaxInATick;
   const std::int64_t edge = too_fast                    ? travel
                             : travel > axis_.watch_high ? axis_.watch_high + 1
                                                         : axis_.watch_low - 1;
@@ -279,7 +279,7 @@ void AxisTick::go_by(std::int64_t pulses, Instant at) {
   at_ = at;
   const int way = pulses < 0 ? -1 : +1;
   if (pulses != 0 && sets_out(way, at)) {
-    const bool too_fast = pulses * way > kMostInATick;
+    const bool too_fast = pulses * way > kMaxInATick;
     while (pulses != 0 && axis_.task == Task::coordinated && against(way) == Cause::none) {
       axis_.watch(here_);
       const std::int64_t room =

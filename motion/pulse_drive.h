@@ -116,11 +116,11 @@ struct PulseDrive {
  private:
   /// Floor, without a library call; beyond 9e18 it returns 9e18.
   static std::int64_t whole(double place) {
-    constexpr std::int64_t kMost = 9'000'000'000'000'000'000;
+    constexpr std::int64_t kMax = 9'000'000'000'000'000'000;
     if (place >= 0 && place < 9e18) [[likely]]
       return static_cast<std::int64_t>(place);
-    if (!(place < 0)) return kMost;
-    if (place <= -9e18) return -kMost;
+    if (!(place < 0)) return kMax;
+    if (place <= -9e18) return -kMax;
     const auto cut = static_cast<std::int64_t>(place);
     return cut - static_cast<std::int64_t>(static_cast<double>(cut) > place);
   }

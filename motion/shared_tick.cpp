@@ -20,14 +20,14 @@ namespace {
 constexpr Events kAtEnd = events_of(Moment::end);
 
 /// Actions can cause each other at one moment; those beyond this number are left to the next tick.
-constexpr int kMostAtOnce = 64;
+constexpr int kMaxAtOnce = 64;
 
 }  // namespace
 
 void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* path, EdgeOwner* owner,
                    bool stays_engaged) {
   if (path != nullptr && !path->engaged) path = nullptr;
-  std::array<Axis::QuietTick, SharedTick::kMost> quiet;
+  std::array<Axis::QuietTick, SharedTick::kMax> quiet;
   std::uint32_t restless = 0;  // mask of those of the singles that are not quiet
   std::size_t count = 0;
   for (std::uint32_t left = singles; left != 0; left &= left - 1) {
@@ -126,7 +126,7 @@ bool SharedTick::look_at_first() {
 }
 
 void SharedTick::heed_events() {
-  for (int round = 0; round < kMostAtOnce; ++round) {
+  for (int round = 0; round < kMaxAtOnce; ++round) {
     bool has_happened = false;
     for (Member& member : std::span(members_).first(count_)) {
       if (!member.part) continue;
@@ -140,7 +140,7 @@ void SharedTick::heed_events() {
 }
 
 void SharedTick::act(std::size_t axis, Events events) {
-  std::array<bool, kMost> was_attentive{};
+  std::array<bool, kMax> was_attentive{};
   for (std::size_t i = 0; i < count_; ++i) {
     bool& attentive = all_.axes[members_[i].axis].attentive;
     was_attentive[i] = attentive;
@@ -188,7 +188,7 @@ void SharedTick::finish() {
   if (path_ != nullptr) path_->settle(all_.tick, all_.axes);
   heed_events();
   is_closed_ = true;
-  std::array<Events, kMost> at_end{};
+  std::array<Events, kMax> at_end{};
   for (std::size_t i = 0; i < count_; ++i) {
     Member& member = members_[i];
     if (member.part) {

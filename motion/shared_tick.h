@@ -45,7 +45,7 @@ struct TickOfAxes {
 };
 
 /// Steps the axes of the mask `singles`, which no path carries, and those that `path` carries (null: none),
-/// at most SharedTick::kMost in all. `owner` may be null.
+/// at most SharedTick::kMax in all. `owner` may be null.
 void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* path, EdgeOwner* owner,
                    bool stays_engaged = false);
 
@@ -53,7 +53,7 @@ void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* pa
 /// for this moment only.
 class SharedTick {
  public:
-  static constexpr std::size_t kMost = 4;
+  static constexpr std::size_t kMax = 4;
 
   Instant now() const { return now_; }
   Tick tick() const { return all_.tick; }
@@ -92,7 +92,7 @@ class SharedTick {
   const TickOfAxes& all_;
   Coordinated* path_;
   EdgeOwner* owner_;
-  std::array<Member, kMost> members_{};
+  std::array<Member, kMax> members_{};
   std::size_t count_ = 0;
   std::optional<Coordinated::Ahead> ahead_{};
   bool stays_engaged_ = false;

@@ -95,9 +95,9 @@ inline void check_restored(const Surroundings& here) {
 
 inline void check_restored(const Follower& follower) {
   demand_accepted([&] { follower.check(); });
-  constexpr std::int64_t kMost = INT64_MAX / 2;  // Follower limits its own numbers to half of this
+  constexpr std::int64_t kMax = INT64_MAX / 2;  // Follower limits its own numbers to half of this
   for (const std::int64_t value : {follower.gathered, follower.behind_pulses, follower.period_pulses}) {
-    demand_within(value, -kMost, kMost);
+    demand_within(value, -kMax, kMax);
   }
   demand_within(follower.left_over, 0, follower.denominator - 1);
   demand_within(follower.phase, 0, follower.period_ticks - 1);

@@ -20,7 +20,7 @@
 namespace understudy::pty {
 namespace {
 
-constexpr std::size_t kMostWaiting = 4 << 20;  // bytes; over a minute of a line at 115200 baud without pauses
+constexpr std::size_t kMaxWaiting = 4 << 20;  // bytes; over a minute of a line at 115200 baud without pauses
 
 [[noreturn]] void refuse(const std::string& path, const OutputError& error) {
   throw CaptureError(path + ": the capture cannot be written: " + error.what());
@@ -53,7 +53,7 @@ void CaptureFile::begin(std::vector<CapturedLine> lines) {
     refuse(path_, error);
   }
   // Each packet is one write, so that a reader finds whole packets at any time, also after a kill.
-  writer_ = std::make_unique<BackgroundWriter>(kMostWaiting,
+  writer_ = std::make_unique<BackgroundWriter>(kMaxWaiting,
                                                [this](std::string_view bytes) { return file_.write(bytes); });
 }
 

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kLongestNoise = kRtuMaxFrame;
 // More bytes than a framer can hold, so all of them are dropped: strict framing keeps this many open in a
 // lump that is too long for a frame.
-constexpr std::size_t kMostBytesWaiting = 5 * kRtuMaxFrame;
+constexpr std::size_t kMaxBytesWaiting = 5 * kRtuMaxFrame;
 
 Remark why_dropped(std::span<const std::uint8_t> bytes) {
   const auto size = rtu_request_size(bytes);
@@ -133,7 +133,7 @@ void CaptureFrames::give_what_was_dropped() {
            : waiting_.end();
   const auto dropped = static_cast<std::size_t>(first_open - waiting_.begin());
   if (!open || dropped >= kLongestNoise) give_dropped(dropped);
-  if (waiting_.size() >= kMostBytesWaiting) give_dropped(waiting_.size());
+  if (waiting_.size() >= kMaxBytesWaiting) give_dropped(waiting_.size());
 }
 
 void CaptureFrames::give_dropped(std::size_t count) {

@@ -199,12 +199,12 @@ std::optional<SimTime> Line::due() const {
 
 void Line::run(SimTime now) {
   // Stops a station that is due again and again without making progress.
-  constexpr int kMostAtOnce = 1 << 23;
+  constexpr int kMaxAtOnce = 1 << 23;
   int at_once = 0;
   SimTime& clock = state_.edge.clock;
   for (Event next = next_event(); next.what != What::nothing && next.at <= now; next = next_event()) {
     at_once = next.at > clock ? 0 : at_once + 1;
-    if (at_once > kMostAtOnce) throw std::logic_error(name_ + ": the events that are due never end");
+    if (at_once > kMaxAtOnce) throw std::logic_error(name_ + ": the events that are due never end");
     clock = std::max(clock, next.at);
     due_changed();
     handle(next);

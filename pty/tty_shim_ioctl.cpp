@@ -30,8 +30,8 @@ struct Remembered {
   serial_rs485 rs485;
 };
 
-constexpr int kMostPseudoTerminals = 4096;  // the kernel's own limit, unless it was raised
-Remembered remembered[kMostPseudoTerminals];
+constexpr int kMaxPseudoTerminals = 4096;  // the kernel's own limit, unless it was raised
+Remembered remembered[kMaxPseudoTerminals];
 
 int call_real(int descriptor, unsigned long request, void* argument) {
   // A static of a plain type has no guard, so it does not need the C++ library.
@@ -103,7 +103,7 @@ extern "C" __attribute__((visibility("default"))) int ioctl(int fd, unsigned lon
   // The kernel is asked first: a real port, or a feature of a later kernel, answers for itself.
   if (result != -1 || (errno != ENOTTY && errno != EINVAL) || !is_offered(request)) return result;
   const int number = understudy::shim::pseudo_terminal_number(fd);
-  if (number < 0 || number >= kMostPseudoTerminals) return result;
+  if (number < 0 || number >= kMaxPseudoTerminals) return result;
   if (argument == nullptr) {
     errno = EFAULT;
     return -1;

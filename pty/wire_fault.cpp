@@ -26,12 +26,12 @@ void collide(Bytes& bytes, const Bytes& other) {
 }
 
 void double_all(std::vector<WirePiece>& pieces, SimTime late) {
-  const std::size_t count = std::min(pieces.size(), kMostWirePieces - pieces.size());
+  const std::size_t count = std::min(pieces.size(), kMaxWirePieces - pieces.size());
   for (std::size_t i = 0; i < count; ++i) pieces.push_back({pieces[i].late + late, pieces[i].bytes});
 }
 
 void split_all(std::vector<WirePiece>& pieces, std::size_t size, SimTime late) {
-  const std::size_t count = std::min(pieces.size(), kMostWirePieces - pieces.size());
+  const std::size_t count = std::min(pieces.size(), kMaxWirePieces - pieces.size());
   for (std::size_t i = 0; i < count; ++i) {
     if (pieces[i].bytes.size() <= size) continue;
     const auto cut = pieces[i].bytes.begin() + static_cast<std::ptrdiff_t>(size);

@@ -39,7 +39,7 @@ struct WirePiece {
 };
 
 /// The largest number of pieces, however often a message is duplicated.
-inline constexpr std::size_t kMostWirePieces = 16;
+inline constexpr std::size_t kMaxWirePieces = 16;
 
 /// Returns the pieces in the order of time; at equal times the original precedes its duplicate. Pieces
 /// without bytes are left out.

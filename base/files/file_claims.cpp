@@ -16,13 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinksFollowed = 40;  // from one to the next, as many as Linux follows
+constexpr int kMaxLinksFollowed = 40;  // from one to the next, as many as Linux follows
 
 /// Returns the file that is created or written when the path is opened.
 std::string target_of(const std::string& path) {
   std::error_code error;
   fs::path target = fs::absolute(path, error);
-  for (int i = 0; i < kMostLinksFollowed && fs::is_symlink(target, error); ++i) {
+  for (int i = 0; i < kMaxLinksFollowed && fs::is_symlink(target, error); ++i) {
     target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces all of it
   }
   const fs::path canonical = fs::weakly_canonical(target, error);

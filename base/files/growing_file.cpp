@@ -14,7 +14,7 @@ namespace understudy {
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 16 << 20;  // bytes
+constexpr std::size_t kMaxWaiting = 16 << 20;  // bytes
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what, const OutputError& error) {
   throw GrowingFileError(path + ": " + what + " cannot be written: " + error.what());
@@ -54,7 +54,7 @@ void GrowingFile::begin(std::string_view line) {
     refuse(path_, what_, error);
   }
   has_begun_ = true;
-  writer_ = std::make_unique<BackgroundWriter>(kMostWaiting,
+  writer_ = std::make_unique<BackgroundWriter>(kMaxWaiting,
                                                [this](std::string_view piece) { return file_.write(piece); });
 }
 

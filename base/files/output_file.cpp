@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  // from one to the next, as many as Linux follows
+constexpr int kMaxLinks = 40;  // from one to the next, as many as Linux follows
 constexpr mode_t kPermissions = 0777;
 
 std::string error_text(int error) { return std::generic_category().message(error); }
@@ -81,7 +81,7 @@ std::string kind_of_file(mode_t mode) {
 std::string output_target(const std::string& path) {
   std::error_code error;
   fs::path target = fs::absolute(path, error);
-  for (int links = 0; links <= kMostLinks; ++links) {
+  for (int links = 0; links <= kMaxLinks; ++links) {
     demand_own_way(target);
     struct stat status = {};
     if (::lstat(target.c_str(), &status) != 0) {

@@ -121,8 +121,8 @@ FileText read_text_of(int descriptor) {
     }
     if (size == 0) break;
     // The file may grow while it is read, so its size beforehand is no limit.
-    if (bytes.size() + static_cast<std::size_t>(size) > kMostTextBytes) {
-      text.why = "is larger than " + std::to_string(kMostTextBytes >> 20) + " MiB";
+    if (bytes.size() + static_cast<std::size_t>(size) > kMaxTextBytes) {
+      text.why = "is larger than " + std::to_string(kMaxTextBytes >> 20) + " MiB";
       return text;
     }
     bytes.append(piece.data(), static_cast<std::size_t>(size));

@@ -9,14 +9,14 @@
 namespace understudy {
 
 /// The size limit for files that are read as a whole, far above any bench, trace or snapshot.
-inline constexpr std::size_t kMostTextBytes = std::size_t{64} << 20;
+inline constexpr std::size_t kMaxTextBytes = std::size_t{64} << 20;
 
 /// The bytes of a file, or nothing if it does not exist or cannot be read.
 struct FileText : std::optional<std::string> {
   std::string why{};  // the reason if there are no bytes, for messages: "cannot be read (Permission denied)"
 };
 
-/// Reads a regular file of up to kMostTextBytes. Other files are refused: a pipe might block for ever, and a
+/// Reads a regular file of up to kMaxTextBytes. Other files are refused: a pipe might block for ever, and a
 /// device may never end.
 FileText read_text_file(const std::string& path);
 /// Like read_text_file(), for an open descriptor such as standard input, up to its end.

@@ -10,15 +10,15 @@
 namespace understudy {
 
 /// A reader stops after this many mistakes.
-inline constexpr std::size_t kMostMistakes = 100;
+inline constexpr std::size_t kMaxMistakes = 100;
 
-/// Sorts mistakes by line and column, and keeps the first kMostMistakes.
+/// Sorts mistakes by line and column, and keeps the first kMaxMistakes.
 template <class Mistake>
 void leave_first(std::vector<Mistake>& mistakes) {
   std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& a, const Mistake& b) {
     return std::pair(a.line, a.column) < std::pair(b.line, b.column);
   });
-  if (mistakes.size() > kMostMistakes) mistakes.resize(kMostMistakes);
+  if (mistakes.size() > kMaxMistakes) mistakes.resize(kMaxMistakes);
 }
 
 }  // namespace understudy

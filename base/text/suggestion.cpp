@@ -17,8 +17,8 @@ namespace understudy {
 namespace {
 
 constexpr std::size_t kLongestWord = 64;  // no name is longer, and the work grows with it
-constexpr std::size_t kLeastBeginning = 3;
-constexpr std::size_t kMostListed = 8;
+constexpr std::size_t kMinBeginning = 3;
+constexpr std::size_t kMaxListed = 8;
 
 constexpr char small(char letter) {
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
@@ -97,7 +97,7 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
 
 /// Returns the first known word that is longer than `written` and begins with it.
 std::optional<std::string> beginning_of(const std::string& written, std::span<const std::string> known) {
-  if (written.size() < kLeastBeginning) return std::nullopt;
+  if (written.size() < kMinBeginning) return std::nullopt;
   const auto longer = std::find_if(known.begin(), known.end(), [&](const std::string& candidate) {
     return begins_with(candidate, written);
   });
@@ -141,7 +141,7 @@ std::string suggestion(std::string_view word, std::span<const std::string> known
   if (known.empty()) return "; " + none;
   if (const auto nearest = near_word(word, known)) return "; the nearest is '" + *nearest + "'";
   if (known.size() == 1) return "; expected '" + known.front() + "'";
-  if (known.size() > kMostListed) return "; expected one such as '" + known.front() + "'";
+  if (known.size() > kMaxListed) return "; expected one such as '" + known.front() + "'";
   std::string list;
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
   return "; expected one of " + list;

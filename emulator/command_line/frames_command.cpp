@@ -16,7 +16,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr int kMostAtOnce = 200;  // frames in a reply
+constexpr int kMaxAtOnce = 200;  // frames in a reply
 
 using Json = nlohmann::ordered_json;
 
@@ -52,8 +52,8 @@ int follow_frames(const FramesArguments& arguments) {
     throw UsageError("ctl frames: --every: " + understudy::quoted(arguments.every) +
                      " is not a time; expected 10ms or more");
   }
-  if (arguments.last < 0 || arguments.last > kMostAtOnce) {
-    throw UsageError("ctl frames: --last: expected 0 to " + std::to_string(kMostAtOnce));
+  if (arguments.last < 0 || arguments.last > kMaxAtOnce) {
+    throw UsageError("ctl frames: --last: expected 0 to " + std::to_string(kMaxAtOnce));
   }
   if (arguments.times < 0) throw UsageError("ctl frames: --times: expected 0 (no end) or more");
   const int times = arguments.once ? 1 : arguments.times;
@@ -67,7 +67,7 @@ int follow_frames(const FramesArguments& arguments) {
       since = print_new(reply, since, arguments.json);
       std::fflush(stdout);
       if (look == times) break;
-      const bool may_be_more = reply.at("frames").size() == kMostAtOnce;
+      const bool may_be_more = reply.at("frames").size() == kMaxAtOnce;
       if (!may_be_more) wait_or_be_interrupted(*every);
       if (is_interrupted()) break;
       reply = Json::parse(serve::ask_control(path, Json{{"do", "frames"}, {"since", since}}.dump()));

@@ -26,8 +26,8 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr std::size_t kMostShown = 1000;    // on a page, besides the first failures of each kind
-constexpr std::size_t kMostManners = 1000;  // lines
+constexpr std::size_t kMaxShown = 1000;    // on a page, besides the first failures of each kind
+constexpr std::size_t kMaxManners = 1000;  // lines
 
 using RunVerdict = play::ScenarioResult::Verdict;
 
@@ -88,7 +88,7 @@ void RunAccount::add(std::vector<play::ScenarioResult> results, std::uint64_t ma
     const bool is_new = add_one(result, files, progress, again);
     has_failed = has_failed || result.failure;
     if (!rows_.empty()) rows.push_back(play::row_of(result, made_of, !arguments_.real_time));
-    const bool is_shown = is_new || (!result.which.is_varied && shown_.size() < kMostShown);
+    const bool is_shown = is_new || (!result.which.is_varied && shown_.size() < kMaxShown);
     if (!arguments_.report.empty() && is_shown) shown_.push_back(std::move(result));
   }
   for (const auto& file : rows_) file->add(rows);
@@ -127,7 +127,7 @@ bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, Progress
 void RunAccount::note_manners(const play::ScenarioResult& result) {
   for (const std::string& finding : result.manners) {
     if (result.which.is_varied && !known_manners_.insert(result.file + ": " + finding).second) continue;
-    if (manners_.size() < kMostManners)
+    if (manners_.size() < kMaxManners)
       manners_.push_back(one_line(result.file + ": " + result.name + ": " + finding));
   }
 }
@@ -141,7 +141,7 @@ void RunAccount::finish() {
   }
   if (kinds_.others() > 0) {
     std::fprintf(told_, "%" PRIu64 " more failed in other ways than the first %zu kinds\n", kinds_.others(),
-                 play::FailureKinds::kMost);
+                 play::FailureKinds::kMax);
   }
   if (left_out_ > 0) {
     std::fprintf(told_, "%" PRIu64 " skipped, since they ran before; %" PRIu64 " of them failed\n", left_out_,

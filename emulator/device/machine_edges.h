@@ -59,9 +59,9 @@ struct MachineEdges {
       return line;
     }
   };
-  static constexpr std::size_t kMostSpans = 5;
+  static constexpr std::size_t kMaxSpans = 5;
 
-  std::array<Span, kMostSpans> spans{};
+  std::array<Span, kMaxSpans> spans{};
   std::size_t span_count = 0;
   Index index{};
   Encoder encoder{};

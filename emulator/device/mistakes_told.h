@@ -1,4 +1,4 @@
-// Words the end of a list of mistakes in a program, which is cut at kMostMistakes.
+// Words the end of a list of mistakes in a program, which is cut at kMaxMistakes.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace understudy::emulator {
 
 /// Adds to the last mistake of a full list that there may be more.
 inline std::vector<ProgramMistake> with_word_of_more(std::vector<ProgramMistake> mistakes) {
-  if (mistakes.size() >= kMostMistakes) {
-    mistakes.back().what += " (mistake " + std::to_string(kMostMistakes) + "; reading stopped here)";
+  if (mistakes.size() >= kMaxMistakes) {
+    mistakes.back().what += " (mistake " + std::to_string(kMaxMistakes) + "; reading stopped here)";
   }
   return mistakes;
 }
@@ -21,7 +21,7 @@ inline std::vector<ProgramMistake> with_word_of_more(std::vector<ProgramMistake>
 /// Returns " (and 3 more)" for a message that quotes only one mistake. A full list may not have all of them.
 inline std::string and_more(const std::vector<ProgramMistake>& mistakes) {
   if (mistakes.size() < 2) return "";
-  const std::string at_least = mistakes.size() >= kMostMistakes ? "at least " : "";
+  const std::string at_least = mistakes.size() >= kMaxMistakes ? "at least " : "";
   return " (and " + at_least + std::to_string(mistakes.size() - 1) + " more)";
 }
 

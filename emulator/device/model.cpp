@@ -296,7 +296,7 @@ void demand_facets(const Device& device) {
          "a `language`, for its facet UserProgram");
   for (const TerminalGroup& group : model.terminal_groups) {
     const auto rows = model.terminals.subspan(static_cast<std::size_t>(group.first));
-    bool is_alike = group.count >= 1 && group.count <= TerminalGroup::kMost &&
+    bool is_alike = group.count >= 1 && group.count <= TerminalGroup::kMax &&
                     static_cast<std::size_t>(group.count) <= rows.size();
     for (std::size_t i = 0; is_alike && i < static_cast<std::size_t>(group.count); ++i) {
       const TerminalRow::Kind kind = rows[i].kind;

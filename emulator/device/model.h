@@ -108,7 +108,7 @@ constexpr bool is_in_millivolts(TerminalRow::Kind kind) {
 /// Neighbours in the table that come in hundreds: digital inputs, or digital outputs. Onlookers show them as
 /// one word, the first in bit 0; by their own names they are there as well.
 struct TerminalGroup {
-  static constexpr int kMost = 32;
+  static constexpr int kMax = 32;
   std::string_view name;
   int first = 0;
   int count = 1;

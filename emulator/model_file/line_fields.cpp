@@ -53,7 +53,7 @@ void read_limits(const YamlFields& field, Line& line) {
     const world::FunctionRow& row =
         *std::find_if(std::begin(world::kModbusFunctions), std::end(world::kModbusFunctions),
                       [&](const world::FunctionRow& one) { return one.code == *number; });
-    const auto count = most.integer(kMostForm);
+    const auto count = most.integer(kMaxForm);
     if (count > row.most) {
       most.fail(std::to_string(count) + " is more than function " + code + " can have; expected " +
                 std::to_string(row.most) + " or fewer");

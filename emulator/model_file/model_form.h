@@ -25,8 +25,8 @@ inline constexpr Form kStationForm = world::integer_form(1, 247);
 inline constexpr Form kStationsForm = world::list_form(kStationForm, 2);
 inline constexpr Form kFunctionForm = world::integer_form(1, 127);
 inline constexpr Form kFunctionsForm = world::list_form(kFunctionForm);
-inline constexpr Form kMostForm = world::integer_form(1, 2000);
-inline constexpr Form kMostByFunctionForm = world::names_form(kMostForm);
+inline constexpr Form kMaxForm = world::integer_form(1, 2000);
+inline constexpr Form kMaxByFunctionForm = world::names_form(kMaxForm);
 inline constexpr std::array<std::string_view, 2> kObeysOrIgnores{"obeyed", "ignored"};
 inline constexpr Form kBroadcastForm = world::words_form(kObeysOrIgnores);
 inline constexpr std::array kLineKeys{
@@ -39,8 +39,7 @@ inline constexpr std::array kLineKeys{
     KeyRow{"stations", "The lowest and the highest station number ([1, 247]).", &kStationsForm},
     KeyRow{"station_in", "The register that holds the station number.", &world::kText},
     KeyRow{"functions", "The functions that it knows ([1, 2, 3, 4, 5, 6, 15, 16]).", &kFunctionsForm},
-    KeyRow{"most", "The most registers or bits in one request, by function: { 3: 32 }.",
-           &kMostByFunctionForm},
+    KeyRow{"most", "The most registers or bits in one request, by function: { 3: 32 }.", &kMaxByFunctionForm},
     KeyRow{"broadcast", "Requests to station 0: obeyed (default) or ignored.", &kBroadcastForm}};
 
 // --- the map ---------------------------------------------------------------------------------------

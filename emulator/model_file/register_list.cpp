@@ -30,7 +30,7 @@ using models::imported::ListedRegister;
 
 namespace {
 
-constexpr std::size_t kMostRegisters = 20'000;
+constexpr std::size_t kMaxRegisters = 20'000;
 
 /// What is taken already, and in which line.
 class Taken {
@@ -165,8 +165,8 @@ std::vector<ListedRegister> read_register_list(const std::string& text, const Li
       throw FileError({place.file, 1 + place.lines_before, 1}, "registers: " + what);
     };
     if (rows.size() < 2) fail("there is none; expected a line of columns, and one for each register");
-    if (rows.size() > kMostRegisters)
-      fail("there are too many; expected " + std::to_string(kMostRegisters) + " at most");
+    if (rows.size() > kMaxRegisters)
+      fail("there are too many; expected " + std::to_string(kMaxRegisters) + " at most");
     const std::size_t before = complaints.count();
     const std::vector<Column> columns = read_headings(rows.front(), place, complaints);
     if (complaints.count() != before) return;  // what columns mean is not known

@@ -37,7 +37,7 @@ using world::YamlFields;
 namespace {
 
 constexpr std::string_view kNowhere = "nowhere";
-constexpr Tick kMostEvery = 60'000;
+constexpr Tick kMaxEvery = 60'000;
 
 }  // namespace
 
@@ -101,7 +101,7 @@ void read_followings(const YamlFields& fields, Description& made, Binder& binder
       }
       if (const auto field = keys.find("every")) {
         following.every = field->ticks();
-        if (following.every < 1 || following.every > kMostEvery)
+        if (following.every < 1 || following.every > kMaxEvery)
           field->fail(understudy::quoted(field->text()) + " is not possible; expected 1ms to 60s");
       }
       made.followings.push_back(following);

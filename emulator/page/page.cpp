@@ -23,7 +23,7 @@ namespace understudy::emulator::page {
 
 namespace {
 
-constexpr std::size_t kMostAsked = 32;  // answers that one browser waits for
+constexpr std::size_t kMaxAsked = 32;  // answers that one browser waits for
 constexpr std::chrono::milliseconds kForToken{5'000};
 
 std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -130,7 +130,7 @@ void Page::take(BrowserId browser, std::string_view text) {
   };
   const auto refuse = [&](const std::string& why) { answer(dumped({{"ok", false}, {"error", why}})); };
   if (!message.refusal.empty()) return refuse(message.refusal);
-  if (whose.asked >= kMostAsked) return refuse("too many requests at once");
+  if (whose.asked >= kMaxAsked) return refuse("too many requests at once");
   ++whose.asked;
   benches_[message.bench]->ask(
       std::move(message.message), [this, browser, answer](const std::optional<std::string>& reply) {
@@ -173,7 +173,7 @@ void Page::watched_changed(std::size_t bench) {
     wanted.events = wanted.events || watching.events;
     wanted.status = wanted.status || watching.status;
     for (const std::string& name : watching.names) {
-      if (wanted.names.size() < PageBench::kMostNames) wanted.names.insert(name);
+      if (wanted.names.size() < PageBench::kMaxNames) wanted.names.insert(name);
     }
   }
   benches_[bench]->want(std::move(wanted));

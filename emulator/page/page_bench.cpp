@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostInAnUpdate = 200;  // frames, and events
+constexpr std::size_t kMaxInAnUpdate = 200;  // frames, and events
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -39,7 +39,7 @@ std::string listed(const Ring& ring, std::uint64_t from, std::uint64_t& next, co
   const auto begin =
       std::lower_bound(ring.begin(), ring.end(), next,
                        [](const auto& one, std::uint64_t number) { return one.number < number; });
-  for (auto it = begin; it != ring.end() && count < kMostInAnUpdate; ++it, ++count) {
+  for (auto it = begin; it != ring.end() && count < kMaxInAnUpdate; ++it, ++count) {
     text += (count > 0 ? "," : "") + it->text;
     if (expected != 0 && it->number > expected) lost += it->number - expected;
     expected = next = it->number + 1;

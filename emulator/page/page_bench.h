@@ -42,7 +42,7 @@ class PageBench {
   static constexpr std::chrono::milliseconds kPatience{2'000};  // after this it is reported as silent
   static constexpr std::size_t kFramesKept = 1024;
   static constexpr std::size_t kAsksATurn = 16;
-  static constexpr std::size_t kMostNames = 4'000;  // of all browsers together
+  static constexpr std::size_t kMaxNames = 4'000;  // of all browsers together
   static constexpr std::size_t kNamesAMessage = 1'000;
   static constexpr std::size_t kBytesAMessage = 48 * 1024;  // of names
 

@@ -54,7 +54,7 @@ constexpr std::array<PassedVerb, 33> kPassedVerbs{{{"status"},
                                                    {"seek", true}}};
 
 constexpr int kDeepest = 8;
-constexpr std::size_t kMostNames = 2'000;
+constexpr std::size_t kMaxNames = 2'000;
 constexpr std::size_t kLongestName = 200;
 
 /// Null for what is not JSON, or nested too deeply.
@@ -92,8 +92,8 @@ void take_watch(const Json& message, BrowserMessage& taken) {
   taken.watches = taken.frames || taken.events || taken.status || message.contains("names");
   if (!message.contains("names")) return;
   const Json& names = message["names"];
-  if (!names.is_array() || names.size() > kMostNames) {
-    throw BrowserError("names: expected a list of at most " + std::to_string(kMostNames));
+  if (!names.is_array() || names.size() > kMaxNames) {
+    throw BrowserError("names: expected a list of at most " + std::to_string(kMaxNames));
   }
   for (const Json& name : names) {
     if (!name.is_string() || name.get_ref<const std::string&>().size() > kLongestName) {

@@ -76,7 +76,7 @@ std::vector<OutcomeHash::Outputs> OutcomeHash::outputs_of(const Model& model) {
     if (is_input(kind)) continue;
     const bool goes_on = !all.empty() && kind == TerminalRow::Kind::digital_out && all.back().kind == kind &&
                          all.back().first + all.back().count == number &&
-                         all.back().count < TerminalGroup::kMost;
+                         all.back().count < TerminalGroup::kMax;
     if (goes_on) {
       ++all.back().count;
     } else {

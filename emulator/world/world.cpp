@@ -37,13 +37,13 @@ namespace {
 /// Devices that are made one after another lie one behind another, with what belongs to them in between.
 void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
   constexpr std::size_t kCrowd = 100;
-  constexpr std::ptrdiff_t kMostOfOne = std::ptrdiff_t{64} << 10;  // bytes; else something else lies between
+  constexpr std::ptrdiff_t kMaxOfOne = std::ptrdiff_t{64} << 10;  // bytes; else something else lies between
   if (devices.size() < kCrowd) return;
   const auto by_address = [](const auto& a, const auto& b) { return std::less<>()(a.get(), b.get()); };
   const auto [low, high] = std::minmax_element(devices.begin(), devices.end(), by_address);
   const auto* const first = reinterpret_cast<const char*>(low->get());
   const auto* const last = reinterpret_cast<const char*>(high->get());
-  if (last - first < kMostOfOne * static_cast<std::ptrdiff_t>(devices.size()))
+  if (last - first < kMaxOfOne * static_cast<std::ptrdiff_t>(devices.size()))
     ask_for_large_pages(first, last);
 }
 
@@ -51,8 +51,8 @@ void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
 SimTime as_long_as(SimTime time, SimTime patience) {
   const double factor = static_cast<double>(patience.count()) / static_cast<double>(kFramePatience.count());
   const double scaled = static_cast<double>(time.count()) * factor;
-  constexpr double kMost = static_cast<double>(kHorizon.count());
-  return scaled >= kMost ? kHorizon : SimTime{static_cast<std::int64_t>(scaled)};
+  constexpr double kMax = static_cast<double>(kHorizon.count());
+  return scaled >= kMax ? kHorizon : SimTime{static_cast<std::int64_t>(scaled)};
 }
 
 /// With the stations that it connects.

@@ -184,7 +184,7 @@ class World final : public WorldView {
 
   /// Limits attempts to skip ticks after one has failed. This affects only speed.
   struct CrossingTries {
-    static constexpr Tick kMostApart = 64;
+    static constexpr Tick kMaxApart = 64;
     Tick next = 0;
     Tick apart = 1;
   };
@@ -216,7 +216,7 @@ class World final : public WorldView {
   bool may_cross(Tick most) const {
     // The world may have been taken back to a much earlier time.
     const bool is_too_soon =
-        done_ < crossing_tries_.next && crossing_tries_.next - done_ <= CrossingTries::kMostApart;
+        done_ < crossing_tries_.next && crossing_tries_.next - done_ <= CrossingTries::kMaxApart;
     return !is_too_soon && most - done_ >= kWorthCrossing && bulk_ticks_ && !disturbed_ && watchers_.empty();
   }
   Tick last_tick_to_cross(Tick most);

@@ -66,7 +66,7 @@ Tick World::last_tick_to_cross(Tick most) {
     return last;
   }
   crossing_tries_.next = done_ + crossing_tries_.apart;
-  crossing_tries_.apart = std::min(2 * crossing_tries_.apart, CrossingTries::kMostApart);
+  crossing_tries_.apart = std::min(2 * crossing_tries_.apart, CrossingTries::kMaxApart);
   return done_;
 }
 

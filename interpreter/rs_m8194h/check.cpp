@@ -23,7 +23,7 @@ std::size_t place_of(const CommandRow& row, std::string_view name) {
   for (std::size_t i = 0; i < row.parameter_count(); ++i) {
     if (row.parameters[i].name == name) return i;
   }
-  return kMostParameters;
+  return kMaxParameters;
 }
 
 /// A parameter of the same command that decides whether another is used; nothing while it is a variable.
@@ -99,26 +99,26 @@ struct SpeedEnds {
   std::int64_t least;
   std::int64_t most;
 };
-constexpr std::int64_t kMostSpeed = 4'000'000;
-constexpr std::int64_t kMostSlope = kMostSpeed * 125;
+constexpr std::int64_t kMaxSpeed = 4'000'000;
+constexpr std::int64_t kMaxSlope = kMaxSpeed * 125;
 constexpr SpeedEnds kSpeedEnds[] = {
-    {Verb::set_max_v, 8'000, kMostSpeed},
-    {Verb::exd_cp, 0, kMost},
-    {Verb::set_hv, 0, kMostSpeed},
-    {Verb::set_sv, 0, kMostSpeed},
-    {Verb::set_v, 0, kMostSpeed},
-    {Verb::change_vel_on_fly, 0, kMostSpeed},
-    {Verb::continue_move, -kMostSpeed, kMostSpeed},
-    {Verb::set_a, 8'000 / 64, kMostSlope},
-    {Verb::set_d, 8'000 / 64, kMostSlope},
-    {Verb::set_k, 96, kMost},  // 8,000 x 0.0119211
-    {Verb::set_l, 96, kMost},
-    {Verb::set_vsv, 0, kMostSpeed},
-    {Verb::set_vv, 0, kMostSpeed},
-    {Verb::set_va, 8'000 / 64, kMostSlope},
-    {Verb::set_vd, 8'000 / 64, kMostSlope},
-    {Verb::set_vk, 96, kMost},
-    {Verb::set_vl, 96, kMost},
+    {Verb::set_max_v, 8'000, kMaxSpeed},
+    {Verb::exd_cp, 0, kMax},
+    {Verb::set_hv, 0, kMaxSpeed},
+    {Verb::set_sv, 0, kMaxSpeed},
+    {Verb::set_v, 0, kMaxSpeed},
+    {Verb::change_vel_on_fly, 0, kMaxSpeed},
+    {Verb::continue_move, -kMaxSpeed, kMaxSpeed},
+    {Verb::set_a, 8'000 / 64, kMaxSlope},
+    {Verb::set_d, 8'000 / 64, kMaxSlope},
+    {Verb::set_k, 96, kMax},  // 8,000 x 0.0119211
+    {Verb::set_l, 96, kMax},
+    {Verb::set_vsv, 0, kMaxSpeed},
+    {Verb::set_vv, 0, kMaxSpeed},
+    {Verb::set_va, 8'000 / 64, kMaxSlope},
+    {Verb::set_vd, 8'000 / 64, kMaxSlope},
+    {Verb::set_vk, 96, kMax},
+    {Verb::set_vl, 96, kMax},
 };
 
 std::optional<std::size_t> beyond_ends(const Command& command, std::size_t parameter, std::int64_t least,
@@ -158,10 +158,10 @@ std::optional<std::size_t> bad_by_choice(const Command& command, const CommandOp
         return beyond;
     }
   }
-  if (options.variables_have_ends && verb == Verb::write_var) return beyond_ends(command, 1, kLeast, kMost);
+  if (options.variables_have_ends && verb == Verb::write_var) return beyond_ends(command, 1, kMin, kMax);
   if (options.zero_moves_are_refused && verb == Verb::fixed_move && command.number(1) == 0) return 1;
   if (options.helix_turns_forward_only && verb == Verb::helix_3d) {
-    return beyond_ends(command, place_of(command.row(), "cycle"), 0, kMost);
+    return beyond_ends(command, place_of(command.row(), "cycle"), 0, kMax);
   }
   if (options.helix_has_turns && verb == Verb::helix_3d) {
     const std::size_t cycle = place_of(command.row(), "cycle");

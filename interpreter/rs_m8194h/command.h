@@ -13,7 +13,7 @@ namespace understudy::interpreter::rs_m8194h {
 /// Comparison operators have the codes of operators.h, in whatever order the host wrote their letters.
 struct Command {
   std::uint16_t code = 0;
-  std::array<std::uint32_t, kMostParameters> values = {};
+  std::array<std::uint32_t, kMaxParameters> values = {};
 
   constexpr Verb verb() const { return verb_of(code); }
   constexpr bool is_macro_line() const { return is_macro_code(code); }

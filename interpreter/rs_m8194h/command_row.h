@@ -75,8 +75,8 @@ struct Use {
   bool refused_while_mp_runs = false;
 };
 
-inline constexpr std::size_t kMostParameters = 12;
-using Parameters = std::array<Parameter, kMostParameters>;
+inline constexpr std::size_t kMaxParameters = 12;
+using Parameters = std::array<Parameter, kMaxParameters>;
 
 struct CommandRow {
   Verb verb;
@@ -90,7 +90,7 @@ struct CommandRow {
 
   constexpr std::size_t parameter_count() const {
     std::size_t count = 0;
-    while (count < kMostParameters && !parameters[count].name.empty()) ++count;
+    while (count < kMaxParameters && !parameters[count].name.empty()) ++count;
     return count;
   }
   /// Returns the number of registers, including the code.
@@ -119,8 +119,8 @@ inline constexpr int kDeepestCall = kDeepest + 1;
 inline constexpr std::int64_t kVariable0 = 0x7FFF0000;
 inline constexpr std::int64_t kByteVariable0 = 0x80;
 /// The range of positions, distances, times and constants.
-inline constexpr std::int64_t kMost = 2'000'000'000;
-inline constexpr std::int64_t kLeast = -kMost;
+inline constexpr std::int64_t kMax = 2'000'000'000;
+inline constexpr std::int64_t kMin = -kMax;
 /// The bit of an axis mask that selects the Initial Table.
 inline constexpr std::int64_t kInitial = 0x10;
 inline constexpr std::int64_t kAllAxes = 0xF;

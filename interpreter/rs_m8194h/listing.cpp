@@ -61,9 +61,9 @@ class ListingReader {
     for (const TextLine line : TextLines(without_byte_order_mark(text))) {
       const std::vector<Token> tokens = tokens_of(line.text, line.number);
       if (!tokens.empty()) read(tokens);
-      if (errors_.size() >= kMostMistakes) break;
+      if (errors_.size() >= kMaxMistakes) break;
     }
-    if (errors_.size() < kMostMistakes) end_macro();
+    if (errors_.size() < kMaxMistakes) end_macro();
     ParsedListing parsed;
     leave_first(errors_);
     if (errors_.empty()) parsed.listing = std::move(listing_);

@@ -57,7 +57,7 @@ struct Listing {
 
 struct ParsedListing {
   Listing listing = {};                     // only if there is no error
-  std::vector<TextError> errors = {};       // the first kMostMistakes, in the order of the text
+  std::vector<TextError> errors = {};       // the first kMaxMistakes, in the order of the text
   std::optional<Token> first_trigger = {};  // first word of the first trigger in the text
 };
 ParsedListing parse_listing(std::string_view text, const CommandOptions& command_options = {},

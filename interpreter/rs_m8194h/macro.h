@@ -51,7 +51,7 @@ constexpr int capacity_of(const MacroName& name) {
   }
   return 0;
 }
-inline constexpr int kMostLines = 512;
+inline constexpr int kMaxLines = 512;
 
 struct Macro {
   std::vector<Command> lines = {};

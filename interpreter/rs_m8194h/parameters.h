@@ -68,7 +68,7 @@ constexpr Parameter long_range(std::string_view name, std::int64_t least, std::i
           .most = most,
           .reference = Reference::variable};
 }
-constexpr Parameter position(std::string_view name) { return long_range(name, kLeast, kMost); }
+constexpr Parameter position(std::string_view name) { return long_range(name, kMin, kMax); }
 constexpr Parameter point(std::string_view name) {
   Parameter parameter = position(name);
   parameter.kind = Kind::point_if_used;

@@ -33,7 +33,7 @@ inline constexpr auto kAxes = std::to_array<CommandRow>({
      1,
      {axes("axis"), byte("nStep1", 0, 2, "0 none, 1 +, 2 -"), byte("nStep2", 0, 2, "0 none, 1 +, 2 -"),
       byte("nStep3", 0, 2, "0 none, 1 +, 2 -"), byte("nStep4", 0, 2, "0 none, 1 +, 2 -"),
-      unsigned_range("data", 0, kMost)},
+      unsigned_range("data", 0, kMax)},
      "6.3",
      "ways of the four homing steps, distance of the fourth"},
     {Verb::home_start,

@@ -98,7 +98,7 @@ inline constexpr auto kMacros = std::to_array<CommandRow>({
      "9.7.1",
      "goes to a label"},
     {Verb::label, "", "RSM_MACRO_LABEL", kMpOnly, 1, {constant_byte("labelNo", 0, 3)}, "9.7.2", "a label"},
-    {Verb::timer, "", "RSM_MACRO_TIMER", kMpOnly, 1, {long_range("varNo", 0, kMost)}, "9.8", "waits some ms"},
+    {Verb::timer, "", "RSM_MACRO_TIMER", kMpOnly, 1, {long_range("varNo", 0, kMax)}, "9.8", "waits some ms"},
     {Verb::stop_wait,
      "RSM_STOP_WAIT",
      "RSM_MACRO_STOP_WAIT",

@@ -46,9 +46,9 @@ class Assembler {
   Assembly run(std::string_view text) {
     for (const TextLine line : TextLines(without_byte_order_mark(text))) {
       read(tokens_of(line.text, line.number, Colon::ends_its_token));
-      if (errors_.size() >= kMostMistakes) break;
+      if (errors_.size() >= kMaxMistakes) break;
     }
-    if (errors_.size() < kMostMistakes) look_at_labels();
+    if (errors_.size() < kMaxMistakes) look_at_labels();
 
     Assembly assembly;
     leave_first(errors_);

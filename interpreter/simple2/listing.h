@@ -37,7 +37,7 @@ std::string to_string(const ListingError& error);
 
 struct Assembly {
   std::optional<Lines> lines;        // only if there is no error
-  std::vector<ListingError> errors;  // the first kMostMistakes, in the order of the text
+  std::vector<ListingError> errors;  // the first kMaxMistakes, in the order of the text
 };
 
 Assembly assemble(std::string_view text);

@@ -263,9 +263,9 @@ Error read_number(std::string_view text, Kind asked, const Dialect& dialect, dou
     if (read->kind != Kind::integer) return Error::syntax;
     return number >= dialect.integer_least && number <= kIntegerMost ? Error::none : Error::range;
   }
-  constexpr double kMost = std::numeric_limits<float>::max();
+  constexpr double kMax = std::numeric_limits<float>::max();
   number = rounded_real(number);
-  return number >= -kMost && number <= kMost ? Error::none : Error::range;
+  return number >= -kMax && number <= kMax ? Error::none : Error::range;
 }
 
 /// The first tick after `done_ms` in which a line may do anything, or the next event has its turn.

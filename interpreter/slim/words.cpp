@@ -179,9 +179,9 @@ std::optional<Operand> parse_number(std::string_view text) {
 }
 
 double rounded_real(double number) {
-  constexpr double kMost = std::numeric_limits<float>::max();
+  constexpr double kMax = std::numeric_limits<float>::max();
   constexpr double kNext = 0x1.ffffffp127;  // half way to what would be the next one
-  return std::abs(number) < kNext ? std::clamp(number, -kMost, kMost) : number;
+  return std::abs(number) < kNext ? std::clamp(number, -kMax, kMax) : number;
 }
 
 Item parse_item(std::string_view text) {

@@ -55,9 +55,9 @@ class Checker {
   Checked run(std::string_view text) {
     for (const TextLine line : TextLines(without_byte_order_mark(text))) {
       read(tokens_of(line.text, line.number));
-      if (checked_.errors.size() >= kMostMistakes) break;
+      if (checked_.errors.size() >= kMaxMistakes) break;
     }
-    if (checked_.errors.size() < kMostMistakes) {
+    if (checked_.errors.size() < kMaxMistakes) {
       end_area();
       if (options_.labels_are_common) look_at_common_labels();
     }
@@ -216,14 +216,14 @@ class Checker {
   }
 
   Operand read_number(const Token& token, Letter letter, std::int64_t number) {
-    constexpr std::int64_t kLeast = std::numeric_limits<std::int32_t>::min();
-    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-    const bool fits = number >= kLeast && number <= kMost;
+    constexpr std::int64_t kMin = std::numeric_limits<std::int32_t>::min();
+    constexpr std::int64_t kMax = std::numeric_limits<std::int32_t>::max();
+    const bool fits = number >= kMin && number <= kMax;
     const Operand operand{letter, fits ? static_cast<std::int32_t>(number) : 0};
     if (letter == Letter::k) {
       if (!fits)
         fail(token, Code::out_of_range, std::string(token.text) + " does not fit into 32 bits",
-             "K" + std::to_string(kLeast) + " to K" + std::to_string(kMost));
+             "K" + std::to_string(kMin) + " to K" + std::to_string(kMax));
       return operand;
     }
     if (!fits || block_of(operand) == nullptr) {

@@ -41,7 +41,7 @@ std::string to_string(const Complaint& complaint);
 
 struct Checked {
   std::optional<Program> program;   // only if nothing is wrong
-  std::vector<Complaint> errors;    // the first kMostMistakes, in the order of the text
+  std::vector<Complaint> errors;    // the first kMaxMistakes, in the order of the text
   std::vector<Complaint> warnings;  // loads, but is reported: a duplicate label
   std::vector<Complaint> notes;     // loads, and is not reported: a jump whose label is missing
 };

@@ -18,8 +18,8 @@
 namespace understudy::interpreter::super_40nc {
 namespace {
 
-constexpr std::int64_t kLeast = std::numeric_limits<std::int32_t>::min();
-constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+constexpr std::int64_t kMin = std::numeric_limits<std::int32_t>::min();
+constexpr std::int64_t kMax = std::numeric_limits<std::int32_t>::max();
 
 constexpr std::int32_t wrapped(std::int64_t value) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(value));
@@ -88,11 +88,11 @@ std::int32_t product(std::int64_t first, std::int64_t second, const Options& opt
   const std::int64_t whole = first * second;
   return options.product == Options::Product::wraps
              ? wrapped(whole)
-             : static_cast<std::int32_t>(std::clamp(whole, kLeast, kMost));
+             : static_cast<std::int32_t>(std::clamp(whole, kMin, kMax));
 }
 
 std::int64_t sum(std::int64_t whole, const Options& options) {
-  return options.sums_saturate ? std::clamp(whole, kLeast, kMost) : whole;
+  return options.sums_saturate ? std::clamp(whole, kMin, kMax) : whole;
 }
 
 Calculated gives(const Instruction& line, std::size_t field, std::int64_t result, Access& access) {

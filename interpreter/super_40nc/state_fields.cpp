@@ -13,8 +13,8 @@ void StateOf<interpreter::super_40nc::StepState>::check(const Value& state) {
   demand_state(state.left_ms >= 0, "a wait is negative");
   const bool can_resume = state.resumes != Phase::idle && state.resumes < Phase::paused;
   demand_state(can_resume, "a program cannot go on with this");
-  constexpr std::size_t kMostCalls = 4096;
-  demand_state(state.calls.size() <= kMostCalls, "there are too many calls");
+  constexpr std::size_t kMaxCalls = 4096;
+  demand_state(state.calls.size() <= kMaxCalls, "there are too many calls");
 }
 
 }  // namespace understudy

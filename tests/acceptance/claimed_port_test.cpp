@@ -165,8 +165,8 @@ TEST_F(ClaimedPort, IsServedAnewWhenTheDaemonWasKeptOut) {
     return kill(getpid(), SIGKILL);
   };
   // Who comes first in that moment is the scheduler's choice.
-  constexpr int kMostAttempts = 12;
-  for (int attempt = 0; attempt < kMostAttempts && !is_anew(); ++attempt) {
+  constexpr int kMaxAttempts = 12;
+  for (int attempt = 0; attempt < kMaxAttempts && !is_anew(); ++attempt) {
     ASSERT_EQ(as_ordinary_user(claim_all_the_time), 128 + SIGKILL);
     EXPECT_EQ(as_ordinary_user([&] { return ask_for_hardware_code(port()); }), 0) << attempt;
   }

@@ -17,7 +17,7 @@ namespace large_messages_test {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostMistakes = 100;
+constexpr std::size_t kMaxMistakes = 100;
 
 std::string times(const std::string& line, int count) {
   std::string text;
@@ -84,7 +84,7 @@ TEST_F(LargeMessages, OfAWrongProgramGetAHundredMistakes) {
     const std::string what = c.device + ": " + c.text.substr(0, 30);
     ASSERT_EQ(exchange.reply.value("ok", true), false) << what;
     const Json& mistakes = exchange.reply.at("mistakes");
-    EXPECT_EQ(mistakes.size(), kMostMistakes) << what;
+    EXPECT_EQ(mistakes.size(), kMaxMistakes) << what;
     EXPECT_LT(exchange.bytes, 40'000U) << what;
     const std::string error = exchange.reply.at("error");
     EXPECT_TRUE(error.starts_with("line ")) << error;
@@ -107,7 +107,7 @@ TEST_F(LargeMessages, OfAProgramThatIsTooLongLetHostsBeServed) {
   for (const auto& [device, text] : cases) {
     const Exchange exchange = ask({{"do", "program"}, {"device", device}, {"text", text}});
     EXPECT_EQ(exchange.reply.value("ok", true), false) << device;
-    EXPECT_LE(exchange.reply.at("mistakes").size(), kMostMistakes);
+    EXPECT_LE(exchange.reply.at("mistakes").size(), kMaxMistakes);
     expect_served(exchange, device);
   }
 }

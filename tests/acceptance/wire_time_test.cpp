@@ -21,10 +21,10 @@ double milliseconds_of_exchange(Host& host) {
 
 /// The fastest of at least 50 exchanges, and of at most 600 until one is good enough.
 double fastest_exchange(Host& host, double good_enough_ms) {
-  constexpr int kFewest = 50;
-  constexpr int kMost = 600;
+  constexpr int kMin = 50;
+  constexpr int kMax = 600;
   double fastest_ms = milliseconds_of_exchange(host);
-  for (int i = 1; i < kMost && (i < kFewest || fastest_ms > good_enough_ms); ++i) {
+  for (int i = 1; i < kMax && (i < kMin || fastest_ms > good_enough_ms); ++i) {
     if (testing::Test::HasFailure()) break;
     fastest_ms = std::min(fastest_ms, milliseconds_of_exchange(host));
   }

@@ -82,9 +82,9 @@ TEST_F(TextFile, WhatIsNoRegularFileIsRefusedAtOnce) {
 
 TEST_F(TextFile, IsReadUpToTheLimitAndNotBeyond) {
   const std::string file = put("large", "");
-  fs::resize_file(file, kMostTextBytes);  // with a hole: it takes no space on the disk
-  EXPECT_EQ(read_text_file(file).value_or("").size(), kMostTextBytes);
-  fs::resize_file(file, kMostTextBytes + 1);
+  fs::resize_file(file, kMaxTextBytes);  // with a hole: it takes no space on the disk
+  EXPECT_EQ(read_text_file(file).value_or("").size(), kMaxTextBytes);
+  fs::resize_file(file, kMaxTextBytes + 1);
   EXPECT_FALSE(read_text_file(file));
   EXPECT_EQ(read_text_file(file).why, "is larger than 64 MiB");
   EXPECT_EQ(why_not_readable(file), "") << "what is read piece by piece may have any length";

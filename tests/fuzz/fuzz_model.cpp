@@ -22,13 +22,13 @@ using namespace understudy::emulator;
 using fuzzing::demand;
 
 constexpr std::size_t kLongest = 4096;
-constexpr std::size_t kMostWritten = 64;  // registers
+constexpr std::size_t kMaxWritten = 64;  // registers
 
 void write_each(world::World& world, std::uint32_t& number) {
   Device& device = world.device(0);
   RegisterBank& bank = *device.register_bank();
   const auto rows = bank.map().rows();
-  for (std::size_t i = 0; i < rows.size() && i < kMostWritten; ++i) {
+  for (std::size_t i = 0; i < rows.size() && i < kMaxWritten; ++i) {
     if (rows[i].access == Access::read) continue;
     number = number * 1664525 + 1013904223;
     const Place place = bank.at(rows[i].table, rows[i].address);

@@ -23,7 +23,7 @@ using fuzzing::demand;
 using Bytes = Rfc2217::Bytes;
 
 constexpr std::size_t kLongest = 8192;
-constexpr std::size_t kMostAnswers = 64 * 1024;
+constexpr std::size_t kMaxAnswers = 64 * 1024;
 
 struct Outcome {
   std::vector<std::pair<std::uint8_t, pty::LineSettings>> line;  // each byte, with what the host had set
@@ -53,7 +53,7 @@ void serve_line(Rfc2217& port, std::size_t room, Outcome& outcome) {
     goes_on = !taken.empty() || takes_back || throws_away;
   }
   const Bytes answers = port.take_for_client();
-  demand(answers.size() <= kMostAnswers, "answers are bounded");
+  demand(answers.size() <= kMaxAnswers, "answers are bounded");
   outcome.answers.insert(outcome.answers.end(), answers.begin(), answers.end());
 }
 

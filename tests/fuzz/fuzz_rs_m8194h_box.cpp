@@ -53,11 +53,11 @@ constexpr std::uint16_t kWindow = 8000;
 constexpr std::uint16_t kWordOrder = 14;
 constexpr std::uint16_t kRsmState = 100;  // an input register
 #ifdef UNDERSTUDY_REPLAYS_CORPUS
-constexpr Tick kMostTicks = 20'000;  // so that a run has an end
-constexpr int kMostCycles = 100;     // of the power
+constexpr Tick kMaxTicks = 20'000;  // so that a run has an end
+constexpr int kMaxCycles = 100;     // of the power
 #else
-constexpr Tick kMostTicks = 60;
-constexpr int kMostCycles = 1;  // they cost as much as a run without one
+constexpr Tick kMaxTicks = 60;
+constexpr int kMaxCycles = 1;  // they cost as much as a run without one
 #endif
 
 constexpr std::string_view kPrograms[] = {
@@ -131,9 +131,9 @@ std::uint32_t value_of(const lang::Parameter& parameter, std::uint8_t byte) {
   }
   const std::int64_t span = parameter.most - parameter.least;
   if (span < 1000) return static_cast<std::uint32_t>(parameter.least + byte % (span + 2));
-  constexpr std::uint8_t kMost = 0x7F, kLeast = 0x80, kVariable = 0x81;
-  if (byte == kMost) return static_cast<std::uint32_t>(parameter.most);
-  if (byte == kLeast) return static_cast<std::uint32_t>(parameter.least);
+  constexpr std::uint8_t kMax = 0x7F, kMin = 0x80, kVariable = 0x81;
+  if (byte == kMax) return static_cast<std::uint32_t>(parameter.most);
+  if (byte == kMin) return static_cast<std::uint32_t>(parameter.least);
   if (byte == kVariable) return static_cast<std::uint32_t>(lang::kVariable0) + 1;
   const auto small = static_cast<std::int8_t>(byte);
   return static_cast<std::uint32_t>(small * (small < 0 ? -small : small) / 16);
@@ -192,7 +192,7 @@ class Box {
     }
   }
   void run(Tick ticks) {
-    const Tick room = std::min(ticks, kMostTicks - ticks_);
+    const Tick room = std::min(ticks, kMaxTicks - ticks_);
     ticks_ += room;
     world_.advance_to(world_.now() + time_of(room));
     take(std::nullopt);
@@ -242,7 +242,7 @@ class Box {
       world_.set_external_input(0, rsm::kNoModuleSwitch, is_without_module_ ? 1 : 0);
       return;
     }
-    if (++cycles_ > kMostCycles) return;
+    if (++cycles_ > kMaxCycles) return;
     world_.switch_power(0, false);
     world_.switch_power(0, true);
   }

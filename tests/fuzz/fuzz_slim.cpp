@@ -36,12 +36,12 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kLongestInput = 4096;
 #ifdef UNDERSTUDY_REPLAYS_CORPUS
-constexpr Tick kMostTicks = 20'000;  // so that a run has an end
+constexpr Tick kMaxTicks = 20'000;  // so that a run has an end
 #else
-constexpr Tick kMostTicks = 200;
+constexpr Tick kMaxTicks = 200;
 #endif
 constexpr SimTime kUntilQuiet = 1s;  // longer than any piece of a long text takes
-constexpr int kMostRounds = 600;     // of it: a chain has nothing more to say than its line can carry
+constexpr int kMaxRounds = 600;      // of it: a chain has nothing more to say than its line can carry
 constexpr std::uint8_t kTime = 0xFE;
 constexpr std::uint8_t kLevel = 0xFD;
 
@@ -148,7 +148,7 @@ class Listener {
 
   /// Nothing more is said without being asked.
   bool comes_to_rest() {
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMaxRounds; ++round) {
       const std::size_t before = said_.size();
       advance(kUntilQuiet);
       if (said_.size() == before) return true;
@@ -277,12 +277,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view input(reinterpret_cast<const char*>(data) + 2, size - 2);
   Listener& listener = chains.listener(settings);
   listener.begin_anew();
-  play(listener, input, kMostTicks);
+  play(listener, input, kMaxTicks);
   if (!fuzzing::is_checked_wholly({data, size}, 32)) return 0;
 
   Listener& stepped = chains.stepped(settings);
   stepped.begin_anew();
-  play(stepped, input, kMostTicks);
+  play(stepped, input, kMaxTicks);
   demand(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
   fuzzing::demand_same_state(stepped.device(), listener.device(), "ticks left out leave the same state");
 

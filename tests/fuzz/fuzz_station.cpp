@@ -27,10 +27,10 @@ using namespace understudy;
 using fuzzing::demand;
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMostLumps = 32;  // so that a run has an end
-constexpr SimTime kMostTime = 2s;       // of all gaps together, likewise
-constexpr SimTime kAfterwards = 2s;     // for what is still on the wire, at most
-constexpr SimTime kAStep = 25ms;        // in which that is waited for
+constexpr std::size_t kMaxLumps = 32;  // so that a run has an end
+constexpr SimTime kMaxTime = 2s;       // of all gaps together, likewise
+constexpr SimTime kAfterwards = 2s;    // for what is still on the wire, at most
+constexpr SimTime kAStep = 25ms;       // in which that is waited for
 
 struct Lump {
   SimTime gap{0};
@@ -61,8 +61,8 @@ Input read_input(std::span<const std::uint8_t> data) {
   input.rotary_switch = (data[0] & 4) != 0 ? 0 : 1;
   input.alternative_choices = (data[0] & 8) != 0;
   data = data.subspan(1);
-  SimTime left = kMostTime;
-  while (data.size() >= 2 && input.lumps.size() < kMostLumps) {
+  SimTime left = kMaxTime;
+  while (data.size() >= 2 && input.lumps.size() < kMaxLumps) {
     Lump& lump = input.lumps.emplace_back();
     lump.gap = std::min(left, gap_of(data[0]));
     left -= lump.gap;

@@ -45,9 +45,9 @@ namespace super_40nc = emulator::models::super_40nc;
 
 constexpr std::size_t kPorts = 2;
 #ifdef UNDERSTUDY_REPLAYS_CORPUS
-constexpr Tick kMostTicks = 20'000;  // so that a run has an end
+constexpr Tick kMaxTicks = 20'000;  // so that a run has an end
 #else
-constexpr Tick kMostTicks = 60;
+constexpr Tick kMaxTicks = 60;
 #endif
 
 constexpr std::string_view kPrograms[] = {
@@ -155,7 +155,7 @@ class Listener {
     }
   }
   void run(Tick ticks) {
-    const Tick room = std::min(ticks, kMostTicks - ticks_);
+    const Tick room = std::min(ticks, kMaxTicks - ticks_);
     ticks_ += room;
     world_.advance_to(world_.now() + time_of(room));
     for (std::size_t port = 0; port < kPorts; ++port) take(port, std::nullopt);

@@ -42,7 +42,7 @@ const Bytes kReply{0x01, 0x03, 0x02, 0xC0, 0x01, 0x29, 0x84};
 const Bytes kMasterRequest{0x12, 0x34, 0x00, 0x00, 0x00, 0x06, 0x01, 0x03, 0x00, 0x01, 0x00, 0x01};
 const Bytes kMasterReply{0x12, 0x34, 0x00, 0x00, 0x00, 0x05, 0x01, 0x03, 0x02, 0xC0, 0x01};
 constexpr std::size_t kLongest = 2048;
-constexpr std::size_t kMostPieces = 24;
+constexpr std::size_t kMaxPieces = 24;
 
 /// One controller, which is put back into the state that it had at first.
 struct Bench {
@@ -117,7 +117,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   std::optional<Client> stranger(door);
   std::span<const std::uint8_t> rest(data + 1, size - 1);
-  for (std::size_t pieces = 0; !rest.empty() && pieces < kMostPieces; ++pieces) {
+  for (std::size_t pieces = 0; !rest.empty() && pieces < kMaxPieces; ++pieces) {
     const std::size_t length = std::min<std::size_t>(rest[0] & 0x7F, rest.size() - 1);
     go_on((rest[0] & 0x80) != 0 ? 25ms : 100us);
     stranger->say(rest.subspan(1, length));

@@ -32,7 +32,7 @@ using namespace std::chrono_literals;
 namespace world = emulator::world;
 namespace workbench = emulator::workbench;
 
-constexpr std::size_t kMostLumps = 32;  // so that a run has an end
+constexpr std::size_t kMaxLumps = 32;   // so that a run has an end
 constexpr SimTime kAfterwards = 500ms;  // for what is still on the wire, at most
 constexpr std::size_t kSettings = 8;    // what the byte of options can ask for
 constexpr std::size_t kPorts = 2;
@@ -48,7 +48,7 @@ bool has_both_ports(std::uint8_t options) { return (options & 4) != 0; }
 
 std::vector<Lump> read_lumps(std::span<const std::uint8_t> data, bool has_two_lines) {
   std::vector<Lump> lumps;
-  while (data.size() >= 2 && lumps.size() < kMostLumps) {
+  while (data.size() >= 2 && lumps.size() < kMaxLumps) {
     Lump& lump = lumps.emplace_back();
     lump.line = has_two_lines && (data[0] & 0x80) != 0 ? 1 : 0;
     lump.gap = (has_two_lines ? data[0] & 0x7F : data[0]) * 100us;

@@ -104,16 +104,16 @@ TEST(UnitScale, IsTheNearestWholeNumberWhateverTheFactors) {
 }
 
 TEST(UnitScale, WhatDoesNotFitIsNothing) {
-  constexpr std::int64_t kMost = INT32_MAX;
-  EXPECT_EQ(UnitScale::of(kMost, 1).to_pulses(INT64_MAX), std::nullopt);
-  EXPECT_EQ(UnitScale::of(kMost, 1).to_pulses(INT64_MIN), std::nullopt);
-  EXPECT_EQ(UnitScale::of(1, kMost).to_units(INT64_MAX), std::nullopt);
+  constexpr std::int64_t kMax = INT32_MAX;
+  EXPECT_EQ(UnitScale::of(kMax, 1).to_pulses(INT64_MAX), std::nullopt);
+  EXPECT_EQ(UnitScale::of(kMax, 1).to_pulses(INT64_MIN), std::nullopt);
+  EXPECT_EQ(UnitScale::of(1, kMax).to_units(INT64_MAX), std::nullopt);
   EXPECT_EQ(UnitScale::of(2, 1).to_pulses(INT64_MAX / 2), INT64_MAX - 1);
   EXPECT_EQ(UnitScale::of(2, 1).to_pulses(INT64_MAX / 2 + 1), std::nullopt);
   EXPECT_EQ(UnitScale::of(2, 1).to_pulses(INT64_MIN / 2), INT64_MIN);
   EXPECT_EQ(UnitScale::of(2, 1).to_pulses(INT64_MIN / 2 - 1), std::nullopt);
   EXPECT_EQ(UnitScale::of(1, 1).to_pulses(INT64_MIN), INT64_MIN);
-  EXPECT_EQ(UnitScale::of(kMost, kMost).to_pulses(INT64_MAX), INT64_MAX);
+  EXPECT_EQ(UnitScale::of(kMax, kMax).to_pulses(INT64_MAX), INT64_MAX);
 }
 
 TEST(UnitScale, DemandsFactorsOfOneToTheGreatestOf32Bits) {

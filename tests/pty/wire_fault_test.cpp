@@ -69,7 +69,7 @@ TEST(WireFault, DelaysAddUpAndPiecesComeInTheOrderOfTime) {
 TEST(WireFault, HoweverOftenItIsDoubledThereAreNoMoreThanSixteen) {
   for (const std::size_t stages : {4u, 5u, 40u}) {
     const auto pieces = through(std::vector<WireFault>(stages, {.kind = Kind::duplicate}), {7});
-    EXPECT_EQ(pieces.size(), kMostWirePieces) << stages;
+    EXPECT_EQ(pieces.size(), kMaxWirePieces) << stages;
   }
   EXPECT_EQ(through(std::vector<WireFault>(3, {.kind = Kind::duplicate}), {7}).size(), 8u);
 }

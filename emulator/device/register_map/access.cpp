@@ -61,7 +61,7 @@ void bring_into_range(Change& change) {
 // A Modbus request brings at most 123 words or 1,968 bits; programs, scenarios and the control socket at most
 // two words.
 constexpr std::size_t kManyWords = 128;
-constexpr std::size_t kMostWords = 2000;
+constexpr std::size_t kMaxWords = 2000;
 
 struct Changes {
   std::span<Change> all;
@@ -82,7 +82,7 @@ auto with_room_for(std::size_t words, Act act) {
     Changes changes{.all = many};
     return act(changes);
   }
-  std::vector<Change> bits(std::min(words, kMostWords));
+  std::vector<Change> bits(std::min(words, kMaxWords));
   Changes changes{.all = bits};
   return act(changes);
 }
@@ -114,7 +114,7 @@ Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& requ
   const bool low_first = bank.low_word_first();
   const auto words = request.words;
   const bool pairs_whole = policy.halves == MapPolicy::Halves::come_whole;
-  if (request.first + words.size() > 65536 || words.size() > kMostWords) {
+  if (request.first + words.size() > 65536 || words.size() > kMaxWords) {
     return objection(Refusal::no_register, Cause::no_register, request.first);
   }
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -325,8 +325,8 @@ std::optional<Value> value_of_number(const NamedPlace& place, double number) {
     if (std::isinf(real) && !std::isinf(number)) return std::nullopt;
     return value_of_real(real);
   }
-  constexpr double kMost = 1e15;  // beyond it every number is whole, and none fits
-  if (!(std::abs(number) <= kMost) || number != std::trunc(number)) return std::nullopt;
+  constexpr double kMax = 1e15;  // beyond it every number is whole, and none fits
+  if (!(std::abs(number) <= kMax) || number != std::trunc(number)) return std::nullopt;
   return static_cast<Value>(number);
 }
 

@@ -15,7 +15,7 @@ namespace understudy::emulator {
 
 namespace {
 
-constexpr int kMostOfARow = 32768;  // RegisterMap has 15 bits for their number
+constexpr int kMaxOfARow = 32768;  // RegisterMap has 15 bits for their number
 
 struct Demand {
   const RegisterRow& row;
@@ -49,7 +49,7 @@ void demand_sense_of_place(const RegisterRow& row, const Demand& demand) {
   const bool is_bit = row.type == Type::bit;
   demand(is_bit == is_table_of_bits(row.table), "is not as wide as its table");
   demand(row.count >= 1, "has no registers");
-  demand(row.count <= kMostOfARow, "has more than 32,768 registers");
+  demand(row.count <= kMaxOfARow, "has more than 32,768 registers");
   const int words = is_32_bit(row.type) ? 2 : 1;
   demand(row.count == 1 || row.stride >= words, "has registers that overlap");
   demand(row.address + (row.count - 1) * std::int64_t{row.stride} + words <= 65536,

@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 1> kGaps{
     "It is what a file describes: registers that nothing is bound to only store what is written.",
 };
 
-constexpr std::size_t kMostStateRegisters = 12;
+constexpr std::size_t kMaxStateRegisters = 12;
 
 }  // namespace
 
@@ -121,7 +121,7 @@ Model ImportedModel::made_model() {
                      .pulses_per_revolution = axis.pulses_per_revolution});
   }
   // What is bound to something shows best what it is doing.
-  for (std::size_t i = 0; i < shown_.size() && state_names_.size() < kMostStateRegisters; ++i) {
+  for (std::size_t i = 0; i < shown_.size() && state_names_.size() < kMaxStateRegisters; ++i) {
     const RegisterRow& row = map_.rows()[i];
     if (!shown_[i].empty() && row.access != Access::write) state_names_.push_back(map_.unique_name(row, 0));
   }

@@ -26,7 +26,7 @@ motion::SpeedLaw law_of(const SpeedSettings& speed, std::uint32_t drive_pps, con
     return motion::RampLaw::by_slope(std::clamp<double>(given, range.least_slope, range.most_slope));
   };
   const auto jerk = [&](std::uint32_t given) {
-    return motion::RampLaw::by_jerk(std::clamp<double>(given, range.least_jerk, kMostJerk));
+    return motion::RampLaw::by_jerk(std::clamp<double>(given, range.least_jerk, kMaxJerk));
   };
   motion::SpeedLaw law;
   law.top_speed_u_s = in_counts(drive_pps, range);

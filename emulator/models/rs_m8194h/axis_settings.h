@@ -68,7 +68,7 @@ struct SpeedRange {
   double most_slope = 0;
   double least_jerk = 0;
 };
-inline constexpr double kMostJerk = 2e9;
+inline constexpr double kMaxJerk = 2e9;
 
 inline SpeedRange speed_range(std::uint32_t max_v_as_sent, const SpeedRules& rules,
                               std::uint32_t highest = 4'000'000) {
@@ -152,9 +152,9 @@ struct StateOf<emulator::models::rs_m8194h::BasicSettings> {
                                            field("ring_top", &Value::ring_top),
                                            field("avoids_triangles", &Value::avoids_triangles)};
   static void check(const Value& value) {
-    constexpr std::uint32_t kMostRing = 2'000'000'000;
+    constexpr std::uint32_t kMaxRing = 2'000'000'000;
     const bool fits = value.pulse_mode <= 5 && value.encoder_mode <= 3 && value.encoder_division <= 2 &&
-                      value.filter_time <= 7 && value.ring_top <= kMostRing && value.soft_limit_source <= 1;
+                      value.filter_time <= 7 && value.ring_top <= kMaxRing && value.soft_limit_source <= 1;
     demand_state(fits, "a setting is not one of the manual's");
   }
 };
@@ -184,8 +184,8 @@ struct StateOf<emulator::models::rs_m8194h::HomeSettings> {
       FieldList{field("home_pps", &Value::home_pps), field("limit_is_home", &Value::limit_is_home),
                 field("steps", &Value::steps), field("offset_pulses", &Value::offset_pulses)};
   static void check(const Value& value) {
-    constexpr std::uint32_t kMostOffset = 2'000'000'000;
-    demand_state(value.offset_pulses <= kMostOffset, "an offset of homing is too far");
+    constexpr std::uint32_t kMaxOffset = 2'000'000'000;
+    demand_state(value.offset_pulses <= kMaxOffset, "an offset of homing is too far");
   }
 };
 

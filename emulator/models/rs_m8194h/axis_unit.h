@@ -87,8 +87,8 @@ struct OutSettings {
 
 /// Returns the time `takes_s` after `at_ns`.
 constexpr std::int64_t after(std::int64_t at_ns, double takes_s) {
-  constexpr double kMost_s = 1e9;
-  const double whole_ns = std::clamp(takes_s, 0.0, kMost_s) * 1e9;
+  constexpr double kMax_s = 1e9;
+  const double whole_ns = std::clamp(takes_s, 0.0, kMax_s) * 1e9;
   return at_ns + static_cast<std::int64_t>(whole_ns);
 }
 

@@ -21,7 +21,7 @@ namespace understudy::emulator::models::rs_m8194h {
 namespace {
 
 /// 7.4.12.
-constexpr double kMostScanTriggers_hz = 100'000;
+constexpr double kMaxScanTriggers_hz = 100'000;
 
 int way_of_step(std::uint8_t step) { return step == 1 ? +1 : step == 2 ? -1 : 0; }
 
@@ -260,7 +260,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   if (what.what == Drive::What::scan && chose(option("scan_too_fast", "the_scan_is_void"))) {
     const LineScan& scan = state_.scans[axis];
     const double spacing = static_cast<double>(scan_spacing(scan));
-    if (scan.set && law.top_speed_u_s / spacing > kMostScanTriggers_hz) return;
+    if (scan.set && law.top_speed_u_s / spacing > kMaxScanTriggers_hz) return;
   }
   const int way = distance < 0 ? -1 : +1;
   motion::Cause refused = motion::Cause::none;

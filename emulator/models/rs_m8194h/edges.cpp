@@ -58,9 +58,9 @@ void RsM8194h::heed_factors(std::size_t axis, motion::Events events, Tick tick, 
     if (is_asked && (is_noted_always || state_.interrupts)) note_factor(axis, static_cast<Factor>(i));
     if (machine_.all_factors_are_noted) note_factor(axis, static_cast<Factor>(i));
     if (!is_asked || !state_.interrupts) continue;
-    constexpr std::int64_t kMost = kMostMarks;
+    constexpr std::int64_t kMax = kMaxMarks;
     const bool is_counted = machine_.each_pulse_is_an_event && kFactorEvents[i] == motion::Event::pulse;
-    const std::int64_t times = is_counted ? std::min(std::abs(pulses), kMost) : 1;
+    const std::int64_t times = is_counted ? std::min(std::abs(pulses), kMax) : 1;
     for (std::int64_t k = 0; k < times; ++k) mark_isr(axis, static_cast<std::uint8_t>(i), tick);
   }
 }

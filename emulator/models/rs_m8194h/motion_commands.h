@@ -40,7 +40,7 @@ std::uint32_t within_range(const RsM8194h& it, std::uint32_t given, std::uint32_
   if (kind == Speed::other || it.chose(option("reclamp", "when_a_drive_starts"))) return given;
   const SpeedRange range = speed_range(max_v, it.machine_options().speed);
   const double least = kind == Speed::slope ? range.least_slope : kind == Speed::jerk ? range.least_jerk : 0;
-  const double most = kind == Speed::slope ? range.most_slope : kind == Speed::jerk ? kMostJerk : range.max_v;
+  const double most = kind == Speed::slope ? range.most_slope : kind == Speed::jerk ? kMaxJerk : range.max_v;
   return static_cast<std::uint32_t>(std::clamp<double>(given, least, most));
 }
 

@@ -30,7 +30,7 @@ namespace understudy::emulator::models::rs_m8194h {
 namespace {
 
 /// Triggers nearer than 10 us to the last one are left out: 100 of them fit into a tick (7.4.12).
-constexpr std::int64_t kMostTriggersOfATick = 100;
+constexpr std::int64_t kMaxTriggersOfATick = 100;
 
 }  // namespace
 
@@ -108,7 +108,7 @@ void RsM8194h::note_factor(std::size_t axis, Factor factor) {
 
 void RsM8194h::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
   const auto is_same = [&](const IsrMark& mark) { return mark.axis == axis && mark.source == source; };
-  const bool is_lost = !options_.isr_requests_are_counted || state_.marks.size() >= kMostMarks;
+  const bool is_lost = !options_.isr_requests_are_counted || state_.marks.size() >= kMaxMarks;
   if (is_lost && std::any_of(state_.marks.begin(), state_.marks.end(), is_same)) return;
   IsrMark made{.tick = tick, .axis = static_cast<std::uint8_t>(axis), .source = source};
   const bool needs_number = options_.isrs_are_bound_at_the_event || options_.isrs_go_by_number;
@@ -219,7 +219,7 @@ void RsM8194h::step_scans(Tick tick) {
     if (!scan.running) continue;
     const std::int64_t passed = std::abs(scan_travel(a) - scan.begin) / scan_spacing(scan);
     if (passed > scan.triggered) {
-      const std::int64_t most = machine_.all_scan_triggers_are_given ? INT64_MAX : kMostTriggersOfATick;
+      const std::int64_t most = machine_.all_scan_triggers_are_given ? INT64_MAX : kMaxTriggersOfATick;
       const std::int64_t given = std::min(passed - scan.triggered, most);
       give_pulse(a, tick, given);
       scan.triggered = passed;

@@ -25,7 +25,7 @@ inline constexpr Access R = Access::read;
 inline constexpr Access W = Access::write;
 inline constexpr Access RW = Access::read_write;
 
-inline constexpr Value kMostPosition = 2'000'000'000;
+inline constexpr Value kMaxPosition = 2'000'000'000;
 inline constexpr int kWindowWords = 101;
 inline constexpr std::uint16_t kWindow = 8000;
 
@@ -174,9 +174,9 @@ inline constexpr auto kHoldingRows3 = section("12.2.3", {
     reg(29,   "RS-M8194H_Gateway{}", u16, RW).times(2, 1, 0),
 });
 inline constexpr auto kHoldingRows4 = section("12.2.4", {
-    reg(82,   "Absolute Position {}", s32, RW).also("ABS_{}").each(kAxisNames, 2).in("pulse").range(-kMostPosition, kMostPosition).shows<absolute_position, Varies::while_moving>().does<queue_absolute_position>(),
-    reg(90,   "Logic Position {}", s32, RW).also("LP_{}").each(kAxisNames, 2).in("pulse").range(-kMostPosition, kMostPosition).shows<logic_position, Varies::while_moving>().does<queue_logic_position>(),
-    reg(98,   "Encoder Position {}", s32, RW).also("EP_{}").each(kAxisNames, 2).in("pulse").range(-kMostPosition, kMostPosition).shows<encoder_position, Varies::while_moving>().does<queue_encoder_position>(),
+    reg(82,   "Absolute Position {}", s32, RW).also("ABS_{}").each(kAxisNames, 2).in("pulse").range(-kMaxPosition, kMaxPosition).shows<absolute_position, Varies::while_moving>().does<queue_absolute_position>(),
+    reg(90,   "Logic Position {}", s32, RW).also("LP_{}").each(kAxisNames, 2).in("pulse").range(-kMaxPosition, kMaxPosition).shows<logic_position, Varies::while_moving>().does<queue_logic_position>(),
+    reg(98,   "Encoder Position {}", s32, RW).also("EP_{}").each(kAxisNames, 2).in("pulse").range(-kMaxPosition, kMaxPosition).shows<encoder_position, Varies::while_moving>().does<queue_encoder_position>(),
     reg(106,  "Current Velocity {}", s32, R).also("CV_{}").each(kAxisNames, 2).in("PPS").shows<current_velocity, Varies::while_moving>(),
     reg(114,  "Current Acceleration {}", s32, R).also("CA_{}").each(kAxisNames, 2).in("PPS/s").shows<current_acceleration, Varies::while_moving>(),
 });

@@ -71,7 +71,7 @@ struct LineScan {
 };
 
 /// The most interrupts that wait, if they are counted.
-inline constexpr std::size_t kMostMarks = 256;
+inline constexpr std::size_t kMaxMarks = 256;
 
 /// An interrupt that waits for its ISR.
 struct IsrMark {

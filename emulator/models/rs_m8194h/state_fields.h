@@ -119,8 +119,8 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("eeprom", &Value::eeprom),
                                            field("image", &Value::image)};
   static void check(const Value& state) {
-    constexpr std::size_t kMostHeld = emulator::models::rs_m8194h::kFifoBlocks + motion::PathRun::kMaxPaths;
-    demand_state(state.held_paths.size() <= kMostHeld, "more is held than there is room for");
+    constexpr std::size_t kMaxHeld = emulator::models::rs_m8194h::kFifoBlocks + motion::PathRun::kMaxPaths;
+    demand_state(state.held_paths.size() <= kMaxHeld, "more is held than there is room for");
     for (const auto& held : state.held_paths) {
       demand_state(emulator::models::rs_m8194h::is_path(held.command), "what is held is not a path");
     }

@@ -134,7 +134,7 @@ bool writes_beyond(const RegisterRequest& request, bool low_word_first) {
     const std::uint32_t high = request.words[low_word_first ? i + 1 : i];
     const std::uint32_t low = request.words[low_word_first ? i : i + 1];
     const auto value = static_cast<std::int32_t>(high << 16U | low);
-    if (value < lang::kLeast || value > lang::kMost) return true;
+    if (value < lang::kMin || value > lang::kMax) return true;
   }
   return false;
 }

@@ -18,7 +18,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-constexpr std::int32_t kMostThrust = 20'000;
+constexpr std::int32_t kMaxThrust = 20'000;
 
 bool is_module(int module) { return module >= 0 && module < kModules; }
 
@@ -155,7 +155,7 @@ Error Chain::jog(int module, int way) {
 }
 
 Error Chain::thrust(int module, std::int32_t force) {
-  if (force < 1 || force > kMostThrust) return Error::range;
+  if (force < 1 || force > kMaxThrust) return Error::range;
   return replace_jog(module, 0, force);
 }
 

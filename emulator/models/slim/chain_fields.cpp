@@ -26,7 +26,7 @@ void demand_coordinate(double units) {
 
 // Or an acceleration, each in its own unit.
 void demand_speed(double value) {
-  demand_state(value >= kLeastSpeed && value <= kMostSpeed, "a speed is beyond its range");
+  demand_state(value >= kMinSpeed && value <= kMaxSpeed, "a speed is beyond its range");
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace understudy::emulator::models::slim {
 namespace {
 
 // Of a speed or an acceleration, in its own unit.
-bool plannable(double value) { return value >= kLeastSpeed && value <= kMostSpeed; }
+bool plannable(double value) { return value >= kMinSpeed && value <= kMaxSpeed; }
 
 }  // namespace
 

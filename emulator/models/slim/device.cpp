@@ -205,11 +205,11 @@ std::array<Errors, kModules> Slim::read_history(NvImage& image) const {
       const auto found = std::ranges::find(image.registers, history_name(m, i),
                                            [](const auto& entry) { return std::string_view(entry.first); });
       if (found == image.registers.end()) break;
-      constexpr auto kMost = static_cast<std::int64_t>(Error::address);
-      if (found->second < 1 || found->second > kMost) {
+      constexpr auto kMax = static_cast<std::int64_t>(Error::address);
+      if (found->second < 1 || found->second > kMax) {
         throw refused_value(NvEntryError::List::registers, history_name(m, i),
                             history_name(m, i) + ": " + std::to_string(found->second) +
-                                " is not an error; expected 1 to " + std::to_string(kMost));
+                                " is not an error; expected 1 to " + std::to_string(kMax));
       }
       errors[static_cast<std::size_t>(m)].history.push_back(static_cast<std::uint8_t>(found->second));
       image.registers.erase(found);
@@ -258,7 +258,7 @@ Slim::ReadProgram Slim::read_program(std::string_view text) const {
                                       : lang::why_not_command(std::string_view(line).substr(first));
     read.mistakes.push_back({number, static_cast<int>(first) + 1, what});
     if (error == Error::buffer_full) break;  // for all that follow as well
-    if (read.mistakes.size() >= kMostMistakes) break;
+    if (read.mistakes.size() >= kMaxMistakes) break;
   }
   return read;
 }

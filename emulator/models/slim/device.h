@@ -34,7 +34,7 @@
 
 namespace understudy::emulator::models::slim {
 
-inline constexpr std::size_t kMostSpeech = 256 * 1024;
+inline constexpr std::size_t kMaxSpeech = 256 * 1024;
 
 // The terminals of a module. Those of T0 come first, then those of T1, and so on.
 inline constexpr int kInputs = lang::kInputCount;

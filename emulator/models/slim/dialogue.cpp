@@ -46,7 +46,7 @@ TextRules Slim::text_rules() const {
 
 /// A host that types faster than its line answers loses what is beyond a bound that no listing reaches.
 void Slim::say(std::string_view text) {
-  if (state_.speech.size() >= kMostSpeech) return;
+  if (state_.speech.size() >= kMaxSpeech) return;
   state_.speech += text;
   state_.speech += line_end();
 }

@@ -46,7 +46,7 @@ bool is_axis_map(int map, bool may_repeat) {
 Error check_parameter(int module, std::string_view name, std::optional<double> value, SpeedNames names,
                       bool module_taken_from_letter) {
   if (name == "TM") {
-    const bool fits = !value || (*value >= 0 && *value <= kMostClock_s);
+    const bool fits = !value || (*value >= 0 && *value <= kMaxClock_s);
     return fits ? Error::none : Error::range;
   }
   const auto number = find_parameter(name, names);

@@ -31,19 +31,19 @@ struct ParameterDefinition {
 inline constexpr double kMaxReal = 3.4028234663852886e38;  // float32
 /// Speeds and accelerations outside these limits belong to no machine, and may be impossible to plan. (1e-6
 /// is the value that 32 bits hold.)
-inline constexpr double kLeastSpeed = 1e-6F;
-inline constexpr double kMostSpeed = 1e9;
+inline constexpr double kMinSpeed = 1e-6F;
+inline constexpr double kMaxSpeed = 1e9;
 
 /// All parameters, in the order in which ULC lists them.
 inline constexpr ParameterDefinition kParameters[] = {
-    {"PN10", "VM", ParameterDefinition::Type::real, kLeastSpeed, 1e6, false, 1000, "RPM or RPS, by FU", false,
+    {"PN10", "VM", ParameterDefinition::Type::real, kMinSpeed, 1e6, false, 1000, "RPM or RPS, by FU", false,
      "working speed"},
-    {"PN14", "VJ", ParameterDefinition::Type::real, kLeastSpeed, 1e6, false, 100, "RPM or RPS, by FU", false,
+    {"PN14", "VJ", ParameterDefinition::Type::real, kMinSpeed, 1e6, false, 100, "RPM or RPS, by FU", false,
      "jog speed"},
     {"FU", "", ParameterDefinition::Type::integer, 0, 1, false, 0, "", false,
      "unit of PN10 and PN14: 0 RPM, 1 RPS"},
-    {"VA", "", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 10000,
-     "RPM/s or RPS/s, by FU", false, "acceleration of moves of one axis; the name is ours, like TVA"},
+    {"VA", "", ParameterDefinition::Type::real, kMinSpeed, kMaxSpeed, false, 10000, "RPM/s or RPS/s, by FU",
+     false, "acceleration of moves of one axis; the name is ours, like TVA"},
     {"LL", "", ParameterDefinition::Type::real, 0, 1e6, false, 0, "W", false, "load limit; 0: none",
      "no load is computed"},
     {"EL", "", ParameterDefinition::Type::integer, 0, 2147483647, false, 0, "pulse", false,
@@ -58,11 +58,11 @@ inline constexpr ParameterDefinition kParameters[] = {
      "... are this many units"},
     {"PN50", "", ParameterDefinition::Type::integer, 0, 255, false, 1, "", true,
      "linked modules, bit p for Tp; T0 always"},
-    {"PR2", "TVA", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 1000, "unit/s2", false,
+    {"PR2", "TVA", ParameterDefinition::Type::real, kMinSpeed, kMaxSpeed, false, 1000, "unit/s2", false,
      "resultant acceleration of coordinated motion"},
-    {"PR3", "TVM", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 100, "unit/s", false,
+    {"PR3", "TVM", ParameterDefinition::Type::real, kMinSpeed, kMaxSpeed, false, 100, "unit/s", false,
      "resultant speed of coordinated motion"},
-    {"PR4", "", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 100, "unit/s", false,
+    {"PR4", "", ParameterDefinition::Type::real, kMinSpeed, kMaxSpeed, false, 100, "unit/s", false,
      "PR3 by another name, or by choice the speed of 2MA and 2MR"},
     {"PR7", "CMA", ParameterDefinition::Type::real, 0, 180, false, 0, "degree", false,
      "largest angle that CM 2 joins"},
@@ -116,7 +116,7 @@ constexpr Parameters factory_parameters() {
 std::optional<double> fitted(const ParameterDefinition& row, double value);
 
 /// The limit of TM, which is set like a parameter.
-inline constexpr double kMostClock_s = 1e9;
+inline constexpr double kMaxClock_s = 1e9;
 
 /// Returns why an assignment is refused in any state of the chain: an unknown parameter (syntax), or a value
 /// that it cannot have. Without a value, only the name is checked. An axis map may name a module twice only

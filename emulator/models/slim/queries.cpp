@@ -255,9 +255,9 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
 
 /// Conditions and traces ask for the same at every tick: its words are read once.
 const std::optional<lang::Command>& Slim::query_named(std::string_view name) const {
-  constexpr std::size_t kMost = 256;  // a host may ask for anything, for ever
+  constexpr std::size_t kMax = 256;  // a host may ask for anything, for ever
   if (const auto known = queries_.find(name); known != queries_.end()) return known->second;
-  if (queries_.size() >= kMost) queries_.clear();
+  if (queries_.size() >= kMax) queries_.clear();
   std::optional<lang::Command>& query = queries_[std::string(name)];
   lang::ParseResult parsed = lang::parse_line("?" + std::string(name), of_programs().dialect);
   if (parsed.error != Error::none || !parsed.line.command) return query;

@@ -111,10 +111,10 @@ pty::SimTime Super40nc::end_silence(pty::SimTime usual) const {
 }
 
 DeviceAnswer Super40nc::admits(const RegisterRequest& request, Checked checked) const {
-  constexpr std::size_t kMostRegisters = 64;
-  constexpr std::size_t kMostBits = 1024;
+  constexpr std::size_t kMaxRegisters = 64;
+  constexpr std::size_t kMaxBits = 1024;
   const bool is_of_bits = request.table == Table::coil || request.table == Table::discrete;
-  const bool is_too_long = request.count > (is_of_bits ? kMostBits : kMostRegisters);
+  const bool is_too_long = request.count > (is_of_bits ? kMaxBits : kMaxRegisters);
   const bool is_limited =
       checked == Checked::everything && chose(option("request_counts", "64_registers_1024_bits"));
   return is_limited && is_too_long ? Refusal::bad_value : Refusal::none;
@@ -311,7 +311,7 @@ std::int32_t Super40nc::analog_level(int terminal) const {
   const int number = terminal - kFirstAnalogOut;
   if (!powered() || number < 0 || number >= kAnalogOutCount) return 0;
   const Value steps = registers().of(number == 0 ? kept_d(8003) : kept_d(8004));
-  return static_cast<std::int32_t>((steps * kMostMillivolts + kVoltageSteps / 2) / kVoltageSteps);
+  return static_cast<std::int32_t>((steps * kMaxMillivolts + kVoltageSteps / 2) / kVoltageSteps);
 }
 
 std::int64_t Super40nc::pulses_this_tick(int axis_number) const { return axis(axis_number).sent_pulses; }

@@ -95,7 +95,7 @@ std::string why_not_listing(const std::string& text) {
 }
 
 constexpr std::size_t kLongestListing = 100'000;  // for 1,500 steps
-constexpr std::size_t kMostFiles = 30'000;
+constexpr std::size_t kMaxFiles = 30'000;
 
 constexpr std::array<BlockKind, 3> kBlocks{{{.name = kPrograms,
                                              .most = language::kAreas.size(),
@@ -103,7 +103,7 @@ constexpr std::array<BlockKind, 3> kBlocks{{{.name = kPrograms,
                                              .why_not_called = why_not_program_name,
                                              .why_not_text = why_not_listing},
                                             {.name = kFiles,
-                                             .most = kMostFiles,
+                                             .most = kMaxFiles,
                                              .longest = kLongestListing,
                                              .why_not_called = why_not_file_name,
                                              .why_not_text = why_not_listing},

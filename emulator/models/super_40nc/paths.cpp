@@ -35,9 +35,9 @@ double pulses_per_lu(const Settings& its, int axis) { return its.scale(axis).pul
 
 /// Returns D8005 within its limits.
 double Super40nc::override_percent() const {
-  constexpr double kMost = 100;
+  constexpr double kMax = 100;
   const auto percent = static_cast<double>(registers().of(kept_d(8005)));
-  return chose(option("override_range", "0_to_100")) ? std::min(percent, kMost) : percent;
+  return chose(option("override_range", "0_to_100")) ? std::min(percent, kMax) : percent;
 }
 
 /// Returns F, scaled by D8005; a feed that is not above 0 is the least feed.

@@ -37,9 +37,9 @@ bool Super40nc::has_terminal(int terminal) const {
 
 std::int32_t Super40nc::analog_counts(int number) const {
   if (!has_voltage_inputs()) return input(kFirstAnalogIn + number);
-  const std::int32_t full = chose(option("analog_counts", "5_v")) ? kMostMillivoltsIn : kMostMillivolts;
+  const std::int32_t full = chose(option("analog_counts", "5_v")) ? kMaxMillivoltsIn : kMaxMillivolts;
   const std::int32_t millivolts = std::min(input(kFirstVoltageIn + number), full);
-  return (millivolts * kMostAnalogCount + full / 2) / full;
+  return (millivolts * kMaxAnalogCount + full / 2) / full;
 }
 
 void Super40nc::see_pins() {

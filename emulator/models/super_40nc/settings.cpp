@@ -10,7 +10,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-constexpr double kMostSteps = 65535;
+constexpr double kMaxSteps = 65535;
 constexpr double kStepsAtOne = 300;  // the magnification is 300 / (PRMG + 1)
 
 motion::RampLaw ramp_by(double slope_u_s2, double section_u_s) {
@@ -21,9 +21,9 @@ motion::RampLaw ramp_by(double slope_u_s2, double section_u_s) {
 }  // namespace
 
 double multiplier_of(double top_pps) {
-  constexpr double kLeast = 3;
-  constexpr double kMost = 4096;
-  return kStepsAtOne / std::clamp(std::floor(kStepsAtOne * kMostSteps / top_pps), kLeast, kMost);
+  constexpr double kMin = 3;
+  constexpr double kMax = 4096;
+  return kStepsAtOne / std::clamp(std::floor(kStepsAtOne * kMaxSteps / top_pps), kMin, kMax);
 }
 
 motion::SpeedLaw law_by(double start_u_s, double top_u_s, double target_u_s, double up_ms, double down_ms,

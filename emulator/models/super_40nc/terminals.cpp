@@ -34,15 +34,15 @@ MadeTerminals make_terminals() {
   add(Kind::counted_in, "MPG");
   add(Kind::digital_in, "CEMG");
   for (int i = 1; i <= kAnalogInCount; ++i) {
-    add(Kind::analog_number, "VR" + std::to_string(i), kMostAnalogCount);
+    add(Kind::analog_number, "VR" + std::to_string(i), kMaxAnalogCount);
   }
   for (int i = 1; i <= kAnalogOutCount; ++i) {
-    add(Kind::analog_out, "Vout" + std::to_string(i), kMostMillivolts);
+    add(Kind::analog_out, "Vout" + std::to_string(i), kMaxMillivolts);
   }
   add(Kind::dip_switch, "PLC_RUN");
   for (const std::string_view axis : kAxisNames) add(Kind::digital_in, "DOG_" + std::string(axis));
   for (int i = 1; i <= kAnalogInCount; ++i) {
-    add(Kind::analog_in, "Vin" + std::to_string(i), kMostMillivoltsIn);
+    add(Kind::analog_in, "Vin" + std::to_string(i), kMaxMillivoltsIn);
   }
   for (const std::string_view axis : kAxisNames) add(Kind::digital_out, "SVON_" + std::string(axis));
   for (const std::string_view axis : kAxisNames) {

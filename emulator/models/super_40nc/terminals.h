@@ -40,10 +40,10 @@ constexpr int dog_input(int axis) { return 3 * axis; }
 constexpr int limit_plus_input(int axis) { return 3 * axis + 1; }
 constexpr int limit_minus_input(int axis) { return 3 * axis + 2; }
 
-inline constexpr std::int32_t kMostAnalogCount = 1023;
+inline constexpr std::int32_t kMaxAnalogCount = 1023;
 inline constexpr std::int32_t kVoltageSteps = 1000;
-inline constexpr std::int32_t kMostMillivolts = 3300;
-inline constexpr std::int32_t kMostMillivoltsIn = 5000;
+inline constexpr std::int32_t kMaxMillivolts = 3300;
+inline constexpr std::int32_t kMaxMillivoltsIn = 5000;
 
 inline constexpr std::array<std::string_view, kAxisCount> kAxisNames{"X", "Y", "Z", "U"};
 inline constexpr int kFactoryPulsesPerRevolution = 4000;

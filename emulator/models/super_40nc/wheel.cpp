@@ -44,9 +44,9 @@ void Super40nc::follow_ratio(int axis) {
   const Settings its = registers();
   const motion::UnitScale scale = its.scale(axis);
   const int sense = its.is_on(kept_x(16), axis) ? -1 : +1;
-  constexpr std::int64_t kMost = INT32_MAX;
+  constexpr std::int64_t kMax = INT32_MAX;
   follower.numerator =
-      std::clamp<std::int64_t>(wheel_lu_per_count(axis) * scale.multiplier, -kMost, kMost) * sense;
+      std::clamp<std::int64_t>(wheel_lu_per_count(axis) * scale.multiplier, -kMax, kMax) * sense;
   if (follower.denominator != scale.divider) follower.left_over = 0;
   follower.denominator = scale.divider;
   if (chose(option("wheel_ratio", "pulses_per_count"))) {

@@ -25,7 +25,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 4 * pty::kRtuMaxFrame;
+constexpr std::size_t kMaxWaiting = 4 * pty::kRtuMaxFrame;
 constexpr int kFastestByCharacters = 19200;
 
 /// t1.5, the longest silence within a frame (MODBUS over Serial Line V1.02, 2.5.1.1).
@@ -109,7 +109,7 @@ void LineManners::on_character(const pty::TimedByte& character, bool is_heard) {
   if (!is_heard) return;
   const SimTime idle = busy_until_ ? character.start - *busy_until_ : kForever;
   waiting_.push_back({character.number, character.start, idle});
-  if (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin(), waiting_.end() - pty::kRtuMaxFrame);
+  if (waiting_.size() > kMaxWaiting) waiting_.erase(waiting_.begin(), waiting_.end() - pty::kRtuMaxFrame);
   busy_until_ = std::max(character.end, busy_until_.value_or(character.end));
   framer_.push(character);
 }

@@ -22,7 +22,7 @@ constexpr std::int64_t kEndurance = 100'000;
 // Registers are reported that were changed more often than this, at a rate that would wear their cells out in
 // less than a year.
 constexpr std::uint64_t kChangesAllowed = 10;
-constexpr SimTime kLeastLife = std::chrono::hours(24 * 365);
+constexpr SimTime kMinLife = std::chrono::hours(24 * 365);
 
 /// "3 requests", with what they do.
 std::string counted(std::uint64_t count, const char* one, const char* several) {
@@ -49,7 +49,7 @@ std::optional<SimTime> life_of(const Finding& changes) {
   if (changes.count <= kChangesAllowed) return std::nullopt;
   const auto intervals = static_cast<std::int64_t>(changes.count - 1);
   const SimTime interval = (changes.last - changes.first) / intervals;
-  if (interval > kLeastLife / kEndurance) return std::nullopt;
+  if (interval > kMinLife / kEndurance) return std::nullopt;
   return interval * kEndurance;
 }
 

@@ -33,9 +33,9 @@ namespace understudy::emulator::play {
 namespace {
 
 // Reading a case again costs less than a tenth of playing it, but a suite as people write them need not.
-constexpr std::size_t kMostHeld = 1000;
-constexpr std::size_t kMostShared = 256;  // benches and files of steps
-constexpr std::size_t kTrimEvery = 256;   // files
+constexpr std::size_t kMaxHeld = 1000;
+constexpr std::size_t kMaxShared = 256;  // benches and files of steps
+constexpr std::size_t kTrimEvery = 256;  // files
 
 std::uint64_t hash_of_text(std::string_view text, std::uint64_t onto) {
   return hash_of(std::as_bytes(std::span(text)), onto);
@@ -43,8 +43,8 @@ std::uint64_t hash_of_text(std::string_view text, std::uint64_t onto) {
 
 /// What is shared between files is shared for a while only.
 void keep_few(SharedReading& shared) {
-  if (shared.benches.size() > kMostShared) shared.benches.clear();
-  if (shared.included.size() > kMostShared) shared.included.clear();
+  if (shared.benches.size() > kMaxShared) shared.benches.clear();
+  if (shared.included.size() > kMaxShared) shared.included.clear();
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ void Playbill::add(const std::string& path, const std::function<void(const Scena
   keep_few(shared_);
   ScenarioFile opened(path, options_, shared_);
   File file{.path = path, .size = opened.size(), .is_varied = opened.is_varied(), .made_of = 0, .held = {}};
-  const bool is_held = !file.is_varied && held_ + file.size <= kMostHeld;
+  const bool is_held = !file.is_varied && held_ + file.size <= kMaxHeld;
   std::set<std::uint64_t> contents;  // wherever the files stand, and however their paths are spelled
   opened.check([&](Scenario scenario) {
     look(scenario);

@@ -29,7 +29,7 @@ constexpr int kPositionHeight = 230;
 constexpr int kPanelHeight = 140;
 constexpr int kPlotRowHeight = 20;
 constexpr double kRowsBetween = 1.5;  // from one row of bits to the next, which are 1 high
-constexpr std::size_t kMostStretches = 3000;
+constexpr std::size_t kMaxStretches = 3000;
 constexpr int kPlotColours = 8;
 constexpr const char* kColourOf[kPlotColours] = {"#0969da", "#bc4c00", "#1a7f37", "#8250df",
                                                  "#bf3989", "#0a7d88", "#9a6700", "#59636e"};
@@ -103,7 +103,7 @@ std::vector<PlotPanel> panels_of(const TraceTable& table, std::span<const std::s
 
 /// A column as gnuplot's data, time in seconds.
 std::string data_of(const TraceTable& table, std::size_t column) {
-  Envelope envelope(kMostStretches);
+  Envelope envelope(kMaxStretches);
   for (std::size_t i = 0; i < table.ticks.size(); ++i) {
     // Rows are left out where nothing changes.
     if (i > 0) envelope.add(table.ticks[i] - 1, table.columns[column][i - 1]);

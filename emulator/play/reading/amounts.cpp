@@ -15,8 +15,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-constexpr std::size_t kMostDigits = 15;
-constexpr std::int64_t kMostCounted = INT64_MAX / 2;  // the distance between two of them is counted as well
+constexpr std::size_t kMaxDigits = 15;
+constexpr std::int64_t kMaxCounted = INT64_MAX / 2;  // the distance between two of them is counted as well
 
 struct AmountUnit {
   std::string_view name;
@@ -55,7 +55,7 @@ std::optional<Amount> parse_amount(std::string_view text) {
     } else {
       amount.digits = 10 * amount.digits + (text.front() - '0');
       if (has_point) ++amount.decimals;
-      if (++digits > kMostDigits) return std::nullopt;
+      if (++digits > kMaxDigits) return std::nullopt;
     }
     text.remove_prefix(1);
   }
@@ -99,7 +99,7 @@ std::optional<std::int64_t> AmountScale::count_of(const Amount& amount) const {
     if (count % parts != 0) return {};
     count /= parts;
   }
-  if (count > kMostCounted || count < -kMostCounted) return {};
+  if (count > kMaxCounted || count < -kMaxCounted) return {};
   return count;
 }
 

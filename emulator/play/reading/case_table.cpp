@@ -20,7 +20,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-constexpr std::uint64_t kMostCases = 1'000'000'000'000;
+constexpr std::uint64_t kMaxCases = 1'000'000'000'000;
 constexpr std::uint64_t kTypical = 1000;  // cases that stand for all others
 
 /// No parameter has a value where cases are read.
@@ -114,8 +114,8 @@ void CaseTable::read_variations(const world::YamlFields& root, std::optional<std
     if (of_rows.contains(name)) field.fail("is already given by `cases`; expected it in one of the two");
     const Variation& added = variations_.emplace_back(field, name, seed.value_or(own_seed), seed.has_value());
     is_counted = is_counted || !added.is_free();
-    if (added.count() > kMostCases / size_)
-      field.fail("makes more than " + std::to_string(kMostCases) + " cases; expected fewer");
+    if (added.count() > kMaxCases / size_)
+      field.fail("makes more than " + std::to_string(kMaxCases) + " cases; expected fewer");
     size_ *= added.count();
   }
   if (variations_.empty()) vary.fail("is empty; expected a parameter's values, as in `speed: [ 100, 200 ]`");

@@ -91,7 +91,7 @@ std::vector<std::pair<std::string, world::YamlFields>> demand_registers(const wo
   return entries;
 }
 
-constexpr std::size_t kMostBytes = 1024;  // of one step
+constexpr std::size_t kMaxBytes = 1024;  // of one step
 
 std::vector<std::uint8_t> read_bytes(const world::YamlFields& field) {
   const std::string text = field.text();
@@ -116,8 +116,8 @@ std::vector<std::uint8_t> read_bytes(const world::YamlFields& field) {
       bytes.push_back(static_cast<std::uint8_t>(*parse_integer("0x" + word.substr(i, 2))));
     }
   }
-  if (bytes.empty() || bytes.size() > kMostBytes) {
-    field.fail("has " + std::to_string(bytes.size()) + " bytes; expected 1 to " + std::to_string(kMostBytes));
+  if (bytes.empty() || bytes.size() > kMaxBytes) {
+    field.fail("has " + std::to_string(bytes.size()) + " bytes; expected 1 to " + std::to_string(kMaxBytes));
   }
   return bytes;
 }

@@ -19,10 +19,10 @@ namespace understudy::emulator::play {
 
 /// State that the cases of a file share.
 struct FileReading {
-  static constexpr int kMostSteps = 100'000;  // of all cases
-  static constexpr std::size_t kMostBytes = std::size_t{64}
-                                            << 20;  // the limit for the bytes of their texts and messages
-  static constexpr int kDeepest = 32;               // loops, forks and includes in each other
+  static constexpr int kMaxSteps = 100'000;  // of all cases
+  static constexpr std::size_t kMaxBytes = std::size_t{64}
+                                           << 20;  // the limit for the bytes of their texts and messages
+  static constexpr int kDeepest = 32;              // loops, forks and includes in each other
   int steps = 0;
   std::size_t bytes = 0;
   SharedReading& shared;

@@ -112,7 +112,7 @@ const FailureKinds::Kind* FailureKinds::add(const ScenarioResult& result) {
   const std::string text = kind_of_failure(result);
   auto it = numbers_.find(text);
   if (it == numbers_.end()) {
-    if (kinds_.size() >= kMost) {
+    if (kinds_.size() >= kMax) {
       ++others_;
       return nullptr;
     }

@@ -16,7 +16,7 @@ std::string kind_of_failure(const ScenarioResult& result);
 
 class FailureKinds {
  public:
-  static constexpr std::size_t kMost = 1000;  // failures of further kinds are counted, but not distinguished
+  static constexpr std::size_t kMax = 1000;  // failures of further kinds are counted, but not distinguished
 
   struct Kind {
     std::string text;

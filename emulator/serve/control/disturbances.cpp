@@ -210,7 +210,7 @@ void program_message(Daemon& daemon, const Json& message, const ControlServer::R
     });
   }
   const std::string text = demand_text(message, "text");
-  if (text.size() <= kMostAtOnce) return answer(reply, [&] { return load_program(daemon, number, text); });
+  if (text.size() <= kMaxAtOnce) return answer(reply, [&] { return load_program(daemon, number, text); });
   // What is no program is found out aside: a device holds far less than a message, and takes its own soon.
   daemon.do_aside([&daemon, &model = device.model(), settings = device.settings(), number, text,
                    author = daemon.onlookers().events.author(), reply]() -> std::function<void()> {
@@ -248,11 +248,11 @@ namespace {
 
 /// "one of 1, 4"
 std::string numbers_of_faults(const world::World& world) {
-  constexpr std::size_t kMostListed = 8;
+  constexpr std::size_t kMaxListed = 8;
   std::string numbers;
   std::size_t count = 0;
   for (const auto& [number, armed] : world.faults()) {
-    if (++count > kMostListed) return "one of " + numbers + ", ...";
+    if (++count > kMaxListed) return "one of " + numbers + ", ...";
     numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
   }
   return numbers.empty() ? "none, since no fault is in force" : "one of " + numbers;

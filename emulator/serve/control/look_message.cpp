@@ -31,8 +31,8 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMostListed = 200;  // frames or events in a reply
-constexpr std::size_t kMostNames = 2'000;
+constexpr std::size_t kMaxInReply = 200;  // frames or events in a reply
+constexpr std::size_t kMaxNames = 2'000;
 
 void add_value(ReplyText& text, const world::LookedNames::Looked& looked) {
   if (const auto* number = std::get_if<world::Number>(&looked)) {
@@ -65,7 +65,7 @@ std::uint64_t first_wanted(const Json& message, std::uint64_t next, std::size_t 
 }  // namespace
 
 bool Listing::add_next(ReplyText& text) {
-  if (count_ == kMostListed) return false;
+  if (count_ == kMaxInReply) return false;
   return what_ == What::frames ? add_frame(text) : add_event(text);
 }
 
@@ -129,7 +129,7 @@ Telling tell_listing(Daemon& daemon, Json message, Listing::What what) {
   while (are_events && events.collect(1)) co_await pause;
   const std::uint64_t next = are_events ? events.next_number() : daemon.frames().next_number();
   const bool is_raw = message.contains("raw") && message["raw"] == true;
-  Listing listing(daemon, what, first_wanted(message, next, kMostListed), is_raw);
+  Listing listing(daemon, what, first_wanted(message, next, kMaxInReply), is_raw);
   ReplyText text;
   text.open_list(are_events ? "events" : "frames");
   while (listing.add_next(text)) co_await pause;
@@ -163,8 +163,8 @@ std::optional<std::uint64_t> demand_list(world::LookedNames& known, const Json& 
   }
   if (!message.contains("names")) return std::nullopt;
   const Json& names = message["names"];
-  if (!names.is_array() || names.size() > kMostNames) {
-    throw is_not("names", names, "a list of at most " + std::to_string(kMostNames) + " names");
+  if (!names.is_array() || names.size() > kMaxNames) {
+    throw is_not("names", names, "a list of at most " + std::to_string(kMaxNames) + " names");
   }
   std::vector<std::string> texts;
   texts.reserve(names.size());

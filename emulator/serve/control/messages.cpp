@@ -184,7 +184,7 @@ Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
 }  // namespace
 
 void handle_message(Daemon& daemon, const std::string& line, const ControlServer::Reply& reply) {
-  if (line.size() <= kMostAtOnce) return answer(reply, [&] { return act_on(daemon, parsed(line), reply); });
+  if (line.size() <= kMaxAtOnce) return answer(reply, [&] { return act_on(daemon, parsed(line), reply); });
   // To read it would make the devices wait, and hosts with them.
   daemon.do_aside([&daemon, line, reply]() -> std::function<void()> {
     std::shared_ptr<Json> message;

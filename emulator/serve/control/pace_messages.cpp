@@ -21,7 +21,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::uint64_t kMostTicks = 3'600'000;  // an hour
+constexpr std::uint64_t kMaxTicks = 3'600'000;  // an hour
 constexpr std::size_t kLongestName = 64;
 
 std::string_view state_word(ProgramPlace::State state) {
@@ -85,10 +85,10 @@ Json speed_message(Daemon& daemon, const Json& message) {
 
 void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
   demand_keys(message, {"do", "ticks"});
-  const std::uint64_t ticks = message.contains("ticks") ? demand_count(message, "ticks", kMostTicks) : 1;
+  const std::uint64_t ticks = message.contains("ticks") ? demand_count(message, "ticks", kMaxTicks) : 1;
   const SimTime now = daemon.world().now();
   const SimTime end = time_of(tick_at(now) + static_cast<Tick>(ticks));
-  if (ticks == 0 || end > kHorizon) throw MessageError("ticks: expected 1 to " + std::to_string(kMostTicks));
+  if (ticks == 0 || end > kHorizon) throw MessageError("ticks: expected 1 to " + std::to_string(kMaxTicks));
   const bool begun = daemon.advance(end - now, [&daemon, reply] { reply(time_of_now(daemon).dump()); });
   if (!begun) {
     throw MessageError("time is already running; expected --speed manual, or `pause` first");
@@ -109,7 +109,7 @@ Json snapshots_message(Daemon& daemon, const Json& message) {
 Json snapshot_by_name(Daemon& daemon, const Json& message) {
   const std::string name = demand_name(message);
   auto& kept = daemon.onlookers().snapshots;
-  if (kept.size() >= Onlookers::kMostSnapshots && !kept.contains(name)) {
+  if (kept.size() >= Onlookers::kMaxSnapshots && !kept.contains(name)) {
     throw MessageError("name: there are " + std::to_string(kept.size()) +
                        " snapshots already; expected one to be dropped first");
   }

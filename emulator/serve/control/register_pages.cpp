@@ -29,7 +29,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMostRows = 200;
+constexpr std::size_t kMaxRows = 200;
 
 std::string in_lower_case(std::string_view text) {
   std::string lower(text);
@@ -161,7 +161,7 @@ struct WantedPage {
   std::optional<std::uint64_t> section{};
   std::string find{};  // in lower case
   std::uint64_t from = 0;
-  std::uint64_t count = kMostRows;
+  std::uint64_t count = kMaxRows;
 };
 
 WantedPage wanted_page(const Daemon& daemon, const Json& message) {
@@ -170,7 +170,7 @@ WantedPage wanted_page(const Daemon& daemon, const Json& message) {
   if (message.contains("section")) wanted.section = demand_count(message, "section");
   if (message.contains("find")) wanted.find = in_lower_case(demand_text(message, "find"));
   if (message.contains("from")) wanted.from = demand_count(message, "from");
-  if (message.contains("count")) wanted.count = demand_count(message, "count", kMostRows);
+  if (message.contains("count")) wanted.count = demand_count(message, "count", kMaxRows);
   return wanted;
 }
 

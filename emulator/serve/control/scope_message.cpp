@@ -26,8 +26,8 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMostSamples = 500;  // of each name, in a reply
-constexpr std::size_t kMostBytes = 512;
+constexpr std::size_t kMaxSamples = 500;  // of each name, in a reply
+constexpr std::size_t kMaxBytes = 512;
 
 std::string_view state_word(world::Scope::State state) {
   switch (state) {
@@ -41,7 +41,7 @@ std::string_view state_word(world::Scope::State state) {
 Tick ticks_of(const Json& message, const char* key, Tick otherwise) {
   if (!message.contains(key)) return otherwise;
   const auto time = message[key].is_string() ? parse_duration(message[key].get<std::string>()) : std::nullopt;
-  if (!time || *time < SimTime{0} || *time > time_of(world::ScopeSetup::kMostTicks)) {
+  if (!time || *time < SimTime{0} || *time > time_of(world::ScopeSetup::kMaxTicks)) {
     throw is_not(key, message[key], "a duration of at most 10s", "one such as \"500ms\"");
   }
   return tick_at(*time);
@@ -51,9 +51,8 @@ world::ScopeSetup scope_setup(const Json& message) {
   demand_keys(message, {"do", "names", "condition", "before", "after"});
   world::ScopeSetup setup;
   const Json& names = message["names"];
-  if (!names.is_array() || names.empty() || names.size() > world::ScopeSetup::kMostNames) {
-    throw is_not("names", names,
-                 "a list of 1 to " + std::to_string(world::ScopeSetup::kMostNames) + " names");
+  if (!names.is_array() || names.empty() || names.size() > world::ScopeSetup::kMaxNames) {
+    throw is_not("names", names, "a list of 1 to " + std::to_string(world::ScopeSetup::kMaxNames) + " names");
   }
   for (const Json& name : names) {
     if (!name.is_string()) throw is_not("names", names, "a list of names");
@@ -91,7 +90,7 @@ std::optional<std::vector<std::uint8_t>> bytes_of(std::string_view text) {
     digits = 0;
     value = 0;
   }
-  if (digits != 0 || bytes.empty() || bytes.size() > kMostBytes) return std::nullopt;
+  if (digits != 0 || bytes.empty() || bytes.size() > kMaxBytes) return std::nullopt;
   return bytes;
 }
 
@@ -124,7 +123,7 @@ Telling samples_message(Daemon& daemon, std::uint64_t from) {
   const Pause pause(daemon);
   const world::Scope& scope = *daemon.onlookers().scope;
   const std::uint64_t count = scope.count();
-  const std::uint64_t end = std::min<std::uint64_t>(count, from + kMostSamples);
+  const std::uint64_t end = std::min<std::uint64_t>(count, from + kMaxSamples);
   std::vector<std::vector<double>> samples(scope.setup().names.size());
   for (std::size_t name = 0; name < samples.size(); ++name) {
     for (std::uint64_t place = from; place < end; ++place) samples[name].push_back(scope.sample(name, place));
@@ -174,8 +173,8 @@ Json send_message(Daemon& daemon, const Json& message) {
   std::vector<std::uint8_t> bytes;
   if (message.contains("text")) {
     const std::string text = demand_text(message, "text");
-    if (message.contains("bytes") || text.empty() || text.size() > kMostBytes) {
-      throw MessageError("text: expected 1 to " + std::to_string(kMostBytes) + " bytes, without \"bytes\"");
+    if (message.contains("bytes") || text.empty() || text.size() > kMaxBytes) {
+      throw MessageError("text: expected 1 to " + std::to_string(kMaxBytes) + " bytes, without \"bytes\"");
     }
     bytes.assign(text.begin(), text.end());
     if (line.speech.carries_text() && text.back() != '\r' && text.back() != '\n') bytes.push_back('\r');

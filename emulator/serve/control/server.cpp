@@ -29,8 +29,8 @@ namespace {
 
 // A program that fills a device comes in one message, and goes back in one reply.
 constexpr std::size_t kLongestMessage = 4 * 1024 * 1024;
-constexpr std::size_t kMostUnread = 8 * 1024 * 1024;
-constexpr std::size_t kMostClients = 256;
+constexpr std::size_t kMaxUnread = 8 * 1024 * 1024;
+constexpr std::size_t kMaxClients = 256;
 
 sockaddr_un address_of(const std::string& path) {
   sockaddr_un address{};
@@ -111,7 +111,7 @@ ControlServer::~ControlServer() {
 }
 
 void ControlServer::admit(Descriptor socket) {
-  if (clients_.size() >= kMostClients) return;
+  if (clients_.size() >= kMaxClients) return;
   auto client = std::make_shared<Client>();
   client->socket = std::move(socket);
   const int descriptor = client->socket.get();
@@ -168,10 +168,10 @@ void ControlServer::serve(const std::shared_ptr<Client>& client) {
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
   if (!client->socket) return;
   // A device may hold more than anybody could be given at once.
-  const bool is_too_long = line.size() >= kMostUnread;
+  const bool is_too_long = line.size() >= kMaxUnread;
   client->output += is_too_long ? R"({"ok":false,"error":"the answer is longer than 8388608 bytes"})" : line;
   client->output += "\n";
-  if (!write_out(*client) || client->output.size() - client->sent > kMostUnread) drop(client->socket.get());
+  if (!write_out(*client) || client->output.size() - client->sent > kMaxUnread) drop(client->socket.get());
 }
 
 /// False if there is nothing more to do for the client.

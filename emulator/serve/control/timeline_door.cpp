@@ -29,9 +29,9 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMostMarks = 2'000;
+constexpr std::size_t kMaxMarks = 2'000;
 constexpr std::size_t kMarksAtOnce = 500;
-constexpr std::size_t kMostBefore = 200;  // frames, and events, that are told of the time before a moment
+constexpr std::size_t kMaxBefore = 200;  // frames, and events, that are told of the time before a moment
 
 /// What stands out on the bar.
 bool is_mark(std::string_view what) {
@@ -102,9 +102,8 @@ class Travel {
   static std::int64_t demand_steps(const Json& message) {
     if (!message.contains("steps")) return 1;
     const Json& steps = message["steps"];
-    constexpr std::int64_t kMost = 1'000'000;
-    if (!steps.is_number_integer() || steps.get<std::int64_t>() > kMost ||
-        steps.get<std::int64_t>() < -kMost) {
+    constexpr std::int64_t kMax = 1'000'000;
+    if (!steps.is_number_integer() || steps.get<std::int64_t>() > kMax || steps.get<std::int64_t>() < -kMax) {
       throw is_not("steps", steps, "a whole number");
     }
     return steps.get<std::int64_t>();
@@ -136,7 +135,7 @@ class Travel {
 
   /// On the way through, at each keyframe: when frames began, what stands out, and what led there.
   void collect() {
-    Stretch stretch{.frames = daemon_.frames().kept_since(next_frame_, kMostBefore), .events = {}};
+    Stretch stretch{.frames = daemon_.frames().kept_since(next_frame_, kMaxBefore), .events = {}};
     for (const auto& told : daemon_.frames().since(next_frame_, SIZE_MAX)) {
       moments_.push_back(told.time);
       next_frame_ = told.number + 1;
@@ -145,7 +144,7 @@ class Travel {
       next_event_ = event.number + 1;
       if (event.what != "restored") stretch.events.push_back(event);  // that was to begin with
       if (!is_mark(event.what)) continue;
-      if (marks_.size() == kMostMarks) {
+      if (marks_.size() == kMaxMarks) {
         ++marks_left_out_;
         continue;
       }
@@ -155,8 +154,8 @@ class Travel {
       if (!event.text.empty()) mark["text"] = event.text;
       marks_.push_back(std::move(mark));
     }
-    if (stretch.events.size() > kMostBefore)
-      stretch.events.erase(stretch.events.begin(), stretch.events.end() - kMostBefore);
+    if (stretch.events.size() > kMaxBefore)
+      stretch.events.erase(stretch.events.begin(), stretch.events.end() - kMaxBefore);
     stretches_.push_back(std::move(stretch));
   }
 
@@ -164,9 +163,9 @@ class Travel {
   template <class One>
   std::vector<One> last_before(std::size_t keyframe, std::vector<One> Stretch::*which) const {
     std::vector<One> all;
-    for (std::size_t i = keyframe; i-- > 0 && all.size() < kMostBefore;)
+    for (std::size_t i = keyframe; i-- > 0 && all.size() < kMaxBefore;)
       all.insert(all.end(), (stretches_[i].*which).rbegin(), (stretches_[i].*which).rend());
-    all.resize(std::min(all.size(), kMostBefore));
+    all.resize(std::min(all.size(), kMaxBefore));
     std::reverse(all.begin(), all.end());
     return all;
   }
@@ -203,7 +202,7 @@ DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
       travelled();
       Json message;
       try {
-        if (line.size() <= kMostAtOnce) message = Json::parse(line);
+        if (line.size() <= kMaxAtOnce) message = Json::parse(line);
         message.erase("as");
       } catch (const Json::exception&) {
       }

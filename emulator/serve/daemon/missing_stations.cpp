@@ -52,7 +52,7 @@ void MissingStations::look(const pty::CapturedPacket& packet) {
 bool MissingStations::is_new(std::size_t line, std::uint8_t address) {
   if (told_.size() <= line) told_.resize(line + 1);
   std::vector<std::uint8_t>& told = told_[line];
-  if (told.size() == kMostTold || std::find(told.begin(), told.end(), address) != told.end()) return false;
+  if (told.size() == kMaxTold || std::find(told.begin(), told.end(), address) != told.end()) return false;
   told.push_back(address);
   return true;
 }

@@ -17,7 +17,7 @@
 namespace understudy::emulator::serve {
 
 struct Onlookers {
-  static constexpr std::size_t kMostSnapshots = 16;
+  static constexpr std::size_t kMaxSnapshots = 16;
 
   Onlookers(world::World& world, const world::FrameLog& frames) : events(world, frames), names(world) {}
 

@@ -20,7 +20,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMostPieces = 64;  // that are in work
+constexpr std::size_t kMaxPieces = 64;  // that are in work
 
 std::uint32_t epoll_events(std::uint32_t interest) {
   return ((interest & EventLoop::readable) != 0 ? EPOLLIN : 0U) |
@@ -180,7 +180,7 @@ void EventLoop::call_later_ones(bool are_ready, WallTime slice) {
   slice_end_ = wall_now() + slice;
   do {
     // Whoever begins more and more has to wait until some of it is done.
-    const bool are_many = pieces_.size() >= kMostPieces;
+    const bool are_many = pieces_.size() >= kMaxPieces;
     if (!pieces_.empty() && (are_pieces_next_ || !are_ready || are_many)) {
       are_pieces_next_ = false;
       const std::function<bool()> piece = std::move(pieces_.front());

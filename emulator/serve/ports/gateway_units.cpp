@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint8_t kThisDevice = 0xFF;  // MODBUS Messaging on TCP/IP 1.0b, 4.4.2.3
 constexpr std::uint8_t kBroadcast = 0;
 constexpr int kLastStation = 247;
-constexpr std::size_t kMostNamed = 8;
+constexpr std::size_t kMaxNamed = 8;
 
 bool does(const world::LineStation& station, std::uint8_t number, Addressing what) {
   const ModbusStation* const modbus = station.device().modbus();
@@ -53,7 +53,7 @@ std::string who_is_there(const world::WorldLine& line) {
   for (const auto& station : line.stations) {
     const auto number = number_of(*station);
     if (!number) continue;
-    if (++named > kMostNamed) return text + ", ...";
+    if (++named > kMaxNamed) return text + ", ...";
     text += (text.empty() ? "" : ", ") + std::to_string(*number) + " (" + station->device().name() + ")";
   }
   return text.empty() ? "nobody" : text;

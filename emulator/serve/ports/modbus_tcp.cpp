@@ -16,10 +16,10 @@ namespace {
 
 // Transaction, protocol (0), length of what follows; then the unit and the request itself.
 constexpr std::size_t kHeader = 6;
-constexpr std::size_t kLeastLength = 2;
-constexpr std::size_t kMostLength = 254;
+constexpr std::size_t kMinLength = 2;
+constexpr std::size_t kMaxLength = 254;
 
-constexpr std::size_t kLongestFrame = kMostLength + 2;  // with its checksum
+constexpr std::size_t kLongestFrame = kMaxLength + 2;  // with its checksum
 
 // So long a broadcast may take to be obeyed.
 constexpr std::chrono::milliseconds kAfterBroadcast{100};
@@ -45,7 +45,7 @@ std::optional<std::size_t> size_of_reply(std::span<const std::uint8_t> frame) {
 bool is_length_possible(std::span<const std::uint8_t> heard) {
   if (heard.size() < kHeader) return true;
   const std::size_t length = word_at(heard, 4);
-  return length >= kLeastLength && length <= kMostLength;
+  return length >= kMinLength && length <= kMaxLength;
 }
 
 /// How long the message is that begins so; nothing: it has not come wholly, or no message begins so.

@@ -47,10 +47,10 @@ class ModbusTcp final : public TcpSpeech {
   /// number 0.
   bool waits() const { return on_line_.has_value(); }
   bool is_broadcast() const { return on_line_ && on_line_->station == 0; }
-  bool has_room() const override { return heard_.size() < kMostHeard; }
+  bool has_room() const override { return heard_.size() < kMaxHeard; }
 
  private:
-  static constexpr std::size_t kMostHeard = 4096;
+  static constexpr std::size_t kMaxHeard = 4096;
 
   struct Request {
     std::uint16_t transaction = 0;

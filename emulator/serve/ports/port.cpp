@@ -192,8 +192,8 @@ void Port::ignore_terminal() {
     log_("line " + line().name() + ": a host has opened " + terminal_->path() +
          ", but a TCP client has the line; the host is ignored until the client disconnects");
   std::array<std::uint8_t, pty::Line::kInputCapacity> ignored;
-  constexpr int kMostReadings = 32;  // all that the kernel holds
-  for (int i = 0; i < kMostReadings && terminal_->read(ignored) > 0; ++i) {
+  constexpr int kMaxReadings = 32;  // all that the kernel holds
+  for (int i = 0; i < kMaxReadings && terminal_->read(ignored) > 0; ++i) {
   }
 }
 

@@ -13,7 +13,7 @@ namespace understudy::emulator::serve {
 
 class RawBytes final : public TcpSpeech {
  public:
-  bool has_room() const override { return to_line_.size() < kMostHeard; }
+  bool has_room() const override { return to_line_.size() < kMaxHeard; }
   bool hear_client(std::span<const std::uint8_t> bytes) override {
     to_line_.insert(to_line_.end(), bytes.begin(), bytes.end());
     return true;
@@ -30,7 +30,7 @@ class RawBytes final : public TcpSpeech {
   Bytes take_for_client() override { return std::exchange(to_client_, {}); }
 
  private:
-  static constexpr std::size_t kMostHeard = 4096;
+  static constexpr std::size_t kMaxHeard = 4096;
   Bytes to_line_;
   Bytes to_client_;
 };

@@ -18,7 +18,7 @@ class Rfc2217 final : public TcpSpeech {
   /// A host that sets nothing has the settings of `line`.
   explicit Rfc2217(const pty::LineSettings& line);
 
-  bool has_room() const override { return reader_.has_room() && to_client_.size() < kMostUnsaid; }
+  bool has_room() const override { return reader_.has_room() && to_client_.size() < kMaxUnsaid; }
   bool hear_client(std::span<const std::uint8_t> bytes) override;
   Bytes take_for_line(std::size_t room) override;
   std::optional<pty::HostSettings> settings() const override;
@@ -31,7 +31,7 @@ class Rfc2217 final : public TcpSpeech {
   struct Row;
 
  private:
-  static constexpr std::size_t kMostUnsaid = 4096;
+  static constexpr std::size_t kMaxUnsaid = 4096;
 
   void obey(const telnet::Command& command);
   void obey_com_port(std::span<const std::uint8_t> body);

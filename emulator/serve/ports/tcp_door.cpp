@@ -38,7 +38,7 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr std::size_t kOneTaking = 4096;
-constexpr std::size_t kMostLeft = 16'384;  // of what a client that has gone has sent
+constexpr std::size_t kMaxLeft = 16'384;  // of what a client that has gone has sent
 
 // So long one that has said all may wait for its replies while another wants the line.
 constexpr std::chrono::nanoseconds kLongestGoodbye = std::chrono::seconds(1);
@@ -95,7 +95,7 @@ std::unique_ptr<TcpSpeech> TcpDoor::make_speech() {
 
 /// A line has one owner: whoever comes second is let go at once, or waits until one has its last replies.
 void TcpDoor::admit(Descriptor socket) {
-  if (is_gateway() && clients_.size() >= kMostMasters) return refuse();
+  if (is_gateway() && clients_.size() >= kMaxMasters) return refuse();
   if (!is_gateway()) {
     // It may have said all, or gone, just now.
     while (!clients_.empty() && clients_.front()->is_read() && hear(*clients_.front())) serve_line();
@@ -115,7 +115,7 @@ void TcpDoor::refuse() {
     return log_("a host tried to connect at " + world::to_string(address_) +
                 ", but a fault has unplugged the line; the connection was refused");
   log_(is_gateway() && !clients_.empty()
-           ? "the gateway at " + world::to_string(address_) + " has " + std::to_string(kMostMasters) +
+           ? "the gateway at " + world::to_string(address_) + " has " + std::to_string(kMaxMasters) +
                  " masters, and another tried to connect; the connection was refused"
            : "a second host tried to connect at " + world::to_string(address_) +
                  "; the line allows only one, so the connection was refused");
@@ -163,7 +163,7 @@ void TcpDoor::let_go(TcpClient& client) {
 
 TcpSpeech::Bytes TcpDoor::take_rest(TcpClient& client) {
   TcpSpeech::Bytes rest;
-  for (bool goes_on = true; goes_on && rest.size() < kMostLeft;) {
+  for (bool goes_on = true; goes_on && rest.size() < kMaxLeft;) {
     const TcpSpeech::Bytes some = client.speech().take_for_line(kOneTaking);
     rest.insert(rest.end(), some.begin(), some.end());
     client.speech().take_for_client();

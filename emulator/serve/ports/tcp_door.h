@@ -24,7 +24,7 @@ namespace understudy::emulator::serve {
 
 class TcpDoor final : private Port::Guest {
  public:
-  static constexpr std::size_t kMostMasters = 32;
+  static constexpr std::size_t kMaxMasters = 32;
 
   /// The port must outlive it, and is told the address. Throws pty::PortError.
   TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,

@@ -22,7 +22,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr int kMostWaiting = 16;  // clients that are not let in yet
+constexpr int kMaxWaiting = 16;  // clients that are not let in yet
 
 struct Freed {
   void operator()(addrinfo* found) const { freeaddrinfo(found); }
@@ -81,7 +81,7 @@ Descriptor listen_there(const addrinfo& place, bool is_one_of_several) {
   if (place.ai_family == AF_INET6 && is_one_of_several)
     setsockopt(listener.get(), IPPROTO_IPV6, IPV6_V6ONLY, &yes, sizeof yes);
   const bool listens =
-      bind(listener.get(), place.ai_addr, place.ai_addrlen) == 0 && listen(listener.get(), kMostWaiting) == 0;
+      bind(listener.get(), place.ai_addr, place.ai_addrlen) == 0 && listen(listener.get(), kMaxWaiting) == 0;
   return listens ? std::move(listener) : Descriptor();
 }
 

@@ -36,10 +36,10 @@ struct Command {
 /// Splits received bytes in their order.
 class Reader {
  public:
-  static constexpr std::size_t kMostHeard = 4096;
+  static constexpr std::size_t kMaxHeard = 4096;
   static constexpr std::size_t kLongestSubnegotiation = 256;  // as it is sent; longer ones are passed over
 
-  bool has_room() const { return heard_.size() < kMostHeard; }
+  bool has_room() const { return heard_.size() < kMaxHeard; }
   void hear(std::span<const std::uint8_t> bytes) { heard_.insert(heard_.end(), bytes.begin(), bytes.end()); }
   /// Adds bytes up to the next command, until there are `most`. If they are not binary, the 0 after a
   /// carriage return is not passed to the line.

@@ -64,12 +64,12 @@ std::optional<SimTime> parse_byte_timeout(std::string_view text) {
 }
 
 std::optional<std::int64_t> parse_baud_tolerance(std::string_view text) {
-  constexpr double kMostPercent = 10;
+  constexpr double kMaxPercent = 10;
   constexpr double kPpmOfPercent = 10'000;
   if (!text.ends_with('%')) return std::nullopt;
   text.remove_suffix(1);
   const auto percent = parse_real(text);
-  if (!percent || !(*percent >= 0 && *percent <= kMostPercent)) return std::nullopt;
+  if (!percent || !(*percent >= 0 && *percent <= kMaxPercent)) return std::nullopt;
   return std::llround(*percent * kPpmOfPercent);
 }
 

@@ -30,7 +30,7 @@ void Complaints::add(const FileError& error, const std::string& behind) {
     complaint.text += behind;
     complaints_.push_back(std::move(complaint));
   }
-  if (complaints_.size() >= kMostKept) throw LastError(std::vector<FileError::Complaint>());
+  if (complaints_.size() >= kMaxKept) throw LastError(std::vector<FileError::Complaint>());
 }
 
 void Complaints::throw_if_any() const {
@@ -43,10 +43,10 @@ void Complaints::throw_if_any() const {
   std::vector<FileError::Complaint> sorted = complaints_;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const auto& left, const auto& right) { return place(left) < place(right); });
-  if (sorted.size() > kMostTold) {
-    const std::size_t more = sorted.size() - kMostTold;
-    sorted.resize(kMostTold);
-    const FileError rest("and " + std::to_string(more) + " more; the first " + std::to_string(kMostTold) +
+  if (sorted.size() > kMaxTold) {
+    const std::size_t more = sorted.size() - kMaxTold;
+    sorted.resize(kMaxTold);
+    const FileError rest("and " + std::to_string(more) + " more; the first " + std::to_string(kMaxTold) +
                          " are shown");
     sorted.push_back(rest.complaints().front());
   }

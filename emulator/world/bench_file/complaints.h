@@ -26,7 +26,7 @@ struct Untold {};
 
 class Complaints {
  public:
-  static constexpr std::size_t kMostTold = 20;
+  static constexpr std::size_t kMaxTold = 20;
 
   /// Returns true if `read` succeeded. If it did not, keeps its error.
   template <typename Read>
@@ -61,7 +61,7 @@ class Complaints {
   void throw_if_any() const;
 
  private:
-  static constexpr std::size_t kMostKept = 1000;
+  static constexpr std::size_t kMaxKept = 1000;
 
   std::vector<FileError::Complaint> complaints_;
   std::set<std::string> told_;

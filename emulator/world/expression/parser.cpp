@@ -188,8 +188,8 @@ bool ExpressionParser::percentage(std::int64_t& millionths) {
   const bool is_percentage = token_.kind == Token::Kind::number && text_.substr(token_.end).starts_with('%');
   if (!is_percentage) return false;
   if (token_.unit != Unit::none) fail(offset(), "'%' after " + kind_of(token_.unit) + "; expected a number");
-  constexpr std::int64_t kMost = 1'000'000;
-  if (token_.number > kMost) fail(offset(), "expected a tolerance of at most a million percent");
+  constexpr std::int64_t kMax = 1'000'000;
+  if (token_.number > kMax) fail(offset(), "expected a tolerance of at most a million percent");
   // A decimal number of six places, times a million, is nearest to the whole number that is meant.
   millionths = std::llround(token_.number.real() * static_cast<double>(kPercent));
   token_ = lexer_.next();

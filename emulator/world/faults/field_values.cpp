@@ -22,7 +22,7 @@ namespace understudy::emulator::world {
 namespace {
 
 constexpr SimTime kLongest = std::chrono::hours(24 * 365);
-constexpr std::size_t kMostBytes = 256;
+constexpr std::size_t kMaxBytes = 256;
 constexpr std::int64_t kOnePercent = kAlways / 100;
 
 [[noreturn]] void not_possible(std::string_view name, const std::string& text, const std::string& expected) {
@@ -92,8 +92,8 @@ std::vector<std::uint8_t> field_bytes(std::string_view name, const std::string& 
     bytes.push_back(static_cast<std::uint8_t>(high << 4 | low));
     i += 2;
   }
-  if (bytes.empty() || bytes.size() > kMostBytes) {
-    not_possible(name, text, "1 to " + std::to_string(kMostBytes) + " bytes such as \"FF 00\"");
+  if (bytes.empty() || bytes.size() > kMaxBytes) {
+    not_possible(name, text, "1 to " + std::to_string(kMaxBytes) + " bytes such as \"FF 00\"");
   }
   return bytes;
 }

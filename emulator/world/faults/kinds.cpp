@@ -19,7 +19,7 @@ using Where = FaultKindRow::Place;
 
 constexpr std::int64_t kFar = 1'000'000'000'000;       // pulses; farther than any counter
 constexpr std::int64_t kFarthestSlip = 1'000'000'000;  // pulses; many of them in one tick still add up
-constexpr std::int64_t kMostCounts = 1'000'000;
+constexpr std::int64_t kMaxCounts = 1'000'000;
 constexpr std::int64_t kLongestMessage = 256;
 
 constexpr FaultFieldRow bytes_row(std::string_view name, std::vector<std::uint8_t> Fault::*bytes) {
@@ -37,7 +37,7 @@ constexpr std::array kTurn{
         .name = "in", .form = Form::ticks, .required = false, .lowest = 1, .number = &Fault::over_ticks}};
 constexpr std::array kStuck{FaultFieldRow{.name = "level", .form = Form::level, .highest = 1}};
 constexpr std::array kEncoderNoise{
-    FaultFieldRow{.name = "counts", .lowest = -kMostCounts, .highest = kMostCounts},
+    FaultFieldRow{.name = "counts", .lowest = -kMaxCounts, .highest = kMaxCounts},
     FaultFieldRow{.name = "period",
                   .form = Form::even_ticks,
                   .required = false,

@@ -83,7 +83,7 @@ bool LookedNames::is_kept(std::uint64_t number) const { return find_list(number)
 /// For a list of so many names.
 void LookedNames::make_room(std::size_t names) {
   // The probes forget nothing by themselves.
-  if (!probes_ || resolved_ + names > 4 * kMostKept) {
+  if (!probes_ || resolved_ + names > 4 * kMaxKept) {
     lists_.clear();
     probes_.emplace(world_);
     resolved_ = 0;
@@ -93,7 +93,7 @@ void LookedNames::make_room(std::size_t names) {
     for (const List& list : lists_) sum += list.names.size();
     return sum;
   };
-  while (!lists_.empty() && (lists_.size() >= kMostLists || kept() + names > kMostKept)) {
+  while (!lists_.empty() && (lists_.size() >= kMaxLists || kept() + names > kMaxKept)) {
     lists_.erase(std::min_element(lists_.begin(), lists_.end(),
                                   [](const List& a, const List& b) { return a.looked_at < b.looked_at; }));
   }

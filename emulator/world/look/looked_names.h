@@ -28,8 +28,8 @@ TerminalDrivers drivers_of(const World& world, std::size_t device, int terminal)
 
 class LookedNames {
  public:
-  static constexpr std::size_t kMostKept = 32'768;  // names, of all lists together
-  static constexpr std::size_t kMostLists = 64;
+  static constexpr std::size_t kMaxKept = 32'768;  // names, of all lists together
+  static constexpr std::size_t kMaxLists = 64;
 
   /// monostate: there is no such name, or it has no value now (no power).
   using Looked = std::variant<std::monostate, Number, TerminalDrivers>;

@@ -14,8 +14,8 @@
 namespace understudy::emulator::world {
 
 struct ScopeSetup {
-  static constexpr std::size_t kMostNames = 16;
-  static constexpr Tick kMostTicks = 10'000;  // before and after, each
+  static constexpr std::size_t kMaxNames = 16;
+  static constexpr Tick kMaxTicks = 10'000;  // before and after, each
 
   std::vector<std::string> names;
   std::string condition;  // empty: at once

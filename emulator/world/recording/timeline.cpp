@@ -20,7 +20,7 @@ Timeline::Timeline(World& world, const WorldState& begin, std::vector<RecordedEv
   restore(world_, begin);
   end_ = std::max(end, world_.now());
   keyframes_.push_back({.at = world_.now(), .next_event = 0, .state = begin});
-  const SimTime apart = std::max(kApart, (end_ - world_.now()) / static_cast<std::int64_t>(kMostKeyframes));
+  const SimTime apart = std::max(kApart, (end_ - world_.now()) / static_cast<std::int64_t>(kMaxKeyframes));
   std::size_t next = 0;
   for (SimTime at = world_.now() + apart; at < end_; at += apart) {
     next = play(next, at);

@@ -18,7 +18,7 @@ class Timeline {
  public:
   /// The shortest time between keyframes. It is longer if there would be too many.
   static constexpr SimTime kApart = std::chrono::seconds(1);
-  static constexpr std::size_t kMostKeyframes = 1'000;
+  static constexpr std::size_t kMaxKeyframes = 1'000;
 
   /// Applies the events in order, from the state in which the recording begins. `on_way` is called at each
   /// keyframe and at the end, where the world is left. The world must be made from the recording's bench and

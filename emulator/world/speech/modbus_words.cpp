@@ -22,8 +22,8 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::size_t kMostBytesShown = 32;
-constexpr std::size_t kMostRegisters = 8;
+constexpr std::size_t kMaxBytesShown = 32;
+constexpr std::size_t kMaxRegisters = 8;
 constexpr std::uint8_t kExceptionBit = 0x80;
 
 int frame_word(std::span<const std::uint8_t> frame, std::size_t at) { return frame[at] << 8 | frame[at + 1]; }
@@ -54,7 +54,7 @@ class WordsText {
     std::string text;
     std::size_t named = 0;
     for (int i = 0; i < count_; ++named) {
-      if (named == kMostRegisters)
+      if (named == kMaxRegisters)
         return text + ", and " + std::to_string(count_ - i) +
                (is_table_of_bits(table_) ? " bits more" : " words more");
       text += (named == 0 ? "" : ", ") + next(i, named == 0);
@@ -170,12 +170,12 @@ std::vector<std::uint16_t> words_in(std::span<const std::uint8_t> bytes) {
 
 std::string hex_text(std::span<const std::uint8_t> bytes) {
   std::string text;
-  for (std::size_t i = 0; i < bytes.size() && i < kMostBytesShown; ++i) {
+  for (std::size_t i = 0; i < bytes.size() && i < kMaxBytesShown; ++i) {
     std::array<char, 4> byte{};
     std::snprintf(byte.data(), byte.size(), i == 0 ? "%02X" : " %02X", bytes[i]);
     text += byte.data();
   }
-  if (bytes.size() > kMostBytesShown) text += " ... (" + std::to_string(bytes.size()) + " bytes)";
+  if (bytes.size() > kMaxBytesShown) text += " ... (" + std::to_string(bytes.size()) + " bytes)";
   return text;
 }
 

@@ -87,10 +87,10 @@ class TextSpeech final : public LineSpeech {
  private:
   /// Side by side, each in quotes.
   static std::string quoted(std::span<const std::uint8_t> bytes) {
-    constexpr std::size_t kMostCharacters = 200;
+    constexpr std::size_t kMaxCharacters = 200;
     std::string text(bytes.begin(), bytes.end());
-    const bool is_cut = text.size() > kMostCharacters;
-    if (is_cut) text.resize(kMostCharacters);
+    const bool is_cut = text.size() > kMaxCharacters;
+    if (is_cut) text.resize(kMaxCharacters);
     if (text.starts_with('\n')) text.erase(0, 1);
     return lines_text(lines_in(text).lines) + (is_cut ? " ..." : "");
   }

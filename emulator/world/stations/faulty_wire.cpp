@@ -77,7 +77,7 @@ void FaultyWire::reset() {
 }
 
 void FaultyWire::keep(Late message) {
-  if (late_.size() == kMostLate) return;
+  if (late_.size() == kMaxLate) return;
   const auto place = std::upper_bound(late_.begin(), late_.end(), message.at,
                                       [](pty::SimTime at, const Late& other) { return at < other.at; });
   late_.insert(place, std::move(message));
@@ -87,7 +87,7 @@ void FaultyWire::check(const std::vector<Late>& late) {
   const auto demand = [](bool holds) {
     if (!holds) throw std::invalid_argument("a station cannot hold such late messages");
   };
-  demand(late.size() <= kMostLate);
+  demand(late.size() <= kMaxLate);
   pty::SimTime before{0};
   for (const Late& message : late) {
     demand(message.at >= before && pty::is_within_reach(message.at) && !message.bytes.empty());

@@ -20,7 +20,7 @@ namespace understudy::emulator::world {
 class FaultyWire {
  public:
   /// The largest number of late messages; further ones are lost.
-  static constexpr std::size_t kMostLate = 256;
+  static constexpr std::size_t kMaxLate = 256;
 
   /// The end of the wire: the station.
   class End {

@@ -19,8 +19,8 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::size_t kMostWordsRead = 125;
-constexpr std::size_t kMostWritten = 1968;  // bits, a word each while they are on their way
+constexpr std::size_t kMaxWordsRead = 125;
+constexpr std::size_t kMaxWritten = 1968;  // bits, a word each while they are on their way
 constexpr std::uint16_t kOn = 0xFF00;
 constexpr std::uint16_t kOff = 0x0000;
 
@@ -109,7 +109,7 @@ ModbusReply read(RegisterBank& bank, const Service& service, Pdu pdu) {
     bank.read_answered({.table = service.table, .first = first, .count = quantity});
     return reply;
   }
-  std::array<std::uint16_t, kMostWordsRead> words;
+  std::array<std::uint16_t, kMaxWordsRead> words;
   const Objection refused = read_request(bank, service.table, first, std::span(words).first(quantity));
   if (refused) return exception(pdu, &service.row, refused);
   for (std::size_t i = 0; i < quantity; ++i) put_word(reply, words[i]);
@@ -136,7 +136,7 @@ ModbusReply write_several(RegisterBank& bank, const Service& service, Pdu pdu) {
   const std::size_t bytes = service.bytes_for(quantity);
   if (pdu[5] != bytes || pdu.size() != 6 + bytes)
     return exception(pdu, &service.row, bad_value(Cause::bad_length));
-  std::array<std::uint16_t, kMostWritten> words;
+  std::array<std::uint16_t, kMaxWritten> words;
   for (std::size_t i = 0; i < quantity; ++i) {
     words[i] = service.is_of_bits() ? pdu[6 + i / 8] >> i % 8 & 1 : pdu_word(pdu, 6 + 2 * i);
   }

@@ -131,8 +131,7 @@ bool TextStation::look_for_speech(pty::SimTime now) {
 
 void TextStation::echo(const Waiting& waiting, pty::Transmitter& out) {
   if (!state_.is_held) return out.answer(bytes_of(waiting.echo), waiting.heard.last_character);
-  if (outgoing_size() < kMostOutgoing)
-    state_.outgoing.push_back({waiting.heard.last_character, waiting.echo});
+  if (outgoing_size() < kMaxOutgoing) state_.outgoing.push_back({waiting.heard.last_character, waiting.echo});
 }
 
 void TextStation::carry_out(const pty::HeardText& heard, pty::SimTime now, pty::Transmitter& out) {
@@ -164,7 +163,7 @@ void TextStation::serve(const pty::HeardText& heard, pty::SimTime now, pty::Tran
     case Heard::hold: state_.is_held = true; return;
     case Heard::go_on: state_.is_held = false; return;
   }
-  if (!speaker_.has_speech() || outgoing_size() >= kMostOutgoing) return;
+  if (!speaker_.has_speech() || outgoing_size() >= kMaxOutgoing) return;
   const std::string text = speaker_.take_speech();
   if (!treatment.is_answered || text.empty()) return;
   ++counters_.replies;

@@ -25,7 +25,7 @@ class TextStation final : public LineStation {
   /// Like kPiece, if the host may send XOFF: characters that the line has cannot be stopped any more.
   static constexpr std::size_t kPieceThatCanBeHeld = 1;
   /// With this many waiting characters it takes no more text from the device until some are sent.
-  static constexpr std::size_t kMostOutgoing = 64 * 1024;
+  static constexpr std::size_t kMaxOutgoing = 64 * 1024;
 
   /// `is_instant`: the line's characters take no time. The device must have a speaker.
   TextStation(Device& device, std::size_t port, bool is_instant);

@@ -38,8 +38,8 @@ std::string binary(std::int64_t value) {
 
 /// Of a value by name that was whole when the trace began, and no longer is.
 std::int64_t nearest_whole(Number value) {
-  constexpr double kMost = 9e15;
-  return value.is_whole() ? value.whole() : std::llround(std::clamp(value.real(), -kMost, kMost));
+  constexpr double kMax = 9e15;
+  return value.is_whole() ? value.whole() : std::llround(std::clamp(value.real(), -kMax, kMax));
 }
 
 class VcdTrace final : public TraceFormat {

@@ -246,20 +246,20 @@ struct Sum {
 };
 
 TEST(Super40ncPlc, CalculatesInThirtyTwoBits) {
-  constexpr std::int32_t kMost = INT32_MAX;
-  constexpr std::int32_t kLeast = INT32_MIN;
+  constexpr std::int32_t kMax = INT32_MAX;
+  constexpr std::int32_t kMin = INT32_MIN;
   constexpr Sum kSums[] = {
       {"ADD D0 D1 D2", 5, -7, -2},
-      {"ADD D0 D1 D2", kMost, 1, kLeast},
-      {"SUB D0 D1 D2", kLeast, 1, kMost},
+      {"ADD D0 D1 D2", kMax, 1, kMin},
+      {"SUB D0 D1 D2", kMin, 1, kMax},
       {"SUB K10 D1 D2", 0, 3, 7},
       {"MUL D0 D1 D2", -3, 4, -12},
       {"MUL D0 D1 D2", 65536, 65536, 0},
-      {"MUL D0 D1 D2", kLeast, kLeast, 0},
+      {"MUL D0 D1 D2", kMin, kMin, 0},
       {"DIV D0 D1 D2", 7, 2, 3, 1},
       {"DIV D0 D1 D2", -7, 2, -3, -1},
       {"DIV D0 D1 D2", 7, -2, -3, 1},
-      {"DIV D0 D1 D2", kLeast, -1, kLeast, 0},
+      {"DIV D0 D1 D2", kMin, -1, kMin, 0},
       {"DIV D0 D1 D2", 7, 0, 77},
       {"MOV D0 D2", 9, 0, 9},
       {"FMV D0 D2 D1", 4, 2, 4, 4},

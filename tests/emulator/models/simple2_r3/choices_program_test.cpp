@@ -211,21 +211,21 @@ Value calculated(const Given& given, const ProgramLine& line, Value mem0, Value 
 }
 
 TEST(ChoicesProgram, ArithmeticWrapsOrSaturates) {
-  constexpr Value kMost = 2'147'483'647;
-  constexpr Value kLeast = -kMost - 1;
+  constexpr Value kMax = 2'147'483'647;
+  constexpr Value kMin = -kMax - 1;
   struct Expected {
     Value sum, difference, quotient, increased;
   };
-  for (const auto& [option, expected] :
-       each_option<Expected>("arithmetic", {{"wraps", {kLeast + 9, kMost - 9, kLeast, kLeast}},
-                                            {"saturates", {kMost, kLeast, kMost, kMost}}})) {
+  for (const auto& [option, expected] : each_option<Expected>(
+           "arithmetic",
+           {{"wraps", {kMin + 9, kMax - 9, kMin, kMin}}, {"saturates", {kMax, kMin, kMax, kMax}}})) {
     const Given given = with("arithmetic", option);
-    EXPECT_EQ(calculated(given, {kAdd, 0, 1, 0}, kMost, 10), expected.sum) << option;
-    EXPECT_EQ(calculated(given, {kSub, 0, 1, 0}, kLeast, 10), expected.difference) << option;
-    EXPECT_EQ(calculated(given, {kDiv, 0, 1, 0}, kLeast, -1), expected.quotient) << option;
-    EXPECT_EQ(calculated(given, {kAdd, 0, 1, 0}, kMost, -10), kMost - 10) << option;
+    EXPECT_EQ(calculated(given, {kAdd, 0, 1, 0}, kMax, 10), expected.sum) << option;
+    EXPECT_EQ(calculated(given, {kSub, 0, 1, 0}, kMin, 10), expected.difference) << option;
+    EXPECT_EQ(calculated(given, {kDiv, 0, 1, 0}, kMin, -1), expected.quotient) << option;
+    EXPECT_EQ(calculated(given, {kAdd, 0, 1, 0}, kMax, -10), kMax - 10) << option;
     OneSimple2 feeder(given);
-    feeder.set("PROG_MEM0", kMost);
+    feeder.set("PROG_MEM0", kMax);
     start_with_program(feeder, {{kInc, 0, 0, 0}, kTheEnd});
     feeder.run(10);
     EXPECT_EQ(feeder.get("PROG_MEM0"), expected.increased) << option;

@@ -8,8 +8,8 @@
 namespace understudy::emulator::models::super_40nc {
 namespace listings_data_test {
 
-constexpr Value kLeast = std::numeric_limits<std::int32_t>::min();
-constexpr Value kMost = std::numeric_limits<std::int32_t>::max();
+constexpr Value kMin = std::numeric_limits<std::int32_t>::min();
+constexpr Value kMax = std::numeric_limits<std::int32_t>::max();
 const Set kOfC{{"D9003", 4}};
 
 Value wrapped(Value value) { return static_cast<std::int32_t>(static_cast<std::uint32_t>(value)); }
@@ -96,7 +96,7 @@ void d6(const std::string& program) {
 
 void d7(const std::string& program) {
   OneSuper40nc one({.program = program});
-  const Value numbers[] = {0, 1, -1, 7, -7, 10, 46341, -65536, kMost, kLeast};
+  const Value numbers[] = {0, 1, -1, 7, -7, 10, 46341, -65536, kMax, kMin};
   for (const char* input : {"X0", "X1", "X2"}) one.input(input, 1);
   for (const Value a : numbers) {
     for (const Value b : numbers) {
@@ -137,7 +137,7 @@ void d8(const std::string& program) {
 void d9(const std::string& program) {
   OneSuper40nc one({.program = program});
   one.set("D10", 100);
-  one.set("D20", kLeast + 3);
+  one.set("D20", kMin + 3);
   one.input("X0", 1);
   one.run(40);
   EXPECT_EQ(one.get("D10"), 140);
@@ -145,7 +145,7 @@ void d9(const std::string& program) {
   one.set("M100", 1);
   one.run(10);
   EXPECT_EQ(one.get("D10"), 140);
-  EXPECT_EQ(one.get("D20"), wrapped(kLeast + 3 - 10));
+  EXPECT_EQ(one.get("D20"), wrapped(kMin + 3 - 10));
 }
 
 void d10(const std::string& program) {
@@ -163,7 +163,7 @@ void d11a(const std::string& program) {
   EXPECT_EQ(one.get("D10"), -5);
   one.input("X0", 1);
   for (const auto& [value, absolute] :
-       {std::pair<Value, Value>{-5, 5}, {5, 5}, {0, 0}, {-kMost, kMost}, {kLeast, kLeast}}) {
+       {std::pair<Value, Value>{-5, 5}, {5, 5}, {0, 0}, {-kMax, kMax}, {kMin, kMin}}) {
     one.set("D10", value);
     one.run(1);
     EXPECT_EQ(one.get("D10"), absolute);
@@ -182,7 +182,7 @@ void d11(const std::string& program) {
 /// Just below, at and above each other.
 template <class Look>
 void around(Value value, Look look) {
-  for (const Value each : {value - 1, value, value + 1, kLeast, kMost}) look(each);
+  for (const Value each : {value - 1, value, value + 1, kMin, kMax}) look(each);
 }
 
 void d12(const std::string& program) {

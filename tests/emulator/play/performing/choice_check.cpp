@@ -13,7 +13,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-constexpr std::size_t kLeastExplanation = 30;  // letters behind the question
+constexpr std::size_t kMinExplanation = 30;  // letters behind the question
 
 Steps without_expectations(const Steps& steps);
 
@@ -149,7 +149,7 @@ class ChoiceCheck {
   void look_at_comment(const std::string& comment) {
     const std::size_t question = comment.find('?');
     if (question == std::string::npos) return complain("asks nothing in a comment above it");
-    if (comment.size() < question + kLeastExplanation) complain("explains nothing");
+    if (comment.size() < question + kMinExplanation) complain("explains nothing");
   }
 
   bool look_at_options(const std::vector<Scenario>& cases) {

@@ -63,13 +63,13 @@ TEST(FailureKinds, CountAndKnowTheirFirst) {
 
 TEST(FailureKinds, AreNeverMoreThanSomeNumber) {
   FailureKinds kinds;
-  for (int i = 0; i < static_cast<int>(FailureKinds::kMost); ++i)
+  for (int i = 0; i < static_cast<int>(FailureKinds::kMax); ++i)
     EXPECT_NE(kinds.add(failed("x", i)), nullptr);
   EXPECT_EQ(kinds.add(failed("y")), nullptr);
   EXPECT_EQ(kinds.add(failed("y")), nullptr);
   EXPECT_EQ(kinds.add(failed("x", 5))->count, 2U);
   EXPECT_EQ(kinds.others(), 2U);
-  EXPECT_EQ(kinds.all().size(), FailureKinds::kMost);
+  EXPECT_EQ(kinds.all().size(), FailureKinds::kMax);
 }
 
 }  // namespace failure_kinds_test

@@ -341,7 +341,7 @@ TEST(LookMessage, KeepsNamesForTheirNumber) {
     }
   }
   EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", number}}.dump())["ok"], true);
-  EXPECT_EQ(rig.daemon.onlookers().names.lists(), world::LookedNames::kMostLists);
+  EXPECT_EQ(rig.daemon.onlookers().names.lists(), world::LookedNames::kMaxLists);
   for (int i = 0; i < 70; ++i) rig.ask(Json{{"do", "look"}, {"names", {"m" + std::to_string(i)}}}.dump());
   EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", number}}.dump())["ok"], false);
 }
@@ -357,7 +357,7 @@ TEST(LookMessage, KeepsABoundedNumberOfNames) {
     EXPECT_EQ(reply["values"][599], 0);
     numbers.push_back(reply["look"]);
   }
-  EXPECT_EQ(rig.daemon.onlookers().names.lists(), world::LookedNames::kMostKept / 600);
+  EXPECT_EQ(rig.daemon.onlookers().names.lists(), world::LookedNames::kMaxKept / 600);
   EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", numbers.back()}}.dump())["ok"], true);
   EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", numbers.front()}}.dump())["ok"], false);
 }

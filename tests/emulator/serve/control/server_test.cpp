@@ -285,9 +285,9 @@ TEST(ControlServer, ALineThatNeverEndsIsRefusedAndTheClientDropped) {
   rig.serve(rig.path);
   Client endless(rig.path);
   Client other(rig.path);
-  constexpr int kMostPieces = 1024;
+  constexpr int kMaxPieces = 1024;
   const std::string piece(4096, 'x');
-  for (int i = 0; i < kMostPieces + 40 && !endless.is_over; ++i) {
+  for (int i = 0; i < kMaxPieces + 40 && !endless.is_over; ++i) {
     endless.say(piece);
     rig.settle();
     const std::string heard = endless.hear();
@@ -295,7 +295,7 @@ TEST(ControlServer, ALineThatNeverEndsIsRefusedAndTheClientDropped) {
     EXPECT_EQ(
         heard,
         "{\"ok\":false,\"error\":\"the message is too long; expected a line of at most 4194304 bytes\"}\n");
-    EXPECT_GE(i, kMostPieces);
+    EXPECT_GE(i, kMaxPieces);
   }
   EXPECT_TRUE(endless.is_over);
   EXPECT_TRUE(rig.heard.empty());

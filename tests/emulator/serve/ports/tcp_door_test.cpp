@@ -174,7 +174,7 @@ TEST_P(EachProtocol, WithoutDescriptorsRestsUntilThereIsOne) {
 TEST(Gateway, ServesItsMastersInTurn) {
   DoorRig rig("modbus-tcp://127.0.0.1:0");
   std::vector<std::unique_ptr<DoorClient>> masters;
-  for (std::size_t m = 0; m < TcpDoor::kMostMasters; ++m) {
+  for (std::size_t m = 0; m < TcpDoor::kMaxMasters; ++m) {
     masters.push_back(std::make_unique<DoorClient>(rig));
     rig.run();
     for (std::uint8_t i = 0; i < 20; ++i) {

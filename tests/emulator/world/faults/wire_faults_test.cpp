@@ -366,7 +366,7 @@ TEST(WireFaults, AtMostSoMuchIsLate) {
   line.inject("duplicate feeder after=3h of=request");
   for (int i = 0; i < 60; ++i) EXPECT_EQ(line.ask(kAskFeeder).bytes, kFeederSays);
   EXPECT_EQ(dynamic_cast<const RtuStation&>(*line.world().line(0).stations[0]).save().late.size(),
-            FaultyWire::kMostLate);
+            FaultyWire::kMaxLate);
 }
 
 }  // namespace wire_faults_test

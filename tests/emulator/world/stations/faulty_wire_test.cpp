@@ -133,8 +133,8 @@ TEST(FaultyWire, LosesWhatIsTooMuchAndWhatIsReset) {
   Rig rig;
   rig.wire.set_faults(&rig.faults, 0, 0);
   rig.faults.reply = {{.kind = Kind::delay, .time = 10ms}};
-  for (std::size_t i = 0; i < FaultyWire::kMostLate + 5; ++i) rig.answer({1}, 0ms);
-  EXPECT_EQ(rig.late.size(), FaultyWire::kMostLate);
+  for (std::size_t i = 0; i < FaultyWire::kMaxLate + 5; ++i) rig.answer({1}, 0ms);
+  EXPECT_EQ(rig.late.size(), FaultyWire::kMaxLate);
   rig.wire.look_at_completed({.bytes = {}, .is_for_device = true});
   EXPECT_EQ(rig.wire.due(), 0ms);
   rig.wire.reset();
@@ -148,7 +148,7 @@ TEST(FaultyWire, RefusesLateMessagesThatCannotBe) {
   FaultyWire::check({early, later, later});
   EXPECT_THROW(FaultyWire::check({later, early}), std::invalid_argument);
   EXPECT_THROW(FaultyWire::check({{.at = 1ms}}), std::invalid_argument);
-  EXPECT_THROW(FaultyWire::check(std::vector(FaultyWire::kMostLate + 1, early)), std::invalid_argument);
+  EXPECT_THROW(FaultyWire::check(std::vector(FaultyWire::kMaxLate + 1, early)), std::invalid_argument);
 }
 
 }  // namespace faulty_wire_test

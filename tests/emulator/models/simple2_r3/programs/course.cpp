@@ -21,8 +21,8 @@ using Words = std::vector<std::uint16_t>;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr Tick kTickBeforeStart = 999;  // so slot 0 is tick 1000: also a multiple of the 5 ms of sync mode
-constexpr std::size_t kMostWritten = 123;
-constexpr std::size_t kMostRead = 125;
+constexpr std::size_t kMaxWritten = 123;
+constexpr std::size_t kMaxRead = 125;
 constexpr std::uint16_t kFirstCell = 0x4000;
 
 // --- the host ------------------------------------------------------------------------------------
@@ -84,14 +84,14 @@ Words cells_of(const std::string& listing) {
 
 void load(OneSimple2& box, const std::string& listing) {
   const Words cells = cells_of(listing);
-  for (std::size_t at = 0; at < cells.size(); at += kMostWritten) {
+  for (std::size_t at = 0; at < cells.size(); at += kMaxWritten) {
     write_by_frame(box, kFirstCell + at,
-                   std::span(cells).subspan(at, std::min(kMostWritten, cells.size() - at)));
+                   std::span(cells).subspan(at, std::min(kMaxWritten, cells.size() - at)));
   }
   Words back;
   while (back.size() < cells.size()) {
     const Words more =
-        read_by_frame(box, kFirstCell + back.size(), std::min(kMostRead, cells.size() - back.size()));
+        read_by_frame(box, kFirstCell + back.size(), std::min(kMaxRead, cells.size() - back.size()));
     ASSERT_FALSE(more.empty());
     back.insert(back.end(), more.begin(), more.end());
   }
