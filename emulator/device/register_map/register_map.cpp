@@ -71,7 +71,7 @@ void RegisterMap::place_all() {
     throw std::logic_error("register map: too many rows; expected 65,534 at most");
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const RegisterRow& row = rows_[i];
-    demand_sense(row);
+    validate_rows(row);
     const int first_slot = row.is_view ? Place::kNoSlot : slot_count_;
     first_slots_.push_back(first_slot);
     place_words(row, static_cast<int>(i) + 1);

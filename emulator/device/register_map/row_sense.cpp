@@ -34,7 +34,7 @@ bool is_number(std::string_view name) {
   return std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-void demand_sense_of_names(const RegisterRow& row, const Demand& demand) {
+void validate_names(const RegisterRow& row, const Demand& demand) {
   demand(is_name(row.name), "is not a name of a register");
   demand(row.alias.empty() || is_name(row.alias), "has an alias that is not a name of a register");
   demand(row.count == 1 || row.name.find("{}") != std::string_view::npos,
@@ -45,7 +45,7 @@ void demand_sense_of_names(const RegisterRow& row, const Demand& demand) {
          "begins with another axis, and is not for each of several");
 }
 
-void demand_sense_of_place(const RegisterRow& row, const Demand& demand) {
+void validate_place(const RegisterRow& row, const Demand& demand) {
   const bool is_bit = row.type == Type::bit;
   demand(is_bit == is_table_of_bits(row.table), "is not as wide as its table");
   demand(row.count >= 1, "has no registers");
@@ -64,7 +64,7 @@ bool is_in_order(const RegisterRow& row) {
   return row.min <= row.max;
 }
 
-void demand_sense_of_values(const RegisterRow& row, const Demand& demand) {
+void validate_values(const RegisterRow& row, const Demand& demand) {
   const TypeLimits limits = limits_of(row.type);
   const auto fits = [&](Value value) { return value >= limits.lowest && value <= limits.highest; };
   demand(fits(row.factory), "has a factory value that it cannot hold");
@@ -74,7 +74,7 @@ void demand_sense_of_values(const RegisterRow& row, const Demand& demand) {
   demand(row.stored_bits != 0, "holds no bit of what is written");
 }
 
-void demand_sense_of_acts(const RegisterRow& row, const Demand& demand) {
+void validate_acts(const RegisterRow& row, const Demand& demand) {
   const bool can_be_written = row.access != Access::read;
   demand(!row.is_view || !row.persistent, "is a view, which keeps nothing");
   demand(can_be_written || (row.effect == nullptr && row.acts_on_zero),
@@ -93,7 +93,7 @@ void demand_sense_of_acts(const RegisterRow& row, const Demand& demand) {
   demand(!row.ranged, "is a window, whose words are judged by its message");
 }
 
-void demand_sense_of_fields(const RegisterRow& row, const Demand& demand) {
+void validate_fields(const RegisterRow& row, const Demand& demand) {
   demand(row.fields.empty() || (row.type != Type::bit && row.type != Type::f32),
          "has fields, and no bits for them");
   std::uint32_t taken = 0;
@@ -113,13 +113,13 @@ void demand_sense_of_fields(const RegisterRow& row, const Demand& demand) {
 
 }  // namespace
 
-void demand_sense(const RegisterRow& row) {
+void validate_rows(const RegisterRow& row) {
   const Demand demand{row};
-  demand_sense_of_place(row, demand);
-  demand_sense_of_names(row, demand);
-  demand_sense_of_values(row, demand);
-  demand_sense_of_acts(row, demand);
-  demand_sense_of_fields(row, demand);
+  validate_place(row, demand);
+  validate_names(row, demand);
+  validate_values(row, demand);
+  validate_acts(row, demand);
+  validate_fields(row, demand);
 }
 
 }  // namespace understudy::emulator

@@ -6,6 +6,6 @@
 namespace understudy::emulator {
 
 /// Throws std::logic_error with the row's name and what is wrong with it.
-void demand_sense(const RegisterRow& row);
+void validate_rows(const RegisterRow& row);
 
 }  // namespace understudy::emulator

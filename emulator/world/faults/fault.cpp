@@ -227,7 +227,7 @@ Fault find_fault(const KnownDevices& devices, const FaultText& text) {
   set_place(devices, row, text.place, fault);
   try {
     set_fields(devices, row, text, fault);
-    demand_sense(fault.trigger);
+    validate_rows(fault.trigger);
     if (fault.kind == Fault::Kind::noise && fault.before.empty() && fault.after.empty()) {
       throw NameError("before and after are missing; expected one of them");
     }

@@ -93,7 +93,7 @@ bool set_trigger_field(FaultTrigger& trigger, std::string_view name, const std::
   return true;
 }
 
-void demand_sense(const FaultTrigger& trigger) {
+void validate_rows(const FaultTrigger& trigger) {
   const auto demand = [](bool holds, const char* what) {
     if (!holds) throw NameError(what);
   };
