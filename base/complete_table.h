@@ -29,9 +29,9 @@ class CompleteTable {
     std::array<bool, kSize> is_key{};
     for (const Key key : keys) {
       is_key[place(key)] = true;
-      demand_handler(key, has(key));
+      require_handler(key, has(key));
     }
-    for (std::size_t i = 0; i < kSize; ++i) demand_key(static_cast<Key>(i), is_key[i] || !is_filled_[i]);
+    for (std::size_t i = 0; i < kSize; ++i) require_key(static_cast<Key>(i), is_key[i] || !is_filled_[i]);
   }
 
   constexpr bool has(Key key) const { return is_filled_[place(key)]; }
@@ -45,20 +45,20 @@ class CompleteTable {
   static constexpr std::size_t place(Key key) { return static_cast<unsigned char>(key); }
   constexpr void add(const auto& rows) {
     for (const auto& row : rows) {
-      demand_first_handler(row.key, !has(row.key));
+      require_first_handler(row.key, !has(row.key));
       is_filled_[place(row.key)] = true;
       handlers_[place(row.key)] = row.handler;
     }
   }
 
   // If a handler is missing, clang's message shows the number of its key; g++'s shows only the call.
-  static constexpr void demand_handler(Key /*key*/, bool has_one) {
+  static constexpr void require_handler(Key /*key*/, bool has_one) {
     if (!has_one) throw "a key has no handler";
   }
-  static constexpr void demand_first_handler(Key /*key*/, bool is_first) {
+  static constexpr void require_first_handler(Key /*key*/, bool is_first) {
     if (!is_first) throw "a key has two handlers";
   }
-  static constexpr void demand_key(Key /*key*/, bool is_key) {
+  static constexpr void require_key(Key /*key*/, bool is_key) {
     if (!is_key) throw "a handler is of something that is not a key";
   }
 

@@ -36,15 +36,15 @@ std::string text(double value) {
   throw BadMotion(refusal, law, demand);
 }
 
-void demand_near(double value, std::string_view law, std::string_view quantity) {
-  demand_finite(value, law, quantity);
+void require_near(double value, std::string_view law, std::string_view quantity) {
+  require_finite(value, law, quantity);
   if (std::abs(value) > kFarthest_u) {
     refuse(Refusal::out_of_range, law, std::string(quantity) + " must be within +-1e12, is " + text(value));
   }
 }
 
-void demand_near(const Point& point, std::string_view law, std::string_view quantity) {
-  for (const double coordinate : point) demand_near(coordinate, law, quantity);
+void require_near(const Point& point, std::string_view law, std::string_view quantity) {
+  for (const double coordinate : point) require_near(coordinate, law, quantity);
 }
 
 /// Two coordinates in a plane. Arcs are reckoned relative to their beginning or centre, not to zero.
@@ -77,8 +77,8 @@ struct ArcDemand {
       refuse(Refusal::out_of_range, law,
              "axes of the plane must be different, are both " + std::to_string(options.plane.first));
     }
-    demand_not_negative(options.radius_tolerance_u, law, "radius tolerance");
-    demand_near(begin, law, "begin");
+    require_not_negative(options.radius_tolerance_u, law, "radius tolerance");
+    require_near(begin, law, "begin");
   }
 
   Flat in_plane(const Point& point) const {
@@ -93,8 +93,8 @@ struct ArcDemand {
   }
 
   Point centre_at(const Flat& centre) const {
-    demand_near(centre.x, law, "centre");
-    demand_near(centre.y, law, "centre");
+    require_near(centre.x, law, "centre");
+    require_near(centre.y, law, "centre");
     return with(begin, centre);
   }
 
@@ -205,9 +205,9 @@ Path swept(const ArcDemand& demand, const Point& centre, double sweep_rad, doubl
            const Point& rise) {
   const Flat middle = demand.in_plane(centre);
   const Point at_centre = demand.centre_at(middle);
-  demand_near(rise, demand.law, "rise");
-  demand_near(growth_u_turn, demand.law, "growth");
-  demand_finite(sweep_rad, demand.law, "sweep");
+  require_near(rise, demand.law, "rise");
+  require_near(growth_u_turn, demand.law, "growth");
+  require_finite(sweep_rad, demand.law, "sweep");
   const Flat in_plane = demand.in_plane(rise);
   if (in_plane.x != 0 || in_plane.y != 0) {
     refuse(Refusal::out_of_range, demand.law,
@@ -231,15 +231,15 @@ Path swept(const ArcDemand& demand, const Point& centre, double sweep_rad, doubl
   }
   path = finished(path, growth, demand);
   set_end_by_sweep(path);
-  demand_near(path.end, demand.law, "end");
+  require_near(path.end, demand.law, "end");
   return path;
 }
 
 }  // namespace
 
 Path line(const Point& begin, const Point& end, Measure measure) {
-  demand_near(begin, "line", "begin");
-  demand_near(end, "line", "end");
+  require_near(begin, "line", "begin");
+  require_near(end, "line", "end");
   Path path;
   path.measure = measure;
   path.begin = begin;
@@ -258,7 +258,7 @@ Path line(const Point& begin, const Point& end, Measure measure) {
 Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Turn turn,
                    const ArcOptions& options, std::int64_t more_turns) {
   const ArcDemand demand("arc_by_centre", options, begin);
-  demand_near(end, demand.law, "end");
+  require_near(end, demand.law, "end");
   const Flat middle = demand.in_plane(centre);
   const Point at_centre = demand.centre_at(middle);
   if (more_turns < 0) {
@@ -312,8 +312,8 @@ Path spiral(const Point& begin, const Point& centre, double sweep_rad, double gr
 Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn turn,
                    const ArcOptions& options) {
   const ArcDemand demand("arc_by_radius", options, begin);
-  demand_near(end, demand.law, "end");
-  demand_near(radius_u, demand.law, "radius");
+  require_near(end, demand.law, "end");
+  require_near(radius_u, demand.law, "radius");
   const Flat from = demand.in_plane(begin);
   const Flat chord = demand.in_plane(end) - from;
   const double half = chord.norm() / 2;
@@ -340,8 +340,8 @@ Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn t
 Path arc_by_three_points(const Point& begin, const Point& middle, const Point& end,
                          const ArcOptions& options) {
   const ArcDemand demand("arc_by_three_points", options, begin);
-  demand_near(middle, demand.law, "middle");
-  demand_near(end, demand.law, "end");
+  require_near(middle, demand.law, "middle");
+  require_near(end, demand.law, "end");
   const Flat from = demand.in_plane(begin);
   const CircleThrough circle =
       circle_through(demand.in_plane(middle) - from, demand.in_plane(end) - from, demand.law);
@@ -354,8 +354,8 @@ Path arc_by_three_points(const Point& begin, const Point& middle, const Point& e
 Path arc_in_space(const Point& begin, const Point& middle, const Point& end) {
   const ArcOptions options;
   const ArcDemand demand("arc_in_space", options, begin);
-  demand_near(middle, demand.law, "middle");
-  demand_near(end, demand.law, "end");
+  require_near(middle, demand.law, "middle");
+  require_near(end, demand.law, "end");
   const Point to_middle = middle - begin;
   const Point to_end = end - begin;
   if (to_middle.isZero(0) || to_end.isZero(0) || middle == end) {
@@ -378,7 +378,7 @@ Path arc_in_space(const Point& begin, const Point& middle, const Point& end) {
   const Flat flat_middle = {to_middle.dot(path.abscissa), to_middle.dot(path.ordinate)};
   const CircleThrough circle = circle_through(flat_middle, {to_end.norm(), 0}, demand.law);
   path.centre = begin + circle.centre.x * path.abscissa + circle.centre.y * path.ordinate;
-  demand_near(path.centre, demand.law, "centre");
+  require_near(path.centre, demand.law, "centre");
   path.sweep_rad = circle.sweep_rad;
   return finished(path, 0, demand);
 }

@@ -22,7 +22,7 @@ constexpr std::int64_t kFarthestMove = std::int64_t{1} << 53;
 
 std::int64_t size_of(std::int64_t pulses) { return pulses < 0 ? -pulses : pulses; }
 
-void demand_distance(std::int64_t distance_pulses) {
+void require_distance(std::int64_t distance_pulses) {
   if (distance_pulses < -kFarthestMove || distance_pulses > kFarthestMove) {
     throw BadMotion(Refusal::out_of_range, "move", "distance must be within 2^53 pulses");
   }
@@ -106,7 +106,7 @@ Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedL
   // A stop from the greatest speed must be possible as well: a reaction cannot be refused.
   (void)slow_to_stop({.speed_u_s = speed.top_speed_u_s}, speed);
   const std::int64_t play = play_before(way);
-  if (play > 0) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
+  if (play > 0) require_positive(settings.backlash_speed_pps, "backlash", "speed");
   const Signals ignored = for_homing ? homing.row().ignores : Signals{0};
   if (const Cause why_not = forbidden(way, ignored); why_not != Cause::none) return why_not;
 
@@ -159,7 +159,7 @@ void Axis::drop(Instant at) {
 }
 
 Cause Axis::move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now) {
-  demand_distance(distance_pulses);
+  require_distance(distance_pulses);
   check(speed);
   if (distance_pulses == 0) {
     homing.phase = -1;
@@ -173,7 +173,7 @@ Cause Axis::move_on(double speed_pps, std::int64_t distance_pulses, const SpeedL
   if (speed_pps == 0 || distance_pulses == 0) return move(distance_pulses, speed, now);
   const int way = speed_pps < 0 ? -1 : +1;
   const std::int64_t target = distance_pulses * way;
-  demand_distance(distance_pulses);
+  require_distance(distance_pulses);
   check(speed);
   const Sample here{.speed_u_s = std::abs(speed_pps)};
   const Profile to_stop = slow_to_stop(here, speed);
@@ -290,7 +290,7 @@ void Axis::go_on_by(const SpeedLaw& speed, Instant at) {
 }
 
 void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Tick now) {
-  demand_distance(distance_pulses);
+  require_distance(distance_pulses);
   if (task != Task::move || (slowing && !comes_back) || settling || homing.active()) return;
   const Instant at{.tick = now};
   if (in_backlash || not_begun(drive, at)) {
@@ -315,12 +315,12 @@ void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Ti
   }
   const auto target = static_cast<double>(distance_pulses);
   // An impossible return must be refused now, not when it is due.
-  const auto demand_return = [&](double from_u) {
+  const auto require_return = [&](double from_u) {
     plan(std::abs(std::floor(from_u) - target), law);
-    if (settings.backlash_pulses > 0) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
+    if (settings.backlash_pulses > 0) require_positive(settings.backlash_speed_pps, "backlash", "speed");
   };
   if (comes_back) {
-    demand_return(drive.profile.end_position_u);
+    require_return(drive.profile.end_position_u);
     target_pulses = distance_pulses;  // it stops first, and then goes there
     return;
   }
@@ -328,7 +328,7 @@ void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Ti
   const Profile to_stop = slow_to_stop(here, law);
   // Compare in pulses: a stop within half a pulse of the target reaches it.
   if (!stop_if_passed && to_stop.end_position_u > target + 0.5) {
-    demand_return(to_stop.end_position_u);
+    require_return(to_stop.end_position_u);
     comes_back = slowing = true;
     drive.go_on(to_stop, at);
   } else {
@@ -416,9 +416,9 @@ void Axis::switch_servo(bool on) {
 // ---- Numbers
 
 void check(const AxisSettings& settings) {
-  demand_not_negative(static_cast<double>(settings.backlash_pulses), "backlash", "pulses");
-  demand_finite(settings.backlash_speed_pps, "backlash", "speed");
-  if (settings.backlash_pulses > 0) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
+  require_not_negative(static_cast<double>(settings.backlash_pulses), "backlash", "pulses");
+  require_finite(settings.backlash_speed_pps, "backlash", "speed");
+  if (settings.backlash_pulses > 0) require_positive(settings.backlash_speed_pps, "backlash", "speed");
 }
 
 void Axis::set(const AxisSettings& changed) {

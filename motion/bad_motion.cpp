@@ -9,7 +9,7 @@ namespace understudy::motion {
 
 namespace {
 
-std::string demand(std::string_view quantity, std::string_view wanted, double value) {
+std::string require(std::string_view quantity, std::string_view wanted, double value) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   return std::string(quantity) + " must be " + std::string(wanted) + ", is " + std::string(digits, end);
@@ -17,20 +17,20 @@ std::string demand(std::string_view quantity, std::string_view wanted, double va
 
 }  // namespace
 
-void demand_finite(double value, std::string_view law, std::string_view quantity) {
+void require_finite(double value, std::string_view law, std::string_view quantity) {
   if (!std::isfinite(value)) {
-    throw BadMotion(Refusal::not_finite, law, demand(quantity, "a finite number", value));
+    throw BadMotion(Refusal::not_finite, law, require(quantity, "a finite number", value));
   }
 }
 
-void demand_positive(double value, std::string_view law, std::string_view quantity) {
-  demand_finite(value, law, quantity);
-  if (value <= 0) throw BadMotion(Refusal::not_positive, law, demand(quantity, "above 0", value));
+void require_positive(double value, std::string_view law, std::string_view quantity) {
+  require_finite(value, law, quantity);
+  if (value <= 0) throw BadMotion(Refusal::not_positive, law, require(quantity, "above 0", value));
 }
 
-void demand_not_negative(double value, std::string_view law, std::string_view quantity) {
-  demand_finite(value, law, quantity);
-  if (value < 0) throw BadMotion(Refusal::negative, law, demand(quantity, "0 or above", value));
+void require_not_negative(double value, std::string_view law, std::string_view quantity) {
+  require_finite(value, law, quantity);
+  if (value < 0) throw BadMotion(Refusal::negative, law, require(quantity, "0 or above", value));
 }
 
 }  // namespace understudy::motion

@@ -20,8 +20,8 @@ enum class Refusal : std::uint8_t {
 /// An impossible motion. what() is one line: "<law>: <quantity> must be ..., is <value>".
 class BadMotion : public std::invalid_argument {
  public:
-  BadMotion(Refusal refusal, std::string_view law, std::string_view demand)
-      : std::invalid_argument(std::string(law) + ": " + std::string(demand)), refusal_(refusal) {}
+  BadMotion(Refusal refusal, std::string_view law, std::string_view require)
+      : std::invalid_argument(std::string(law) + ": " + std::string(require)), refusal_(refusal) {}
 
   Refusal refusal() const { return refusal_; }
 
@@ -30,8 +30,8 @@ class BadMotion : public std::invalid_argument {
 };
 
 /// Check a value at the beginning of a law. `law` and `quantity` are words of the message.
-void demand_finite(double value, std::string_view law, std::string_view quantity);
-void demand_positive(double value, std::string_view law, std::string_view quantity);      // finite and > 0
-void demand_not_negative(double value, std::string_view law, std::string_view quantity);  // finite and >= 0
+void require_finite(double value, std::string_view law, std::string_view quantity);
+void require_positive(double value, std::string_view law, std::string_view quantity);      // finite and > 0
+void require_not_negative(double value, std::string_view law, std::string_view quantity);  // finite and >= 0
 
 }  // namespace understudy::motion

@@ -36,14 +36,14 @@ std::int64_t stoppable(std::int64_t missing, std::int64_t change) {
 }  // namespace
 
 void Follower::check() const {
-  const auto demand = [](bool met, const char* what) {
+  const auto require = [](bool met, const char* what) {
     if (!met) throw BadMotion(Refusal::out_of_range, "following", what);
   };
-  demand(denominator >= 1 && denominator <= INT32_MAX, "denominator must be 1 to 2147483647");
-  demand(numerator >= -INT32_MAX && numerator <= INT32_MAX, "numerator must be -2147483647 to 2147483647");
-  demand(period_ticks >= 1 && period_ticks <= 1000, "period must be 1 to 1000 ticks");
-  demand(top_speed_pps >= 0 && top_speed_pps <= INT32_MAX, "top speed must be 0 to 2147483647");
-  demand(slope_pps >= 0 && slope_pps <= INT32_MAX, "slope must be 0 to 2147483647");
+  require(denominator >= 1 && denominator <= INT32_MAX, "denominator must be 1 to 2147483647");
+  require(numerator >= -INT32_MAX && numerator <= INT32_MAX, "numerator must be -2147483647 to 2147483647");
+  require(period_ticks >= 1 && period_ticks <= 1000, "period must be 1 to 1000 ticks");
+  require(top_speed_pps >= 0 && top_speed_pps <= INT32_MAX, "top speed must be 0 to 2147483647");
+  require(slope_pps >= 0 && slope_pps <= INT32_MAX, "slope must be 0 to 2147483647");
 }
 
 std::int64_t Follower::step() {

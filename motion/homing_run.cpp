@@ -19,7 +19,7 @@ namespace {
 /// The limit of a move, as in motion/axis.h.
 constexpr std::int64_t kFarthestPlace_pulses = std::int64_t{1} << 53;
 
-void demand(bool holds, const char* what) {
+void require(bool holds, const char* what) {
   if (!holds) throw BadMotion(Refusal::out_of_range, "homing table", what);
 }
 
@@ -49,7 +49,7 @@ void HomingProgram::add(const HomingPhase& phase) {
 }
 
 void check(const HomingProgram& program) {
-  demand(
+  require(
       program.phase_count >= 0 && static_cast<std::size_t>(program.phase_count) <= HomingProgram::kMaxPhases,
       "phases must be 0 to 8");
   const auto is_row = [&](std::int8_t where) {
@@ -57,23 +57,23 @@ void check(const HomingProgram& program) {
   };
   for (std::int8_t i = 0; i < program.phase_count; ++i) {
     const HomingPhase& row = program.phases[static_cast<std::size_t>(i)];
-    demand(is_row(row.next), "the next phase must be one of the table");
-    demand(is_row(row.if_limit), "the phase after a limit must be one of the table");
-    demand(is_row(row.if_gone) || row.if_gone == HomingPhase::kNext,
-           "the phase after a signal that is gone must be one of the table");
-    demand(is_row(row.if_already) || row.if_already == HomingPhase::kAwait ||
-               (row.if_already == HomingPhase::kNext && row.count == 1),
-           "a signal to be counted must be awaited");
-    demand(row.way == +1 || row.way == -1, "way must be +1 or -1");
-    demand(row.count >= 1, "count must be at least 1");
-    demand(row.distance_pulses >= -kFarthestPlace_pulses && row.distance_pulses <= kFarthestPlace_pulses,
-           "distance must be within 2^53 pulses");
-    demand(row.again_while == 0 || row.distance_pulses != 0, "a distance to be repeated must not be 0");
-    demand(row.within_pulses >= 0 && row.within_pulses <= kFarthestPlace_pulses,
-           "a search must be within 2^53 pulses");
-    demand(is_row(row.if_far), "the phase after a search too far must be one of the table");
-    demand(row.speed >= 0 && static_cast<std::size_t>(row.speed) < HomingProgram::kMaxSpeeds,
-           "speed must be one of the table");
+    require(is_row(row.next), "the next phase must be one of the table");
+    require(is_row(row.if_limit), "the phase after a limit must be one of the table");
+    require(is_row(row.if_gone) || row.if_gone == HomingPhase::kNext,
+            "the phase after a signal that is gone must be one of the table");
+    require(is_row(row.if_already) || row.if_already == HomingPhase::kAwait ||
+                (row.if_already == HomingPhase::kNext && row.count == 1),
+            "a signal to be counted must be awaited");
+    require(row.way == +1 || row.way == -1, "way must be +1 or -1");
+    require(row.count >= 1, "count must be at least 1");
+    require(row.distance_pulses >= -kFarthestPlace_pulses && row.distance_pulses <= kFarthestPlace_pulses,
+            "distance must be within 2^53 pulses");
+    require(row.again_while == 0 || row.distance_pulses != 0, "a distance to be repeated must not be 0");
+    require(row.within_pulses >= 0 && row.within_pulses <= kFarthestPlace_pulses,
+            "a search must be within 2^53 pulses");
+    require(is_row(row.if_far), "the phase after a search too far must be one of the table");
+    require(row.speed >= 0 && static_cast<std::size_t>(row.speed) < HomingProgram::kMaxSpeeds,
+            "speed must be one of the table");
     if (row.does == HomingPhase::Does::hang) continue;
     const SpeedLaw& speed = program.speeds[static_cast<std::size_t>(row.speed)];
     check(speed);

@@ -85,7 +85,7 @@ Profile rise_and_break_off(const SpeedLaw& law, double target_u) {
 }
 
 /// Each quantity may be sound, and the ramp still last 1e400 s.
-void demand_doubles_hold(const Profile& profile, bool endless = false) {
+void require_doubles_hold(const Profile& profile, bool endless = false) {
   bool held = endless || (std::isfinite(profile.duration_s) && std::isfinite(profile.end_position_u));
   for (std::int32_t i = 0; i < profile.segment_count; ++i) {
     const Segment& s = profile.segments[static_cast<std::size_t>(i)];
@@ -100,18 +100,18 @@ void demand_doubles_hold(const Profile& profile, bool endless = false) {
 }  // namespace
 
 void check(const SpeedLaw& law) {
-  demand_positive(law.top_speed_u_s, "move", "top speed");
-  demand_not_negative(law.start_speed_u_s, "move", "start speed");
+  require_positive(law.top_speed_u_s, "move", "top speed");
+  require_not_negative(law.start_speed_u_s, "move", "start speed");
   check(law.up);
   check(law.down);
   if (law.slow_down_reckoned_by) check(*law.slow_down_reckoned_by);
-  if (law.slow_down_at_u) demand_not_negative(*law.slow_down_at_u, "move", "slow-down place");
-  demand_finite(law.slow_down_offset_u, "move", "slow-down offset");
+  if (law.slow_down_at_u) require_not_negative(*law.slow_down_at_u, "move", "slow-down place");
+  require_finite(law.slow_down_offset_u, "move", "slow-down offset");
 }
 
 Profile plan(double distance_u, const SpeedLaw& law) {
   check(law);
-  demand_not_negative(distance_u, "move", "distance");
+  require_not_negative(distance_u, "move", "distance");
   Profile profile;
   if (distance_u == 0) return profile;
 
@@ -135,7 +135,7 @@ Profile plan(double distance_u, const SpeedLaw& law) {
   const double cruise = distance_u - profile.end_position_u - slow_down_distance(law, top);
   if (cruise > 0) profile.append(cruise / top, top, 0, 0);
   finish(profile, law, top, distance_u);
-  demand_doubles_hold(profile);
+  require_doubles_hold(profile);
   return profile;
 }
 
@@ -144,14 +144,14 @@ Profile plan_endless(const SpeedLaw& law) {
   Profile profile;
   append_ramp(profile, law.up, start_speed(law), law.top_speed_u_s);
   profile.append(kForEver, law.top_speed_u_s, 0, 0);
-  demand_doubles_hold(profile, true);
+  require_doubles_hold(profile, true);
   return profile;
 }
 
 Profile plan_passing(double distance_u, double passing_speed_u_s, const SpeedLaw& law) {
   check(law);
-  demand_not_negative(distance_u, "move", "distance");
-  demand_positive(passing_speed_u_s, "move", "passing speed");
+  require_not_negative(distance_u, "move", "distance");
+  require_positive(passing_speed_u_s, "move", "passing speed");
   const double start = start_speed(law);
   const double least = std::max(passing_speed_u_s, start);
   const auto is_too_fast = [&](double top_u_s) {
@@ -170,7 +170,7 @@ Profile plan_passing(double distance_u, double passing_speed_u_s, const SpeedLaw
   if (cruise > 0) profile.append(cruise / top, top, 0, 0);
   append_ramp(profile, law.down, top, least);
   profile.append(kForEver, passing_speed_u_s, 0, 0);
-  demand_doubles_hold(profile, true);
+  require_doubles_hold(profile, true);
   return profile;
 }
 
@@ -184,10 +184,10 @@ Sample without_jump(const Sample& now, const SpeedLaw& law) {
 }
 
 void check_state(const Sample& now) {
-  demand_finite(now.position_u, "move under way", "position");
-  demand_not_negative(now.speed_u_s, "move under way", "speed");
-  demand_finite(now.acceleration_u_s2, "move under way", "acceleration");
-  demand_finite(now.jerk_u_s3, "move under way", "jerk");
+  require_finite(now.position_u, "move under way", "position");
+  require_not_negative(now.speed_u_s, "move under way", "speed");
+  require_finite(now.acceleration_u_s2, "move under way", "acceleration");
+  require_finite(now.jerk_u_s3, "move under way", "jerk");
 }
 
 void append_change(Profile& profile, const Sample& now, double to_u_s, const SpeedLaw& law) {
@@ -207,7 +207,7 @@ double speed_without_acceleration(const Sample& now, const SpeedLaw& law) {
 Profile change_speed(const Sample& now, double speed_u_s, const SpeedLaw& law) {
   check(law);
   check_state(now);
-  demand_not_negative(speed_u_s, "change of speed", "speed");
+  require_not_negative(speed_u_s, "change of speed", "speed");
   if (speed_u_s == 0) return slow_to_stop(now, law);
   Profile profile = Profile::from(now.position_u);
   if (speed_u_s > law.start_speed_u_s) {
@@ -216,7 +216,7 @@ Profile change_speed(const Sample& now, double speed_u_s, const SpeedLaw& law) {
     append_change(profile, now, law.start_speed_u_s, law);
   }
   profile.append(kForEver, speed_u_s, 0, 0);
-  demand_doubles_hold(profile, true);
+  require_doubles_hold(profile, true);
   return profile;
 }
 
@@ -226,14 +226,14 @@ Profile slow_to_stop(const Sample& now, const SpeedLaw& law) {
   Profile profile = Profile::from(now.position_u);
   const double start = start_speed(law);
   if (now.speed_u_s > start) append_change(profile, now, start, law);
-  demand_doubles_hold(profile);
+  require_doubles_hold(profile);
   return profile;
 }
 
 Profile change_target(const Sample& state, double target_u, const SpeedLaw& law) {
   check(law);
   check_state(state);
-  demand_finite(target_u, "change of target", "target");
+  require_finite(target_u, "change of target", "target");
   if (state.speed_u_s == 0) {
     // At rest: a separate move, forwards or backwards.
     Profile profile = Profile::from(state.position_u);
@@ -242,7 +242,7 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
       append_move(profile, plan(distance, law), target_u < state.position_u ? -1 : 1);
     }
     profile.end_exactly_at(target_u);
-    demand_doubles_hold(profile);
+    require_doubles_hold(profile);
     return profile;
   }
   const Sample now = without_jump(state, law);
@@ -267,7 +267,7 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
   if (stop.end_position_u > target_u && (room < 0 || needed(faded) > room)) {
     append_move(stop, plan(stop.end_position_u - target_u, law), -1);
     stop.end_exactly_at(target_u);
-    demand_doubles_hold(stop);
+    require_doubles_hold(stop);
     return stop;
   }
   double peak = top;
@@ -283,7 +283,7 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
   // A rounding error would take long to creep.
   if (cruise > rounding_of(target_u) && peak > 0) profile.append(cruise / peak, peak, 0, 0);
   finish(profile, law, peak, target_u);
-  demand_doubles_hold(profile);
+  require_doubles_hold(profile);
   return profile;
 }
 

@@ -56,7 +56,7 @@ double speed_within(const Path& path, const Point& axis_limits_u_s) {
   double speed = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < kPathAxes; ++i) {
     if (parts[i] == 0) continue;
-    demand_positive(axis_limits_u_s[i], "path", "speed limit of an axis that moves");
+    require_positive(axis_limits_u_s[i], "path", "speed limit of an axis that moves");
     speed = std::min(speed, axis_limits_u_s[i] / parts[i]);
   }
   return speed;

@@ -37,7 +37,7 @@ bool meets(const Point& end, const Point& begin) {
 }
 
 /// A law that cannot be planned must be refused when it is given, not in the tick in which a chain begins.
-void demand_plans(SpeedLaw law, double override_factor) {
+void require_plans(SpeedLaw law, double override_factor) {
   if (override_factor > 0) law.top_speed_u_s *= override_factor;
   bool may_creep = law.slow_down_at_u || law.slow_down_offset_u > 0;
   for (const double part : {1.0, 0.5, 0.1, 1e-3}) {
@@ -109,7 +109,7 @@ void PathRun::set_speed(const SpeedLaw& speed, Tick now) {
     throw BadMotion(Refusal::out_of_range, "path run", "acceleration can be changed only at rest");
   }
   if (speed == law_) return;
-  demand_plans(speed, override_);
+  require_plans(speed, override_);
   law_ = speed;
   replan(now);
 }
@@ -121,10 +121,10 @@ void PathRun::set_top_speed(double speed_u_s, Tick now) {
 }
 
 void PathRun::set_override(double factor, Tick now) {
-  demand_not_negative(factor, "path run", "override");
+  require_not_negative(factor, "path run", "override");
   if (factor > 10) throw BadMotion(Refusal::out_of_range, "path run", "override must be 0 to 10");
   if (factor == override_) return;
-  if (law_.top_speed_u_s > 0) demand_plans(law_, factor);
+  if (law_.top_speed_u_s > 0) require_plans(law_, factor);
   override_ = factor;
   replan(now);
 }
@@ -137,7 +137,7 @@ void PathRun::start(Tick now) {
 }
 
 void PathRun::stand_at(const Point& place) {
-  for (Eigen::Index i = 0; i < kPathAxes; ++i) demand_finite(place[i], "path run", "its place");
+  for (Eigen::Index i = 0; i < kPathAxes; ++i) require_finite(place[i], "path run", "its place");
   if (count_ > 0 && !meets(place, piece(0).path.begin)) {
     throw BadMotion(Refusal::out_of_range, "path run", "the first path must begin where the axes are");
   }
@@ -335,7 +335,7 @@ void PathRun::check_queue() const {
   if (!fits) {
     throw BadMotion(Refusal::out_of_range, "path run", "the queue's numbers contradict each other");
   }
-  if (running_) demand_plans(law_, override_);
+  if (running_) require_plans(law_, override_);
 }
 
 double PathRun::along_at(const Stretch& gone, Instant at) const {

@@ -73,7 +73,7 @@ RampLaw RampLaw::by_jerk(double jerk_u_s3) {
 }
 
 RampLaw RampLaw::by_jerk(double jerk_u_s3, double acceleration_limit_u_s2) {
-  demand_finite(acceleration_limit_u_s2, "jerk ramp", "acceleration limit");
+  require_finite(acceleration_limit_u_s2, "jerk ramp", "acceleration limit");
   RampLaw law{.kind = Kind::jerk, .acceleration_u_s2 = acceleration_limit_u_s2, .jerk_u_s3 = jerk_u_s3};
   check(law);
   return law;
@@ -87,17 +87,17 @@ RampLaw RampLaw::by_sections(double acceleration_u_s2, double section_u_s) {
 
 void check(const RampLaw& law) {
   switch (law.kind) {
-    case RampLaw::Kind::slope: demand_positive(law.acceleration_u_s2, "ramp", "acceleration"); break;
-    case RampLaw::Kind::time: demand_positive(law.duration_s, "ramp", "duration"); break;
+    case RampLaw::Kind::slope: require_positive(law.acceleration_u_s2, "ramp", "acceleration"); break;
+    case RampLaw::Kind::time: require_positive(law.duration_s, "ramp", "duration"); break;
     case RampLaw::Kind::jerk:
-      demand_positive(law.jerk_u_s3, "jerk ramp", "jerk");
+      require_positive(law.jerk_u_s3, "jerk ramp", "jerk");
       if (law.acceleration_u_s2 != kInfinite) {
-        demand_positive(law.acceleration_u_s2, "jerk ramp", "acceleration limit");
+        require_positive(law.acceleration_u_s2, "jerk ramp", "acceleration limit");
       }
       break;
     case RampLaw::Kind::sections:
-      demand_positive(law.acceleration_u_s2, "ramp with sections", "acceleration");
-      demand_not_negative(law.section_u_s, "ramp with sections", "section");
+      require_positive(law.acceleration_u_s2, "ramp with sections", "acceleration");
+      require_not_negative(law.section_u_s, "ramp with sections", "section");
       break;
   }
 }

@@ -12,39 +12,39 @@
 namespace understudy::pty {
 
 void Line::check(const State& state) const {
-  const auto demand = [this](bool holds, const char* what) {
+  const auto require = [this](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument("line " + name_ + ": " + what);
   };
-  demand(state.members.size() == stations_.size(), "its stations are different");
+  require(state.members.size() == stations_.size(), "its stations are different");
   const LineSettings& settings = state.settings;
-  demand(settings.baud > 0 && settings.baud <= 10'000'000 && settings.data_bits >= 5 &&
-             settings.data_bits <= 8 && settings.stop_bits >= 1 && settings.stop_bits <= 2,
-         "its settings are not those of a line");
-  demand(state.input.size() <= kInputCapacity && state.edge.output.size() <= kOutputCapacity,
-         "more bytes wait than it holds");
-  const auto demand_burst = [&](const Burst& burst) {
-    demand(is_within_reach(burst.start) && is_within_reach(burst.end) && burst.count >= 0 &&
-               burst.count < settings.baud,
-           "its characters take no time");
+  require(settings.baud > 0 && settings.baud <= 10'000'000 && settings.data_bits >= 5 &&
+              settings.data_bits <= 8 && settings.stop_bits >= 1 && settings.stop_bits <= 2,
+          "its settings are not those of a line");
+  require(state.input.size() <= kInputCapacity && state.edge.output.size() <= kOutputCapacity,
+          "more bytes wait than it holds");
+  const auto require_burst = [&](const Burst& burst) {
+    require(is_within_reach(burst.start) && is_within_reach(burst.end) && burst.count >= 0 &&
+                burst.count < settings.baud,
+            "its characters take no time");
   };
-  demand_burst(state.arriving);
+  require_burst(state.arriving);
   for (const Member& member : state.members) {
-    demand_burst(member.speech);
-    demand(is_within_reach(member.noticed_at.value_or(SimTime{0})), "its characters take no time");
+    require_burst(member.speech);
+    require(is_within_reach(member.noticed_at.value_or(SimTime{0})), "its characters take no time");
   }
-  const auto demand_characters = [&](const Queue<TimedByte>& characters) {
+  const auto require_characters = [&](const Queue<TimedByte>& characters) {
     for (const TimedByte& character : characters) {
-      demand(is_within_reach(character.start) && is_within_reach(character.end),
-             "its characters take no time");
+      require(is_within_reach(character.start) && is_within_reach(character.end),
+              "its characters take no time");
     }
   };
-  demand_characters(state.input);
-  demand_characters(state.leaving);
-  demand(state.lump.size() < kLump && state.lump.empty() != state.lump_at.has_value() &&
-             state.adapter.latency >= SimTime{0} && is_within_reach(state.adapter.latency) &&
-             is_within_reach(state.lump_at.value_or(SimTime{0})),
-         "its adapter cannot hold back that");
-  demand(is_within_reach(state.edge.clock), "its clock is beyond the end of time");
+  require_characters(state.input);
+  require_characters(state.leaving);
+  require(state.lump.size() < kLump && state.lump.empty() != state.lump_at.has_value() &&
+              state.adapter.latency >= SimTime{0} && is_within_reach(state.adapter.latency) &&
+              is_within_reach(state.lump_at.value_or(SimTime{0})),
+          "its adapter cannot hold back that");
+  require(is_within_reach(state.edge.clock), "its clock is beyond the end of time");
 }
 
 void Line::restore(const State& state) {

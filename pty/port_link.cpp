@@ -32,15 +32,15 @@ std::string link_target(const std::string& path) {
 const std::string kExpected = ", not a link that understudy made; expected a free path or a stale link";
 
 /// Throws if `absolute_path` exists and is not a symbolic link.
-void demand_link_or_nothing(const std::string& path, const std::string& absolute_path) {
+void require_link_or_nothing(const std::string& path, const std::string& absolute_path) {
   struct stat status = {};
   if (::lstat(absolute_path.c_str(), &status) != 0 || S_ISLNK(status.st_mode)) return;
   throw PortError(path + ": is " + kind_of_file(status.st_mode) + kExpected);
 }
 
 /// Throws if the link at `absolute_path` may not be replaced.
-void demand_stale(const std::string& path, const std::string& absolute_path) {
-  demand_link_or_nothing(path, absolute_path);
+void require_stale(const std::string& path, const std::string& absolute_path) {
+  require_link_or_nothing(path, absolute_path);
   const std::string target = link_target(absolute_path);
   if (target.starts_with("/dev/pts/")) return;
   struct stat status = {};
@@ -74,7 +74,7 @@ PortError cannot_link(const std::string& path, int error) {
                    "; expected a writable directory");
 }
 
-void demand_directory(const std::string& path, const std::filesystem::path& absolute_path) {
+void require_directory(const std::string& path, const std::filesystem::path& absolute_path) {
   const std::filesystem::path parent = absolute_path.parent_path();
   std::error_code error;
   if (std::filesystem::is_directory(parent, error)) return;
@@ -87,9 +87,9 @@ void demand_directory(const std::string& path, const std::filesystem::path& abso
 
 PortLink::PortLink(const std::string& path, std::string target) {
   const std::filesystem::path absolute_path = std::filesystem::absolute(path);
-  demand_directory(path, absolute_path);
+  require_directory(path, absolute_path);
   const std::string name = absolute_path.string();
-  demand_link_or_nothing(path, name);
+  require_link_or_nothing(path, name);
   std::error_code ignored;
   const auto canonical_parent = std::filesystem::canonical(absolute_path.parent_path(), ignored);
   try {
@@ -105,7 +105,7 @@ PortLink::PortLink(const std::string& path, std::string target) {
   // A free path is taken in one step that never replaces anything.
   if (::symlink(target.c_str(), name.c_str()) != 0) {
     if (errno != EEXIST) throw cannot_link(path, errno);
-    demand_stale(path, name);
+    require_stale(path, name);
     if (const int error = replace_link(name, target)) throw cannot_link(path, error);
   }
   absolute_path_ = name;

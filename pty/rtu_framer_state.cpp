@@ -9,24 +9,24 @@
 namespace understudy::pty {
 
 void RtuFramer::check(const State& state) const {
-  const auto demand = [](bool holds) {
+  const auto require = [](bool holds) {
     if (!holds) throw std::invalid_argument("a framer cannot hold such characters");
   };
   constexpr std::uint16_t kShortest = 4;
   const std::size_t used = state.characters.size();
   const std::size_t longest = framing_.strict ? kRtuMaxFrame : 2 * kRtuMaxFrame;
-  demand(used <= kCapacity && state.characters.marks.size() == used);
-  demand(state.undecided <= state.candidate && state.candidate <= used);
-  demand(used - state.undecided <= longest && state.look_again_at <= kRtuMaxFrame + 1);
-  demand(state.resumed <= used && (!state.is_paused || state.undecided < used));
+  require(used <= kCapacity && state.characters.marks.size() == used);
+  require(state.undecided <= state.candidate && state.candidate <= used);
+  require(used - state.undecided <= longest && state.look_again_at <= kRtuMaxFrame + 1);
+  require(state.resumed <= used && (!state.is_paused || state.undecided < used));
   std::size_t free_from = 0;
   for (const Frame& frame : state.ready) {
-    demand(frame.first >= free_from && frame.size >= kShortest && frame.size <= kRtuMaxFrame);
+    require(frame.first >= free_from && frame.size >= kShortest && frame.size <= kRtuMaxFrame);
     free_from = std::size_t{frame.first} + frame.size;
   }
-  demand(free_from <= state.undecided);
-  for (const Mark& mark : state.characters.marks) demand(is_within_reach(mark.end));
-  demand(is_within_reach(state.last_end));
+  require(free_from <= state.undecided);
+  for (const Mark& mark : state.characters.marks) require(is_within_reach(mark.end));
+  require(is_within_reach(state.last_end));
 }
 
 void RtuFramer::restore(const State& state) {

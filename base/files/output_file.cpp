@@ -38,7 +38,7 @@ bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
 }
 
 /// Throws if a folder on the way to a file is a link that another user has left.
-void demand_own_way(const fs::path& absolute) {
+void require_own_way(const fs::path& absolute) {
   fs::path way;
   for (const fs::path& step : absolute.parent_path()) {
     way /= step;
@@ -61,7 +61,7 @@ std::string head_of(int file) {
   return head;
 }
 
-void demand_kind(int file, ContentKind kind) {
+void require_kind(int file, ContentKind kind) {
   if (const std::string why = why_not_replaceable_by(kind, head_of(file)); !why.empty()) {
     throw OutputError(why);
   }
@@ -82,7 +82,7 @@ std::string output_target(const std::string& path) {
   std::error_code error;
   fs::path target = fs::absolute(path, error);
   for (int links = 0; links <= kMaxLinks; ++links) {
-    demand_own_way(target);
+    require_own_way(target);
     struct stat status = {};
     if (::lstat(target.c_str(), &status) != 0) {
       if (errno == ENOENT) return target.string();  // free; if a folder is missing, opening it says so
@@ -107,15 +107,15 @@ std::string output_target(const std::string& path) {
   throw OutputError(error_text(ELOOP));
 }
 
-void demand_replaceable(const std::string& target, ContentKind kind) {
+void require_replaceable(const std::string& target, ContentKind kind) {
   const Descriptor file(::open(target.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-  if (file) return demand_kind(file.get(), kind);
+  if (file) return require_kind(file.get(), kind);
   if (errno != ENOENT) throw OutputError("it cannot be read: " + error_text(errno));
 }
 
 std::string why_not_writable(const std::string& path, ContentKind kind) {
   try {
-    demand_replaceable(output_target(path), kind);
+    require_replaceable(output_target(path), kind);
     return "";
   } catch (const OutputError& error) {
     return error.what();
@@ -160,7 +160,7 @@ OutputFile::OutputFile(const std::string& path, ContentKind kind)
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     throw OutputError("another program is writing it; expected another path");
   }
-  demand_kind(file_.get(), kind);
+  require_kind(file_.get(), kind);
 }
 
 void OutputFile::begin(std::string_view head) {

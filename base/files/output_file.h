@@ -38,7 +38,7 @@ std::string kind_of_file(mode_t mode);
 std::string output_target(const std::string& path);
 
 /// Throws OutputError if the file at `target` is of another kind or cannot be read.
-void demand_replaceable(const std::string& target, ContentKind kind);
+void require_replaceable(const std::string& target, ContentKind kind);
 
 /// Returns why nothing of that kind can be written to `path`. Empty if it can be, or if only opening it will
 /// tell.

@@ -150,7 +150,7 @@ std::string replace_text_file(const std::string& path, const std::string& conten
   std::string target;
   try {
     target = output_target(path);
-    demand_replaceable(target, kind);
+    require_replaceable(target, kind);
   } catch (const OutputError& error) {
     return error.what();
   }

@@ -20,7 +20,7 @@ struct StateOf<Queue<T>> {
     std::uint32_t count = 0;
     reader.read(count);
     // Each element takes at least one byte, so a wrong count is refused before memory is allocated for it.
-    demand_state(count <= reader.rest().size(), "the bytes end too early");
+    require_state(count <= reader.rest().size(), "the bytes end too early");
     queue.clear();
     queue.resize(count);
     for (T& value : queue) reader.read(value);

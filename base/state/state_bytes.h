@@ -172,15 +172,15 @@ class StateReader {
 
   std::span<const std::byte> rest() const { return rest_; }
   std::span<const std::byte> take(std::size_t count) {
-    demand_state(count <= rest_.size(), "the bytes end too early");
+    require_state(count <= rest_.size(), "the bytes end too early");
     const auto taken = rest_.first(count);
     rest_ = rest_.subspan(count);
     return taken;
   }
   void read_shared(SharedText& value);
-  void demand_end() const {
-    demand_state(rest_.empty(), "bytes are left over");
-    demand_state(!shared_ || shared_->empty(), "texts are left over");
+  void require_end() const {
+    require_state(rest_.empty(), "bytes are left over");
+    require_state(!shared_ || shared_->empty(), "texts are left over");
   }
 
  private:
@@ -200,10 +200,10 @@ class StateReader {
     if constexpr (std::is_floating_point_v<T>) {
       return std::bit_cast<T>(bits);
     } else if constexpr (std::is_same_v<T, bool>) {
-      demand_state(bits <= 1, "a yes or no must be 0 or 1");
+      require_state(bits <= 1, "a yes or no must be 0 or 1");
     } else if constexpr (std::is_enum_v<T>) {
       static_assert(is_last<StateOf<T>::last>(), "StateOf has another last value than the enumeration");
-      demand_state(bits <= as_bits(StateOf<T>::last), "an enumeration has no such value");
+      require_state(bits <= as_bits(StateOf<T>::last), "an enumeration has no such value");
     }
     return static_cast<T>(bits);
   }
@@ -237,8 +237,8 @@ inline void StateReader::read_shared(SharedText& value) {
   }
   std::uint64_t digest = 0;
   read(digest);
-  demand_state(!shared_->empty(), "the texts end too early");
-  demand_state(shared_->front().digest() == digest, "a text is not the one that was saved");
+  require_state(!shared_->empty(), "the texts end too early");
+  require_state(shared_->front().digest() == digest, "a text is not the one that was saved");
   value = shared_->front();
   shared_ = shared_->subspan(1);
 }
@@ -305,7 +305,7 @@ void StateReader::read(T& value) {
     std::uint32_t count = 0;
     read(count);
     // Each element takes at least one byte, so a wrong count is refused before memory is allocated for it.
-    demand_state(count <= rest_.size(), "the bytes end too early");
+    require_state(count <= rest_.size(), "the bytes end too early");
     value.assign(count, {});
     read_all(value);
   } else if constexpr (kIsMap<T>) {
@@ -315,7 +315,7 @@ void StateReader::read(T& value) {
     for (; count > 0; --count) {
       typename T::key_type key{};
       read(key);
-      demand_state(value.empty() || value.rbegin()->first < key, "its entries are out of order");
+      require_state(value.empty() || value.rbegin()->first < key, "its entries are out of order");
       read(value[key]);
     }
   } else if constexpr (kIsArray<T>) {

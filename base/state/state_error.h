@@ -11,19 +11,19 @@ struct StateError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-inline void demand_state(bool holds, const char* what) {
+inline void require_state(bool holds, const char* what) {
   if (!holds) throw StateError(what);
 }
 
-inline void demand_within(std::int64_t value, std::int64_t least, std::int64_t greatest) {
-  demand_state(value >= least && value <= greatest, "a number is beyond its range");
+inline void require_within(std::int64_t value, std::int64_t least, std::int64_t greatest) {
+  require_state(value >= least && value <= greatest, "a number is beyond its range");
 }
 
 /// Throws StateError if a count of pulses, ticks or nanoseconds is so large that sums and differences of a
 /// few of them may not fit 64 bits.
-inline void demand_reach(std::int64_t value) {
+inline void require_reach(std::int64_t value) {
   constexpr std::int64_t kFarthest = std::int64_t{1} << 61;
-  demand_within(value, -kFarthest, kFarthest);
+  require_within(value, -kFarthest, kFarthest);
 }
 
 }  // namespace understudy

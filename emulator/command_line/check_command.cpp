@@ -186,8 +186,8 @@ int check_all(const CheckArguments& arguments, std::span<const std::string_view>
 
 int check_files(ModelList models, const CheckArguments& arguments) {
   if (!arguments.programs.model.empty()) {
-    const Model& model = demand_model(models, arguments.programs.model);
-    const std::string_view endings[] = {demand_language(model).file_ending()};
+    const Model& model = require_model(models, arguments.programs.model);
+    const std::string_view endings[] = {require_language(model).file_ending()};
     const DeviceSettings settings = program_settings(model, arguments.programs);
     return check_all(arguments, endings,
                      [&](const std::string& file) { return checked_program(model, file, settings); });

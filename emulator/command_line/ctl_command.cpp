@@ -114,7 +114,7 @@ std::string listing_of(const std::string& path) {
   return *text;
 }
 
-std::int64_t demand_number(const ControlArguments& arguments) {
+std::int64_t require_number(const ControlArguments& arguments) {
   const auto number = parse_integer(arguments.operands[0]);
   if (!number) {
     throw UsageError("ctl clear: " + understudy::quoted(arguments.operands[0]) +
@@ -180,7 +180,7 @@ void add_fault(const ControlArguments& arguments, Json& message) {
 
 void add_fault_number(const ControlArguments& arguments, Json& message) {
   if (arguments.operands.size() != 1) throw UsageError("ctl clear: expected the number of a fault, or all");
-  if (arguments.operands[0] != "all") message["number"] = demand_number(arguments);
+  if (arguments.operands[0] != "all") message["number"] = require_number(arguments);
 }
 
 void add_file(const ControlArguments& arguments, Json& message) {

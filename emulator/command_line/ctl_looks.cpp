@@ -24,7 +24,7 @@ UsageError stray_word(const ControlArguments& arguments, const std::string& word
                     " is not understood; expected " + expected};
 }
 
-std::int64_t demand_whole(const ControlArguments& arguments, const std::string& word, const char* expected) {
+std::int64_t require_whole(const ControlArguments& arguments, const std::string& word, const char* expected) {
   const auto number = parse_integer(word);
   if (!number || *number < 0) throw stray_word(arguments, word, expected);
   return *number;
@@ -55,7 +55,7 @@ void add_page_words(const ControlArguments& arguments, Json& message) {
     } else if (pair->key == "find") {
       message["find"] = pair->value;
     } else if (pair->key == "section" || pair->key == "from") {
-      message[pair->key] = demand_whole(arguments, pair->value, kExpected);
+      message[pair->key] = require_whole(arguments, pair->value, kExpected);
     } else {
       throw stray_word(arguments, word, kExpected);
     }
@@ -156,11 +156,11 @@ bool add_look_words(const ControlArguments& arguments, Json& message) {
   } else if (verb == "events") {
     if (arguments.operands.size() > 1) throw stray_word(arguments, arguments.operands[1], "how many");
     if (!arguments.operands.empty())
-      message["last"] = demand_whole(arguments, arguments.operands[0], "how many");
+      message["last"] = require_whole(arguments, arguments.operands[0], "how many");
   } else if (verb == "step") {
     if (arguments.operands.size() > 1) throw stray_word(arguments, arguments.operands[1], "how many ticks");
     if (!arguments.operands.empty())
-      message["ticks"] = demand_whole(arguments, arguments.operands[0], "how many ticks");
+      message["ticks"] = require_whole(arguments, arguments.operands[0], "how many ticks");
   } else if (verb == "speed") {
     if (arguments.operands.size() != 1)
       throw UsageError("ctl speed: expected real, free, manual or a factor");

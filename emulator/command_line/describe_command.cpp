@@ -23,12 +23,12 @@ const Model& described_model(ModelList models, const std::string& path, std::vec
   return models.files->load(path, files);
 }
 
-const Model& demand_model(ModelList models, const std::string& name) {
+const Model& require_model(ModelList models, const std::string& name) {
   std::vector<FileClaim> files;
-  return demand_model(models, name, files);
+  return require_model(models, name, files);
 }
 
-const Model& demand_model(ModelList models, const std::string& name, std::vector<FileClaim>& files) {
+const Model& require_model(ModelList models, const std::string& name, std::vector<FileClaim>& files) {
   if (const Model* model = find_model(models, name)) return *model;
   if (names_model_file(name)) return described_model(models, name, files);
   std::vector<std::string> names;
@@ -47,7 +47,7 @@ int list_models(ModelList models) {
 }
 
 int describe_model(ModelList models, const DescribeArguments& arguments) {
-  const Model& model = demand_model(models, arguments.model);
+  const Model& model = require_model(models, arguments.model);
   const auto format = parse_sheet_format(arguments.format);
   if (!format)
     throw UsageError("--format: " + quoted(arguments.format) +

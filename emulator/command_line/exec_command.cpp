@@ -82,7 +82,7 @@ std::string variable_of(const std::string& line) {
   return name;
 }
 
-void demand_variables(const world::Bench& bench) {
+void require_variables(const world::Bench& bench) {
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (variable_of(bench.lines[i].name) != variable_of(bench.lines[j].name)) continue;
@@ -205,17 +205,17 @@ int play(const ExecArguments& arguments, const Serving& serving,
 }
 
 /// The scenario reads and writes files of its own while the bench's are written.
-void demand_apart(const play::Scenario& scenario, const ServeArguments& serve, FileClaims& files) {
+void require_apart(const play::Scenario& scenario, const ServeArguments& serve, FileClaims& files) {
   FileClaims of_scenario;
   of_scenario.add(scenario.files);
-  const auto demand = [&](const char* flag, const std::string& path) {
-    demand_output(of_scenario, flag, path);
+  const auto require = [&](const char* flag, const std::string& path) {
+    require_output(of_scenario, flag, path);
   };
-  demand("--capture", serve.capture);
-  demand("--record", older_part_of(serve.record));
-  demand("--record", serve.record);
-  demand("--trace", serve.trace);
-  for (const std::string& path : scenario.saved) demand_output(files, "--with: save", path);
+  require("--capture", serve.capture);
+  require("--record", older_part_of(serve.record));
+  require("--record", serve.record);
+  require("--trace", serve.trace);
+  for (const std::string& path : scenario.saved) require_output(files, "--with: save", path);
   files.add(scenario.files);
 }
 
@@ -227,11 +227,11 @@ int execute(ModelList models, const ExecArguments& arguments) {
   }
   timeout_of(arguments);
   Serving serving = make_serving(models, arguments.serve, "exec");
-  demand_variables(serving.bench);
+  require_variables(serving.bench);
   std::optional<play::Scenario> scenario;
   if (!arguments.with.empty()) {
     scenario = play::load_companion(models, arguments.with, serving.bench, arguments.save_below);
-    demand_apart(*scenario, arguments.serve, serving.options.files);
+    require_apart(*scenario, arguments.serve, serving.options.files);
   }
   serve::remove_left_overs();
   serve::PrivateFolder folder;

@@ -34,7 +34,7 @@ std::string name_of_list(const std::string& path) {
   return name;
 }
 
-std::string demand_name(ModelList models, const ImportArguments& arguments) {
+std::string require_name(ModelList models, const ImportArguments& arguments) {
   const std::string name = arguments.name.empty() ? name_of_list(arguments.list) : arguments.name;
   if (name.empty() || !std::all_of(name.begin(), name.end(), is_of_name))
     throw UsageError("--name: " + quoted(name) + " is not a name; expected letters, digits, _ and -");
@@ -83,7 +83,7 @@ std::string remark_on_addresses(const std::vector<models::imported::ListedRegist
 }  // namespace
 
 int import_registers(ModelList models, const ImportArguments& arguments) {
-  const std::string name = demand_name(models, arguments);
+  const std::string name = require_name(models, arguments);
   if (!arguments.output.empty() && !names_model_file(arguments.output))
     throw UsageError("--output: " + quoted(arguments.output) +
                      " does not end in .yaml; expected a model file");
@@ -103,7 +103,7 @@ int import_registers(ModelList models, const ImportArguments& arguments) {
   const std::vector<NewFile> files{
       {output.string(), model_file::starter_model(registers, name, list_from_there)},
       {bench.string(), model_file::starter_bench(name, output.filename().string())}};
-  demand_new(files);
+  require_new(files);
   write_all(files);
   std::printf("%s: %s\n", arguments.list.c_str(), counts_text(registers).c_str());
   for (const NewFile& file : files) std::printf("wrote %s\n", file.path.c_str());

@@ -28,7 +28,7 @@ constexpr std::string_view kScenarioHead =
 }  // namespace
 
 int write_first_files(ModelList models, const InitArguments& arguments) {
-  const Model& model = demand_model(models, arguments.model);
+  const Model& model = require_model(models, arguments.model);
   if (model.first_files == nullptr)
     throw UsageError("init: " + quoted(model.name) + " has no starter files; expected another model");
   const std::filesystem::path folder(arguments.folder);
@@ -42,7 +42,7 @@ int write_first_files(ModelList models, const InitArguments& arguments) {
        play::scenario_schema(models,
                              world::parse_bench(models, bench, in_folder("bench.yaml"), arguments.folder))},
   };
-  demand_new(files);
+  require_new(files);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)

@@ -10,8 +10,8 @@ namespace understudy::emulator::command_line {
 
 /// Returns the model of that name, or the one in the file at that path. Files that were read are added to
 /// `files`. Throws UsageError with the nearest name, or FileError.
-const Model& demand_model(ModelList models, const std::string& name);
-const Model& demand_model(ModelList models, const std::string& name, std::vector<FileClaim>& files);
+const Model& require_model(ModelList models, const std::string& name);
+const Model& require_model(ModelList models, const std::string& name, std::vector<FileClaim>& files);
 /// Returns the model in a file. Throws FileError.
 const Model& described_model(ModelList models, const std::string& path, std::vector<FileClaim>& files);
 

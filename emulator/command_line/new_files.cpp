@@ -49,7 +49,7 @@ void write_new(const NewFile& file) {
 
 }  // namespace
 
-void demand_new(const std::vector<NewFile>& files) {
+void require_new(const std::vector<NewFile>& files) {
   for (const NewFile& file : files) {
     if (is_there(file.path))
       throw FileError(file.path + ": file: already exists; expected a folder without it");

@@ -12,7 +12,7 @@ struct NewFile {
 };
 
 /// Throws FileError if any of the names exists already.
-void demand_new(const std::vector<NewFile>& files);
+void require_new(const std::vector<NewFile>& files);
 /// Writes all of them, or none. Nothing is ever overwritten. Throws FileError if one exists already, and
 /// GrowingFileError if it cannot be written.
 void write_all(const std::vector<NewFile>& files);

@@ -12,7 +12,7 @@
 namespace understudy::emulator::command_line {
 
 /// Checks and claims the output path of a flag. An empty path means no file. Throws UsageError.
-inline std::string demand_output(FileClaims& claims, const std::string& flag, const std::string& path) {
+inline std::string require_output(FileClaims& claims, const std::string& flag, const std::string& path) {
   if (const std::string why = claims.objection_to(path); !why.empty()) {
     throw UsageError(flag + ": " + path + ": " + why);
   }
@@ -20,23 +20,23 @@ inline std::string demand_output(FileClaims& claims, const std::string& flag, co
   return path;
 }
 
-inline std::string demand_capture(FileClaims& claims, const std::string& path) {
+inline std::string require_capture(FileClaims& claims, const std::string& path) {
   if (path.ends_with(".pcap")) {
     throw UsageError(
         "--capture: " + path +
         ": this old format is not supported; expected .pcapng, or another ending for a text log");
   }
-  return demand_output(claims, "--capture", path);
+  return require_output(claims, "--capture", path);
 }
 
-/// Like demand_output(), and checks that `also` is empty if there is no trace.
-inline std::string demand_trace(FileClaims& claims, const std::string& path,
-                                const std::vector<std::string>& also) {
+/// Like require_output(), and checks that `also` is empty if there is no trace.
+inline std::string require_trace(FileClaims& claims, const std::string& path,
+                                 const std::vector<std::string>& also) {
   if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE as well");
   if (!path.empty() && !world::is_trace_name(path)) {
     throw UsageError("--trace: " + path + ": is not a kind of trace; expected FILE.csv or FILE.vcd");
   }
-  return demand_output(claims, "--trace", path);
+  return require_output(claims, "--trace", path);
 }
 
 /// Returns the path of the older part of a recording that has grown large: beside the file that is really

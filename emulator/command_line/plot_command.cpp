@@ -46,7 +46,7 @@ class WorkFolder {
   throw std::system_error(error, std::generic_category(), what);
 }
 
-void demand_written(const std::string& what, const std::string& why_not) {
+void require_written(const std::string& what, const std::string& why_not) {
   if (!why_not.empty()) throw GrowingFileError(what + " cannot be written: " + why_not);
 }
 
@@ -93,13 +93,13 @@ int plot_trace(const PlotArguments& arguments) {
   }
   FileClaims claims;
   claims.add({arguments.trace, "the trace itself"});
-  demand_output(claims, "--output", output.string());
+  require_output(claims, "--output", output.string());
   const play::TraceTable table = play::read_trace(arguments.trace);
   WorkFolder folder;
   const std::string script =
       play::plot_script(table, arguments.also, is_svg ? play::PlotFormat::svg : play::PlotFormat::png,
                         folder.picture(), arguments.trace);
-  demand_written("plot: " + folder.script(), replace_text_file(folder.script(), script, ContentKind::other));
+  require_written("plot: " + folder.script(), replace_text_file(folder.script(), script, ContentKind::other));
   const int code = run_gnuplot(folder);
   const auto picture = read_text_file(folder.picture());
   if (code != 0 || !picture || picture->empty()) {
@@ -108,8 +108,8 @@ int plot_trace(const PlotArguments& arguments) {
                  one_line(complaint_in(said)).c_str());
     return kExitNoResource;
   }
-  demand_written("--output: " + output.string(),
-                 replace_text_file(output.string(), *picture, ContentKind::picture));
+  require_written("--output: " + output.string(),
+                  replace_text_file(output.string(), *picture, ContentKind::picture));
   std::printf("%s\n", output.c_str());
   return kExitWell;
 }

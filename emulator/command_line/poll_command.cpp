@@ -50,13 +50,13 @@ struct Item {
   std::vector<std::uint16_t> message{};  // of a command: all that is written
 };
 
-std::int64_t demand_integer(std::string_view text, const std::string& item) {
+std::int64_t require_integer(std::string_view text, const std::string& item) {
   if (const auto value = parse_integer(text)) return *value;
   throw UsageError("poll: " + quoted(item) +
                    " is not understood; expected NAME, ADDRESS or ADDRESS:COUNT, or one of them =VALUE");
 }
 
-Type demand_type(const std::string& name) {
+Type require_type(const std::string& name) {
   if (name == "u16") return Type::u16;
   if (name == "s16") return Type::s16;
   if (name == "u32") return Type::u32;
@@ -86,7 +86,7 @@ void read_value_of(Item& item, const std::string& text) {
   item.write = true;
   const std::string_view value = std::string_view(text).substr(equals + 1);
   if (item.type != Type::f32) {
-    item.value = demand_integer(value, text);
+    item.value = require_integer(value, text);
     return;
   }
   const auto real = parse_real(value);
@@ -107,16 +107,16 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
   item.table = table_of_function(arguments.function);
   if (!what.empty() && what[0] >= '0' && what[0] <= '9') {
     const std::size_t colon = what.find(':');
-    const std::int64_t address = demand_integer(std::string_view(what).substr(0, colon), text);
+    const std::int64_t address = require_integer(std::string_view(what).substr(0, colon), text);
     if (address < 0 || address > 0xFFFF)
       throw UsageError("poll: address " + what + " is out of range; expected 0 to 0xFFFF");
     item.address = static_cast<std::uint16_t>(address);
-    item.type = is_table_of_bits(item.table) ? Type::bit : demand_type(arguments.type);
+    item.type = is_table_of_bits(item.table) ? Type::bit : require_type(arguments.type);
     read_value_of(item, text);
     // The function is what is read with.
     if (item.write && item.table == Table::input) item.table = Table::holding;
     if (colon != std::string::npos) {
-      const std::int64_t count = demand_integer(std::string_view(what).substr(colon + 1), text);
+      const std::int64_t count = require_integer(std::string_view(what).substr(colon + 1), text);
       if (item.write)
         throw UsageError("poll: " + quoted(text) + " writes a range; expected one ADDRESS=VALUE");
       const int most = most_at_once(item);
@@ -130,7 +130,7 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
   if (arguments.model.empty())
     throw UsageError("poll: " + quoted(what) +
                      " is a name; expected --model MODEL to look it up, or an address");
-  const Model& model = demand_model(models, arguments.model);
+  const Model& model = require_model(models, arguments.model);
   if (!model.rtu || model.registers == nullptr) {
     throw UsageError("poll: " + std::string(model.name) + " speaks " + std::string(model.line.protocol.name) +
                      ", not Modbus; expected a model with registers, or a terminal program");
@@ -162,7 +162,7 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
 Item command_item(ModelList models, const std::string& text, const PollArguments& arguments,
                   std::optional<bool> low_word_first) {
   if (arguments.model.empty()) throw UsageError("poll: --command: expected --model MODEL as well");
-  const Model& model = demand_model(models, arguments.model);
+  const Model& model = require_model(models, arguments.model);
   const bool is_by_table_low_first = model.registers != nullptr && model.registers->policy().low_word_first;
   try {
     WindowMessage message =
@@ -193,7 +193,7 @@ PollArguments with_line_of_model(ModelList models, PollArguments arguments) {
   pty::LineSettings line;
   int station = 1;
   if (!arguments.model.empty()) {
-    const Model& model = demand_model(models, arguments.model);
+    const Model& model = require_model(models, arguments.model);
     const PortRow& port = model.line.ports.front();
     line = port.settings;
     line.baud = port.bauds.front();
@@ -320,7 +320,7 @@ bool write_item(modbus_t* context, const Item& item) {
   return modbus_write_registers(context, item.address, 2, words.data()) == 2;
 }
 
-void demand_fitting(const Item& item) {
+void require_fitting(const Item& item) {
   if (!item.write) return;
   if (item.table == Table::input || item.table == Table::discrete)
     throw UsageError("poll: " + item.label + " can only be read; expected a coil or a holding register");
@@ -338,7 +338,7 @@ void demand_fitting(const Item& item) {
 /// Some controllers have 0 for a number like any other.
 bool answers_at_0(ModelList models, const PollArguments& arguments) {
   if (arguments.model.empty()) return false;
-  const auto& numbers = demand_model(models, arguments.model).line.station_numbers;
+  const auto& numbers = require_model(models, arguments.model).line.station_numbers;
   return numbers && numbers->lowest == 0;
 }
 
@@ -351,7 +351,7 @@ std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
   }
   for (const std::string& text : arguments.items) {
     items.push_back(parse_item(models, text, arguments, low_word_first));
-    demand_fitting(items.back());
+    require_fitting(items.back());
     if (arguments.station == 0 && !items.back().write && !answers_at_0(models, arguments)) {
       throw UsageError(
           "--station: 0 is a broadcast, which devices do not answer; expected writes only, or 1 to 247");
@@ -377,7 +377,7 @@ std::optional<Item> word_order_item(ModelList models, const PollArguments& argum
   });
   if (!matters || arguments.model.empty() || !arguments.word_order.empty()) return std::nullopt;
   if (arguments.station == 0) return std::nullopt;  // nobody would answer
-  const Model& model = demand_model(models, arguments.model);
+  const Model& model = require_model(models, arguments.model);
   if (model.registers == nullptr || model.registers->policy().word_order_in.empty()) return std::nullopt;
   const std::string name(model.registers->policy().word_order_in);
   const auto found = find_register(model, name, model.firmwares.back());

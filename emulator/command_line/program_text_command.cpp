@@ -31,8 +31,8 @@ struct ProgramFile {
 /// Nothing, and one line on standard error, if it cannot be read.
 std::optional<ProgramFile> open_program(ModelList models, const ProgramTextArguments& arguments,
                                         const char* command) {
-  const Model& model = demand_model(models, arguments.model);
-  const ProgramLanguage& language = demand_language(model);
+  const Model& model = require_model(models, arguments.model);
+  const ProgramLanguage& language = require_language(model);
   if (language.cells() == nullptr) {
     throw UsageError(std::string(command) + ": a " + std::string(language.name()) +
                      " is not sent as numbers; expected another --model, or `check --model " +
@@ -78,7 +78,7 @@ int disassemble_program(ModelList models, const ProgramTextArguments& arguments)
   return kExitWell;
 }
 
-const ProgramLanguage& demand_language(const Model& model) {
+const ProgramLanguage& require_language(const Model& model) {
   if (model.language == nullptr) throw UsageError(no_program(model).what);
   return *model.language;
 }

@@ -12,7 +12,7 @@
 namespace understudy::emulator::command_line {
 
 /// Throws UsageError if the model's devices take no programs.
-const ProgramLanguage& demand_language(const Model& model);
+const ProgramLanguage& require_language(const Model& model);
 /// Throws UsageError, or SettingError for settings that the model does not have.
 DeviceSettings program_settings(const Model& model, const ProgramTextArguments& arguments);
 /// Prints the mistakes to standard error, a line each.

@@ -120,7 +120,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
   if (arguments.page) return travel_in(models, arguments, until);
   FileClaims claims;
   claims.add({arguments.recording, "the recording itself"});
-  demand_looks(arguments, claims);
+  require_looks(arguments, claims);
   std::ifstream file(arguments.recording, std::ios::binary);
   ResultFile report("--report", arguments.report, ContentKind::page);
   play::ScenarioResult seen;

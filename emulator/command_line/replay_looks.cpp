@@ -24,10 +24,10 @@
 
 namespace understudy::emulator::command_line {
 
-void demand_looks(const ReplayArguments& arguments, FileClaims& claims) {
-  demand_capture(claims, arguments.capture);
-  demand_trace(claims, arguments.trace, arguments.trace_also);
-  demand_output(claims, "--report", arguments.report);
+void require_looks(const ReplayArguments& arguments, FileClaims& claims) {
+  require_capture(claims, arguments.capture);
+  require_trace(claims, arguments.trace, arguments.trace_also);
+  require_output(claims, "--report", arguments.report);
 }
 
 ReplayLooks::ReplayLooks(world::World& world, const ReplayArguments& arguments, play::ScenarioResult& seen)

@@ -16,7 +16,7 @@
 namespace understudy::emulator::command_line {
 
 /// Checks that the files may be written, and claims them. Throws UsageError.
-void demand_looks(const ReplayArguments& arguments, FileClaims& claims);
+void require_looks(const ReplayArguments& arguments, FileClaims& claims);
 
 /// Opens the files, or throws an error with the reason.
 class ReplayLooks final : public world::ReplayWatcher {

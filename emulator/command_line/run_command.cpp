@@ -136,7 +136,7 @@ play::Shard shard_of(const RunArguments& arguments) {
   return *parsed;
 }
 
-void demand_some(const play::Playbill& bill, const RunArguments& arguments) {
+void require_some(const play::Playbill& bill, const RunArguments& arguments) {
   if (arguments.filter.empty() || play::Selection(bill, arguments.filter, {}).next()) return;
   throw UsageError("--filter: " + understudy::quoted(arguments.filter) +
                    " matches no scenario's name; expected a pattern such as '*move*'");
@@ -151,7 +151,7 @@ RunFolders folders_of(const RunArguments& arguments) {
 }
 
 /// What is written is nothing that is read, whichever scenario comes first, and nothing else that is written.
-void demand_own_files(Known& known, const RunArguments& arguments) {
+void require_own_files(Known& known, const RunArguments& arguments) {
   FileClaims& claims = known.claims;
   std::vector<FileClaim> of_this;  // a case may save a file twice
   for (std::size_t i = 0; i < known.saved.size(); ++i) {
@@ -163,10 +163,10 @@ void demand_own_files(Known& known, const RunArguments& arguments) {
     const bool is_last = i + 1 == known.saved.size() || known.saved[i + 1].case_number != saved.case_number;
     if (is_last) claims.add(std::exchange(of_this, {}));
   }
-  if (arguments.junit != kStandardOutput) demand_output(claims, "--junit", arguments.junit);
-  demand_output(claims, "--report", arguments.report);
-  for (const std::string& path : arguments.results) demand_output(claims, "--results", path);
-  demand_folders(claims, folders_of(arguments));
+  if (arguments.junit != kStandardOutput) require_output(claims, "--junit", arguments.junit);
+  require_output(claims, "--report", arguments.report);
+  for (const std::string& path : arguments.results) require_output(claims, "--results", path);
+  require_folders(claims, folders_of(arguments));
   if (!known.trace_error.empty()) throw UsageError(known.trace_error);
 }
 
@@ -273,8 +273,8 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   play::Playbill bill(models, {.save_below = arguments.save_below, .seed = arguments.seed});
   Known known;
   if (!add_all(bill, arguments, known)) return kExitBadInput;
-  demand_some(bill, arguments);
-  demand_own_files(known, arguments);
+  require_some(bill, arguments);
+  require_own_files(known, arguments);
   ResultFile junit("--junit", arguments.junit, ContentKind::junit);
   ResultFile report("--report", arguments.report, ContentKind::page);
   RunAccount account(arguments);

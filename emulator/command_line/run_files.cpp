@@ -169,7 +169,7 @@ void move_file(const char* flag, const std::string& from, const std::string& pat
   std::error_code error;
   try {
     const std::string to = output_target(path);
-    demand_replaceable(to, content);
+    require_replaceable(to, content);
     if (const auto access = access_of(to)) give_access(from, *access);
     fs::rename(from, to, error);
     if (!error) return;
@@ -185,7 +185,7 @@ constexpr std::array<const char*, 2> kParts = {"", world::kOlderPart};
 
 }  // namespace
 
-void demand_folders(const FileClaims& claims, const RunFolders& folders) {
+void require_folders(const FileClaims& claims, const RunFolders& folders) {
   if (folders.traces.empty() && !folders.trace_also.empty()) {
     throw UsageError("--trace-also: expected --trace DIR as well");
   }

@@ -28,7 +28,7 @@ struct RunFolders {
 
 /// Throws UsageError for folders whose files would overwrite files that the command reads or writes, and for
 /// paths that cannot be folders.
-void demand_folders(const FileClaims& claims, const RunFolders& folders);
+void require_folders(const FileClaims& claims, const RunFolders& folders);
 
 class RunFiles {
  public:

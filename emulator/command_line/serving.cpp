@@ -44,14 +44,14 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-pty::Timing demand_timing(const std::string& timing) {
+pty::Timing require_timing(const std::string& timing) {
   if (timing == "wire") return pty::Timing::wire;
   if (timing == "instant") return pty::Timing::instant;
   throw UsageError("--timing: " + understudy::quoted(timing) + " is unknown; expected wire or instant");
 }
 
 /// What the model says of a setting is said of its flag.
-void demand_possible(const world::DeviceSetup& device) {
+void require_possible(const world::DeviceSetup& device) {
   try {
     make_device(*device.model, device.settings);
   } catch (const SettingError& error) {
@@ -63,7 +63,7 @@ void demand_possible(const world::DeviceSetup& device) {
 /// One device on all its ports, from flags.
 world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
   std::vector<FileClaim> files;
-  world::DeviceSetup device{.model = &demand_model(models, arguments.model, files), .settings = {}};
+  world::DeviceSetup device{.model = &require_model(models, arguments.model, files), .settings = {}};
   device.settings.name = "device";
   device.settings.address = arguments.station;
   if (arguments.station && !device.model->line.station_numbers) {
@@ -82,7 +82,7 @@ world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
                        " is not a version; expected one like 1.52");
     }
   }
-  demand_possible(device);
+  require_possible(device);
   std::string link = arguments.link;
   if (one_line(link) != link) {
     throw UsageError("--link: " + link + ": has a control character; expected a path without one");
@@ -132,7 +132,7 @@ void listen_as_wished(world::Bench& bench, const std::string& wish) {
                    "; expected LINE=... with one of " + lines);
 }
 
-void demand_no_pty(world::Bench& bench, const ServeArguments& arguments) {
+void require_no_pty(world::Bench& bench, const ServeArguments& arguments) {
   if (!arguments.link.empty())
     throw UsageError("--no-pty: --link needs a pseudo-terminal; expected one of the two");
   bool listens = false;
@@ -163,7 +163,7 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
       line.link = arguments.links + "/" + line.name + ".port";
   }
   if (!arguments.timing.empty()) {
-    for (world::LineSetup& line : bench.lines) line.timing = demand_timing(arguments.timing);
+    for (world::LineSetup& line : bench.lines) line.timing = require_timing(arguments.timing);
   }
   if (!arguments.baud_tolerance.empty()) {
     const auto ppm = world::parse_baud_tolerance(arguments.baud_tolerance);
@@ -182,7 +182,7 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
     for (world::LineSetup& line : bench.lines) line.byte_timeout = *time;
   }
   for (const std::string& wish : arguments.listen) listen_as_wished(bench, wish);
-  if (arguments.no_pty) demand_no_pty(bench, arguments);
+  if (arguments.no_pty) require_no_pty(bench, arguments);
   return bench;
 }
 
@@ -201,7 +201,7 @@ FileClaims claims_of(const world::Bench& bench, const std::string& control) {
 }
 
 /// What else is to be traced can be seen of this bench.
-void demand_names(const world::Bench& bench, const std::vector<std::string>& also) {
+void require_names(const world::Bench& bench, const std::vector<std::string>& also) {
   if (also.empty()) return;
   try {
     world::trace_signals(world::World(bench, {}, {}), also);
@@ -211,17 +211,17 @@ void demand_names(const world::Bench& bench, const std::vector<std::string>& als
 }
 
 /// And the file beside it, where its older part goes once it has grown large.
-std::string demand_recording(const std::string& path, FileClaims& claims) {
+std::string require_recording(const std::string& path, FileClaims& claims) {
   const std::string older = older_part_of(path);
-  demand_output(claims, "--record", older);
+  require_output(claims, "--record", older);
   const std::string why = older.empty() ? "" : world::why_no_older_part(older);
   if (!why.empty()) {
     throw GrowingFileError("--record: " + older + ", where its older part goes, cannot be written: " + why);
   }
-  return demand_output(claims, "--record", path);
+  return require_output(claims, "--record", path);
 }
 
-std::optional<gid_t> demand_group(const std::string& name) {
+std::optional<gid_t> require_group(const std::string& name) {
   if (name.empty()) return std::nullopt;
   const auto group = serve::find_group(name);
   if (!group)
@@ -243,10 +243,10 @@ Serving make_serving(ModelList models, const ServeArguments& arguments, const st
   if (!arguments.bench.empty())
     options.bench_path = std::filesystem::weakly_canonical(arguments.bench).string();
   options.files = claims_of(serving.bench, arguments.control);
-  options.capture_path = demand_capture(options.files, arguments.capture);
-  options.record_path = demand_recording(arguments.record, options.files);
-  options.trace_path = demand_trace(options.files, arguments.trace, arguments.trace_also);
-  demand_names(serving.bench, arguments.trace_also);
+  options.capture_path = require_capture(options.files, arguments.capture);
+  options.record_path = require_recording(arguments.record, options.files);
+  options.trace_path = require_trace(options.files, arguments.trace, arguments.trace_also);
+  require_names(serving.bench, arguments.trace_also);
   options.trace_also = arguments.trace_also;
   options.version = arguments.version;
   const auto speed = serve::parse_speed(arguments.speed);
@@ -255,7 +255,7 @@ Serving make_serving(ModelList models, const ServeArguments& arguments, const st
                      " is unknown; expected real, free, manual or a factor such as 10x");
   }
   options.speed = *speed;
-  serving.group = demand_group(arguments.group);
+  serving.group = require_group(arguments.group);
   for (const FileError::Complaint& odd : world::program_warnings(serving.bench)) log_line(warning_line(odd));
   return serving;
 }

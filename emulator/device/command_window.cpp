@@ -17,7 +17,7 @@ namespace understudy::emulator {
 
 namespace {
 
-const CommandWindow& demand_window(const Model& model) {
+const CommandWindow& require_window(const Model& model) {
   if (model.window != nullptr) return *model.window;
   throw ProgramError(0, 0, std::string(model.name) + " has no named commands; expected registers to write");
 }
@@ -25,13 +25,13 @@ const CommandWindow& demand_window(const Model& model) {
 }  // namespace
 
 WindowMessage window_message(const Model& model, std::string_view text, const WindowForm& form) {
-  const CommandWindow& window = demand_window(model);
+  const CommandWindow& window = require_window(model);
   return {.first = find_register(model, window.register_name(), form.firmware)->place.address(),
           .words = window.words_of(text, form)};
 }
 
 WindowMessage window_message(const Device& device, std::string_view text) {
-  demand_window(device.model());
+  require_window(device.model());
   return window_message(device.model(), text, window_form(device));
 }
 

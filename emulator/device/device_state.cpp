@@ -45,12 +45,12 @@ using Common = CopiedFields<Device>;
 void read_common(const Model& model, StateReader& reader, Common& common) {
   std::apply([&](auto&... field) { (reader.read(field), ...); }, common);
   const auto& inputs = std::get<std::vector<std::int32_t>>(common);
-  demand_state(inputs.size() == model.terminals.size(), "its terminals are different");
+  require_state(inputs.size() == model.terminals.size(), "its terminals are different");
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (model.terminals[i].kind == TerminalRow::Kind::counted_in) continue;  // it wraps
-    demand_within(inputs[i], model.terminals[i].lowest, model.terminals[i].highest);
+    require_within(inputs[i], model.terminals[i].lowest, model.terminals[i].highest);
   }
-  demand_within(std::get<Tick>(common), 0, tick_at(kHorizon));
+  require_within(std::get<Tick>(common), 0, tick_at(kHorizon));
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ std::function<void()> Device::read_state(StateReader reader) {
   Common restored = copy_fields(*this);
   read_common(model_, reader, restored);
   auto put_own = read_own_state(reader);
-  reader.demand_end();
+  reader.require_end();
   return [this, restored = std::move(restored), put_own = std::move(put_own)] {
     assign_fields(*this, restored);
     inputs_changed_ = true;
@@ -104,8 +104,8 @@ std::string Device::state_difference(StateReader a, StateReader b) const {
   read_common(model_, a, common_a);
   read_common(model_, b, common_b);
   const std::string own = own_difference(a, b);
-  a.demand_end();
-  b.demand_end();
+  a.require_end();
+  b.require_end();
   const std::string common = difference_of_copies<Device>(common_a, common_b, "");
   return common.empty() ? own : common;
 }

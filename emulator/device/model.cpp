@@ -173,7 +173,7 @@ void check(const Model& model, const DeviceSettings& settings) {
   }
 }
 
-int demand_switch(const Model& model, const std::string& name) {
+int require_switch(const Model& model, const std::string& name) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < model.terminals.size(); ++i) {
     if (model.terminals[i].kind != TerminalRow::Kind::dip_switch) continue;
@@ -185,7 +185,7 @@ int demand_switch(const Model& model, const std::string& name) {
                               suggestion(name, names, "it has none"));
 }
 
-void demand_choices(const Model& model, const DeviceSettings& settings) {
+void require_choices(const Model& model, const DeviceSettings& settings) {
   for (const auto& [id, option] : settings.choices) {
     try {
       resolve_choices(model.choices, {{id, option}});
@@ -271,29 +271,29 @@ void load_memory(Device& device, const NvImage& image) {
 }
 
 /// What its model's tables list can be reached.
-void demand_facets(const Device& device) {
+void require_facets(const Device& device) {
   const Model& model = whole(device.model());
-  const auto demand = [&](bool is_there, std::string_view what) {
+  const auto require = [&](bool is_there, std::string_view what) {
     if (!is_there) throw std::logic_error(std::string(model.name) + ": lacks " + std::string(what));
   };
   const auto find = [&](std::string_view name) { return find_register(model, name, device.firmware()); };
   const auto& numbers = model.line.station_numbers;
-  demand(!numbers || numbers->kept_in.empty() || find(numbers->kept_in),
-         "the register of its station number");
+  require(!numbers || numbers->kept_in.empty() || find(numbers->kept_in),
+          "the register of its station number");
   if (model.window != nullptr) {
     const auto window = find(model.window->register_name());
-    demand(window && window->place.row->table == Table::holding, "the register of its window");
+    require(window && window->place.row->table == Table::holding, "the register of its window");
   }
-  demand(model.registers == nullptr || device.register_bank() != nullptr,
-         "the facet RegisterBankOf, for its registers");
-  demand(model.terminals.empty() || device.terminals() != nullptr, "the facet Terminals, for its terminals");
-  demand(model.axes.empty() || device.axes() != nullptr, "the facet Axes, for its axes");
-  demand(!model.rtu || device.modbus() != nullptr, "the facet ModbusStation, for its `rtu`");
-  demand(model.rtu || device.modbus() == nullptr, "an `rtu`, for its facet ModbusStation");
-  demand(model.language == nullptr || device.user_program() != nullptr,
-         "the facet UserProgram, for its `language`");
-  demand(model.language != nullptr || device.user_program() == nullptr,
-         "a `language`, for its facet UserProgram");
+  require(model.registers == nullptr || device.register_bank() != nullptr,
+          "the facet RegisterBankOf, for its registers");
+  require(model.terminals.empty() || device.terminals() != nullptr, "the facet Terminals, for its terminals");
+  require(model.axes.empty() || device.axes() != nullptr, "the facet Axes, for its axes");
+  require(!model.rtu || device.modbus() != nullptr, "the facet ModbusStation, for its `rtu`");
+  require(model.rtu || device.modbus() == nullptr, "an `rtu`, for its facet ModbusStation");
+  require(model.language == nullptr || device.user_program() != nullptr,
+          "the facet UserProgram, for its `language`");
+  require(model.language != nullptr || device.user_program() == nullptr,
+          "a `language`, for its facet UserProgram");
   for (const TerminalGroup& group : model.terminal_groups) {
     const auto rows = model.terminals.subspan(static_cast<std::size_t>(group.first));
     bool is_alike = group.count >= 1 && group.count <= TerminalGroup::kMax &&
@@ -316,7 +316,7 @@ DeviceSettings checked_settings(const Model& model, const DeviceSettings& given)
   check(model, given);
   DeviceSettings settings = given;
   if (settings.firmware == 0) settings.firmware = model.firmwares.back();
-  demand_choices(model, settings);
+  require_choices(model, settings);
   return settings;
 }
 
@@ -337,9 +337,9 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
                                     std::function<void(const std::string&)> log) {
   const DeviceSettings settings = checked_settings(model, given);
   std::unique_ptr<Device> device = model.make(settings);
-  demand_facets(*device);
+  require_facets(*device);
   device->set_log(std::move(log));
-  for (const auto& [name, on] : settings.dip) device->set_input(demand_switch(model, name), on ? 1 : 0);
+  for (const auto& [name, on] : settings.dip) device->set_input(require_switch(model, name), on ? 1 : 0);
   if (settings.nv) load_memory(*device, *settings.nv);
   device->switch_power(true);
   for (std::size_t port = 0; port < given.bauds.size(); ++port) {

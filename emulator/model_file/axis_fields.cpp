@@ -130,7 +130,7 @@ AxisBinding read_axis(const YamlFields& fields, const std::string& name, const D
                       Binder& binder, world::Complaints& complaints) {
   AxisBinding axis{.name = name};
   if (!fields.is_map()) fields.fail("expected a map, as in `key: value`");
-  complaints.attempt([&] { fields.demand_keys(kAxisKeys); });
+  complaints.attempt([&] { fields.require_keys(kAxisKeys); });
   const auto read = [&](std::string_view key, const auto& how) {
     complaints.attempt([&] {
       if (const auto field = fields.find(key)) how(*field);
@@ -158,7 +158,7 @@ AxisBinding read_axis(const YamlFields& fields, const std::string& name, const D
   read("pulses_per_count", [&](const YamlFields& field) { axis.pulses_per_count = read_scale(field); });
   read("pps_per_count", [&](const YamlFields& field) { axis.pps_per_count = read_factor(field); });
   read("inputs", [&](const YamlFields& inputs) {
-    complaints.attempt([&] { inputs.demand_keys(kAxisInputKeys); });
+    complaints.attempt([&] { inputs.require_keys(kAxisInputKeys); });
     const std::array<std::pair<std::string_view, int*>, 4> all{{{"upper_limit", &axis.upper_limit_input},
                                                                 {"lower_limit", &axis.lower_limit_input},
                                                                 {"home", &axis.home_input},

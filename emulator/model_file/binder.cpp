@@ -44,9 +44,9 @@ std::uint32_t mask_of(const Spot& spot) {
 
 /// Of a condition, or a relation, that has none of the signs it may have: what people write for something
 /// else.
-void demand_known_sign(const YamlFields& field, const std::string& text,
-                       std::initializer_list<std::string_view> known, std::string_view expected,
-                       std::string_view example) {
+void require_known_sign(const YamlFields& field, const std::string& text,
+                        std::initializer_list<std::string_view> known, std::string_view expected,
+                        std::string_view example) {
   constexpr std::string_view kSigns = "=<>!";
   const std::size_t at = text.find_first_of(kSigns);
   if (at == std::string::npos) return;
@@ -103,7 +103,7 @@ Condition Binder::condition(const YamlFields& field) const {
   const std::string text = field.text();
   const std::size_t equals = text.find(kEquals);
   if (equals == std::string::npos && !map_.find(trimmed(text), UINT16_MAX))
-    demand_known_sign(field, text, {"=="}, "a name, or one with a number", "COMMAND == 2");
+    require_known_sign(field, text, {"=="}, "a name, or one with a number", "COMMAND == 2");
   Condition made{.spot = spot(field, trimmed(text.substr(0, equals)))};
   if (made.spot.is_whole() && listed(made.spot).type == Type::f32)
     field.fail(understudy::quoted(text) + " is a real number; expected a bit, or a whole number");
@@ -185,8 +185,8 @@ Comparison Binder::comparison(const YamlFields& field) const {
     made.right = quantity(field, trimmed(text.substr(at + sign.size())));
     return made;
   }
-  demand_known_sign(field, text, {"<=", ">=", "==", "!=", "<", ">"}, "<=, >=, ==, !=, < or >",
-                    "TEMPERATURE > LIMIT");
+  require_known_sign(field, text, {"<=", ">=", "==", "!=", "<", ">"}, "<=, >=, ==, !=, < or >",
+                     "TEMPERATURE > LIMIT");
   field.fail(understudy::quoted(text) +
              " is not a relation; expected one such as TEMPERATURE > LIMIT, with spaces around the sign");
 }

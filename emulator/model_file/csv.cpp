@@ -78,7 +78,7 @@ class CsvReader {
     CsvCell cell{.text = {}, .column = static_cast<int>(at_ - line_begin_) + 1};
     if (!is_at_end_of_line() && text_[at_] == '"') {
       cell.text = read_quoted(cell.column);
-      demand_end_of_cell();
+      require_end_of_cell();
       return cell;
     }
     const std::size_t begin = at_;
@@ -87,7 +87,7 @@ class CsvReader {
     return cell;
   }
 
-  void demand_end_of_cell() {
+  void require_end_of_cell() {
     const std::size_t begin = at_;
     while (!is_at_end_of_line() && text_[at_] != separator_) ++at_;
     const std::string more = without_blanks(text_.substr(begin, at_ - begin));

@@ -43,7 +43,7 @@ std::uint8_t read_function(const YamlFields& field) {
 
 /// How many registers or bits a request may ask for, by its function.
 void read_limits(const YamlFields& field, Line& line) {
-  field.demand_map();
+  field.require_map();
   for (const auto& [code, most] : field.entries()) {
     const auto number = parse_integer(code);
     const bool is_known =
@@ -74,7 +74,7 @@ std::size_t read_word(const YamlFields& field, const Form& form) {
 }
 
 void read_line(const YamlFields& fields, Line& line, Complaints& complaints) {
-  complaints.attempt([&] { fields.demand_keys(kLineKeys); });
+  complaints.attempt([&] { fields.require_keys(kLineKeys); });
   const auto read = [&](std::string_view key, const auto& how) {
     complaints.attempt([&] {
       if (const auto field = fields.find(key)) how(*field);
@@ -124,7 +124,7 @@ void read_line(const YamlFields& fields, Line& line, Complaints& complaints) {
 }
 
 void read_policy(const YamlFields& fields, MapPolicy& policy, Complaints& complaints) {
-  complaints.attempt([&] { fields.demand_keys(kMapKeys); });
+  complaints.attempt([&] { fields.require_keys(kMapKeys); });
   const auto read = [&](std::string_view key, const Form& form, const auto& take) {
     complaints.attempt([&] {
       if (const auto field = fields.find(key)) take(read_word(*field, form));

@@ -152,15 +152,15 @@ std::string name_of(const ListRow& row) {
 }
 
 /// A list may say the same twice, but not two things.
-void demand_agreement(const ListRow& row, Type type) {
-  const auto demand = [&](Column column, bool agrees) {
+void require_agreement(const ListRow& row, Type type) {
+  const auto require = [&](Column column, bool agrees) {
     if (!row.has(column) || agrees) return;
     row.fail(column, quoted(row.text(column)) + " contradicts the type " + quoted(row.text(Column::type)) +
                          "; expected the same, or one of the two");
   };
-  demand(Column::width, row.text(Column::width) == std::to_string(width_of(type)));
-  demand(Column::real, row.yes_or_no(Column::real) == (type == Type::f32));
-  demand(Column::is_signed, type == Type::f32 || row.yes_or_no(Column::is_signed) == is_signed(type));
+  require(Column::width, row.text(Column::width) == std::to_string(width_of(type)));
+  require(Column::real, row.yes_or_no(Column::real) == (type == Type::f32));
+  require(Column::is_signed, type == Type::f32 || row.yes_or_no(Column::is_signed) == is_signed(type));
 }
 
 Type type_of(const ListRow& row, Table table) {
@@ -173,7 +173,7 @@ Type type_of(const ListRow& row, Table table) {
     if ((*type == Type::bit) != is_table_of_bits(table))
       row.fail(Column::type,
                "is not as wide as its table; expected bit in coil and discrete, and only there");
-    demand_agreement(row, *type);
+    require_agreement(row, *type);
     return *type;
   }
   const std::string width = row.text(Column::width);

@@ -81,7 +81,7 @@ std::string whole_text(const YamlFields& root, const std::string& list) {
 }
 
 void read_bits(const YamlFields& field, Description& made, Complaints& complaints) {
-  complaints.attempt([&] { field.demand_map(); });
+  complaints.attempt([&] { field.require_map(); });
   for (const auto& [name, bits] : field.entries()) {
     complaints.attempt([&, &called = name, &entries = bits] {
       const auto found = std::find_if(made.registers.begin(), made.registers.end(),
@@ -92,12 +92,12 @@ void read_bits(const YamlFields& field, Description& made, Complaints& complaint
         entries.fail(understudy::quoted(called) + " is not a register of the list" +
                      suggestion(called, names));
       }
-      entries.demand_map();
+      entries.require_map();
       for (const auto& [bit_name, bit] : entries.entries()) {
         try {
           auto all = found->bits;
           all.push_back(bits_called(bit_name, bit.text(), found->type));
-          demand_apart(all);
+          require_apart(all);
           found->bits = std::move(all);
         } catch (const std::invalid_argument& error) {
           bit.fail(error.what());
@@ -113,7 +113,7 @@ std::unique_ptr<RegisterMap> plain_map(const Description& made, std::vector<std:
   try {
     auto map =
         std::make_unique<RegisterMap>(models::imported::plain_rows(made.registers, fields), made.policy);
-    map->demand_distinct_names();
+    map->require_distinct_names();
     return map;
   } catch (const std::logic_error& error) {
     list.fail(std::string(error.what()) + "; expected a list that makes a valid map");
@@ -125,7 +125,7 @@ class ModelReader {
   ModelReader(const YamlFields& root, Complaints& complaints) : root_(root), complaints_(complaints) {}
 
   Description read(bool may_read, std::vector<FileClaim>& files) {
-    complaints_.attempt([&] { root_.demand_keys(kModelKeys); });
+    complaints_.attempt([&] { root_.require_keys(kModelKeys); });
     complaints_.attempt([&] { root_.at("understudy").integer(kVersionForm); });
     complaints_.attempt([&] { read_names(); });
     complaints_.attempt([&] {
@@ -158,7 +158,7 @@ class ModelReader {
   void read_names() {
     const YamlFields model = root_.at("model");
     made_.name = model.text();
-    world::demand_name(model, made_.name);
+    world::require_name(model, made_.name);
     made_.title = "described by " + root_.file();
     if (const auto title = root_.find("title")) made_.title = one_line(title->text());
   }
@@ -176,10 +176,10 @@ class ModelReader {
     read("outputs",
          [&](const YamlFields& field) { read_terminals(field, false, made_, binder, complaints_); });
     read("axes", [&](const YamlFields& axes) {
-      complaints_.attempt([&] { axes.demand_map(); });
+      complaints_.attempt([&] { axes.require_map(); });
       for (const auto& [name, keys] : axes.entries()) {
         complaints_.attempt([&, &called = name, &its = keys] {
-          world::demand_name(its, called);
+          world::require_name(its, called);
           made_.axes.push_back(read_axis(its, called, made_, binder, complaints_));
         });
       }

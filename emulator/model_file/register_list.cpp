@@ -35,7 +35,7 @@ constexpr std::size_t kMaxRegisters = 20'000;
 /// What is taken already, and in which line.
 class Taken {
  public:
-  void demand_free(const ListRow& row, const ListedRegister& listed) const {
+  void require_free(const ListRow& row, const ListedRegister& listed) const {
     for (int word = 0; word < (is_32_bit(listed.type) ? 2 : 1); ++word) {
       const auto found = words_.find({listed.table, listed.address + word});
       if (found == words_.end()) continue;
@@ -99,7 +99,7 @@ std::vector<Column> read_headings(const CsvRow& row, const ListPlace& place, wor
   return columns;
 }
 
-void demand_text(const std::string& text, const ListPlace& place) {
+void require_text(const std::string& text, const ListPlace& place) {
   const auto wrong = first_not_utf8(text);
   if (!wrong) return;
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*wrong), '\n');
@@ -138,11 +138,11 @@ std::vector<BitName> parse_bits(const std::string& text, Type type) {
       throw std::invalid_argument(quoted(part) + " is not a bit; expected 0 READY");
     all.push_back(bits_called(part.substr(part.find_first_not_of(' ', blank)), part.substr(0, blank), type));
   }
-  demand_apart(all);
+  require_apart(all);
   return all;
 }
 
-void demand_apart(const std::vector<BitName>& all) {
+void require_apart(const std::vector<BitName>& all) {
   std::uint32_t taken = 0;
   for (const BitName& name : all) {
     const std::uint32_t mask = bits(name.bit, "", name.width).mask();
@@ -159,7 +159,7 @@ std::vector<ListedRegister> read_register_list(const std::string& text, const Li
                                                world::Complaints& complaints) {
   std::vector<ListedRegister> all;
   complaints.attempt([&] {
-    demand_text(text, place);
+    require_text(text, place);
     const std::vector<CsvRow> rows = parse_csv(text, place.file);
     const auto fail = [&](const std::string& what) {
       throw FileError({place.file, 1 + place.lines_before, 1}, "registers: " + what);
@@ -181,7 +181,7 @@ std::vector<ListedRegister> read_register_list(const std::string& text, const Li
                               ", and quotes around a cell with a separator in it");
         }
         ListedRegister listed = register_of(row);
-        taken.demand_free(row, listed);
+        taken.require_free(row, listed);
         taken.take(row, listed);
         all.push_back(std::move(listed));
       });

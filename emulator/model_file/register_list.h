@@ -27,7 +27,7 @@ std::vector<models::imported::ListedRegister> read_register_list(const std::stri
 /// was expected.
 std::vector<models::imported::BitName> parse_bits(const std::string& text, Type type);
 /// Requires that no two share a bit or a name. Throws std::invalid_argument.
-void demand_apart(const std::vector<models::imported::BitName>& all);
+void require_apart(const std::vector<models::imported::BitName>& all);
 /// Parses the bits of one name: "4", "4-7". Throws std::invalid_argument.
 models::imported::BitName bits_called(const std::string& name, const std::string& bits, Type type);
 

@@ -97,7 +97,7 @@ std::string quoted_yaml(const std::string& text) {
 std::vector<ListedRegister> read_list_file(const std::string& text, const std::string& path) {
   world::Complaints complaints;
   std::vector<ListedRegister> registers;
-  complaints.demand([&] { registers = read_register_list(text, {.file = path}, complaints); });
+  complaints.require([&] { registers = read_register_list(text, {.file = path}, complaints); });
   return registers;
 }
 

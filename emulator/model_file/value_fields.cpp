@@ -43,10 +43,10 @@ constexpr Tick kMaxEvery = 60'000;
 
 void read_terminals(const YamlFields& fields, bool are_inputs, Description& made, Binder& binder,
                     Complaints& complaints) {
-  complaints.attempt([&] { fields.demand_map(); });
+  complaints.attempt([&] { fields.require_map(); });
   for (const auto& [name, field] : fields.entries()) {
     complaints.attempt([&, &called = name, &where = field] {
-      world::demand_name(where, called);
+      world::require_name(where, called);
       const bool is_there = std::any_of(made.terminals.begin(), made.terminals.end(),
                                         [&](const Terminal& other) { return other.name == called; });
       if (is_there) where.fail(understudy::quoted(called) + " is an input as well; expected another name");
@@ -72,10 +72,10 @@ void read_terminals(const YamlFields& fields, bool are_inputs, Description& made
 }
 
 void read_followings(const YamlFields& fields, Description& made, Binder& binder, Complaints& complaints) {
-  complaints.attempt([&] { fields.demand_map(); });
+  complaints.attempt([&] { fields.require_map(); });
   for (const auto& [name, its] : fields.entries()) {
     complaints.attempt([&, &called = name, &keys = its] {
-      complaints.attempt([&] { keys.demand_keys(kFollowKeys); });
+      complaints.attempt([&] { keys.require_keys(kFollowKeys); });
       Following following;
       following.spot = binder.shown(keys, called, false, "what follows");
       const auto not_itself = [&](const YamlFields& field, const Quantity& quantity) {
@@ -110,7 +110,7 @@ void read_followings(const YamlFields& fields, Description& made, Binder& binder
 }
 
 void read_comparisons(const YamlFields& fields, Description& made, Binder& binder, Complaints& complaints) {
-  complaints.attempt([&] { fields.demand_map(); });
+  complaints.attempt([&] { fields.require_map(); });
   std::vector<YamlFields> places;
   for (const auto& [name, relation] : fields.entries()) {
     complaints.attempt([&, &called = name, &field = relation] {

@@ -71,7 +71,7 @@ Json parse_json(std::string_view text) {
   return parsed;
 }
 
-std::size_t demand_bench(const Json& message, std::size_t count) {
+std::size_t require_bench(const Json& message, std::size_t count) {
   std::uint64_t bench = 0;
   if (message.contains("bench")) {
     if (!message["bench"].is_number_unsigned()) throw BrowserError("bench: expected the number of a bench");
@@ -130,7 +130,7 @@ BrowserMessage parse_browser_message(std::string_view text, std::size_t benches,
     throw BrowserError("expected an object of JSON with \"do\": watch, or ask");
   }
   BrowserMessage taken;
-  taken.bench = demand_bench(message, benches);
+  taken.bench = require_bench(message, benches);
   if (message["do"] == "watch") {
     take_watch(message, taken);
   } else if (message["do"] == "ask") {

@@ -334,18 +334,18 @@ Web::Inside::Inside(const WebAddress& address, const WebLimits& given, WebEvents
   const auto parsed = net::ip::make_address(address.address, error);
   if (error) throw WebError(address.address + ": is not an address; expected one such as 127.0.0.1");
   const Tcp::endpoint endpoint(parsed, address.port);
-  const auto demand = [&](const char* what) {
+  const auto require = [&](const char* what) {
     if (!error) return;
     throw WebError(address.address + " port " + std::to_string(address.port) + ": " + what + " (" +
                    error.message() + "); expected a free port");
   };
   acceptor.open(endpoint.protocol(), error);
-  demand("cannot be opened");
+  require("cannot be opened");
   acceptor.set_option(net::socket_base::reuse_address(true), error);
   acceptor.bind(endpoint, error);
-  demand("cannot be opened");
+  require("cannot be opened");
   acceptor.listen(64, error);
-  demand("cannot be opened");
+  require("cannot be opened");
 }
 
 void Web::Inside::accept() {

@@ -49,7 +49,7 @@ void check_fault(const Inventory& inventory, const Fault& fault) {
                     " has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
   }
   const KnownDevice& known = inventory.known()[fault.device];
-  speech_of(*known.model).demand_possible(known.name, fault);
+  speech_of(*known.model).require_possible(known.name, fault);
   if (fault.trigger.when.empty()) return;
   try {
     check_condition(inventory, fault.trigger.when);

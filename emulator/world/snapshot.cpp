@@ -86,23 +86,23 @@ WorldState::Part edge_part(const World& world) {
 
 void check_inputs(const World& world, const WorldValues& values) {
   const auto& inputs = std::get<kInputs>(values);
-  demand_state(inputs.size() == world.device_count(), "its devices are different");
+  require_state(inputs.size() == world.device_count(), "its devices are different");
   for (std::size_t d = 0; d < inputs.size(); ++d) {
     const auto terminals = world.device(d).model().terminals;
-    demand_state(inputs[d].size() == terminals.size(), "its terminals are different");
+    require_state(inputs[d].size() == terminals.size(), "its terminals are different");
     for (std::size_t i = 0; i < terminals.size(); ++i) {
       if (terminals[i].kind == TerminalRow::Kind::counted_in) continue;
-      demand_within(inputs[d][i].external, terminals[i].lowest, terminals[i].highest);
+      require_within(inputs[d][i].external, terminals[i].lowest, terminals[i].highest);
     }
   }
 }
 
 void check_pulses(const World& world, const WorldValues& values) {
   const auto& sent_pulses = std::get<kSentPulses>(values);
-  demand_state(sent_pulses.size() == world.device_count(), "its devices are different");
+  require_state(sent_pulses.size() == world.device_count(), "its devices are different");
   for (std::size_t d = 0; d < sent_pulses.size(); ++d) {
-    demand_state(sent_pulses[d].size() == world.device(d).model().axes.size(), "its axes are different");
-    for (const std::int64_t pulses : sent_pulses[d]) demand_reach(pulses);
+    require_state(sent_pulses[d].size() == world.device(d).model().axes.size(), "its axes are different");
+    for (const std::int64_t pulses : sent_pulses[d]) require_reach(pulses);
   }
 }
 
@@ -121,41 +121,41 @@ std::size_t places_of(const Model& model, const Fault& fault) {
 
 void check_turns(const World& world, const WorldValues& values) {
   for (const auto& turn : std::get<kTurns>(values)) {
-    demand_state(turn.device < world.device_count(), "a turn belongs to no device");
+    require_state(turn.device < world.device_count(), "a turn belongs to no device");
     const auto terminals = world.device(turn.device).model().terminals;
     const auto place = static_cast<std::size_t>(turn.terminal);
     const bool is_counted = turn.terminal >= 0 && place < terminals.size() &&
                             terminals[place].kind == TerminalRow::Kind::counted_in;
-    demand_state(is_counted, "a turn is of no counted input");
-    demand_reach(turn.counts);
-    demand_within(turn.ticks, 1, tick_at(kForever));
-    demand_within(turn.ticks_left, 1, turn.ticks);
+    require_state(is_counted, "a turn is of no counted input");
+    require_reach(turn.counts);
+    require_within(turn.ticks, 1, tick_at(kForever));
+    require_within(turn.ticks_left, 1, turn.ticks);
   }
 }
 
 /// One that could have been injected.
 void check_fault_value(const World& world, const Fault& fault) {
-  demand_state(fault.device < world.device_count(), "a fault belongs to no device");
+  require_state(fault.device < world.device_count(), "a fault belongs to no device");
   const Model& model = world.device(fault.device).model();
-  demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places_of(model, fault),
-               "a fault has no place");
-  demand_state(!is_done_at_once(fault.kind) || waits(fault), "a push lasts");
+  require_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places_of(model, fault),
+                "a fault has no place");
+  require_state(!is_done_at_once(fault.kind) || waits(fault), "a push lasts");
   for (const Tick ticks : {fault.over_ticks, fault.period_ticks}) {
-    demand_state(ticks >= 0 && ticks <= tick_at(kForever), "a fault lasts beyond the end of time");
+    require_state(ticks >= 0 && ticks <= tick_at(kForever), "a fault lasts beyond the end of time");
   }
-  demand_state(find_fault(world.known(), fault_text(world.known(), fault)) == fault,
-               "a fault contradicts itself");
+  require_state(find_fault(world.known(), fault_text(world.known(), fault)) == fault,
+                "a fault contradicts itself");
   check_fault(world, fault);
 }
 
 void check_faults(const World& world, const WorldValues& values) {
   for (const auto& [number, armed] : std::get<kFaults>(values)) {
-    demand_state(number < std::get<kNextFault>(values), "a fault has a number that has not been given yet");
+    require_state(number < std::get<kNextFault>(values), "a fault has a number that has not been given yet");
     check_fault_value(world, armed.fault);
     const FaultCourse& course = armed.course;
     for (const std::int64_t count : {course.seen, course.matched, course.hits}) {
-      demand_state(count >= 0, "a fault counter is negative");
-      demand_reach(count);
+      require_state(count >= 0, "a fault counter is negative");
+      require_reach(count);
     }
   }
 }
@@ -164,13 +164,13 @@ WorldValues read_values(const World& world, StateReader& reader) {
   WorldValues values = copy_fields(world);
   std::apply([&](auto&... field) { (reader.read(field), ...); }, values);
   check_inputs(world, values);
-  demand_state(std::get<kSupplies>(values).size() == world.device_count(), "its devices are different");
+  require_state(std::get<kSupplies>(values).size() == world.device_count(), "its devices are different");
   check_pulses(world, values);
   check_faults(world, values);
   check_turns(world, values);
   const SimTime now = std::get<kNow>(values);
-  demand_state(now >= SimTime{0} && now <= kHorizon, "its time is beyond the end of time");
-  demand_state(std::get<kDone>(values) == tick_at(now), "its ticks are not those of its time");
+  require_state(now >= SimTime{0} && now <= kHorizon, "its time is beyond the end of time");
+  require_state(std::get<kDone>(values) == tick_at(now), "its ticks are not those of its time");
   return values;
 }
 
@@ -225,7 +225,7 @@ class Parts {
       throw StateError(name + ": " + error.what());
     }
   }
-  void demand_end() const {
+  void require_end() const {
     if (next_ != state_.parts.size()) throw StateError(state_.parts[next_].name + ": is not of this world");
   }
 
@@ -297,7 +297,7 @@ std::function<void()> read_state(World& world, const WorldState& state) {
   auto own = parts.read("world", [&](StateReader reader) {
     WorldValues of_world = read_values(world, reader);
     PlantStates of_machines = read_machines(world, reader);
-    reader.demand_end();
+    reader.require_end();
     return std::pair(std::move(of_world), std::move(of_machines));
   });
   std::vector<std::function<void()>> put_devices;
@@ -314,7 +314,7 @@ std::function<void()> read_state(World& world, const WorldState& state) {
       read_hearing(line, reader);
       reader.read(lines[i]);
       for (const auto& station : line.stations) put_stations.push_back(station->read_state(reader));
-      reader.demand_end();
+      reader.require_end();
     });
   }
   auto ticks = parts.read(std::string(kEdgePart), [&](StateReader reader) {
@@ -324,10 +324,10 @@ std::function<void()> read_state(World& world, const WorldState& state) {
       reader.read(lines[i].edge);
       world.line(i).line.check(lines[i]);
     }
-    reader.demand_end();
+    reader.require_end();
     return of_world;
   });
-  parts.demand_end();
+  parts.require_end();
 
   return [&world, values = std::move(own.first), machines = std::move(own.second),
           put_devices = std::move(put_devices), lines = std::move(lines),
@@ -371,8 +371,8 @@ std::string difference(const World& world, const WorldState& a, const WorldState
   const auto look_with_readers = [&](const std::string& name, auto differ) {
     look(name, [&](StateReader reader_a, StateReader reader_b) {
       std::string found = differ(reader_a, reader_b);
-      reader_a.demand_end();
-      reader_b.demand_end();
+      reader_a.require_end();
+      reader_b.require_end();
       return found;
     });
   };
@@ -395,8 +395,8 @@ std::string difference(const World& world, const WorldState& a, const WorldState
   look_with_readers(std::string(kEdgePart), [&](StateReader& reader_a, StateReader& reader_b) {
     return difference_of_edges(world, reader_a, reader_b);
   });
-  of_a.demand_end();
-  of_b.demand_end();
+  of_a.require_end();
+  of_b.require_end();
   return first;
 }
 

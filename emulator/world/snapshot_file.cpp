@@ -50,14 +50,14 @@ std::uint64_t checksum(const WorldState& state) {
   return sum;
 }
 
-const Json& demand_key(const Json& object, const char* key) {
+const Json& require_key(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) throw SnapshotError(std::string(key) + ": is missing; expected a snapshot");
   return *found;
 }
 
 std::string text_of(const Json& object, const char* key) {
-  const Json& text = demand_key(object, key);
+  const Json& text = require_key(object, key);
   if (!text.is_string()) throw SnapshotError(std::string(key) + ": is not text; expected a snapshot");
   return text.get<std::string>();
 }
@@ -154,13 +154,13 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
     throw SnapshotError("bench: is a different bench; expected the one that the snapshot was taken from");
   }
   WorldState state;
-  const Json& time = demand_key(file, "simulated_time_ns");
+  const Json& time = require_key(file, "simulated_time_ns");
   if (!time.is_number_unsigned() ||
       time.get<std::uint64_t>() > static_cast<std::uint64_t>(kHorizon.count())) {
     throw SnapshotError("simulated_time_ns: is not a time; expected a whole number");
   }
   state.time = SimTime{time.get<std::int64_t>()};
-  const Json& parts = demand_key(file, "state");
+  const Json& parts = require_key(file, "state");
   if (!parts.is_object()) throw SnapshotError("state: is not an object; expected the parts of a world");
   for (const auto& [name, bytes] : parts.items()) {
     auto part = bytes.is_string() ? parse_part(name, bytes.get_ref<const std::string&>()) : std::nullopt;

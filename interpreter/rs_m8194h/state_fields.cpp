@@ -34,8 +34,8 @@ void StateOf<lang::Command>::read(lang::Command& command, StateReader& reader) {
   if (registers.empty()) return;
   const bool is_whole =
       lang::read_registers(registers, lang::WordOrder::high_first, command) == lang::Fault::none;
-  demand_state(is_whole && !lang::bad_parameter(command, {.rectangle_corners_must_fit = false}),
-               "a command is not one of the manual's");
+  require_state(is_whole && !lang::bad_parameter(command, {.rectangle_corners_must_fit = false}),
+                "a command is not one of the manual's");
 }
 
 std::string StateOf<lang::Command>::told(const lang::Command& command) {
@@ -43,11 +43,11 @@ std::string StateOf<lang::Command>::told(const lang::Command& command) {
 }
 
 void StateOf<lang::Download>::check(const lang::Download& download) {
-  demand_state(lang::exists(download.name), "a macro has no such number");
+  require_state(lang::exists(download.name), "a macro has no such number");
   lang::Download again{.name = download.name};
   for (const lang::Command& line : download.lines) {
     const bool is_line = line.is_macro_line() && lang::add(again, line) == lang::Fault::none;
-    demand_state(is_line, "a line of a macro would have been refused");
+    require_state(is_line, "a line of a macro would have been refused");
   }
 }
 
@@ -57,16 +57,16 @@ void StateOf<lang::Trigger>::check(const lang::Trigger& trigger) {
   const bool fits = trigger.event == lang::TriggerEvent::call_mp ? lang::exists({false, argument})
                     : trigger.event == lang::TriggerEvent::hold  ? is_axis
                                                                  : argument == 0;
-  demand_state(fits, "a trigger has a wrong number");
+  require_state(fits, "a trigger has a wrong number");
 }
 
 void StateOf<lang::Run>::check(const lang::Run& run) {
-  if (run.until_ms != lang::kNever) demand_reach(run.until_ms);
-  demand_state(run.levels.size() <= lang::kDeepestCall, "macros are nested too deep");
+  if (run.until_ms != lang::kNever) require_reach(run.until_ms);
+  require_state(run.levels.size() <= lang::kDeepestCall, "macros are nested too deep");
 }
 
 void StateOf<lang::Execution>::check(const lang::Execution& execution) {
-  demand_state(execution.isrs.size() <= 64, "too many ISRs are at work");
+  require_state(execution.isrs.size() <= 64, "too many ISRs are at work");
 }
 
 }  // namespace understudy

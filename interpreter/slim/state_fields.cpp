@@ -26,27 +26,27 @@ constexpr lang::ProgramOptions kAnyProgram{
 
 void StateOf<lang::Operand>::check(const lang::Operand& operand) {
   using Kind = lang::Operand::Kind;
-  demand_state(std::isfinite(operand.number), "a number is not finite");
+  require_state(std::isfinite(operand.number), "a number is not finite");
   const bool of_array = is_array(operand.kind) && !operand.index_is_variable;
   const bool of_variables = is_variable(operand.kind) && !of_array;
   const int most = of_array                          ? lang::kArrayCount - 1
                    : of_variables                    ? lang::kVariableCount - 1
                    : operand.kind == Kind::condition ? static_cast<int>(lang::Condition::not_greater)
                                                      : 8;
-  demand_within(operand.index, 0, most);
+  require_within(operand.index, 0, most);
 }
 
 void StateOf<lang::Event>::check(const lang::Event& event) {
   // As many operands as its condition looks at.
   const bool compares = event.condition >= lang::Condition::equal;
-  demand_state(!event.has_condition || event.operands.size() == (compares ? 2U : 1U),
-               "an event looks at something else");
+  require_state(!event.has_condition || event.operands.size() == (compares ? 2U : 1U),
+                "an event looks at something else");
 }
 
 void StateOf<lang::Execution>::check(const lang::Execution& execution) {
-  demand_reach(execution.until_ms);
-  demand_state(execution.stack.size() <= 1000, "a program is nested too deep");
-  demand_state(std::isfinite(execution.number), "a number is not finite");
+  require_reach(execution.until_ms);
+  require_state(execution.stack.size() <= 1000, "a program is nested too deep");
+  require_state(std::isfinite(execution.number), "a number is not finite");
 }
 
 void StateOf<lang::Program>::write(const lang::Program& program, StateWriter& writer) {
@@ -56,7 +56,7 @@ void StateOf<lang::Program>::write(const lang::Program& program, StateWriter& wr
 void StateOf<lang::Program>::read(lang::Program& program, StateReader& reader) {
   std::vector<std::string> texts;
   reader.read(texts);
-  demand_state(program.set_texts(texts, kAnyProgram), "a line is not a line of a program");
+  require_state(program.set_texts(texts, kAnyProgram), "a line is not a line of a program");
 }
 
 }  // namespace understudy

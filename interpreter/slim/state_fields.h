@@ -55,7 +55,7 @@ struct StateOf<interpreter::slim::Frame> {
   using Value = interpreter::slim::Frame;
   static constexpr auto fields = FieldList{field("line", &Value::line), field("of_event", &Value::of_event),
                                            field("hold", &Value::hold), field("until_ms", &Value::until_ms)};
-  static void check(const Value& frame) { demand_reach(frame.until_ms); }
+  static void check(const Value& frame) { require_reach(frame.until_ms); }
 };
 
 template <>

@@ -9,12 +9,12 @@ namespace understudy {
 
 void StateOf<interpreter::super_40nc::StepState>::check(const Value& state) {
   using interpreter::super_40nc::Phase;
-  demand_reach(state.left_ms);
-  demand_state(state.left_ms >= 0, "a wait is negative");
+  require_reach(state.left_ms);
+  require_state(state.left_ms >= 0, "a wait is negative");
   const bool can_resume = state.resumes != Phase::idle && state.resumes < Phase::paused;
-  demand_state(can_resume, "a program cannot go on with this");
+  require_state(can_resume, "a program cannot go on with this");
   constexpr std::size_t kMaxCalls = 4096;
-  demand_state(state.calls.size() <= kMaxCalls, "there are too many calls");
+  require_state(state.calls.size() <= kMaxCalls, "there are too many calls");
 }
 
 }  // namespace understudy

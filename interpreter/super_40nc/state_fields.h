@@ -36,7 +36,7 @@ struct StateOf<interpreter::super_40nc::PlcState> {
                 field("rpm", &Value::rpm),           field("has_modes", &Value::has_modes),
                 field("jogs", &Value::jogs),         field("unit_ms", &Value::unit_ms),
                 field("timed", &Value::timed)};
-  static void check(const Value& state) { demand_reach(state.unit_ms); }
+  static void check(const Value& state) { require_reach(state.unit_ms); }
 };
 
 template <>

@@ -68,13 +68,13 @@ class Structure {
           fault(Code::logic, "begins one block too many", "at most " + std::to_string(options_.stack_depth));
         }
       } else {
-        demand_block();
+        require_block();
       }
     } else if (joins_blocks(op)) {
       if (blocks_ < 2) fault(Code::logic, "joins blocks that were not begun", "two blocks before it");
       pending_ = std::max(0, pending_ - 1);
     } else if (op == Op::mps) {
-      demand_block();
+      require_block();
       if (++branches_ == options_.stack_depth + 1) {
         fault(Code::logic, "begins one branch too many", "at most " + std::to_string(options_.stack_depth));
       }
@@ -82,16 +82,16 @@ class Structure {
       if (branches_ == 0) fault(Code::logic, "continues a branch that was not begun", "MPS before it");
       if (op == Op::mpp) branches_ = std::max(0, branches_ - 1);
     } else if (op == Op::inv) {
-      demand_block();
+      require_block();
     } else if (is_plc ? op != Op::end : reads_group(op)) {
-      demand_block();
+      require_block();
       pending_ = 0;
       if (options_.outputs_clear_blocks) blocks_ = std::min(blocks_, 1);
     }
   }
 
   /// In step programs look_at_group() does it.
-  void demand_block() {
+  void require_block() {
     if (blocks_ == 0 && area_ == Area::plc) fault(Code::logic, "has no condition", "a block before it");
   }
 

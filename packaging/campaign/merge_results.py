@@ -12,7 +12,7 @@ import sys
 ID = 0x55535459  # of databases that `understudy run --results` has made
 
 
-def demand_own(path):
+def require_own(path):
     """Only a database of results is replaced; another file of that name may be there by mistake."""
     with open(path, "rb") as there:
         head = there.read(100)
@@ -22,7 +22,7 @@ def demand_own(path):
 
 def merge(target, sources):
     if os.path.lexists(target):
-        demand_own(target)
+        require_own(target)
         os.remove(target)
     # The first brings the tables along.
     with sqlite3.connect(f"file:{sources[0]}?mode=ro", uri=True) as first, sqlite3.connect(target) as whole:

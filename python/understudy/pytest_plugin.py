@@ -54,7 +54,7 @@ def draw(folder: Path) -> List[str]:
     return [str(file) for file in (recording, page, frames) if file.exists()] + said
 
 
-def demand_known(arguments: Mapping[str, Any]) -> None:
+def require_known(arguments: Mapping[str, Any]) -> None:
     """Of a misspelt word the test's author is told, not a reader of this file."""
     known = [name for name, it in inspect.signature(start).parameters.items() if it.kind is not it.VAR_POSITIONAL]
     for name in arguments:
@@ -96,7 +96,7 @@ def bench(request: pytest.FixtureRequest, bench_factory: Callable[..., Bench]) -
     if not isinstance(given, Mapping):
         pytest.fail(f"bench: the parameter is {given!r}; expected a dict, such as {{'model': 'slim'}}", pytrace=False)
     arguments: Dict[str, Any] = {**(marker.kwargs if marker else {}), **given}
-    demand_known(arguments)
+    require_known(arguments)
     if not positional and "bench" not in arguments:
         arguments.setdefault("model", "simple2-r3")
     named = positional[0] if positional else arguments.pop("bench", None)

@@ -11,7 +11,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 
 constexpr std::size_t kLongest = 4096;
 const std::string kFolder = "/nonexistent";  // what it names by a path is not there
@@ -25,11 +25,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     written = emulator::world::to_text(emulator::world::parse_bench(
         emulator::models::all_models(), std::string(fuzzing::text_of(data, size)), "bench.yaml", kFolder));
   } catch (const FileError& error) {
-    demand(error.what()[0] != '\0', "an error says something");
+    require(error.what()[0] != '\0', "an error says something");
     return 0;
   }
   const emulator::world::Bench again =
       emulator::world::parse_bench(emulator::models::all_models(), written, "again.yaml", kFolder);
-  demand(emulator::world::to_text(again) == written, "a bench as text is the same bench");
+  require(emulator::world::to_text(again) == written, "a bench as text is the same bench");
   return 0;
 }

@@ -17,7 +17,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 
 constexpr std::size_t kLongest = 4096;
 
@@ -68,17 +68,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     bool is_refused = false;
     emulator::serve::handle_message(rig.daemon, line, [&](const std::string& reply) {
       ++replies;
-      demand(reply.find('\n') == std::string::npos, "a reply is one line");
+      require(reply.find('\n') == std::string::npos, "a reply is one line");
       const auto json = nlohmann::json::parse(reply, nullptr, false);
-      demand(json.is_object() && json.contains("ok"), "a reply says whether it was obeyed");
+      require(json.is_object() && json.contains("ok"), "a reply says whether it was obeyed");
       is_refused = json["ok"] == false;
     });
-    demand(replies <= 1, "a message gets one reply");
+    require(replies <= 1, "a message gets one reply");
     rig.is_as_made = rig.is_as_made && is_refused;
     rig.daemon.pause();  // an advance that is under way ends
     if (!is_checked_wholly) continue;
     emulator::world::WorldState after = save(rig.daemon.world());
-    if (is_refused) demand(after == before, "a message that is refused changes nothing");
+    if (is_refused) require(after == before, "a message that is refused changes nothing");
     before = std::move(after);
   }
   return 0;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace understudy;
 using namespace understudy::interpreter::super_40nc;
-using fuzzing::demand;
+using fuzzing::require;
 
 constexpr std::size_t kLongest = 8192;
 constexpr int kTicks = 40;
@@ -40,10 +40,10 @@ void run_all(const Program& program) {
   for (int tick = 0; tick < kTicks; ++tick) {
     machine.memory.at(static_cast<std::size_t>(tick) % 24) ^= 1;
     const Scanned scanned = scan(plc, ladder, machine, steps, options);
-    demand(!scanned.has_changed || scanned.quiet_scans == 0, "a scan that changes something is not quiet");
+    require(!scanned.has_changed || scanned.quiet_scans == 0, "a scan that changes something is not quiet");
     steps.run_slices();
     for (int i = 0; i < kStepProgramCount; ++i) {
-      demand(steps.quiet_ms(static_cast<Area>(i)) >= 0, "a quiet time is not negative");
+      require(steps.quiet_ms(static_cast<Area>(i)) >= 0, "a quiet time is not negative");
     }
   }
 }
@@ -53,16 +53,16 @@ void run_all(const Program& program) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > kLongest) return 0;
   const Checked checked = check(fuzzing::text_of(data, size));
-  demand(checked.program.has_value() == checked.errors.empty(), "programs or errors");
+  require(checked.program.has_value() == checked.errors.empty(), "programs or errors");
   for (const Complaint& error : checked.errors) {
-    demand(error.line >= 1 && error.column >= 1, "an error has its place");
-    demand(!error.what.empty() && error.code != Code::none, "an error says something");
+    require(error.line >= 1 && error.column >= 1, "an error has its place");
+    require(!error.what.empty() && error.code != Code::none, "an error says something");
   }
   if (!checked.program) return 0;
   const std::string text = list(*checked.program);
   const Checked again = check(text);
-  demand(again.program == checked.program, "a listing made from programs is those programs");
-  demand(list(*again.program) == text, "and is the same again");
+  require(again.program == checked.program, "a listing made from programs is those programs");
+  require(list(*again.program) == text, "and is the same again");
   run_all(*checked.program);
   return 0;
 }

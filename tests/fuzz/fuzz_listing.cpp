@@ -9,7 +9,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 
 constexpr std::size_t kLongest = 8192;
 
@@ -18,12 +18,12 @@ constexpr std::size_t kLongest = 8192;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > kLongest) return 0;
   const auto assembly = interpreter::simple2::assemble(fuzzing::text_of(data, size));
-  demand(assembly.lines.has_value() == assembly.errors.empty(), "a program or errors");
+  require(assembly.lines.has_value() == assembly.errors.empty(), "a program or errors");
   for (const auto& error : assembly.errors) {
-    demand(error.line >= 1 && error.column >= 1, "an error has its place");
+    require(error.line >= 1 && error.column >= 1, "an error has its place");
   }
   if (!assembly.lines) return 0;
   const auto again = interpreter::simple2::assemble(interpreter::simple2::disassemble(*assembly.lines));
-  demand(again.lines == assembly.lines, "a listing made from a program is that program");
+  require(again.lines == assembly.lines, "a listing made from a program is that program");
   return 0;
 }

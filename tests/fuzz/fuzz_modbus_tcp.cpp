@@ -19,7 +19,7 @@ namespace {
 using namespace understudy;
 using emulator::serve::GatewayRules;
 using emulator::serve::ModbusTcp;
-using fuzzing::demand;
+using fuzzing::require;
 using Bytes = ModbusTcp::Bytes;
 using Frames = std::vector<Bytes>;
 
@@ -67,15 +67,15 @@ void answer(ModbusTcp& gateway, const Bytes& frame, unsigned how) {
 
 void serve(ModbusTcp& gateway, Frames& frames, unsigned how) {
   for (Bytes frame = gateway.take_for_line(kRoom); !frame.empty(); frame = gateway.take_for_line(kRoom)) {
-    demand(pty::rtu_crc_ok(frame) && frame.size() >= 4 && frame.size() <= kRoom, "it is a frame");
-    demand(gateway.waits() && gateway.patience(), "its answer is waited for");
-    demand(gateway.take_for_line(kRoom).empty(), "one at a time");
+    require(pty::rtu_crc_ok(frame) && frame.size() >= 4 && frame.size() <= kRoom, "it is a frame");
+    require(gateway.waits() && gateway.patience(), "its answer is waited for");
+    require(gateway.take_for_line(kRoom).empty(), "one at a time");
     frames.push_back(frame);
     answer(gateway, frame, how + static_cast<unsigned>(frames.size()));
-    demand(!gateway.waits(), "and for no more");
+    require(!gateway.waits(), "and for no more");
     const Bytes said = gateway.take_for_client();
-    demand(said.size() <= 260, "answers are bounded");
-    if (!said.empty()) demand(said.size() >= 8 && said.size() == kHeader + said[5], "and whole");
+    require(said.size() <= 260, "answers are bounded");
+    if (!said.empty()) require(said.size() >= 8 && said.size() == kHeader + said[5], "and whole");
   }
 }
 
@@ -91,16 +91,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Frames frames;
     bool is_refused = false;
     for (std::size_t at = 0; at < said.size() && !is_refused; at += piece) {
-      demand(gateway.has_room(), "what is served makes room");
+      require(gateway.has_room(), "what is served makes room");
       is_refused = !gateway.hear_client(said.subspan(at, std::min(piece, said.size() - at)));
       serve(gateway, frames, data[0] >> 4);
     }
-    if (is_refused) demand(!gateway.hear_client(said), "what was refused stays so");
-    demand(is_refused == expected.is_refused, "a length is refused that no message has");
+    if (is_refused) require(!gateway.hear_client(said), "what was refused stays so");
+    require(is_refused == expected.is_refused, "a length is refused that no message has");
     gateway.client_gone();
     serve(gateway, frames, data[0] >> 4);
-    demand(frames == expected.frames, "the line gets what the standard says");
-    demand(gateway.is_idle() || !is_refused, "nothing is left");
+    require(frames == expected.frames, "the line gets what the standard says");
+    require(gateway.is_idle() || !is_refused, "nothing is left");
   }
   return 0;
 }

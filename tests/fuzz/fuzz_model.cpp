@@ -19,7 +19,7 @@ namespace {
 
 using namespace understudy;
 using namespace understudy::emulator;
-using fuzzing::demand;
+using fuzzing::require;
 
 constexpr std::size_t kLongest = 4096;
 constexpr std::size_t kMaxWritten = 64;  // registers
@@ -60,13 +60,13 @@ void run(const Model& model) {
     write_each(by_ticks, same_number);
     world.advance_to(world.now() + ticks * kTickLength);
     by_ticks.advance_to(by_ticks.now() + ticks * kTickLength);
-    demand(world::hash(world) == world::hash(by_ticks), "many ticks in one step are the same as one by one");
+    require(world::hash(world) == world::hash(by_ticks), "many ticks in one step are the same as one by one");
   }
   world::World restored(bench, {}, {});
   world::restore(restored, world::save(world));
   restored.advance_to(restored.now() + 50 * kTickLength);
   world.advance_to(world.now() + 50 * kTickLength);
-  demand(world::hash(world) == world::hash(restored), "a state that is saved is one that goes on alike");
+  require(world::hash(world) == world::hash(restored), "a state that is saved is one that goes on alike");
 }
 
 }  // namespace
@@ -78,11 +78,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     model = &files.parse(std::string(fuzzing::text_of(data, size)), "model.yaml");
   } catch (const FileError& error) {
-    demand(error.what()[0] != '\0', "an error says something");
+    require(error.what()[0] != '\0', "an error says something");
     return 0;
   }
   const Model& again = files.parse(std::string(model->description), "again.yaml");
-  demand(&again == model, "a model's description is the same model");
+  require(&again == model, "a model's description is the same model");
   if (fuzzing::is_checked_wholly({data, size})) run(*model);
   return 0;
 }

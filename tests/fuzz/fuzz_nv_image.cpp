@@ -14,7 +14,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 
 constexpr std::size_t kLongest = 8192;
 
@@ -41,15 +41,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > kLongest) return 0;
   try {
     const emulator::NvImage image = emulator::parse_nv_image(std::string(fuzzing::text_of(data, size)));
-    demand(emulator::parse_nv_image(emulator::to_json(image)) == image, "an image reads as it was written");
+    require(emulator::parse_nv_image(emulator::to_json(image)) == image, "an image reads as it was written");
     emulator::Device* device = device_of(image.model);
     if (device == nullptr) return 0;
     device->memory()->load_nv(image);
     const emulator::NvImage kept = device->memory()->nv_image();
     device->memory()->load_nv(kept);
-    demand(device->memory()->nv_image() == kept, "a memory takes back what it has given");
+    require(device->memory()->nv_image() == kept, "a memory takes back what it has given");
   } catch (const emulator::NvError& error) {
-    demand(error.what()[0] != '\0', "an error says something");
+    require(error.what()[0] != '\0', "an error says something");
   }
   return 0;
 }

@@ -15,7 +15,7 @@ namespace {
 
 using namespace understudy;
 using namespace understudy::emulator::page;
-using fuzzing::demand;
+using fuzzing::require;
 
 constexpr std::size_t kLongest = 4096;
 
@@ -23,11 +23,11 @@ void look_at_address(std::string_view text) {
   const auto host = parse_host(text);
   const WebAccess access = access_of({.address = "127.0.0.1", .port = 8080}, {});
   if (access.admits_host(text)) {
-    demand(host && host->port == 8080, "an admitted host has our port");
-    demand(host->name == "localhost" || host->name == "127.0.0.1" || host->name == "::1",
-           "and is the loopback");
+    require(host && host->port == 8080, "an admitted host has our port");
+    require(host->name == "localhost" || host->name == "127.0.0.1" || host->name == "::1",
+            "and is the loopback");
   }
-  if (access.admits_origin(text)) demand(text.starts_with("http://"), "an admitted origin is of http");
+  if (access.admits_origin(text)) require(text.starts_with("http://"), "an admitted origin is of http");
 }
 
 void look_at_message(std::string_view text, bool is_read_only) {
@@ -38,19 +38,19 @@ void look_at_message(std::string_view text, bool is_read_only) {
   try {
     message = parse_browser_message(text, 2, is_read_only);
   } catch (const BrowserError& error) {
-    demand(std::string_view(error.what()).find('\n') == std::string_view::npos, "an error is one line");
+    require(std::string_view(error.what()).find('\n') == std::string_view::npos, "an error is one line");
     return;
   }
-  demand(message.bench < 2, "a bench that there is");
+  require(message.bench < 2, "a bench that there is");
   if (message.what == BrowserMessage::What::watch)
-    return demand(message.names.size() <= 2'000, "not too many names");
-  demand(message.message.empty() != message.refusal.empty(), "passed on or refused");
+    return require(message.names.size() <= 2'000, "not too many names");
+  require(message.message.empty() != message.refusal.empty(), "passed on or refused");
   if (message.message.empty()) return;
-  demand(message.message.find('\n') == std::string::npos, "one line");
+  require(message.message.find('\n') == std::string::npos, "one line");
   const Json passed = Json::parse(message.message);
-  demand(passed["as"] == "page", "said by a page");
-  demand(!passed.contains("file"), "names no file");
-  if (is_read_only) demand(kLooks.contains(passed["do"].get<std::string>()), "only looks");
+  require(passed["as"] == "page", "said by a page");
+  require(!passed.contains("file"), "names no file");
+  if (is_read_only) require(kLooks.contains(passed["do"].get<std::string>()), "only looks");
 }
 
 }  // namespace
@@ -62,6 +62,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   look_at_message(text, false);
   look_at_message(text, true);
   const std::string token = token_of(text);
-  demand(token.size() <= text.size(), "a token is said");
+  require(token.size() <= text.size(), "a token is said");
   return 0;
 }

@@ -17,7 +17,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kLongest = 4096;
@@ -60,7 +60,7 @@ void check_events(std::istringstream text, bool is_checked_wholly) {
     try {
       const auto event = emulator::world::parse_event(line, world.known(), world.line_count());
       const std::string written = emulator::world::to_line(event, world.known());
-      demand(
+      require(
           emulator::world::to_line(emulator::world::parse_event(written, world.known(), world.line_count()),
                                    world.known()) == written,
           "an event reads as it was written");
@@ -82,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     emulator::world::replay(emulator::models::all_models(), recording, "recording", kUntil);
   } catch (const emulator::world::RecordingError& error) {
-    demand(error.what()[0] != '\0', "an error says something");
+    require(error.what()[0] != '\0', "an error says something");
   }
   return 0;
 }

@@ -19,7 +19,7 @@ namespace {
 
 using namespace understudy;
 using emulator::serve::Rfc2217;
-using fuzzing::demand;
+using fuzzing::require;
 using Bytes = Rfc2217::Bytes;
 
 constexpr std::size_t kLongest = 8192;
@@ -33,10 +33,10 @@ struct Outcome {
 
 pty::LineSettings settings_of(const Rfc2217& port) {
   const std::optional<pty::HostSettings> host = port.settings();
-  demand(host && host->data_bits && host->parity, "the settings are known");
-  demand(host->baud > 0 && host->baud <= 4'000'000, "the speed is one");
-  demand(*host->data_bits >= 5 && *host->data_bits <= 8, "so many data bits are possible");
-  demand(host->stop_bits == 1 || host->stop_bits == 2, "so many stop bits are possible");
+  require(host && host->data_bits && host->parity, "the settings are known");
+  require(host->baud > 0 && host->baud <= 4'000'000, "the speed is one");
+  require(*host->data_bits >= 5 && *host->data_bits <= 8, "so many data bits are possible");
+  require(host->stop_bits == 1 || host->stop_bits == 2, "so many stop bits are possible");
   return {.baud = host->baud,
           .data_bits = *host->data_bits,
           .parity = *host->parity,
@@ -46,14 +46,14 @@ pty::LineSettings settings_of(const Rfc2217& port) {
 void serve_line(Rfc2217& port, std::size_t room, Outcome& outcome) {
   for (bool goes_on = true; goes_on;) {
     const Bytes taken = port.take_for_line(room);
-    demand(taken.size() <= room, "no more is taken than there is room for");
+    require(taken.size() <= room, "no more is taken than there is room for");
     for (const std::uint8_t byte : taken) outcome.line.emplace_back(byte, settings_of(port));
     const bool takes_back = port.takes_back();
     const bool throws_away = port.throws_away();
     goes_on = !taken.empty() || takes_back || throws_away;
   }
   const Bytes answers = port.take_for_client();
-  demand(answers.size() <= kMaxAnswers, "answers are bounded");
+  require(answers.size() <= kMaxAnswers, "answers are bounded");
   outcome.answers.insert(outcome.answers.end(), answers.begin(), answers.end());
 }
 
@@ -61,18 +61,18 @@ Outcome outcome_of(std::span<const std::uint8_t> said, std::size_t piece, std::s
   Rfc2217 port(pty::LineSettings{});
   Outcome outcome;
   for (std::size_t at = 0; at < said.size(); at += piece) {
-    demand(port.has_room(), "what is served makes room");
-    demand(port.hear_client(said.subspan(at, std::min(piece, said.size() - at))), "nobody is let go");
+    require(port.has_room(), "what is served makes room");
+    require(port.hear_client(said.subspan(at, std::min(piece, said.size() - at))), "nobody is let go");
     serve_line(port, room, outcome);
   }
   return outcome;
 }
 
 /// Commands and answers only, as nothing came from the line: each begins with 255 and ends where it should.
-void demand_telnet(std::span<const std::uint8_t> said) {
+void require_telnet(std::span<const std::uint8_t> said) {
   std::size_t at = 0;
   while (at < said.size()) {
-    demand(at + 1 < said.size() && said[at] == 255, "a command begins with 255");
+    require(at + 1 < said.size() && said[at] == 255, "a command begins with 255");
     const std::uint8_t verb = said[at + 1];
     if (verb >= 251 && verb <= 254) {
       at += 3;
@@ -81,11 +81,11 @@ void demand_telnet(std::span<const std::uint8_t> said) {
       while (at + 1 < said.size() && !(said[at] == 255 && said[at + 1] == 240)) at += said[at] == 255 ? 2 : 1;
       at += 2;
     } else {
-      demand(verb == 241, "nothing else is said");
+      require(verb == 241, "nothing else is said");
       at += 2;
     }
   }
-  demand(at == said.size(), "each answer is whole");
+  require(at == said.size(), "each answer is whole");
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::span<const std::uint8_t> said(data + 1, size - 1);
   // A whole break is let go where the line has no room for it, so it has some.
   const Outcome whole = outcome_of(said, 4096, 4096);
-  demand_telnet(whole.answers);
-  demand(outcome_of(said, 1 + data[0] % 16, 1 + data[0] / 16) == whole, "pieces make no difference");
+  require_telnet(whole.answers);
+  require(outcome_of(said, 1 + data[0] % 16, 1 + data[0] / 16) == whole, "pieces make no difference");
   return 0;
 }

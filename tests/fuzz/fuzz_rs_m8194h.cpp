@@ -24,7 +24,7 @@
 namespace {
 
 using namespace understudy::interpreter::rs_m8194h;
-using understudy::fuzzing::demand;
+using understudy::fuzzing::require;
 
 class Controller : public Machine {
  public:
@@ -41,7 +41,7 @@ class Controller : public Machine {
   }
   bool stand(std::uint32_t axes) const override { return (now_ms & axes) == 0; }
   bool frnet_input(std::uint32_t group, std::uint32_t channel) const override {
-    demand(group >= 8 && group <= 15 && channel <= 15, "an input exists");
+    require(group >= 8 && group <= 15 && channel <= 15, "an input exists");
     return (now_ms >> 2U & 1) != 0;
   }
   Took carry_out(const Command& command) override {
@@ -52,14 +52,14 @@ class Controller : public Machine {
   void mp_ended() override {}
   void terminated() override {}
   void report(const ExecutionFault& fault) override {
-    demand(fault.fault != Fault::none && macro(fault.macro) != nullptr, "a fault has its macro");
+    require(fault.fault != Fault::none && macro(fault.macro) != nullptr, "a fault has its macro");
   }
 
   static void check_numbers(const Command& command) {
     Command plain = command;
     plain.code = real_time_code(command.verb());
-    demand(!bad_parameter(plain, {.rectangle_corners_must_fit = false}),
-           "a macro's numbers are in their ranges");
+    require(!bad_parameter(plain, {.rectangle_corners_must_fit = false}),
+            "a macro's numbers are in their ranges");
   }
 
   std::map<MacroName, Macro> macros;
@@ -77,7 +77,7 @@ class Box {
                                                  : State::mp_download;
     const Decoded decoded = decode(registers, state, order);
     if (decoded.fault != Fault::none) {
-      demand(row_of(decoded.fault).exception != 0, "a fault has its exception");
+      require(row_of(decoded.fault).exception != 0, "a fault has its exception");
       if (download_ && !registers.empty()) refuse(*download_, registers[0], decoded.fault);
       return;
     }
@@ -96,7 +96,7 @@ class Box {
     for (int i = 0; i < ticks; ++i) {
       ++controller_.now_ms;
       run_tick(execution_, controller_.now_ms, 8, false, {}, controller_);
-      demand(is_sound(execution_, controller_), "what runs is sound");
+      require(is_sound(execution_, controller_), "what runs is sound");
     }
   }
 
@@ -110,35 +110,35 @@ class Box {
     Download download;
     reader.read(execution);
     reader.read(download);
-    demand(execution == execution_, "what runs is saved whole");
-    demand(!download_ || download == *download_, "a download is saved whole");
+    require(execution == execution_, "what runs is saved whole");
+    require(!download_ || download == *download_, "a download is saved whole");
     Listing listing;
     for (const auto& [name, macro] : controller_.macros) listing.macros.push_back({name, macro});
     const ParsedListing again = parse_listing(text_of(listing));
-    demand(again.errors.empty() && again.listing == listing, "stored macros are read back from their text");
+    require(again.errors.empty() && again.listing == listing, "stored macros are read back from their text");
   }
 
  private:
   static void check_command(const Command& command, WordOrder order) {
     Command again;
-    demand(read_registers(encode(command, order), order, again) == Fault::none && again == command,
-           "a command is the same again by its registers");
+    require(read_registers(encode(command, order), order, again) == Fault::none && again == command,
+            "a command is the same again by its registers");
     if (bad_operand(command)) return;
     const ParsedCommand parsed = parse_command(text_of(command));
-    demand(parsed.command == command, "a command is the same again by its text");
+    require(parsed.command == command, "a command is the same again by its text");
   }
 
   void add_line(const Command& command) {
     const std::size_t before = download_->lines.size();
     const Fault fault = add(*download_, command);
-    demand(download_->lines.size() == before + (fault == Fault::none ? 1 : 0),
-           "a refused line is not stored");
+    require(download_->lines.size() == before + (fault == Fault::none ? 1 : 0),
+            "a refused line is not stored");
   }
 
   void end_download() {
     Closed closed = close(*download_);
-    demand(closed.macro.has_value() == (download_->fault == Fault::none), "what has no error is stored");
-    demand((status_of(*download_, {}).error == 0) == closed.macro.has_value(), "an error has its code");
+    require(closed.macro.has_value() == (download_->fault == Fault::none), "what has no error is stored");
+    require((status_of(*download_, {}).error == 0) == closed.macro.has_value(), "an error has its code");
     if (closed.macro) {
       controller_.macros[download_->name] = std::move(*closed.macro);
       replaced(execution_, download_->name, controller_);

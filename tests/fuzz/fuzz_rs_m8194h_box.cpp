@@ -43,7 +43,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 namespace world = emulator::world;
 namespace rsm = emulator::models::rs_m8194h;
 namespace lang = interpreter::rs_m8194h;
@@ -283,17 +283,17 @@ class Box {
     world_.take_output(0, said.size());
     std::span<const std::uint8_t> left = said;
     while (!left.empty()) {
-      demand(left.size() >= 5, "a reply is a whole frame");
+      require(left.size() >= 5, "a reply is a whole frame");
       std::size_t size = 8;
       if ((left[1] & 0x80) != 0) {
         size = 5;
-        demand(left[2] >= 1 && left[2] <= 6 && left[2] != 5, "there are five exceptions");
+        require(left[2] >= 1 && left[2] <= 6 && left[2] != 5, "there are five exceptions");
       } else if (left[1] <= 4) {
         size = 5U + left[2];
       }
-      demand(size <= left.size() && pty::rtu_crc_ok(left.first(size)), "a reply has a right checksum");
+      require(size <= left.size() && pty::rtu_crc_ok(left.first(size)), "a reply has a right checksum");
       if (function && !has_noise_) {
-        demand((left[1] & 0x7F) == (*function & 0x7F), "a reply is to what was asked");
+        require((left[1] & 0x7F) == (*function & 0x7F), "a reply is to what was asked");
       }
       left = left.subspan(size);
     }
@@ -349,7 +349,7 @@ void check_refusals(Box& box, std::span<const Act> acts) {
     if (act.kind() == 5) pdu = Box::register_pdu(act);
     if (pdu.empty() || pdu.size() > world::kModbusMaxPdu) continue;
     const bool is_in_download = box.word(emulator::Table::input, kRsmState) != 0;
-    fuzzing::demand_refused_changes_nothing(box.world().device(0), pdu, is_in_download);
+    fuzzing::require_refused_changes_nothing(box.world().device(0), pdu, is_in_download);
   }
 }
 
@@ -363,7 +363,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzzing::play(box, std::span(acts), 20);
   if (!fuzzing::is_checked_wholly({data, size}, 128)) return 0;
   Box& stepped = box_for(program, false);
-  fuzzing::demand_same_by_single_ticks(stepped, box, std::span(acts), 20);
+  fuzzing::require_same_by_single_ticks(stepped, box, std::span(acts), 20);
   check_refusals(stepped, acts);
   return 0;
 }

@@ -10,7 +10,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 
 constexpr std::size_t kLongest = 4096;
 
@@ -22,12 +22,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto scenarios = emulator::play::parse_scenarios(emulator::models::all_models(),
                                                            std::string(fuzzing::text_of(data, size)),
                                                            "/nonexistent/scenario.yaml");
-    demand(!scenarios.empty(), "a file that is accepted has a scenario");
+    require(!scenarios.empty(), "a file that is accepted has a scenario");
     for (const emulator::play::Scenario& scenario : scenarios) {
-      demand(!scenario.name.empty(), "a scenario has a name");
+      require(!scenario.name.empty(), "a scenario has a name");
     }
   } catch (const FileError& error) {
-    demand(error.what()[0] != '\0', "an error says something");
+    require(error.what()[0] != '\0', "an error says something");
   }
   return 0;
 }

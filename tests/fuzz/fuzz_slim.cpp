@@ -31,7 +31,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kLongestInput = 4096;
@@ -133,7 +133,7 @@ class Listener {
   void advance(SimTime duration) {
     world_.advance_to(world_.now() + duration);
     const auto due = world_.next_due();
-    demand(!due || *due > world_.now(), "what is due has been done");
+    require(!due || *due > world_.now(), "what is due has been done");
     const auto output = line().output();
     said_.append(output.begin(), output.end());
     world_.take_output(0, output.size());
@@ -202,29 +202,29 @@ void check_whole_lines(const Listener& listener, const Options& options) {
   if (options.echo || options.prompt || said.empty() || has_lost) return;
   if (said.ends_with("\r\n")) return;
   std::fprintf(stderr, "...%s\n", said.substr(said.size() - std::min<std::size_t>(said.size(), 80)).c_str());
-  demand(false, "what is said are whole lines");
+  require(false, "what is said are whole lines");
 }
 
 /// Whoever leaves what is going on is answered again.
 void check_answers_again(Listener& listener, const Options& options) {
   listener.type("\x1B\r");
   listener.type("EXIT\r");
-  demand(listener.comes_to_rest(), "it comes to rest");
+  require(listener.comes_to_rest(), "it comes to rest");
   check_whole_lines(listener, options);
   const std::size_t before = listener.said().size();
   listener.type("?PE\r");
   std::string answer = listener.said().substr(before);
   const auto take_away = [&](std::string_view beginning, bool is_there) {
     if (!is_there) return;
-    demand(answer.starts_with(beginning), "an answer has what was chosen");
+    require(answer.starts_with(beginning), "an answer has what was chosen");
     answer.erase(0, beginning.size());
   };
   take_away("?PE\r\n", options.echo);
   take_away("PE=", options.names_values);
   const std::size_t end = answer.find("\r\n");
-  demand(end != std::string::npos, "?PE is answered with a line");
-  demand(answer.substr(end + 2) == (options.prompt ? ">" : ""), "and with nothing more");
-  demand(parse_real(answer.substr(0, end)).has_value(), "and the line is a number");
+  require(end != std::string::npos, "?PE is answered with a line");
+  require(answer.substr(end + 2) == (options.prompt ? ">" : ""), "and with nothing more");
+  require(parse_real(answer.substr(0, end)).has_value(), "and the line is a number");
 }
 
 /// What the two first bytes of an input ask for.
@@ -283,12 +283,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Listener& stepped = chains.stepped(settings);
   stepped.begin_anew();
   play(stepped, input, kMaxTicks);
-  demand(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
-  fuzzing::demand_same_state(stepped.device(), listener.device(), "ticks left out leave the same state");
+  require(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
+  fuzzing::require_same_state(stepped.device(), listener.device(), "ticks left out leave the same state");
 
   stepped.begin_anew();
   emulator::world::restore(stepped.world(), emulator::world::save(listener.world()));
-  fuzzing::demand_same_state(stepped.device(), listener.device(), "what is saved is taken back");
+  fuzzing::require_same_state(stepped.device(), listener.device(), "what is saved is taken back");
 
   check_answers_again(listener, options);
   return 0;

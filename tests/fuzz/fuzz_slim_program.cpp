@@ -13,7 +13,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kLongest = 4096;
@@ -45,17 +45,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     chain.world.load_program(0, fuzzing::text_of(data, size));
   } catch (const emulator::ProgramError& error) {
-    demand(error.what()[0] != '\0', "an error says something");
+    require(error.what()[0] != '\0', "an error says something");
     if (is_checked_wholly) {
-      demand(save(chain.world) == chain.as_made, "a program that is refused changes nothing");
+      require(save(chain.world) == chain.as_made, "a program that is refused changes nothing");
     }
     return 0;
   }
   chain.is_as_made = false;
   const std::string text = chain.world.device(0).user_program()->program_text();
   chain.world.load_program(0, text);
-  demand(chain.world.device(0).user_program()->program_text() == text,
-         "a program that it has is one that it takes");
+  require(chain.world.device(0).user_program()->program_text() == text,
+          "a program that it has is one that it takes");
   if (!is_checked_wholly) return 0;
   const std::string_view start = "G\r";
   chain.world.receive(0, {reinterpret_cast<const std::uint8_t*>(start.data()), start.size()});

@@ -18,7 +18,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kLongest = 4096;
@@ -69,14 +69,14 @@ void check_state(const emulator::world::WorldState& state, bool is_checked_wholl
   try {
     restore(world, state);
   } catch (const StateError&) {
-    if (is_checked_wholly) demand(save(world) == busy().state, "a state that is refused changes nothing");
+    if (is_checked_wholly) require(save(world) == busy().state, "a state that is refused changes nothing");
     return;
   }
   busy().is_as_made = false;
   if (is_checked_wholly) {
     const emulator::world::WorldState taken = save(world);
     restore(world, taken);
-    demand(save(world) == taken, "a state that was saved is taken back");
+    require(save(world) == taken, "a state that was saved is taken back");
   }
   try {
     world.advance_to(world.now() + 20ms);
@@ -95,7 +95,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       check_state(emulator::world::parse_snapshot(std::string(fuzzing::text_of(data, size)), busy().hash),
                   is_checked_wholly);
     } catch (const emulator::world::SnapshotError& error) {
-      demand(error.what()[0] != '\0', "an error says something");
+      require(error.what()[0] != '\0', "an error says something");
     }
     return 0;
   }

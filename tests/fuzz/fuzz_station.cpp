@@ -24,7 +24,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMaxLumps = 32;  // so that a run has an end
@@ -99,7 +99,7 @@ class Listener {
   void advance(SimTime duration) {
     world_.advance_to(world_.now() + duration);
     const auto due = world_.next_due();
-    demand(!due || *due > world_.now(), "what is due has been done");
+    require(!due || *due > world_.now(), "what is due has been done");
     const auto output = line().output();
     said_.insert(said_.end(), output.begin(), output.end());
     world_.take_output(0, output.size());
@@ -162,20 +162,20 @@ void check_replies(Listener& listener, int rotary_switch) {
   std::uint64_t exceptions = 0;
   while (!said.empty()) {
     const auto size = reply_size(said);
-    demand(size && *size <= said.size(), "replies are whole frames");
-    demand(*size <= 256, "a reply is no longer than 256 bytes");
-    demand(pty::rtu_crc_ok(said.first(*size)), "a reply has a right checksum");
-    demand(rotary_switch == 0 || said[0] == rotary_switch, "a station gives its own number");
+    require(size && *size <= said.size(), "replies are whole frames");
+    require(*size <= 256, "a reply is no longer than 256 bytes");
+    require(pty::rtu_crc_ok(said.first(*size)), "a reply has a right checksum");
+    require(rotary_switch == 0 || said[0] == rotary_switch, "a station gives its own number");
     if ((said[1] & 0x80) != 0) {
       ++exceptions;
-      demand(said[2] >= 1 && said[2] <= 3, "there are three exceptions");
+      require(said[2] >= 1 && said[2] <= 3, "there are three exceptions");
     }
     ++replies;
     said = said.subspan(*size);
   }
-  demand(replies == listener.counters().replies, "every reply leaves");
-  demand(exceptions == listener.counters().exceptions, "exceptions are counted");
-  demand(replies <= listener.counters().requests, "nothing is said without a request");
+  require(replies == listener.counters().replies, "every reply leaves");
+  require(exceptions == listener.counters().exceptions, "exceptions are counted");
+  require(replies <= listener.counters().requests, "nothing is said without a request");
 }
 
 /// The listeners for one set of options.
@@ -219,9 +219,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   Listener& stepped = crowd.stepped;
   play(stepped, input);
-  demand(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
-  demand(stepped.now() == listener.now(), "nor do they take another time");
-  fuzzing::demand_same_state(stepped.device(), listener.device(), "ticks left out leave the same state");
+  require(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
+  require(stepped.now() == listener.now(), "nor do they take another time");
+  fuzzing::require_same_state(stepped.device(), listener.device(), "ticks left out leave the same state");
 
   Listener& other = crowd.other;
   play(other, input);
@@ -230,8 +230,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Listener& untouched = crowd.untouched;
     untouched.begin_anew();
     untouched.advance(other.now());
-    fuzzing::demand_same_state(other.device(), untouched.device(), "frames for others change nothing");
-    demand(other.said().empty(), "frames for others are not answered");
+    fuzzing::require_same_state(other.device(), untouched.device(), "frames for others change nothing");
+    require(other.said().empty(), "frames for others are not answered");
   }
   return 0;
 }

@@ -39,7 +39,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 namespace world = emulator::world;
 namespace super_40nc = emulator::models::super_40nc;
 
@@ -183,7 +183,8 @@ class Listener {
     const std::size_t waits_there = world_.line(other).line.output().size();
     world_.receive(port, bytes);
     world_.advance_to(world_.now());
-    demand(world_.line(other).line.output().size() == waits_there, "the port that did not ask hears nothing");
+    require(world_.line(other).line.output().size() == waits_there,
+            "the port that did not ask hears nothing");
     take(port, function);
   }
   void take(std::size_t port, std::optional<std::uint8_t> function) {
@@ -192,17 +193,17 @@ class Listener {
     world_.take_output(port, said.size());
     std::span<const std::uint8_t> left = said;
     while (!left.empty()) {
-      demand(left.size() >= 5, "a reply is a whole frame");
+      require(left.size() >= 5, "a reply is a whole frame");
       std::size_t size = 8;
       if ((left[1] & 0x80) != 0) {
         size = 5;
-        demand(left[2] >= 1 && left[2] <= 3, "there are three exceptions");
+        require(left[2] >= 1 && left[2] <= 3, "there are three exceptions");
       } else if (left[1] <= 3) {
         size = 5U + left[2];
       }
-      demand(size <= left.size() && pty::rtu_crc_ok(left.first(size)), "a reply has a right checksum");
+      require(size <= left.size() && pty::rtu_crc_ok(left.first(size)), "a reply has a right checksum");
       if (function && !has_noise_) {
-        demand((left[1] & 0x7F) == (*function & 0x7F), "a reply is to what was asked");
+        require((left[1] & 0x7F) == (*function & 0x7F), "a reply is to what was asked");
       }
       left = left.subspan(size);
     }
@@ -252,7 +253,7 @@ Listener& listener_for(std::size_t program, bool in_bulk) {
 void check_refusals(Listener& listener, std::span<const Act> acts) {
   for (const Act& act : acts) {
     if (act.kind() != 1 || act.bytes.empty() || act.bytes.size() > world::kModbusMaxPdu) continue;
-    fuzzing::demand_refused_changes_nothing(listener.world().device(0), act.bytes);
+    fuzzing::require_refused_changes_nothing(listener.world().device(0), act.bytes);
   }
 }
 
@@ -266,7 +267,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzzing::play(listener, std::span(acts), 20);
   if (!fuzzing::is_checked_wholly({data, size}, 64)) return 0;
   Listener& stepped = listener_for(program, false);
-  fuzzing::demand_same_by_single_ticks(stepped, listener, std::span(acts), 20);
+  fuzzing::require_same_by_single_ticks(stepped, listener, std::span(acts), 20);
   check_refusals(stepped, acts);
   return 0;
 }

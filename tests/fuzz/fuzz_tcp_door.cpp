@@ -34,7 +34,7 @@ using namespace std::chrono_literals;
 using emulator::serve::EventLoop;
 using emulator::serve::Port;
 using emulator::serve::TcpDoor;
-using fuzzing::demand;
+using fuzzing::require;
 using Bytes = std::vector<std::uint8_t>;
 
 const Bytes kRequest{0x01, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xCA};
@@ -67,7 +67,7 @@ class Client {
  public:
   explicit Client(TcpDoor& door) {
     std::array<int, 2> ends{};
-    demand(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends.data()) == 0, "two ends");
+    require(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends.data()) == 0, "two ends");
     mine_ = Descriptor(ends[0]);
     door.admit(Descriptor(ends[1]));
   }
@@ -133,7 +133,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (is_gateway) return 0;
   if (end == 0) {
     for (int i = 0; i < 20; ++i) stranger->hear();
-    demand(stranger->is_over, "one that has said all is let go when it has its replies");
+    require(stranger->is_over, "one that has said all is let go when it has its replies");
   }
   stranger.reset();
   go_on(10ms);
@@ -143,6 +143,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     go_on(300ms);
     good.hear();
   }
-  demand(good.has(kReply), "the next host is served");
+  require(good.has(kReply), "the next host is served");
   return 0;
 }

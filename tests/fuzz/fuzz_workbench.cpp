@@ -27,7 +27,7 @@
 namespace {
 
 using namespace understudy;
-using fuzzing::demand;
+using fuzzing::require;
 using namespace std::chrono_literals;
 namespace world = emulator::world;
 namespace workbench = emulator::workbench;
@@ -159,19 +159,19 @@ void check_replies(Listener& listener, std::size_t line) {
   std::uint64_t exceptions = 0;
   while (!said.empty()) {
     const auto size = reply_size(said);
-    demand(size && *size <= said.size(), "replies are whole frames");
-    demand(*size <= 256, "a reply is no longer than 256 bytes");
-    demand(pty::rtu_crc_ok(said.first(*size)), "a reply has a right checksum");
-    demand(said[0] == 1, "a station gives its own number");
+    require(size && *size <= said.size(), "replies are whole frames");
+    require(*size <= 256, "a reply is no longer than 256 bytes");
+    require(pty::rtu_crc_ok(said.first(*size)), "a reply has a right checksum");
+    require(said[0] == 1, "a station gives its own number");
     if ((said[1] & 0x80) != 0) {
       ++exceptions;
-      demand((said[2] >= 1 && said[2] <= 4) || said[2] == 6, "there are five exceptions");
+      require((said[2] >= 1 && said[2] <= 4) || said[2] == 6, "there are five exceptions");
     }
     ++replies;
     said = said.subspan(*size);
   }
-  demand(replies == listener.counters(line).replies, "every reply leaves");
-  demand(exceptions == listener.counters(line).exceptions, "exceptions are counted");
+  require(replies == listener.counters(line).replies, "every reply leaves");
+  require(exceptions == listener.counters(line).exceptions, "exceptions are counted");
 }
 
 /// Without a line: what was refused has changed nothing but what the device notes of it, and what was written
@@ -188,28 +188,28 @@ void check_requests(std::span<const Lump> lumps) {
     const auto pdu = std::span(lump.bytes).subspan(1, lump.bytes.size() - 3);
     const workbench::WorkbenchState before = state;
     const world::ModbusReply reply = world::serve(*device, pdu);
-    demand(reply.size >= 2 && reply.size <= world::kModbusMaxPdu, "a reply has a size");
+    require(reply.size >= 2 && reply.size <= world::kModbusMaxPdu, "a reply has a size");
     const bool is_exception = (reply.pdu[0] & 0x80) != 0;
-    demand(is_exception == static_cast<bool>(reply.refused.objection), "an exception has a cause");
+    require(is_exception == static_cast<bool>(reply.refused.objection), "an exception has a cause");
     if (is_exception) {
-      demand(state == before, "a refused request changes nothing");
-      demand(reply.refused.exception == reply.pdu[1], "the device hears what was answered");
-      demand(pdu.empty() || reply.refused.function == pdu[0], "and to what");
+      require(state == before, "a refused request changes nothing");
+      require(reply.refused.exception == reply.pdu[1], "the device hears what was answered");
+      require(pdu.empty() || reply.refused.function == pdu[0], "and to what");
       continue;
     }
     const world::FunctionRow* const row = function_called(pdu[0]);
-    demand(row != nullptr, "only known functions are served");
-    if (row->kind == world::FunctionRow::Kind::read) demand(state == before, "reading changes nothing");
+    require(row != nullptr, "only known functions are served");
+    if (row->kind == world::FunctionRow::Kind::read) require(state == before, "reading changes nothing");
     if (row->code != 0x0F && row->code != 0x05) continue;
     // Coils hold what was written to them.
     const std::size_t count = row->code == 0x05 ? 1U : static_cast<std::size_t>(pdu[3] << 8 | pdu[4]);
     const std::array<std::uint8_t, 5> again{0x01, pdu[1], pdu[2], static_cast<std::uint8_t>(count >> 8),
                                             static_cast<std::uint8_t>(count)};
     const world::ModbusReply read = world::serve(*device, again);
-    demand(read.pdu[0] == 0x01, "what was written can be read");
+    require(read.pdu[0] == 0x01, "what was written can be read");
     for (std::size_t i = 0; i < count; ++i) {
       const bool wanted = row->code == 0x05 ? pdu[3] == 0xFF : (pdu[6 + i / 8] >> i % 8 & 1) != 0;
-      demand(((read.pdu[2 + i / 8] >> i % 8 & 1) != 0) == wanted, "a coil holds what was written");
+      require(((read.pdu[2 + i / 8] >> i % 8 & 1) != 0) == wanted, "a coil holds what was written");
     }
   }
 }
@@ -237,11 +237,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Crowd& crowd = crowd_for(data[0]);
   crowd.listener.play(lumps);
   for (std::size_t i = 0; i < crowd.listener.lines(); ++i) check_replies(crowd.listener, i);
-  demand(crowd.listener.device().state.fifo.size() <= workbench::kFifo, "the FIFO holds what it can");
+  require(crowd.listener.device().state.fifo.size() <= workbench::kFifo, "the FIFO holds what it can");
   if (!fuzzing::is_checked_wholly({data, size})) return 0;
   crowd.stepped.play(lumps);
-  demand(crowd.stepped.said() == crowd.listener.said(), "ticks left out are not to be seen on the line");
-  demand(crowd.stepped.now() == crowd.listener.now(), "nor do they take another time");
-  demand(crowd.stepped.device().same_state(crowd.listener.device()), "ticks left out leave the same state");
+  require(crowd.stepped.said() == crowd.listener.said(), "ticks left out are not to be seen on the line");
+  require(crowd.stepped.now() == crowd.listener.now(), "nor do they take another time");
+  require(crowd.stepped.device().same_state(crowd.listener.device()), "ticks left out leave the same state");
   return 0;
 }

@@ -16,7 +16,7 @@ namespace {
 
 using namespace understudy;
 using namespace understudy::emulator;
-using fuzzing::demand;
+using fuzzing::require;
 
 DeviceSettings settings() {
   DeviceSettings made;
@@ -38,9 +38,9 @@ void check_places(const std::vector<ProgramMistake>& mistakes, std::string_view 
   const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
   std::pair<int, int> last{0, 0};
   for (const ProgramMistake& mistake : mistakes) {
-    demand(mistake.line >= 1 && mistake.line <= lines + 1 && mistake.column >= 0, "a mistake has a place");
-    demand(!mistake.what.empty() && mistake.what.find('\n') == std::string::npos, "and says a line");
-    demand(last <= std::pair(mistake.line, mistake.column), "mistakes come in the order of the text");
+    require(mistake.line >= 1 && mistake.line <= lines + 1 && mistake.column >= 0, "a mistake has a place");
+    require(!mistake.what.empty() && mistake.what.find('\n') == std::string::npos, "and says a line");
+    require(last <= std::pair(mistake.line, mistake.column), "mistakes come in the order of the text");
     last = {mistake.line, mistake.column};
   }
 }
@@ -51,9 +51,9 @@ void check_numbers(const std::string& listed) {
     const std::string numbers = to_text(cells.assemble(listed, settings()));
     if (numbers.empty()) return;
     const std::string text = cells.disassemble(read_cells(numbers, cells.cell_form()), settings());
-    demand(to_text(cells.assemble(text, settings())) == numbers, "a program is the same from its numbers");
+    require(to_text(cells.assemble(text, settings())) == numbers, "a program is the same from its numbers");
   } catch (const ProgramError& error) {
-    demand(listed.find("FILE ") != std::string::npos, "all but files has numbers");
+    require(listed.find("FILE ") != std::string::npos, "all but files has numbers");
     check_places({}, error.what());
   }
 }
@@ -69,17 +69,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     device.load_program(text);
   } catch (const ProgramError& error) {
-    demand(error.mistakes == mistakes, "a device refuses what the check refuses");
-    demand(device.state.kept.blocks == before, "and keeps what it had");
+    require(error.mistakes == mistakes, "a device refuses what the check refuses");
+    require(device.state.kept.blocks == before, "and keeps what it had");
     return 0;
   }
-  demand(mistakes.empty(), "a device takes what the check takes");
+  require(mistakes.empty(), "a device takes what the check takes");
   const std::string listed = device.program_text();
   const TextBlocks kept = device.state.kept.blocks;
   workbench::Workbench& other = fresh_device();
   other.load_program(listed);
-  demand(other.state.kept.blocks.all() == kept.all(), "what is listed is the same program");
-  demand(other.program_text() == listed, "and is listed the same");
+  require(other.state.kept.blocks.all() == kept.all(), "what is listed is the same program");
+  require(other.program_text() == listed, "and is listed the same");
   check_numbers(listed);
   return 0;
 }

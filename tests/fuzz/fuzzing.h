@@ -14,7 +14,7 @@
 
 namespace understudy::fuzzing {
 
-inline void demand(bool condition, const char* what) {
+inline void require(bool condition, const char* what) {
   if (condition) return;
   std::fprintf(stderr, "violated: %s\n", what);
   std::abort();

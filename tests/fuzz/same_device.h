@@ -8,10 +8,10 @@
 
 namespace understudy::fuzzing {
 
-inline void demand_same_state(const emulator::Device& a, const emulator::Device& b, const char* what) {
+inline void require_same_state(const emulator::Device& a, const emulator::Device& b, const char* what) {
   if (a.same_state(b)) return;
   std::fprintf(stderr, "%s\n", a.state_difference(a.save_state(), b.save_state()).c_str());
-  demand(false, what);
+  require(false, what);
 }
 
 }  // namespace understudy::fuzzing

@@ -15,12 +15,12 @@
 
 namespace understudy::fuzzing {
 
-inline void demand_no_difference(emulator::world::World& world, const emulator::world::WorldState& a,
-                                 const emulator::world::WorldState& b, const char* what) {
+inline void require_no_difference(emulator::world::World& world, const emulator::world::WorldState& a,
+                                  const emulator::world::WorldState& b, const char* what) {
   const std::string difference = emulator::world::difference(world, a, b);
   if (difference.empty()) return;
   std::fprintf(stderr, "%s\n", difference.c_str());
-  demand(false, what);
+  require(false, what);
 }
 
 /// A stage begins anew, obeys acts, runs for ticks and has a world.
@@ -33,32 +33,32 @@ void play(Stage& stage, std::span<const Act> acts, Tick ticks_after) {
 
 /// `stepped` goes by single ticks; `in_bulk` has played the acts already.
 template <class Stage, class Act>
-void demand_same_by_single_ticks(Stage& stepped, Stage& in_bulk, std::span<const Act> acts,
-                                 Tick ticks_after) {
+void require_same_by_single_ticks(Stage& stepped, Stage& in_bulk, std::span<const Act> acts,
+                                  Tick ticks_after) {
   namespace world = emulator::world;
   stepped.begin_anew();
   const std::size_t half = acts.size() / 2;
   for (const Act& act : acts.first(half)) stepped.obey(act);
   const world::WorldState midst = world::save(stepped.world());
   world::restore(stepped.world(), midst);
-  demand_no_difference(stepped.world(), midst, world::save(stepped.world()),
-                       "a state that is restored is the one that was saved");
+  require_no_difference(stepped.world(), midst, world::save(stepped.world()),
+                        "a state that is restored is the one that was saved");
   for (const Act& act : acts.subspan(half)) stepped.obey(act);
   stepped.run(ticks_after);
   if (world::hash(stepped.world()) == world::hash(in_bulk.world())) return;
-  demand_no_difference(stepped.world(), world::save(stepped.world()), world::save(in_bulk.world()),
-                       "many ticks in one step are the same as one by one");
+  require_no_difference(stepped.world(), world::save(stepped.world()), world::save(in_bulk.world()),
+                        "many ticks in one step are the same as one by one");
 }
 
 /// A request that is refused leaves all as it was.
-inline void demand_refused_changes_nothing(emulator::Device& device, std::span<const std::uint8_t> pdu,
-                                           bool may_change = false) {
+inline void require_refused_changes_nothing(emulator::Device& device, std::span<const std::uint8_t> pdu,
+                                            bool may_change = false) {
   namespace world = emulator::world;
   const auto before = device.save_state();
   const world::ModbusReply reply = world::serve(device, pdu);
-  demand(reply.size >= 2 && reply.size <= world::kModbusMaxPdu, "a reply has a size");
+  require(reply.size >= 2 && reply.size <= world::kModbusMaxPdu, "a reply has a size");
   if ((reply.pdu[0] & 0x80) == 0 || may_change) return;
-  demand(device.state_difference(before, device.save_state()).empty(), "a refused request changes nothing");
+  require(device.state_difference(before, device.save_state()).empty(), "a refused request changes nothing");
 }
 
 }  // namespace understudy::fuzzing

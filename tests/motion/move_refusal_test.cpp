@@ -23,13 +23,13 @@ SpeedLaw good() {
           .down = RampLaw::by_sections(100, 10)};
 }
 
-void expect_refused(const std::function<void()>& act, Refusal refusal, const std::string& demand) {
+void expect_refused(const std::function<void()>& act, Refusal refusal, const std::string& require) {
   try {
     act();
-    ADD_FAILURE() << "accepted; should say: " << demand;
+    ADD_FAILURE() << "accepted; should say: " << require;
   } catch (const BadMotion& error) {
     EXPECT_EQ(error.refusal(), refusal) << error.what();
-    EXPECT_EQ(std::string(error.what()).find(demand), 0U) << error.what();
+    EXPECT_EQ(std::string(error.what()).find(require), 0U) << error.what();
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
   }
 }

@@ -93,27 +93,27 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
     const auto lasts = [](Slot slot) { return slot == Slot::not_kept || slot == Slot::at_once; };
     return a == b || (!lasts(a) && !lasts(b));
   };
-  demand_state(kept_.size() == earlier.kept_.size() && std::ranges::equal(slots_, earlier.slots_, is_alike),
-               "it is the memory of other registers");
+  require_state(kept_.size() == earlier.kept_.size() && std::ranges::equal(slots_, earlier.slots_, is_alike),
+                "it is the memory of other registers");
   // A waiting register has one job, whose place it keeps; to write everything comes before all others.
   std::vector<Slot> left = slots_;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     const Job& job = jobs_[i];
-    demand_within(job.takes, 0, kLongestJob);
+    require_within(job.takes, 0, kLongestJob);
     if (job.slot == kEverything) {
-      demand_state(i == 0 && rewriting_.size() == kept_.size(), "the memory cannot write everything");
+      require_state(i == 0 && rewriting_.size() == kept_.size(), "the memory cannot write everything");
     } else {
-      demand_state(job.slot < left.size() && left[job.slot] == Slot::waits,
-                   "the memory's writes are out of order");
+      require_state(job.slot < left.size() && left[job.slot] == Slot::waits,
+                    "the memory's writes are out of order");
       left[job.slot] = Slot::rests;
     }
   }
-  demand_state(std::find(left.begin(), left.end(), Slot::waits) == left.end(),
-               "the memory's writes are out of order");
+  require_state(std::find(left.begin(), left.end(), Slot::waits) == left.end(),
+                "the memory's writes are out of order");
   const bool rewrites = !jobs_.empty() && jobs_.front().slot == kEverything;
-  demand_state(rewrites || rewriting_.empty(), "the memory cannot write everything");
-  demand_state(jobs_.empty() == (done_at_ == kNever), "the memory writes without end");
-  if (done_at_ != kNever) demand_reach(done_at_);
+  require_state(rewrites || rewriting_.empty(), "the memory cannot write everything");
+  require_state(jobs_.empty() == (done_at_ == kNever), "the memory writes without end");
+  if (done_at_ != kNever) require_reach(done_at_);
 }
 
 void Eeprom::put(std::size_t slot, std::uint32_t bits) { keep(slot, bits); }

@@ -26,14 +26,14 @@ using OrderedJson = nlohmann::ordered_json;  // looks keys up one by one: for wr
 constexpr const char* kKind = "nv-image";
 constexpr int kFormat = 1;
 
-const Json& demand(const Json& object, const char* key) {
+const Json& require(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) throw NvError(std::string(key) + ": is missing; expected an NV image");
   return *found;
 }
 
 std::string text_of(const Json& object, const char* key) {
-  const Json& text = demand(object, key);
+  const Json& text = require(object, key);
   if (!text.is_string()) throw NvError(std::string(key) + ": is not text; expected an NV image");
   return text.get<std::string>();
 }
@@ -283,7 +283,7 @@ NvImage parse_nv_image(const std::string& text) {
   }
   NvImage image{.model = text_of(file, "model"), .firmware = text_of(file, "firmware"), .registers = {}};
   if (image.firmware.empty()) throw NvError("firmware: is empty; expected the version that wrote the image");
-  const Json& registers = demand(file, "registers");
+  const Json& registers = require(file, "registers");
   if (!registers.is_object()) throw NvError("registers: is not an object; expected names and values");
   for (const std::string& name : parsed.registers) {
     const Json& value = registers[name];

@@ -70,7 +70,7 @@ void write_kept_registers(const RegisterMap& map, const std::vector<bool>& keeps
 void check_restored_registers(const RegisterBank& bank, std::span<const std::uint32_t> image,
                               std::span<const std::uint32_t> kept) {
   const auto slots = static_cast<std::size_t>(bank.map().slot_count());
-  demand_state(image.size() == slots && kept.size() == slots, "the image has another size");
+  require_state(image.size() == slots && kept.size() == slots, "the image has another size");
   // By choice a bench may be stricter with what hosts write: programs are not.
   const MapPolicy& policy = bank.map().policy();
   std::size_t slot = 0;

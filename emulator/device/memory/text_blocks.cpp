@@ -138,8 +138,8 @@ void TextBlocks::check_restored(const TextBlocks& earlier) {
     throw StateError(wrong.what());
   }
   for (const auto& [name, entries] : all_) {
-    demand_state(!entries.empty(), "a kind of block is empty");
-    demand_state(entries.size() <= kind(name)->most, "a kind of block has too many entries");
+    require_state(!entries.empty(), "a kind of block is empty");
+    require_state(entries.size() <= kind(name)->most, "a kind of block has too many entries");
   }
 }
 

@@ -110,7 +110,7 @@ class RegisterMap {
   /// Returns the name, with its table in front if another table has the same name. find() accepts it.
   std::string unique_name(const RegisterRow& row, int index) const;
   /// Throws std::logic_error if two registers of a table have the same name.
-  void demand_distinct_names() const { names_.demand_distinct(); }
+  void require_distinct_names() const { names_.require_distinct(); }
 
  private:
   void place_words(const RegisterRow& row, int row_number);

@@ -158,7 +158,7 @@ void RegisterNames::for_each(
   }
 }
 
-void RegisterNames::demand_distinct() const {
+void RegisterNames::require_distinct() const {
   for_each([&](const Named& named, const std::string& name) {
     int count = 0;
     for_each_match(rows_[named.row].table, name, [&](const Named&) { return ++count > 1; });

@@ -34,7 +34,7 @@ class RegisterNames {
   void for_each(const std::function<void(const Named& named, const std::string& name)>& act) const;
   /// Throws std::logic_error if two registers of a table have the same name. It takes as long as looking up
   /// all names; it is for models of a user's file, and for tests of our own rows.
-  void demand_distinct() const;
+  void require_distinct() const;
 
   /// Returns the name of a row's register by one of its patterns: "MAIN_LINE" + number + "_CMD".
   static std::string name_of(const RegisterRow& row, int index, std::string_view pattern);

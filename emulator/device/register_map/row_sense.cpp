@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMaxOfARow = 32768;  // RegisterMap has 15 bits for their number
 
-struct Demand {
+struct Require {
   const RegisterRow& row;
   void operator()(bool holds, const char* what) const {
     if (!holds) throw std::logic_error("register map: " + std::string(row.name) + " " + what);
@@ -34,28 +34,28 @@ bool is_number(std::string_view name) {
   return std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-void validate_names(const RegisterRow& row, const Demand& demand) {
-  demand(is_name(row.name), "is not a name of a register");
-  demand(row.alias.empty() || is_name(row.alias), "has an alias that is not a name of a register");
-  demand(row.count == 1 || row.name.find("{}") != std::string_view::npos,
-         "has several registers, and no {} in its name");
-  demand(row.labels.empty() || row.labels.size() == static_cast<std::size_t>(row.count),
-         "has another number of labels");
-  demand(row.first_axis >= 0 && (row.first_axis == 0 || !row.labels.empty()),
-         "begins with another axis, and is not for each of several");
+void validate_names(const RegisterRow& row, const Require& require) {
+  require(is_name(row.name), "is not a name of a register");
+  require(row.alias.empty() || is_name(row.alias), "has an alias that is not a name of a register");
+  require(row.count == 1 || row.name.find("{}") != std::string_view::npos,
+          "has several registers, and no {} in its name");
+  require(row.labels.empty() || row.labels.size() == static_cast<std::size_t>(row.count),
+          "has another number of labels");
+  require(row.first_axis >= 0 && (row.first_axis == 0 || !row.labels.empty()),
+          "begins with another axis, and is not for each of several");
 }
 
-void validate_place(const RegisterRow& row, const Demand& demand) {
+void validate_place(const RegisterRow& row, const Require& require) {
   const bool is_bit = row.type == Type::bit;
-  demand(is_bit == is_table_of_bits(row.table), "is not as wide as its table");
-  demand(row.count >= 1, "has no registers");
-  demand(row.count <= kMaxOfARow, "has more than 32,768 registers");
+  require(is_bit == is_table_of_bits(row.table), "is not as wide as its table");
+  require(row.count >= 1, "has no registers");
+  require(row.count <= kMaxOfARow, "has more than 32,768 registers");
   const int words = is_32_bit(row.type) ? 2 : 1;
-  demand(row.count == 1 || row.stride >= words, "has registers that overlap");
-  demand(row.address + (row.count - 1) * std::int64_t{row.stride} + words <= 65536,
-         "goes beyond address 0xFFFF");
+  require(row.count == 1 || row.stride >= words, "has registers that overlap");
+  require(row.address + (row.count - 1) * std::int64_t{row.stride} + words <= 65536,
+          "goes beyond address 0xFFFF");
   const bool is_read_only_table = row.table == Table::input || row.table == Table::discrete;
-  demand(!is_read_only_table || row.access == Access::read, "is in a table that hosts cannot write");
+  require(!is_read_only_table || row.access == Access::read, "is in a table that hosts cannot write");
 }
 
 /// Of reals as well, whose bits have another order.
@@ -64,62 +64,62 @@ bool is_in_order(const RegisterRow& row) {
   return row.min <= row.max;
 }
 
-void validate_values(const RegisterRow& row, const Demand& demand) {
+void validate_values(const RegisterRow& row, const Require& require) {
   const TypeLimits limits = limits_of(row.type);
   const auto fits = [&](Value value) { return value >= limits.lowest && value <= limits.highest; };
-  demand(fits(row.factory), "has a factory value that it cannot hold");
-  demand(!row.ranged || (fits(row.min) && fits(row.max)), "has a range that it cannot hold");
-  demand(!row.ranged || is_in_order(row), "has a range that ends before it begins");
-  demand(row.stored_bits == 0xFFFF'FFFF || row.type != Type::f32, "is a real, which is held whole");
-  demand(row.stored_bits != 0, "holds no bit of what is written");
+  require(fits(row.factory), "has a factory value that it cannot hold");
+  require(!row.ranged || (fits(row.min) && fits(row.max)), "has a range that it cannot hold");
+  require(!row.ranged || is_in_order(row), "has a range that ends before it begins");
+  require(row.stored_bits == 0xFFFF'FFFF || row.type != Type::f32, "is a real, which is held whole");
+  require(row.stored_bits != 0, "holds no bit of what is written");
 }
 
-void validate_acts(const RegisterRow& row, const Demand& demand) {
+void validate_acts(const RegisterRow& row, const Require& require) {
   const bool can_be_written = row.access != Access::read;
-  demand(!row.is_view || !row.persistent, "is a view, which keeps nothing");
-  demand(can_be_written || (row.effect == nullptr && row.acts_on_zero),
-         "can only be read, and has an effect");
-  demand(row.access != Access::write || row.reader == nullptr, "can only be written, and has a reader");
-  demand((row.varies == Varies::with_time) == (row.next_change != nullptr),
-         "changes with time, and does not say at which ticks, or says so and does not change");
-  demand(!row.is_view || !can_be_written || row.effect != nullptr || row.message != nullptr,
-         "is a view that can be written, and nothing takes what is written");
+  require(!row.is_view || !row.persistent, "is a view, which keeps nothing");
+  require(can_be_written || (row.effect == nullptr && row.acts_on_zero),
+          "can only be read, and has an effect");
+  require(row.access != Access::write || row.reader == nullptr, "can only be written, and has a reader");
+  require((row.varies == Varies::with_time) == (row.next_change != nullptr),
+          "changes with time, and does not say at which ticks, or says so and does not change");
+  require(!row.is_view || !can_be_written || row.effect != nullptr || row.message != nullptr,
+          "is a view that can be written, and nothing takes what is written");
   if (row.message == nullptr) return;
-  demand(row.table == Table::holding && row.type == Type::u16 && row.stride == 1 && row.least_words >= 1 &&
-             row.least_words <= row.count,
-         "is not a window of words");
-  demand(row.access == Access::write && row.is_view && row.effect == nullptr && row.fields.empty(),
-         "is a window, which only takes messages");
-  demand(!row.ranged, "is a window, whose words are judged by its message");
+  require(row.table == Table::holding && row.type == Type::u16 && row.stride == 1 && row.least_words >= 1 &&
+              row.least_words <= row.count,
+          "is not a window of words");
+  require(row.access == Access::write && row.is_view && row.effect == nullptr && row.fields.empty(),
+          "is a window, which only takes messages");
+  require(!row.ranged, "is a window, whose words are judged by its message");
 }
 
-void validate_fields(const RegisterRow& row, const Demand& demand) {
-  demand(row.fields.empty() || (row.type != Type::bit && row.type != Type::f32),
-         "has fields, and no bits for them");
+void validate_fields(const RegisterRow& row, const Require& require) {
+  require(row.fields.empty() || (row.type != Type::bit && row.type != Type::f32),
+          "has fields, and no bits for them");
   std::uint32_t taken = 0;
   for (const BitField& field : row.fields) {
-    demand(field.bit >= 0 && field.width >= 1 && field.bit + field.width <= width_of(row.type),
-           "has a field that it has no bits for");
-    demand((taken & field.mask()) == 0, "has two fields in one bit");
+    require(field.bit >= 0 && field.width >= 1 && field.bit + field.width <= width_of(row.type),
+            "has a field that it has no bits for");
+    require((taken & field.mask()) == 0, "has two fields in one bit");
     taken |= field.mask();
-    demand(!field.name.empty() && field.name.find('.') == std::string_view::npos && !is_number(field.name),
-           "has a field whose name is not one");
+    require(!field.name.empty() && field.name.find('.') == std::string_view::npos && !is_number(field.name),
+            "has a field whose name is not one");
     const auto same = std::count_if(row.fields.begin(), row.fields.end(),
                                     [&](const BitField& other) { return other.name == field.name; });
-    demand(same == 1, "has two fields of one name");
-    demand(field.reader == nullptr || row.reader == nullptr, "has a reader, and a field with another");
+    require(same == 1, "has two fields of one name");
+    require(field.reader == nullptr || row.reader == nullptr, "has a reader, and a field with another");
   }
 }
 
 }  // namespace
 
 void validate_rows(const RegisterRow& row) {
-  const Demand demand{row};
-  validate_place(row, demand);
-  validate_names(row, demand);
-  validate_values(row, demand);
-  validate_acts(row, demand);
-  validate_fields(row, demand);
+  const Require require{row};
+  validate_place(row, require);
+  validate_names(row, require);
+  validate_values(row, require);
+  validate_acts(row, require);
+  validate_fields(row, require);
 }
 
 }  // namespace understudy::emulator

@@ -28,13 +28,14 @@ void ImportedDevice::write_own_state(StateWriter& writer) const { writer.write(s
 std::function<void()> ImportedDevice::read_own_state(StateReader& reader) {
   const auto restored = std::make_shared<State>();
   reader.read(*restored);
-  demand_state(restored->held.size() == state_.held.size(), "there are other commands");
-  demand_state(restored->axes.size() == state_.axes.size(), "there are other axes");
-  demand_state(restored->followed.size() == state_.followed.size(), "other values follow");
-  for (const double value : restored->followed) demand_state(std::isfinite(value), "a value is not a number");
+  require_state(restored->held.size() == state_.held.size(), "there are other commands");
+  require_state(restored->axes.size() == state_.axes.size(), "there are other axes");
+  require_state(restored->followed.size() == state_.followed.size(), "other values follow");
+  for (const double value : restored->followed)
+    require_state(std::isfinite(value), "a value is not a number");
   for (const AxisState& axis : restored->axes) {
-    demand_state(std::isfinite(axis.run_pps) && axis.run_pps >= 0, "a speed is not one");
-    demand_state(axis.wanted_way >= -1 && axis.wanted_way <= 1, "a way is neither forward nor backward");
+    require_state(std::isfinite(axis.run_pps) && axis.run_pps >= 0, "a speed is not one");
+    require_state(axis.wanted_way >= -1 && axis.wanted_way <= 1, "a way is neither forward nor backward");
   }
   restored->eeprom.check_restored(state_.eeprom);
   check_restored_registers(*this, restored->image, restored->eeprom.kept());

@@ -155,7 +155,7 @@ struct StateOf<emulator::models::rs_m8194h::BasicSettings> {
     constexpr std::uint32_t kMaxRing = 2'000'000'000;
     const bool fits = value.pulse_mode <= 5 && value.encoder_mode <= 3 && value.encoder_division <= 2 &&
                       value.filter_time <= 7 && value.ring_top <= kMaxRing && value.soft_limit_source <= 1;
-    demand_state(fits, "a setting is not one of the manual's");
+    require_state(fits, "a setting is not one of the manual's");
   }
 };
 
@@ -171,9 +171,9 @@ struct StateOf<emulator::models::rs_m8194h::SpeedSettings> {
                                            field("jerk_down", &Value::jerk_down),
                                            field("offset_pulses", &Value::offset_pulses)};
   static void check(const Value& value) {
-    demand_state(value.mode < 12, "a speed mode is not one of the manual's");
-    demand_state(value.offset_pulses >= INT16_MIN && value.offset_pulses <= INT16_MAX,
-                 "an offset of slowing down is not one of the manual's");
+    require_state(value.mode < 12, "a speed mode is not one of the manual's");
+    require_state(value.offset_pulses >= INT16_MIN && value.offset_pulses <= INT16_MAX,
+                  "an offset of slowing down is not one of the manual's");
   }
 };
 
@@ -185,7 +185,7 @@ struct StateOf<emulator::models::rs_m8194h::HomeSettings> {
                 field("steps", &Value::steps), field("offset_pulses", &Value::offset_pulses)};
   static void check(const Value& value) {
     constexpr std::uint32_t kMaxOffset = 2'000'000'000;
-    demand_state(value.offset_pulses <= kMaxOffset, "an offset of homing is too far");
+    require_state(value.offset_pulses <= kMaxOffset, "an offset of homing is too far");
   }
 };
 

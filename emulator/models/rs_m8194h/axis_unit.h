@@ -263,15 +263,15 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
                                            field("out", &Value::out),
                                            field("latched", &Value::latched)};
   static void check(const Value& unit) {
-    demand_state(unit.speed.mode < 4, "a speed mode of an axis is not one of the manual's");
+    require_state(unit.speed.mode < 4, "a speed mode of an axis is not one of the manual's");
     for (const Tick since : unit.pins.since)
-      demand_state(since >= -kFar && since <= kFar, "a time is too far");
-    demand_state(unit.began_pulses >= -kFar && unit.began_pulses <= kFar, "a drive began too far away");
-    demand_state(unit.external_waiting >= -kFar && unit.external_waiting <= kFar, "too many pulses wait");
-    demand_state(unit.out.pulse_until >= -kFar && unit.out.pulse_until <= kFar, "a pulse is too long");
-    demand_state(unit.encoder_raw >= -kFar && unit.encoder_raw <= kFar && unit.encoder_zero >= -kFar &&
-                     unit.encoder_zero <= kFar,
-                 "an encoder is too far");
+      require_state(since >= -kFar && since <= kFar, "a time is too far");
+    require_state(unit.began_pulses >= -kFar && unit.began_pulses <= kFar, "a drive began too far away");
+    require_state(unit.external_waiting >= -kFar && unit.external_waiting <= kFar, "too many pulses wait");
+    require_state(unit.out.pulse_until >= -kFar && unit.out.pulse_until <= kFar, "a pulse is too long");
+    require_state(unit.encoder_raw >= -kFar && unit.encoder_raw <= kFar && unit.encoder_zero >= -kFar &&
+                      unit.encoder_zero <= kFar,
+                  "an encoder is too far");
   }
   static constexpr std::int64_t kFar = std::int64_t{1} << 56;
 };

@@ -101,8 +101,8 @@ struct StateOf<emulator::models::rs_m8194h::Paths> {
                                            field("end", &Value::end),
                                            field("constant_axis", &Value::constant_axis)};
   static void check(const Value& paths) {
-    demand_state(paths.constant_axis >= -1 && paths.constant_axis < 4, "a path has no such axis");
-    demand_state(paths.broken >> emulator::models::rs_m8194h::kStreams == 0, "there is no such stream");
+    require_state(paths.constant_axis >= -1 && paths.constant_axis < 4, "a path has no such axis");
+    require_state(paths.broken >> emulator::models::rs_m8194h::kStreams == 0, "there is no such stream");
   }
 };
 

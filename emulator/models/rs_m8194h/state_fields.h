@@ -22,14 +22,14 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
       FieldList{field("waiting", &Value::waiting), field("stop_wait", &Value::stop_wait)};
   static void check(const Value& fifo) {
     // How many blocks a command takes is a choice, but each takes at least one.
-    demand_state(fifo.waiting.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
-                 "the FIFO holds more than it can");
+    require_state(fifo.waiting.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
+                  "the FIFO holds more than it can");
     for (const auto& command : fifo.waiting) {
       const bool waits = interpreter::rs_m8194h::find_code(command.code) != nullptr &&
                          !command.is_macro_line() &&
                          (command.row().fifo_blocks() > 0 ||
                           command.row().use.real_time == interpreter::rs_m8194h::RealTime::stop);
-      demand_state(waits, "a command in the FIFO is not one that waits there");
+      require_state(waits, "a command in the FIFO is not one that waits there");
     }
   }
 };
@@ -40,8 +40,8 @@ struct StateOf<emulator::models::rs_m8194h::HeldPath> {
   static constexpr auto fields = FieldList{field("command", &Value::command), field("codes", &Value::codes)};
   static void check(const Value& held) {
     for (const std::uint8_t code : held.codes) {
-      demand_state(code == 0 || emulator::models::rs_m8194h::axis_of_code(code) >= 0,
-                   "a path has no such axis");
+      require_state(code == 0 || emulator::models::rs_m8194h::axis_of_code(code) >= 0,
+                    "a path has no such axis");
     }
   }
 };
@@ -65,8 +65,8 @@ struct StateOf<emulator::models::rs_m8194h::IsrMark> {
   static constexpr auto fields = FieldList{field("tick", &Value::tick), field("axis", &Value::axis),
                                            field("source", &Value::source), field("number", &Value::number)};
   static void check(const Value& mark) {
-    demand_state(mark.axis < emulator::models::rs_m8194h::kAxes && mark.source <= Value::kCalled,
-                 "an interrupt has no such source");
+    require_state(mark.axis < emulator::models::rs_m8194h::kAxes && mark.source <= Value::kCalled,
+                  "an interrupt has no such source");
   }
 };
 
@@ -120,18 +120,18 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field("image", &Value::image)};
   static void check(const Value& state) {
     constexpr std::size_t kMaxHeld = emulator::models::rs_m8194h::kFifoBlocks + motion::PathRun::kMaxPaths;
-    demand_state(state.held_paths.size() <= kMaxHeld, "more is held than there is room for");
+    require_state(state.held_paths.size() <= kMaxHeld, "more is held than there is room for");
     for (const auto& held : state.held_paths) {
-      demand_state(emulator::models::rs_m8194h::is_path(held.command), "what is held is not a path");
+      require_state(emulator::models::rs_m8194h::is_path(held.command), "what is held is not a path");
     }
-    demand_state(state.loaded.size() <= motion::PathRun::kMaxPaths, "more is loaded than there is room for");
+    require_state(state.loaded.size() <= motion::PathRun::kMaxPaths, "more is loaded than there is room for");
     for (const auto& segment : state.loaded) {
-      demand_state(emulator::models::rs_m8194h::is_path(segment.command) &&
-                       emulator::models::rs_m8194h::is_segment(segment),
-                   "what is loaded is not a segment");
+      require_state(emulator::models::rs_m8194h::is_path(segment.command) &&
+                        emulator::models::rs_m8194h::is_segment(segment),
+                    "what is loaded is not a segment");
     }
     for (const std::uint8_t channel : state.queued_triggers) {
-      demand_state(channel < interpreter::rs_m8194h::kTriggerCount, "a trigger has no such channel");
+      require_state(channel < interpreter::rs_m8194h::kTriggerCount, "a trigger has no such channel");
     }
     for (std::size_t i = 0; i < state.enabled.size(); ++i) {
       const auto begin = state.enabled.begin();
@@ -139,13 +139,13 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                           begin + static_cast<std::ptrdiff_t>(i);
       const bool exists = state.enabled[i] >> 4 < static_cast<int>(emulator::models::rs_m8194h::kAxes) &&
                           (state.enabled[i] & 0xF) <= emulator::models::rs_m8194h::IsrMark::kSynchronous;
-      demand_state(is_new && exists, "an interrupt that is enabled has no such source");
+      require_state(is_new && exists, "an interrupt that is enabled has no such source");
     }
-    for (const auto& scan : state.scans) demand_reach(scan.begin);
-    demand_reach(state.powered_at);
-    demand_reach(state.finished_at);
-    demand_reach(state.emergency_since);
-    demand_reach(state.resetting_until);
+    for (const auto& scan : state.scans) require_reach(scan.begin);
+    require_reach(state.powered_at);
+    require_reach(state.finished_at);
+    require_reach(state.emergency_since);
+    require_reach(state.resetting_until);
   }
 };
 

@@ -22,15 +22,15 @@ namespace understudy::emulator::models::simple2_r3 {
 namespace {
 
 /// What a plant's encoder gives (PlantAxis::encoder_counts): the difference of two fits.
-void demand_encoder_count(std::int64_t counts) {
+void require_encoder_count(std::int64_t counts) {
   constexpr std::int64_t kEnd = std::int64_t{1} << 61;
-  demand_within(counts, -kEnd, kEnd - 1);
+  require_within(counts, -kEnd, kEnd - 1);
 }
 
 /// Velocity mode multiplies the two.
-void demand_speed(const AxisState& axis, std::uint32_t pulses_per_revolution) {
+void require_speed(const AxisState& axis, std::uint32_t pulses_per_revolution) {
   const std::int64_t most = INT64_MAX / 4 / std::max<std::int64_t>(pulses_per_revolution, 1);
-  demand_within(axis.speed_urpm, -most, most);
+  require_within(axis.speed_urpm, -most, most);
 }
 
 }  // namespace
@@ -52,34 +52,34 @@ using namespace emulator::models::simple2_r3;
 
 void StateOf<KeptCommand>::check(const KeptCommand& kept) {
   // A distance is the difference of two coordinates; the rest is as registers bring it.
-  demand_within(kept.move.distance_pulses, -(std::int64_t{1} << 33), std::int64_t{1} << 33);
+  require_within(kept.move.distance_pulses, -(std::int64_t{1} << 33), std::int64_t{1} << 33);
   for (const std::uint32_t word :
        {kept.move.speed_rpm, kept.move.acceleration_10ms, kept.move.deceleration_10ms}) {
-    demand_within(word, 0, UINT16_MAX);
+    require_within(word, 0, UINT16_MAX);
   }
-  demand_within(kept.value, INT32_MIN, INT32_MAX);
+  require_within(kept.value, INT32_MIN, INT32_MAX);
 }
 
 void StateOf<AxisState>::check(const AxisState& axis) {
-  demand_reach(axis.pulses_this_tick);
-  demand_reach(axis.alarm_clear_until);
-  demand_within(axis.target_urpm, INT32_MIN * std::int64_t{1000}, INT32_MAX * std::int64_t{1000});
-  demand_within(axis.velocity_phase, -kVelocityPhase, kVelocityPhase);
-  demand_within(axis.velocity_resolution, 1, std::int64_t{1} << 31);
-  demand_encoder_count(axis.encoder_raw);
-  demand_encoder_count(axis.encoder_counts);
-  demand_encoder_count(axis.encoder_followed);
-  demand_reach(axis.encoder_preset);
-  for (const std::int64_t counts : axis.encoder_history) demand_encoder_count(counts);
-  demand_reach(axis.encoder_changed);
+  require_reach(axis.pulses_this_tick);
+  require_reach(axis.alarm_clear_until);
+  require_within(axis.target_urpm, INT32_MIN * std::int64_t{1000}, INT32_MAX * std::int64_t{1000});
+  require_within(axis.velocity_phase, -kVelocityPhase, kVelocityPhase);
+  require_within(axis.velocity_resolution, 1, std::int64_t{1} << 31);
+  require_encoder_count(axis.encoder_raw);
+  require_encoder_count(axis.encoder_counts);
+  require_encoder_count(axis.encoder_followed);
+  require_reach(axis.encoder_preset);
+  for (const std::int64_t counts : axis.encoder_history) require_encoder_count(counts);
+  require_reach(axis.encoder_changed);
 }
 
 void StateOf<State>::check(const State& state) {
   for (std::size_t i = 0; i < state.axes.size(); ++i) {
-    demand_speed(state.axes[i], state.image[kAxisSlots[i].resolution]);
-    demand_speed(state.axes[i], state.axes[i].velocity_resolution);
+    require_speed(state.axes[i], state.image[kAxisSlots[i].resolution]);
+    require_speed(state.axes[i], state.axes[i].velocity_resolution);
   }
-  demand_reach(state.first_tick);
+  require_reach(state.first_tick);
 }
 
 }  // namespace understudy

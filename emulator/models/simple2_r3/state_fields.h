@@ -33,7 +33,7 @@ struct StateOf<emulator::models::simple2_r3::Timer> {
   using Value = emulator::models::simple2_r3::Timer;
   static constexpr auto fields = FieldList{field("value", &Value::value), field("since", &Value::since),
                                            field("running", &Value::running)};
-  static void check(const Value& timer) { demand_reach(timer.since); }
+  static void check(const Value& timer) { require_reach(timer.since); }
 };
 
 template <>

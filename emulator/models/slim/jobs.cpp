@@ -27,8 +27,8 @@ namespace {
 /// So many turns as its growth takes from one radius to the other, to the left.
 double sweep_to_radius(const Job& spiral, double begin_radius_units) {
   const double turns = (spiral.sweep_deg - begin_radius_units) / spiral.growth_units_turn;
-  motion::demand_not_negative(spiral.sweep_deg, "spiral", "its last radius");
-  motion::demand_not_negative(turns, "spiral", "its sweep");
+  motion::require_not_negative(spiral.sweep_deg, "spiral", "its last radius");
+  motion::require_not_negative(turns, "spiral", "its sweep");
   return turns * 2 * std::numbers::pi;
 }
 

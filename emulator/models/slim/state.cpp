@@ -24,16 +24,16 @@ using namespace emulator::models::slim;
 void StateOf<Memory>::check(const Memory& memory) {
   for (const Parameters& all : memory.parameters) {
     for (std::size_t i = 0; i < kParameterCount; ++i) {
-      demand_state(fitted(kParameters[i], all[i]) == all[i], "a parameter is out of range");
+      require_state(fitted(kParameters[i], all[i]) == all[i], "a parameter is out of range");
     }
   }
-  for (const float real : memory.reals) demand_state(std::isfinite(real), "a variable is not finite");
-  for (const float real : memory.real_array) demand_state(std::isfinite(real), "a variable is not finite");
+  for (const float real : memory.reals) require_state(std::isfinite(real), "a variable is not finite");
+  for (const float real : memory.real_array) require_state(std::isfinite(real), "a variable is not finite");
 }
 
 void StateOf<State>::check(const State& state) {
-  demand_reach(state.powered_at);
-  demand_reach(state.clock_zero);
+  require_reach(state.powered_at);
+  require_reach(state.clock_zero);
 }
 
 }  // namespace understudy
@@ -45,13 +45,13 @@ namespace {
 /// What is sound depends on what was chosen; programs become what their lines say here.
 void settle_programs(State& state, const lang::FlowOptions& options) {
   const std::vector<std::string> texts = state.program.texts();
-  demand_state(state.program.set_texts(texts, options.program), "a line is not a command of a program");
+  require_state(state.program.set_texts(texts, options.program), "a line is not a command of a program");
   lang::Program kept;
-  demand_state(kept.set_texts(state.kept_program, options.program),
-               "a kept line is not a command of a program");
-  demand_within(state.editor.line, 0, options.program.capacity);
-  demand_within(state.execution.line, 0, options.program.capacity);
-  demand_state(is_sound(state.execution, state.program, options), "the program does what no program can");
+  require_state(kept.set_texts(state.kept_program, options.program),
+                "a kept line is not a command of a program");
+  require_within(state.editor.line, 0, options.program.capacity);
+  require_within(state.execution.line, 0, options.program.capacity);
+  require_state(is_sound(state.execution, state.program, options), "the program does what no program can");
 }
 
 }  // namespace
@@ -64,11 +64,11 @@ std::function<void()> Slim::read_own_state(StateReader& reader) {
   settle_programs(*restored, flow_options_);
   // What else only this bench's choices tell.
   for (const Errors& errors : restored->errors) {
-    demand_state(errors.history.size() <= history_length(), "too many errors are remembered");
+    require_state(errors.history.size() <= history_length(), "too many errors are remembered");
   }
   const auto check_integers = [&](const auto& integers) {
     const int least = of_programs().dialect.integer_least;
-    for (const std::int16_t value : integers) demand_within(value, least, lang::kIntegerMost);
+    for (const std::int16_t value : integers) require_within(value, least, lang::kIntegerMost);
   };
   for (const Memory* const memory : {&restored->ram, &restored->kept}) {
     check_integers(memory->integers);

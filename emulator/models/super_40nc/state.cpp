@@ -48,7 +48,7 @@ using namespace emulator::models::super_40nc;
 
 void StateOf<Rest>::check(const Rest& rest) {
   for (const std::int64_t pulses : {rest.travel, rest.distance, rest.search}) {
-    demand_within(pulses, -kFar, kFar);
+    require_within(pulses, -kFar, kFar);
   }
 }
 
@@ -56,29 +56,29 @@ void StateOf<AxisState>::check(const AxisState& axis) {
   for (const std::int64_t number :
        {axis.sent_pulses, axis.followed_pulses, axis.offset_lu, axis.encoder_counts, axis.backlash_seen,
         axis.path_backlash, axis.arc_backlash, axis.target_lu}) {
-    demand_within(number, -kFar, kFar);
+    require_within(number, -kFar, kFar);
   }
-  demand_within(axis.order, 0, 4);
-  demand_state(std::abs(axis.arc_backlash_part) <= 1, "more than a pulse");
-  demand_state(axis.step_pps >= 300.0 / 4096 && axis.step_pps <= 100, "no step of the chip's speeds");
+  require_within(axis.order, 0, 4);
+  require_state(std::abs(axis.arc_backlash_part) <= 1, "more than a pulse");
+  require_state(axis.step_pps >= 300.0 / 4096 && axis.step_pps <= 100, "no step of the chip's speeds");
 }
 
 void StateOf<State>::check(const State& state) {
-  for (const Tick tick : state.signal_until) demand_reach(tick);
-  demand_within(state.plc_quiet_scans, 0, kNever);
-  demand_within(state.path_backlash_ticks, 0, kNever);
-  demand_within(state.logo_ms, 0, 10'000);
-  demand_within(state.flash_until, 0, kNever);
-  for (const Tick tick : state.erc_until) demand_within(tick, 0, kNever);
+  for (const Tick tick : state.signal_until) require_reach(tick);
+  require_within(state.plc_quiet_scans, 0, kNever);
+  require_within(state.path_backlash_ticks, 0, kNever);
+  require_within(state.logo_ms, 0, 10'000);
+  require_within(state.flash_until, 0, kNever);
+  for (const Tick tick : state.erc_until) require_within(tick, 0, kNever);
   const std::size_t parameters = state.parameters_in_force.size();
-  demand_state(parameters == 0 || parameters == kParameterCount, "not as many parameters as there are");
+  require_state(parameters == 0 || parameters == kParameterCount, "not as many parameters as there are");
   const std::size_t words = state.table.words.size();
-  demand_state(words % kWordsOfATableLine == 0 && words <= std::size_t{kTableLines} * kWordsOfATableLine,
-               "no lines of the user table");
-  demand_within(state.file, 0, 30'000);
-  demand_within(state.recipe, 0, kRecipeCount - 1);
-  demand_within(state.homing_by_key.order, 0, 4);
-  demand_within(state.zeroing_by_key.order, 0, 4);
+  require_state(words % kWordsOfATableLine == 0 && words <= std::size_t{kTableLines} * kWordsOfATableLine,
+                "no lines of the user table");
+  require_within(state.file, 0, 30'000);
+  require_within(state.recipe, 0, kRecipeCount - 1);
+  require_within(state.homing_by_key.order, 0, 4);
+  require_within(state.zeroing_by_key.order, 0, 4);
 }
 
 }  // namespace understudy

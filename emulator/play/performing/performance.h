@@ -97,9 +97,9 @@ class Performance {
                                                          const Answer& answer, const Via& via);
   /// Returns the line and the present station number of a device.
   Place spoken_to(std::size_t device, const Via& via);
-  void demand(const HostReply& reply, const Answer& answer, const std::string& what);
-  void demand_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,
-                      const std::string& what);
+  void require(const HostReply& reply, const Answer& answer, const std::string& what);
+  void require_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,
+                       const std::string& what);
   std::vector<Words> words_of_all(const std::vector<Target>& targets, std::vector<bool>& low_word_first);
 
   // Steps that wait, or check every tick, are in performance_time.cpp.

@@ -24,7 +24,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-Value demand_fitting(const Target& target, world::Number number) {
+Value require_fitting(const Target& target, world::Number number) {
   if (const auto value = value_for(target, number)) return *value;
   const bool is_real = target.place && target.place->is_real();
   throw StepError(target.name + ": " + world::number_text(number) +
@@ -59,7 +59,7 @@ std::string bytes_text(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-void Performance::demand(const HostReply& reply, const Answer& answer, const std::string& what) {
+void Performance::require(const HostReply& reply, const Answer& answer, const std::string& what) {
   const auto& exception = answer.exception;
   const bool is_good = exception ? reply.kind == HostReply::Kind::exception && reply.exception == *exception
                        : answer.silence ? reply.kind == HostReply::Kind::silence
@@ -73,11 +73,11 @@ void Performance::demand(const HostReply& reply, const Answer& answer, const std
 }
 
 /// A host that gives up after `within`, whatever comes.
-void Performance::demand_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,
-                                 const std::string& what) {
+void Performance::require_silence(const Place& place, const std::vector<std::uint8_t>& request,
+                                  SimTime within, const std::string& what) {
   moment_in(within);  // there is such a moment
   const auto reply = stage_->exchange(place.line, request, SIZE_MAX, within);
-  demand(judge_reply(request, reply), {.silence = within}, what);
+  require(judge_reply(request, reply), {.silence = within}, what);
 }
 
 Performance::Place Performance::spoken_to(std::size_t device, const Via& via) {
@@ -109,14 +109,14 @@ std::vector<std::vector<std::uint16_t>> Performance::read_over_line(const std::v
     const Place place = spoken_to(request.words.device, via);
     const std::string what = "read " + names_of(targets, request) + place.on_line;
     if (answer.silence) {
-      demand_silence(
+      require_silence(
           place, read_request(place.station, request.words.table, request.words.first, request.words.count),
           *answer.silence, what);
       continue;
     }
     const HostReply reply = stage_->read(place.line, place.station, request.words.table, request.words.first,
                                          request.words.count);
-    demand(reply, answer, what);
+    require(reply, answer, what);
     if (answer.exception) continue;
     for (const std::size_t entry : request.entries) {
       const auto first = reply.words.begin() + (words[entry].first - request.words.first);
@@ -134,7 +134,7 @@ void Performance::perform(const WriteStep& step) {
     for (const WriteStep::Entry& entry : step.entries) {
       const world::Number value =
           world::evaluate(world::parse_expression(entry.value, eyes_->probes), eyes_->probes);
-      values.push_back(demand_fitting(entry.target, value));
+      values.push_back(require_fitting(entry.target, value));
     }
   });
   std::vector<bool> low_word_first;
@@ -148,7 +148,7 @@ void Performance::perform(const WriteStep& step) {
       if (is_bit(targets[entry])) {
         const HostReply reply = stage_->read(place.line, place.station, request.words.table,
                                              request.words.first, request.words.count);
-        demand(reply, {}, "read " + targets[entry].name + place.on_line + " to write it");
+        require(reply, {}, "read " + targets[entry].name + place.on_line + " to write it");
         present = reply.words;
       }
       // The order of words may be what an earlier request of this step has changed.
@@ -160,11 +160,11 @@ void Performance::perform(const WriteStep& step) {
       brought.insert(brought.end(), part.begin(), part.end());
     }
     if (step.answer.silence) {
-      demand_silence(place, write_request(place.station, request.words.table, request.words.first, brought),
-                     *step.answer.silence, what);
+      require_silence(place, write_request(place.station, request.words.table, request.words.first, brought),
+                      *step.answer.silence, what);
     } else {
-      demand(stage_->write(place.line, place.station, request.words.table, request.words.first, brought),
-             step.answer, what);
+      require(stage_->write(place.line, place.station, request.words.table, request.words.first, brought),
+              step.answer, what);
     }
   }
 }
@@ -180,11 +180,11 @@ void Performance::perform(const CommandStep& step) {
       what = "command " + device.name() + ": " + entry.text + place.on_line;
     });
     if (step.answer.silence) {
-      demand_silence(place, message_request(place.station, message.first, message.words),
-                     *step.answer.silence, what);
+      require_silence(place, message_request(place.station, message.first, message.words),
+                      *step.answer.silence, what);
     } else {
-      demand(stage_->write_message(place.line, place.station, message.first, message.words), step.answer,
-             what);
+      require(stage_->write_message(place.line, place.station, message.first, message.words), step.answer,
+              what);
     }
   }
 }

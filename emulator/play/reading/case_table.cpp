@@ -49,7 +49,7 @@ std::vector<std::string> CaseTable::common_parameters(const world::YamlFields& r
 
 /// The first row may bring names of its own; every other row has the same ones.
 void CaseTable::add_values(const world::YamlFields& row, std::vector<std::string>& known) {
-  row.demand_map();
+  row.require_map();
   for (const auto& [name, value] : row.entries()) {
     const bool is_known = std::find(known.begin(), known.end(), name) != known.end();
     if (!is_known && rows_.size() > 1) {
@@ -100,7 +100,7 @@ void CaseTable::read_options(const world::YamlFields& root) {
 
 void CaseTable::read_variations(const world::YamlFields& root, std::optional<std::uint64_t> seed) {
   const world::YamlFields vary = root.at("vary").with_rule(&no_parameters());
-  vary.demand_map();
+  vary.require_map();
   std::set<std::string> of_rows;
   for (const Row& row : rows_) {
     for (const auto& [name, value] : row.values) of_rows.insert(name);

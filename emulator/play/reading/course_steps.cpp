@@ -49,7 +49,7 @@ void read_restore(StepsReader& reader, const world::YamlFields& step, const worl
 }
 
 void read_fork(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  value.demand_map();
+  value.require_map();
   ForkStep fork;
   std::string text = "fork";
   for (const auto& [name, steps] : value.entries()) {
@@ -61,7 +61,7 @@ void read_fork(StepsReader& reader, const world::YamlFields& step, const world::
 }
 
 void read_repeat(StepsReader& reader, const world::YamlFields& /*step*/, const world::YamlFields& value) {
-  value.demand_keys(kRepeatKeys);
+  value.require_keys(kRepeatKeys);
   const std::int64_t times = value.at("times").integer(kTimesForm);
   const world::YamlFields steps = value.at("steps");
   const auto as = value.find("as");
@@ -74,7 +74,7 @@ void read_repeat(StepsReader& reader, const world::YamlFields& /*step*/, const w
 }
 
 void read_for(StepsReader& reader, const world::YamlFields& /*step*/, const world::YamlFields& value) {
-  value.demand_keys(kForKeys);
+  value.require_keys(kForKeys);
   const auto rows = value.at("each").elements();
   if (rows.empty()) value.at("each").fail("is empty; expected at least one value");
   const auto as = value.find("as");
@@ -83,7 +83,7 @@ void read_for(StepsReader& reader, const world::YamlFields& /*step*/, const worl
     Parameters inner(reader.parameters());
     if (row.is_map()) {
       if (as) as->fail("names a value, but the rows name their values; expected no `as`");
-      row.demand_map();
+      row.require_map();
       for (const auto& [name, field] : row.entries()) define(field, inner, name, field.text());
     } else {
       define(as ? *as : value, inner, value.at("as").text(), row.text());

@@ -84,8 +84,8 @@ struct Sentence {
   }
 };
 
-std::vector<std::pair<std::string, world::YamlFields>> demand_registers(const world::YamlFields& value) {
-  value.demand_map();
+std::vector<std::pair<std::string, world::YamlFields>> require_registers(const world::YamlFields& value) {
+  value.require_map();
   auto entries = value.entries();
   if (entries.empty()) value.fail("is empty; expected registers, as in `{ feeder.Aaxis_SVON: 1 }`");
   return entries;
@@ -128,7 +128,7 @@ void read_write(StepsReader& reader, const world::YamlFields& step, const world:
   WriteStep write;
   write.answer = read_answer(step);
   Sentence sentence{"write"};
-  for (const auto& [name, field] : demand_registers(value)) {
+  for (const auto& [name, field] : require_registers(value)) {
     Target target = reader.trial().target(field, name);
     if (target.is_value) {
       field.fail(name +
@@ -150,14 +150,14 @@ void read_write(StepsReader& reader, const world::YamlFields& step, const world:
 }
 
 void read_command(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  value.demand_map();
+  value.require_map();
   CommandStep command;
   command.answer = read_answer(step);
   Sentence sentence{"command"};
   std::vector<std::size_t> devices;
   for (const auto& [name, field] : value.entries()) {
     devices.push_back(reader.trial().device(field, name));
-    reader.trial().demand_command(field, devices.back());
+    reader.trial().require_command(field, devices.back());
     sentence.add(name + ": " + field.text());
     command.entries.push_back({.device = devices.back(), .text = field.text()});
   }
@@ -172,7 +172,7 @@ void read_expect(StepsReader& reader, const world::YamlFields& step, const world
   ExpectStep expect;
   expect.answer = read_answer(step);
   Sentence sentence{"expect"};
-  for (const auto& [name, field] : demand_registers(value)) {
+  for (const auto& [name, field] : require_registers(value)) {
     Target target = reader.trial().target(field, name);
     if (target.is_value && expect.answer.exception)
       field.fail(name + " is not a register; expected no exception");
@@ -190,7 +190,7 @@ void read_expect(StepsReader& reader, const world::YamlFields& step, const world
 
 void read_send(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   if (value.is_map() && value.has("text")) return read_send_text(reader, step, value);
-  value.demand_keys(kSendKeys);
+  value.require_keys(kSendKeys);
   SendStep send;
   send.line = read_line_of(reader, value);
   send.bytes = read_bytes(value.at("bytes"));

@@ -26,9 +26,9 @@ namespace understudy::emulator::play {
 
 namespace {
 
-std::vector<std::pair<std::string, world::YamlFields>> demand_entries(const world::YamlFields& value,
-                                                                      const std::string& example) {
-  value.demand_map();
+std::vector<std::pair<std::string, world::YamlFields>> require_entries(const world::YamlFields& value,
+                                                                       const std::string& example) {
+  value.require_map();
   auto entries = value.entries();
   if (entries.empty()) value.fail("is empty; expected something such as `{ " + example + " }`");
   return entries;
@@ -48,7 +48,7 @@ std::string refusal_text(const world::YamlFields& field) {
 void read_inputs(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   InputStep inputs;
   std::string text = "input";
-  for (const auto& [name, field] : demand_entries(value, "feeder.DIN_10: on")) {
+  for (const auto& [name, field] : require_entries(value, "feeder.DIN_10: on")) {
     const world::InputSetup input = world::read_input(field, name, reader.trial().known());
     for (const world::InputSetup& other : inputs.inputs) {
       if (other.device == input.device && other.terminal == input.terminal) {
@@ -64,7 +64,7 @@ void read_inputs(StepsReader& reader, const world::YamlFields& step, const world
 void read_turn(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   TurnStep turn;
   std::string text = "turn";
-  const auto entries = demand_entries(value, "mill.MPG: 400, in: 2s");
+  const auto entries = require_entries(value, "mill.MPG: 400, in: 2s");
   const auto in = value.find("in");
   for (const auto& [name, field] : entries) {
     if (name == "in") continue;
@@ -116,7 +116,7 @@ void read_clear(StepsReader& reader, const world::YamlFields& step, const world:
 void read_power(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   PowerStep power;
   std::string text = "power";
-  for (const auto& [name, field] : demand_entries(value, "feeder: off")) {
+  for (const auto& [name, field] : require_entries(value, "feeder: off")) {
     const std::size_t device = reader.trial().device(field, name);
     const std::string word = field.text();
     const auto it = std::find(kPowerWords.begin(), kPowerWords.end(), word);
@@ -131,7 +131,7 @@ void read_power(StepsReader& reader, const world::YamlFields& step, const world:
 }
 
 void read_program(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  for (const auto& [name, field] : demand_entries(value, "feeder: indexing.lst")) {
+  for (const auto& [name, field] : require_entries(value, "feeder: indexing.lst")) {
     ProgramStep program;
     program.device = reader.trial().device(field, name);
     // The path of a listing, or the listing itself if it has several lines.
@@ -153,14 +153,14 @@ void read_program(StepsReader& reader, const world::YamlFields& step, const worl
       program.refused = refusal_text(*refused);
       text += " (refused)";
     } else {
-      reader.trial().demand_program(field, program.device, program.text, is_inline ? "" : program.file);
+      reader.trial().require_program(field, program.device, program.text, is_inline ? "" : program.file);
     }
     reader.add(step, text, std::move(program));
   }
 }
 
 void read_memory(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  for (const auto& [name, field] : demand_entries(value, "feeder: after.json")) {
+  for (const auto& [name, field] : require_entries(value, "feeder: after.json")) {
     MemoryStep memory{
         .what = MemoryStep::What::expect, .device = reader.trial().device(field, name), .file = field.path()};
     if (!reader.story().saved.contains(memory.file)) {
@@ -171,7 +171,7 @@ void read_memory(StepsReader& reader, const world::YamlFields& step, const world
         field.fail(error.what());
       }
       if (!image) field.fail(memory.file + " " + why_not_readable(memory.file) + "; expected an NV image");
-      reader.trial().demand_memory(field, memory.device, *image);
+      reader.trial().require_memory(field, memory.device, *image);
       reader.add_file(memory.file, "a memory that a step compares with");
     }
     reader.add(step, "memory " + name + " " + field.text(), std::move(memory));
@@ -179,7 +179,7 @@ void read_memory(StepsReader& reader, const world::YamlFields& step, const world
 }
 
 void read_save(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  for (const auto& [name, field] : demand_entries(value, "feeder: after.json")) {
+  for (const auto& [name, field] : require_entries(value, "feeder: after.json")) {
     MemoryStep memory{
         .what = MemoryStep::What::save, .device = reader.trial().device(field, name), .file = field.path()};
     const std::string folder = std::filesystem::path(memory.file).parent_path().string();

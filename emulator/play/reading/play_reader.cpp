@@ -57,8 +57,8 @@ bool is_below(const std::string& path, const std::string& folder) {
   return at_top == top.end() || (at_top->empty() && std::next(at_top) == top.end());
 }
 
-world::DeviceSetup& demand_device(world::Bench& bench, const world::YamlFields& field,
-                                  const std::string& name) {
+world::DeviceSetup& require_device(world::Bench& bench, const world::YamlFields& field,
+                                   const std::string& name) {
   std::vector<std::string> names;
   for (world::DeviceSetup& device : bench.devices) {
     if (device.settings.name == name) return device;
@@ -78,9 +78,9 @@ void read_firmwares(const world::YamlFields& fields, world::Bench& bench) {
     for (world::DeviceSetup& device : bench.devices) device.settings.firmware = read(fields);
     return;
   }
-  fields.demand_map();
+  fields.require_map();
   for (const auto& [name, field] : fields.entries()) {
-    demand_device(bench, field, name).settings.firmware = read(field);
+    require_device(bench, field, name).settings.firmware = read(field);
   }
 }
 
@@ -114,7 +114,7 @@ PlayReader::PlayReader(const world::YamlFields& play, const world::YamlFields& c
       file_(file),
       is_one_of_several_(true),
       cases_(root_, file.seed) {
-  play.demand_keys(kPlayKeys);
+  play.require_keys(kPlayKeys);
 }
 
 std::string PlayReader::name_of(std::uint64_t number) const {
@@ -154,7 +154,7 @@ void PlayReader::define_all(std::uint64_t number, const Case& which, Parameters&
   }
   if (!root_.has("parameters")) return;
   const world::YamlFields defaults = root_.at("parameters").with_rule(&parameters);
-  defaults.demand_map();
+  defaults.require_map();
   const auto is_given = [&](const std::string& name) {
     return std::any_of(which.values.begin(), which.values.end(),
                        [&](const auto& value) { return value.first == name; });
@@ -216,9 +216,9 @@ world::Bench PlayReader::read_its_bench(const world::YamlFields& root) const {
                                       : bench_at(field);
   if (root.has("nv")) {
     const world::YamlFields nv = root.at("nv");
-    nv.demand_map();
+    nv.require_map();
     for (const auto& [name, image] : nv.entries()) {
-      world::DeviceSetup& device = demand_device(bench, image, name);
+      world::DeviceSetup& device = require_device(bench, image, name);
       device.nv_path = image.path();
       if (const std::string why = why_not_readable(device.nv_path); !why.empty())
         image.fail(device.nv_path + " " + why + "; expected an NV image");

@@ -37,7 +37,7 @@ class ScenarioFile::Reader {
               .save_below = options.save_below.empty() ? root.folder() : options.save_below,
               .seed = options.seed,
               .reading = {.shared = shared}} {
-    head_.attempt([&] { root_.demand_keys(kScenarioKeys); });
+    head_.attempt([&] { root_.require_keys(kScenarioKeys); });
     head_.attempt([&] { root_.at("understudy").integer(world::kVersionForm); });
     // Without its cases nothing more can be said.
     if (!head_.attempt([&] { read_plays(); })) head_.throw_if_any();
@@ -67,7 +67,7 @@ class ScenarioFile::Reader {
     std::set<std::string> names;
     world::Complaints all = head_;
     file_.saved_before.emplace();
-    all.demand([&] {
+    all.require([&] {
       for (PlayReader& play : plays_) {
         for (const std::uint64_t number : play.cases().typical()) check_one(play, number, names, all, take);
       }

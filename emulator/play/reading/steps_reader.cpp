@@ -84,7 +84,7 @@ StepsReader::StepsReader(const Trial& trial, FileReading& file, const std::strin
 Steps StepsReader::read(const world::YamlFields& list, const Parameters& parameters) {
   Steps steps;
   into_ = &steps;
-  complaints_.demand([&] { read_here(list, parameters); });
+  complaints_.require([&] { read_here(list, parameters); });
   return steps;
 }
 
@@ -161,7 +161,7 @@ void StepsReader::read_included(const world::YamlFields& field) {
     if (!text) field.fail(field.path() + " " + text.why + "; expected a file of steps");
     const world::YamlFields root =
         world::YamlFields::parse(*text, field.path(), "steps", "`understudy: 1` and `steps:`");
-    root.demand_keys(kIncludedKeys);
+    root.require_keys(kIncludedKeys);
     root.at("understudy").integer(world::kVersionForm);
     it = included.emplace(field.path(), root.at("steps")).first;
   }
@@ -172,7 +172,7 @@ void StepsReader::read_included(const world::YamlFields& field) {
 }
 
 void StepsReader::read_step(const world::YamlFields& step, const StepRow* row) {
-  step.demand_map();
+  step.require_map();
   if (row == nullptr) fail_without_row(step);
   std::vector<world::KeyRow> known{row->key};
   known.insert(known.end(), row->beside.begin(), row->beside.end());
@@ -180,7 +180,7 @@ void StepsReader::read_step(const world::YamlFields& step, const StepRow* row) {
     if (key != row->key.key && find_row(key) != nullptr)
       value.fail("is a second step in one entry; expected `- ` before it");
   }
-  step.demand_keys(known);
+  step.require_keys(known);
   row->read(*this, step, step.at(row->key.key));
 }
 

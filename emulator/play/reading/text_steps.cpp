@@ -67,7 +67,7 @@ std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& val
 }
 
 void read_send_text(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  value.demand_keys(kSendTextKeys);
+  value.require_keys(kSendTextKeys);
   TextStep say;
   say.line = read_line_of_text(reader, value);
   say.text = read_text(value.at("text"));
@@ -81,7 +81,7 @@ void read_send_text(StepsReader& reader, const world::YamlFields& step, const wo
 }
 
 void read_hear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  value.demand_keys(kHearKeys);
+  value.require_keys(kHearKeys);
   TextStep hear;
   hear.line = read_line_of_text(reader, value);
   hear.lines = read_texts(value.at("text"));

@@ -166,7 +166,7 @@ std::string Trial::changing_condition(const world::YamlFields& field) const {
   return condition.text;
 }
 
-std::vector<std::size_t> Trial::demand_registers_only(const world::YamlFields& field) const {
+std::vector<std::size_t> Trial::require_registers_only(const world::YamlFields& field) const {
   std::vector<std::size_t> devices;
   for (const world::Expression::Name& name : expression(field).names) {
     try {
@@ -213,7 +213,7 @@ std::string Trial::value_to_write(const world::YamlFields& field, const Target& 
   return value.text;
 }
 
-void Trial::demand_command(const world::YamlFields& field, std::size_t device) const {
+void Trial::require_command(const world::YamlFields& field, std::size_t device) const {
   try {
     window_message(world_.device(device), field.text());
   } catch (const ProgramError& error) {
@@ -239,8 +239,8 @@ world::Tolerance Trial::value_to_expect(const world::YamlFields& field, const Ta
   }
 }
 
-void Trial::demand_program(const world::YamlFields& field, std::size_t device, const std::string& text,
-                           const std::string& name) const {
+void Trial::require_program(const world::YamlFields& field, std::size_t device, const std::string& text,
+                            const std::string& name) const {
   DeviceSettings settings = bench_.devices[device].settings;
   settings.program = text;
   try {
@@ -264,7 +264,7 @@ void Trial::demand_program(const world::YamlFields& field, std::size_t device, c
 world::Fault Trial::fault(const world::YamlFields& field, std::string_view other_key) const {
   world::Complaints complaints;
   const auto fault = world::read_fault(field, known(), complaints, other_key);
-  world::demand_possible(field, world_, fault, complaints);
+  world::require_possible(field, world_, fault, complaints);
   complaints.throw_if_any();
   return *fault;
 }
@@ -284,7 +284,7 @@ world::Fault Trial::turn(const world::YamlFields& field, const world::YamlFields
   }
 }
 
-void Trial::demand_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const {
+void Trial::require_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const {
   DeviceSettings settings = bench_.devices[device].settings;
   settings.nv = image;
   settings.program.clear();

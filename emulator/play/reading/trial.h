@@ -32,24 +32,24 @@ class Trial {
   std::string changing_condition(const world::YamlFields& field) const;
   /// Requires an expression that a host could evaluate by reading registers. Returns the devices of these
   /// registers.
-  std::vector<std::size_t> demand_registers_only(const world::YamlFields& field) const;
+  std::vector<std::size_t> require_registers_only(const world::YamlFields& field) const;
   /// Returns the line that a field names. All of these devices must be on it.
   std::size_t line_of_all(const world::YamlFields& field, const std::vector<std::size_t>& devices) const;
   /// Reads a value to be written to a register. It may be out of the register's range if the write is to be
   /// refused (`is_refused`).
   std::string value_to_write(const world::YamlFields& field, const Target& target, bool is_refused) const;
   /// Requires a named command of that device.
-  void demand_command(const world::YamlFields& field, std::size_t device) const;
+  void require_command(const world::YamlFields& field, std::size_t device) const;
   world::Tolerance value_to_expect(const world::YamlFields& field, const Target& target) const;
   /// These check a text for a device: a program, or an image of its memory.
-  void demand_program(const world::YamlFields& field, std::size_t device, const std::string& text,
-                      const std::string& name) const;
+  void require_program(const world::YamlFields& field, std::size_t device, const std::string& text,
+                       const std::string& name) const;
   /// Reads a fault that this world can have. `other_key` is left to other readers.
   world::Fault fault(const world::YamlFields& field, std::string_view other_key) const;
   /// Reads the fault `turn` at a place that `field` names, with the time in `in` (null: at once).
   world::Fault turn(const world::YamlFields& field, const world::YamlFields* in,
                     const std::string& place) const;
-  void demand_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const;
+  void require_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const;
 
  private:
   world::Expression expression(const world::YamlFields& field) const;

@@ -40,7 +40,7 @@ world::Tolerance read_takes(const world::YamlFields& field, SimTime within) {
 void read_span(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value,
                bool never) {
   SpanStep span{.expression = {}, .never = never, .name = {}};
-  if (value.is_map()) value.demand_keys(kSpanKeys);
+  if (value.is_map()) value.require_keys(kSpanKeys);
   const world::YamlFields what = value.is_map() ? value.at("what") : value;
   span.expression = reader.trial().changing_condition(what);
   const bool is_named = value.is_map() && value.has("name");
@@ -59,7 +59,7 @@ constexpr SimTime kShortestPoll = kTickLength;
 }  // namespace
 
 void read_wait(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  value.demand_keys(kWaitKeys);
+  value.require_keys(kWaitKeys);
   WaitStep wait;
   wait.until = reader.trial().changing_condition(value.at("until"));
   wait.within = read_some_time(value.at("within"));
@@ -75,7 +75,7 @@ void read_wait(StepsReader& reader, const world::YamlFields& step, const world::
       value.at("poll").fail(format_duration(*wait.poll) +
                             " is shorter than any request; expected 1ms or more");
     }
-    const std::vector<std::size_t> devices = reader.trial().demand_registers_only(value.at("until"));
+    const std::vector<std::size_t> devices = reader.trial().require_registers_only(value.at("until"));
     text += ", polled every " + format_duration(*wait.poll);
     if (const auto via = value.find(kViaKey.key)) {
       wait.via = reader.trial().line_of_all(*via, devices);

@@ -81,7 +81,7 @@ Variation::Variation(const world::YamlFields& field, std::string name, std::uint
         "expected values, as in `[ 1, 2 ]`, `{ from: 1, to: 9, step: 2 }` or "
         "`{ between: [ 1, 9 ], samples: 5 }`");
   }
-  field_.demand_keys(keys_of(field_));
+  field_.require_keys(keys_of(field_));
   if (field_.has("from")) {
     read_range(false);
     count_ = places_;

@@ -61,7 +61,7 @@ class SqliteResults final : public ResultsFile {
     database_.reset(opened);
     if (code != SQLITE_OK) refuse_last();
     sqlite3_busy_timeout(opened, kPatience_ms);
-    demand_own();
+    require_own();
     if (!goes_on) return;
     make_tables();
     const Statement names = prepare("SELECT name FROM parameter_names");
@@ -159,7 +159,7 @@ class SqliteResults final : public ResultsFile {
   }
 
   /// An empty file, or a database of ours.
-  void demand_own() {
+  void require_own() {
     const Statement id = prepare("PRAGMA application_id");
     const bool is_ours = step(id) && sqlite3_column_int(id.get(), 0) == kApplicationId;
     const Statement tables = prepare("SELECT count(*) FROM sqlite_master");

@@ -31,7 +31,7 @@ std::size_t word_at(std::span<const std::uint8_t> frame, std::size_t at) {
 using world::FunctionRow;
 constexpr std::uint16_t kOn = 0xFF00;
 
-const FunctionRow& demand_function(Table table, FunctionRow::Kind kind) {
+const FunctionRow& require_function(Table table, FunctionRow::Kind kind) {
   if (const FunctionRow* const row = world::function_for(table, kind)) return *row;
   throw std::logic_error("no function writes to inputs; expected coils or holding registers");
 }
@@ -63,7 +63,7 @@ void put_data(std::vector<std::uint8_t>& frame, Table table, std::span<const std
 std::vector<std::uint8_t> request_of_several(int station, Table table, std::uint16_t first,
                                              std::span<const std::uint16_t> words) {
   std::vector<std::uint8_t> frame{static_cast<std::uint8_t>(station),
-                                  demand_function(table, FunctionRow::Kind::write_several).code};
+                                  require_function(table, FunctionRow::Kind::write_several).code};
   put_word(frame, first);
   put_word(frame, words.size());
   frame.push_back(static_cast<std::uint8_t>(bytes_for(table, words.size())));
@@ -76,7 +76,7 @@ std::vector<std::uint8_t> request_of_several(int station, Table table, std::uint
 
 std::vector<std::uint8_t> read_request(int station, Table table, std::uint16_t first, int count) {
   std::vector<std::uint8_t> frame{static_cast<std::uint8_t>(station),
-                                  demand_function(table, FunctionRow::Kind::read).code};
+                                  require_function(table, FunctionRow::Kind::read).code};
   put_word(frame, first);
   put_word(frame, static_cast<std::size_t>(count));
   pty::append_rtu_crc(frame);
@@ -87,7 +87,7 @@ std::vector<std::uint8_t> write_request(int station, Table table, std::uint16_t 
                                         std::span<const std::uint16_t> words) {
   if (words.size() != 1) return request_of_several(station, table, first, words);
   std::vector<std::uint8_t> frame{static_cast<std::uint8_t>(station),
-                                  demand_function(table, FunctionRow::Kind::write_one).code};
+                                  require_function(table, FunctionRow::Kind::write_one).code};
   put_word(frame, first);
   put_word(frame, !is_table_of_bits(table) ? words[0] : words[0] != 0 ? kOn : 0);
   pty::append_rtu_crc(frame);

@@ -314,8 +314,8 @@ Telling whole_bench_message(Daemon& daemon) {
 }  // namespace
 
 Telling bench_message(Daemon& daemon, Json message) {
-  demand_keys(message, {"do", "device"});
-  if (message.contains("device")) return device_message(daemon, demand_device(daemon, message));
+  require_keys(message, {"do", "device"});
+  if (message.contains("device")) return device_message(daemon, require_device(daemon, message));
   return whole_bench_message(daemon);
 }
 

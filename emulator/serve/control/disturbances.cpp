@@ -45,9 +45,9 @@ std::int64_t level_of(const Json& value, const std::string& name, TerminalRow::K
   return *level;
 }
 
-std::int32_t demand_level(const Json& value, const std::string& name, const TerminalRow& row) {
+std::int32_t require_level(const Json& value, const std::string& name, const TerminalRow& row) {
   const std::int64_t level = level_of(value, name, row.kind);
-  world::demand_level(row, name, level);
+  world::require_level(row, name, level);
   return static_cast<std::int32_t>(level);
 }
 
@@ -102,8 +102,8 @@ std::string why_refused(const Objection& refused) {
 }  // namespace
 
 Json input_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "values"});
-  const Json& values = demand_values(message, "names and levels");
+  require_keys(message, {"do", "values"});
+  const Json& values = require_values(message, "names and levels");
   daemon.catch_up();
   const world::KnownDevices& known = daemon.world().known();
   std::vector<world::InputSetup> wanted;
@@ -116,7 +116,7 @@ Json input_message(Daemon& daemon, const Json& message) {
     }
     wanted.push_back({.device = input.device,
                       .terminal = input.terminal,
-                      .level = demand_level(value, name, input.row(known))});
+                      .level = require_level(value, name, input.row(known))});
   }
   for (const world::InputSetup& input : wanted) {
     daemon.world().set_external_input(input.device, input.terminal, input.level);
@@ -125,15 +125,15 @@ Json input_message(Daemon& daemon, const Json& message) {
 }
 
 Json turn_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "values", "in"});
-  const Json& values = demand_values(message, "names and counts");
+  require_keys(message, {"do", "values", "in"});
+  const Json& values = require_values(message, "names and counts");
   daemon.catch_up();
   std::vector<world::Fault> turns;
   for (const auto& [name, value] : values.items()) {
     if (!is_whole(value)) throw is_not(name, value, "a whole number", "counts, such as 400");
     world::FaultText text{
         .kind = "turn", .place = name, .fields = {{"counts", std::to_string(value.get<std::int64_t>())}}};
-    if (message.contains("in")) text.fields.emplace_back("in", demand_text(message, "in"));
+    if (message.contains("in")) text.fields.emplace_back("in", require_text(message, "in"));
     try {
       turns.push_back(world::find_fault(daemon.world().known(), text));
       world::check_fault(daemon.world(), turns.back());
@@ -149,12 +149,12 @@ Json turn_message(Daemon& daemon, const Json& message) {
 }
 
 Json command_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "device", "text"});
-  const std::size_t number = demand_device(daemon, message);
-  const std::string text = demand_text(message, "text");
+  require_keys(message, {"do", "device", "text"});
+  const std::size_t number = require_device(daemon, message);
+  const std::string text = require_text(message, "text");
   daemon.catch_up();
   const Device& device = daemon.world().device(number);
-  demand_power(device);
+  require_power(device);
   Objection refused;
   try {
     refused = daemon.world().command(number, text);
@@ -166,12 +166,12 @@ Json command_message(Daemon& daemon, const Json& message) {
 }
 
 Json power_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "device", "to"});
-  const std::string to = demand_text(message, "to");
+  require_keys(message, {"do", "device", "to"});
+  const std::string to = require_text(message, "to");
   if (to != "on" && to != "off" && to != "cycle") {
     throw MessageError("to: " + understudy::quoted(to) + " is unknown; expected on, off or cycle");
   }
-  const std::size_t device = demand_device(daemon, message);
+  const std::size_t device = require_device(daemon, message);
   daemon.catch_up();
   if (to != "on") daemon.world().switch_power(device, false);
   if (to != "off") daemon.world().switch_power(device, true);
@@ -183,7 +183,7 @@ namespace {
 Json load_program(Daemon& daemon, std::size_t number, const std::string& text) {
   daemon.catch_up();
   const Device& device = daemon.world().device(number);
-  demand_power(device);
+  require_power(device);
   try {
     daemon.world().load_program(number, text);
   } catch (const ProgramError& error) {
@@ -198,10 +198,10 @@ Json load_program(Daemon& daemon, std::size_t number, const std::string& text) {
 }  // namespace
 
 void program_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
-  demand_keys(message, {"do", "device", "text"});
-  const std::size_t number = demand_device(daemon, message);
+  require_keys(message, {"do", "device", "text"});
+  const std::size_t number = require_device(daemon, message);
   const Device& device = daemon.world().device(number);
-  demand_power(device);
+  require_power(device);
   if (!message.contains("text")) {
     return answer(reply, [&] {
       daemon.catch_up();
@@ -209,7 +209,7 @@ void program_message(Daemon& daemon, const Json& message, const ControlServer::R
       return Json{{"ok", true}, {"text", program != nullptr ? program->program_text() : ""}};
     });
   }
-  const std::string text = demand_text(message, "text");
+  const std::string text = require_text(message, "text");
   if (text.size() <= kMaxAtOnce) return answer(reply, [&] { return load_program(daemon, number, text); });
   // What is no program is found out aside: a device holds far less than a message, and takes its own soon.
   daemon.do_aside([&daemon, &model = device.model(), settings = device.settings(), number, text,
@@ -225,8 +225,8 @@ void program_message(Daemon& daemon, const Json& message, const ControlServer::R
 }
 
 Json inject_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "fault"});
-  const Json& entries = demand(message, "fault");
+  require_keys(message, {"do", "fault"});
+  const Json& entries = require(message, "fault");
   if (!entries.is_object() || entries.empty() || !entries.front().is_string()) {
     throw MessageError("fault: expected an object such as {\"stall\":\"feeder.A\"}");
   }
@@ -261,7 +261,7 @@ std::string numbers_of_faults(const world::World& world) {
 }  // namespace
 
 Json clear_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "number"});
+  require_keys(message, {"do", "number"});
   daemon.catch_up();
   world::World& world = daemon.world();
   if (!message.contains("number")) {
@@ -283,7 +283,7 @@ Json faults_message_part(const world::World& world) {
 }
 
 Json list_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do"});
+  require_keys(message, {"do"});
   daemon.catch_up();
   return Json{{"ok", true}, {"faults", faults_message_part(daemon.world())}};
 }

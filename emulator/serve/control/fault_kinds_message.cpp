@@ -89,7 +89,7 @@ Json kind_of(const world::FaultKindRow& kind) {
 }  // namespace
 
 Telling faults_message(Daemon& daemon, Json message) {
-  demand_keys(message, {"do"});
+  require_keys(message, {"do"});
   const Pause pause(daemon);
   ReplyText text;
   text.open_list("kinds");

@@ -57,8 +57,8 @@ std::uint64_t first_wanted(const Json& message, std::uint64_t next, std::size_t 
   if (message.contains("since") && message.contains("last")) {
     throw MessageError("since: is given together with last; expected one of them");
   }
-  if (message.contains("since")) return demand_count(message, "since");
-  const std::uint64_t last = message.contains("last") ? demand_count(message, "last") : most;
+  if (message.contains("since")) return require_count(message, "since");
+  const std::uint64_t last = message.contains("last") ? require_count(message, "last") : most;
   return next - std::min<std::uint64_t>({last, most, next});
 }
 
@@ -141,23 +141,23 @@ Telling tell_listing(Daemon& daemon, Json message, Listing::What what) {
 }  // namespace
 
 Telling events_message(Daemon& daemon, Json message) {
-  demand_keys(message, {"do", "since", "last"});
+  require_keys(message, {"do", "since", "last"});
   return tell_listing(daemon, std::move(message), Listing::What::events);
 }
 
 Telling frames_message(Daemon& daemon, Json message) {
-  demand_keys(message, {"do", "since", "last", "raw"});
+  require_keys(message, {"do", "since", "last", "raw"});
   return tell_listing(daemon, std::move(message), Listing::What::frames);
 }
 
 namespace {
 
 /// The list of names that is meant, by its number or spelt out; nothing: none.
-std::optional<std::uint64_t> demand_list(world::LookedNames& known, const Json& message) {
+std::optional<std::uint64_t> require_list(world::LookedNames& known, const Json& message) {
   if (message.contains("look")) {
     if (message.contains("names"))
       throw MessageError("look: is given together with names; expected one of them");
-    const std::uint64_t list = demand_count(message, "look");
+    const std::uint64_t list = require_count(message, "look");
     if (!known.is_kept(list)) throw MessageError("look: these names are no longer stored; expected names");
     return list;
   }
@@ -179,12 +179,12 @@ std::optional<std::uint64_t> demand_list(world::LookedNames& known, const Json& 
 
 /// The values are of the moment that the reply says; frames and events have their own.
 Telling look_message(Daemon& daemon, Json message) {
-  demand_keys(message, {"do", "look", "names", "frames", "events", "status"});
-  const std::uint64_t frames = message.contains("frames") ? demand_count(message, "frames") : 0;
-  const std::uint64_t events = message.contains("events") ? demand_count(message, "events") : 0;
+  require_keys(message, {"do", "look", "names", "frames", "events", "status"});
+  const std::uint64_t frames = message.contains("frames") ? require_count(message, "frames") : 0;
+  const std::uint64_t events = message.contains("events") ? require_count(message, "events") : 0;
   const Pause pause(daemon);
   world::LookedNames& known = daemon.onlookers().names;
-  const auto list = demand_list(known, message);
+  const auto list = require_list(known, message);
   if (list) known.begin(*list);
   while (list && known.look_up_next(*list)) co_await pause;
 

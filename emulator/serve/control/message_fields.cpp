@@ -16,7 +16,7 @@
 
 namespace understudy::emulator::serve {
 
-void demand_keys(const Json& message, std::initializer_list<std::string_view> known) {
+void require_keys(const Json& message, std::initializer_list<std::string_view> known) {
   for (const auto& [key, value] : message.items()) {
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       throw MessageError(understudy::quoted(key) + " is not a key of this message");
@@ -37,7 +37,7 @@ MessageError is_not(std::string_view name, const Json& value, std::string_view w
                       "; expected " + std::string(expected));
 }
 
-const Json& demand(const Json& message, const char* key) {
+const Json& require(const Json& message, const char* key) {
   if (!message.contains(key)) throw MessageError(understudy::quoted(key) + " is missing");
   return message[key];
 }
@@ -48,14 +48,14 @@ Json json_of(double value) {
   return static_cast<std::int64_t>(value);
 }
 
-std::string demand_text(const Json& message, const char* key) {
-  const Json& text = demand(message, key);
+std::string require_text(const Json& message, const char* key) {
+  const Json& text = require(message, key);
   if (!text.is_string()) throw is_not(key, text, "a text");
   return text.get<std::string>();
 }
 
-const Json& demand_values(const Json& message, std::string_view expected) {
-  const Json& values = demand(message, "values");
+const Json& require_values(const Json& message, std::string_view expected) {
+  const Json& values = require(message, "values");
   if (!values.is_object() || values.empty()) {
     throw is_not("values", values, "an object of " + std::string(expected), "one that is not empty");
   }
@@ -66,7 +66,7 @@ const Json& demand_values(const Json& message, std::string_view expected) {
   return values;
 }
 
-std::uint64_t demand_count(const Json& message, const char* key, std::uint64_t most) {
+std::uint64_t require_count(const Json& message, const char* key, std::uint64_t most) {
   const Json& value = message[key];
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
     throw is_not(key, value, "a whole number",
@@ -75,13 +75,13 @@ std::uint64_t demand_count(const Json& message, const char* key, std::uint64_t m
   return value.get<std::uint64_t>();
 }
 
-void demand_power(const Device& device) {
+void require_power(const Device& device) {
   if (!device.powered()) throw MessageError(device.name() + " has no power; expected it to be on");
 }
 
-std::size_t demand_device(const Daemon& daemon, const Json& message) {
+std::size_t require_device(const Daemon& daemon, const Json& message) {
   return world::find_device(daemon.world().known(),
-                            message.contains("device") ? demand_text(message, "device") : std::string());
+                            message.contains("device") ? require_text(message, "device") : std::string());
 }
 
 }  // namespace understudy::emulator::serve

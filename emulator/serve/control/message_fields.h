@@ -42,20 +42,20 @@ MessageError is_not(std::string_view name, const Json& value, std::string_view w
                     std::string_view expected = "one");
 
 /// All of these throw MessageError.
-void demand_keys(const Json& message, std::initializer_list<std::string_view> known);
-const Json& demand(const Json& message, const char* key);
+void require_keys(const Json& message, std::initializer_list<std::string_view> known);
+const Json& require(const Json& message, const char* key);
 /// Returns a whole number as an integer, any other as a real number.
 Json json_of(double value);
-std::string demand_text(const Json& message, const char* key);
+std::string require_text(const Json& message, const char* key);
 /// Returns the object under "values". `expected` is for messages: "names and levels".
-const Json& demand_values(const Json& message, std::string_view expected);
+const Json& require_values(const Json& message, std::string_view expected);
 
 /// Returns a whole number from 0 to `most`.
-std::uint64_t demand_count(const Json& message, const char* key, std::uint64_t most = UINT64_MAX);
+std::uint64_t require_count(const Json& message, const char* key, std::uint64_t most = UINT64_MAX);
 /// Returns the device named under "device"; without that key, the only device.
-std::size_t demand_device(const Daemon& daemon, const Json& message);
+std::size_t require_device(const Daemon& daemon, const Json& message);
 /// Throws if the device has no power.
-void demand_power(const Device& device);
+void require_power(const Device& device);
 
 /// Returns the faults and their hits.
 Json faults_message_part(const world::World& world);

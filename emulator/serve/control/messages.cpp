@@ -68,7 +68,7 @@ constexpr std::array<Verb, 32> kVerbs{{{"status", nullptr, nullptr, status_messa
                                        {"speed", speed_message},
                                        {"step", nullptr, step_message}}};
 
-const Verb& demand_verb(const Json& message) {
+const Verb& require_verb(const Json& message) {
   if (!message.is_object() || !message.contains("do") || !message["do"].is_string()) {
     throw MessageError("expected an object with a word under \"do\"");
   }
@@ -84,7 +84,7 @@ const Verb& demand_verb(const Json& message) {
 /// Whom onlookers are told: whoever asks may say that it is a page.
 std::string take_author(Json& message) {
   if (!message.contains("as")) return "control";
-  const std::string author = demand_text(message, "as");
+  const std::string author = require_text(message, "as");
   if (author != "page" && author != "control")
     throw is_not("as", message["as"], "an author", "page or control");
   message.erase("as");
@@ -92,15 +92,15 @@ std::string take_author(Json& message) {
 }
 
 /// So that no name or condition takes longer to look through than hosts would wait.
-void demand_short_texts(const Json& json) {
+void require_short_texts(const Json& json) {
   if (json.is_string() && json.get_ref<const std::string&>().size() > kLongestText) {
     throw MessageError(understudy::quoted(json.get_ref<const std::string&>()) +
                        " is too long; expected a text of at most " + std::to_string(kLongestText) + " bytes");
   }
   for (const auto& [key, value] : json.items()) {
     if (!json.is_structured()) return;
-    demand_short_texts(Json(key));
-    demand_short_texts(value);
+    require_short_texts(Json(key));
+    require_short_texts(value);
   }
 }
 
@@ -113,7 +113,7 @@ Json parsed(const std::string& line) {
       kDeepest);
   for (const auto& [key, value] : message.items()) {
     const bool is_of_program = key == "text" && message.value("do", Json()) == "program";
-    if (!is_of_program) demand_short_texts(value);
+    if (!is_of_program) require_short_texts(value);
   }
   return message;
 }
@@ -169,7 +169,7 @@ namespace {
 
 /// Does what a message says; null if the reply comes later.
 Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
-  const Verb& verb = demand_verb(message);
+  const Verb& verb = require_verb(message);
   const std::string author = take_author(message);
   daemon.onlookers().events.set_author(author);
   if (verb.answer != nullptr) return verb.answer(daemon, message);

@@ -34,9 +34,9 @@ std::string_view state_word(ProgramPlace::State state) {
   return {};
 }
 
-std::string demand_name(const Json& message) {
-  demand_keys(message, {"do", "name"});
-  std::string name = demand_text(message, "name");
+std::string require_name(const Json& message) {
+  require_keys(message, {"do", "name"});
+  std::string name = require_text(message, "name");
   if (name.empty() || name.size() > kLongestName) throw MessageError("name: expected 1 to 64 bytes");
   return name;
 }
@@ -48,9 +48,9 @@ Json time_of_now(const Daemon& daemon) {
 }  // namespace
 
 Json where_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "device"});
+  require_keys(message, {"do", "device"});
   daemon.catch_up();
-  const Device& device = daemon.world().device(demand_device(daemon, message));
+  const Device& device = daemon.world().device(require_device(daemon, message));
   Json programs = Json::array();
   if (device.powered() && device.user_program() != nullptr) {
     for (const ProgramPlace& place : device.user_program()->places()) {
@@ -69,8 +69,8 @@ Json where_message(Daemon& daemon, const Json& message) {
 }
 
 Json speed_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "to"});
-  const std::string text = demand_text(message, "to");
+  require_keys(message, {"do", "to"});
+  const std::string text = require_text(message, "to");
   const auto speed = parse_speed(text);
   if (!speed) {
     throw MessageError("to: " + understudy::quoted(text) +
@@ -84,8 +84,8 @@ Json speed_message(Daemon& daemon, const Json& message) {
 }
 
 void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
-  demand_keys(message, {"do", "ticks"});
-  const std::uint64_t ticks = message.contains("ticks") ? demand_count(message, "ticks", kMaxTicks) : 1;
+  require_keys(message, {"do", "ticks"});
+  const std::uint64_t ticks = message.contains("ticks") ? require_count(message, "ticks", kMaxTicks) : 1;
   const SimTime now = daemon.world().now();
   const SimTime end = time_of(tick_at(now) + static_cast<Tick>(ticks));
   if (ticks == 0 || end > kHorizon) throw MessageError("ticks: expected 1 to " + std::to_string(kMaxTicks));
@@ -96,9 +96,9 @@ void step_message(Daemon& daemon, const Json& message, const ControlServer::Repl
 }
 
 Json snapshots_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "drop"});
+  require_keys(message, {"do", "drop"});
   auto& kept = daemon.onlookers().snapshots;
-  if (message.contains("drop") && kept.erase(demand_text(message, "drop")) == 0) {
+  if (message.contains("drop") && kept.erase(require_text(message, "drop")) == 0) {
     throw MessageError("drop: there is no snapshot of that name");
   }
   Json snapshots = Json::array();
@@ -107,7 +107,7 @@ Json snapshots_message(Daemon& daemon, const Json& message) {
 }
 
 Json snapshot_by_name(Daemon& daemon, const Json& message) {
-  const std::string name = demand_name(message);
+  const std::string name = require_name(message);
   auto& kept = daemon.onlookers().snapshots;
   if (kept.size() >= Onlookers::kMaxSnapshots && !kept.contains(name)) {
     throw MessageError("name: there are " + std::to_string(kept.size()) +
@@ -119,7 +119,7 @@ Json snapshot_by_name(Daemon& daemon, const Json& message) {
 }
 
 Json restore_by_name(Daemon& daemon, const Json& message) {
-  const std::string name = demand_name(message);
+  const std::string name = require_name(message);
   const auto& kept = daemon.onlookers().snapshots;
   const auto found = kept.find(name);
   if (found == kept.end()) {

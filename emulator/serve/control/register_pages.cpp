@@ -165,12 +165,12 @@ struct WantedPage {
 };
 
 WantedPage wanted_page(const Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "device", "section", "find", "from", "count"});
-  WantedPage wanted{.device = demand_device(daemon, message)};
-  if (message.contains("section")) wanted.section = demand_count(message, "section");
-  if (message.contains("find")) wanted.find = in_lower_case(demand_text(message, "find"));
-  if (message.contains("from")) wanted.from = demand_count(message, "from");
-  if (message.contains("count")) wanted.count = demand_count(message, "count", kMaxRows);
+  require_keys(message, {"do", "device", "section", "find", "from", "count"});
+  WantedPage wanted{.device = require_device(daemon, message)};
+  if (message.contains("section")) wanted.section = require_count(message, "section");
+  if (message.contains("find")) wanted.find = in_lower_case(require_text(message, "find"));
+  if (message.contains("from")) wanted.from = require_count(message, "from");
+  if (message.contains("count")) wanted.count = require_count(message, "count", kMaxRows);
   return wanted;
 }
 
@@ -334,7 +334,7 @@ Telling tell_values(Daemon& daemon, WantedPage wanted) {
     co_await pause;
   }
   daemon.catch_up();
-  demand_power(device);
+  require_power(device);
   for (PageValue& value : page) read_page_value(value, device);
   ReplyText text;
   text.member("simulated_time_ns", daemon.world().now().count());
@@ -359,9 +359,9 @@ Telling get_page_message(Daemon& daemon, Json message) {
 }
 
 Telling choices_message(Daemon& daemon, Json message) {
-  demand_keys(message, {"do", "device", "from"});
-  const std::size_t from = message.contains("from") ? demand_count(message, "from") : 0;
-  const Device& device = daemon.world().device(demand_device(daemon, message));
+  require_keys(message, {"do", "device", "from"});
+  const std::size_t from = message.contains("from") ? require_count(message, "from") : 0;
+  const Device& device = daemon.world().device(require_device(daemon, message));
   const auto rows = device.model().choices;
   constexpr std::size_t kAtOnce = 100;
   const Pause pause(daemon);

@@ -48,7 +48,7 @@ Tick ticks_of(const Json& message, const char* key, Tick otherwise) {
 }
 
 world::ScopeSetup scope_setup(const Json& message) {
-  demand_keys(message, {"do", "names", "condition", "before", "after"});
+  require_keys(message, {"do", "names", "condition", "before", "after"});
   world::ScopeSetup setup;
   const Json& names = message["names"];
   if (!names.is_array() || names.empty() || names.size() > world::ScopeSetup::kMaxNames) {
@@ -58,7 +58,7 @@ world::ScopeSetup scope_setup(const Json& message) {
     if (!name.is_string()) throw is_not("names", names, "a list of names");
     setup.names.push_back(name.get<std::string>());
   }
-  if (message.contains("condition")) setup.condition = demand_text(message, "condition");
+  if (message.contains("condition")) setup.condition = require_text(message, "condition");
   setup.before = ticks_of(message, "before", setup.before);
   setup.after = ticks_of(message, "after", setup.after);
   return setup;
@@ -94,7 +94,7 @@ std::optional<std::vector<std::uint8_t>> bytes_of(std::string_view text) {
   return bytes;
 }
 
-const Port& demand_port(const Daemon& daemon, const Json& message) {
+const Port& require_port(const Daemon& daemon, const Json& message) {
   const auto& ports = daemon.ports();
   if (!message.contains("line") && ports.size() == 1) return *ports.front();
   std::string names;
@@ -104,7 +104,7 @@ const Port& demand_port(const Daemon& daemon, const Json& message) {
     names += (names.empty() ? "" : ", ") + name;
   }
   if (!message.contains("line")) throw MessageError("'line' is missing; expected one of " + names);
-  const std::string wanted = demand_text(message, "line");
+  const std::string wanted = require_text(message, "line");
   // "01 03" without quotes
   const std::string hint = bytes_of(wanted) ? "; put the bytes in quotes, as one word" : "";
   throw MessageError("line: " + understudy::quoted(wanted) + " is unknown; expected one of " + names + hint);
@@ -158,28 +158,28 @@ Telling scope_message(Daemon& daemon, Json message) {
     scope = std::move(armed);
     return told(scope_reply(scope.get()));
   }
-  demand_keys(message, {"do", "from", "off"});
+  require_keys(message, {"do", "from", "off"});
   daemon.catch_up();
   if (message.contains("off")) scope.reset();
   if (!scope || !message.contains("from")) return told(scope_reply(scope.get()));
-  return samples_message(daemon, demand_count(message, "from"));
+  return samples_message(daemon, require_count(message, "from"));
 }
 
 Json send_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "line", "bytes", "text", "checksum"});
-  const Port& port = demand_port(daemon, message);
+  require_keys(message, {"do", "line", "bytes", "text", "checksum"});
+  const Port& port = require_port(daemon, message);
   world::World& world = daemon.world();
   const world::WorldLine& line = world.line(port.line_number());
   std::vector<std::uint8_t> bytes;
   if (message.contains("text")) {
-    const std::string text = demand_text(message, "text");
+    const std::string text = require_text(message, "text");
     if (message.contains("bytes") || text.empty() || text.size() > kMaxBytes) {
       throw MessageError("text: expected 1 to " + std::to_string(kMaxBytes) + " bytes, without \"bytes\"");
     }
     bytes.assign(text.begin(), text.end());
     if (line.speech.carries_text() && text.back() != '\r' && text.back() != '\n') bytes.push_back('\r');
   } else {
-    const auto parsed = bytes_of(demand_text(message, "bytes"));
+    const auto parsed = bytes_of(require_text(message, "bytes"));
     if (!parsed)
       throw is_not("bytes", message["bytes"], "hexadecimal digits", "some such as \"01 03 00 00 00 01\"");
     bytes = *parsed;

@@ -24,9 +24,9 @@ namespace understudy::emulator::serve {
 namespace {
 
 /// Absolute, because the daemon may run in another folder than whoever asks.
-std::string demand_file(const Json& message) {
-  demand_keys(message, {"do", "file"});
-  const std::string path = demand_text(message, "file");
+std::string require_file(const Json& message) {
+  require_keys(message, {"do", "file"});
+  const std::string path = require_text(message, "file");
   if (!path.starts_with('/')) {
     throw MessageError("file: " + understudy::quoted(path) +
                        " is not absolute; expected a path that begins with /");
@@ -38,7 +38,7 @@ Json reply_of(const Daemon& daemon) {
   return Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}};
 }
 
-void demand_restorable(const Daemon& daemon) {
+void require_restorable(const Daemon& daemon) {
   if (const std::string_view why = daemon.why_no_restore(); !why.empty()) {
     throw MessageError(std::string(why));
   }
@@ -57,7 +57,7 @@ std::string written(const std::string& path, const world::WorldState& state, std
 
 void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
   if (message.contains("name")) return answer(reply, [&] { return snapshot_by_name(daemon, message); });
-  const std::string path = demand_file(message);
+  const std::string path = require_file(message);
   if (const std::string why = daemon.files().objection_to(path); !why.empty()) {
     throw MessageError(path + ": file: " + why);
   }
@@ -94,7 +94,7 @@ world::WorldState read_snapshot(const std::string& path, std::uint64_t bench_has
 }
 
 Json restored(Daemon& daemon, const std::string& path, const world::WorldState& state) {
-  demand_restorable(daemon);  // that may have changed
+  require_restorable(daemon);  // that may have changed
   try {
     daemon.restore(state);
   } catch (const StateError& error) {
@@ -107,8 +107,8 @@ Json restored(Daemon& daemon, const std::string& path, const world::WorldState& 
 
 void restore_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
   if (message.contains("name")) return answer(reply, [&] { return restore_by_name(daemon, message); });
-  const std::string path = demand_file(message);
-  demand_restorable(daemon);
+  const std::string path = require_file(message);
+  require_restorable(daemon);
   daemon.do_aside([&daemon, path, reply, hash = daemon.bench_hash()]() -> std::function<void()> {
     try {
       return [&daemon, path, reply, state = std::make_shared<world::WorldState>(read_snapshot(path, hash))] {

@@ -215,7 +215,7 @@ void StatusParts::add_of_line(ReplyText& text) {
 }
 
 Telling status_message(Daemon& daemon, Json message) {
-  demand_keys(message, {"do"});
+  require_keys(message, {"do"});
   const Pause pause(daemon);
   StatusParts parts(daemon);
   ReplyText text;
@@ -226,7 +226,7 @@ Telling status_message(Daemon& daemon, Json message) {
 }
 
 Json identify_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do"});
+  require_keys(message, {"do"});
   Json lines = Json::array();
   for (const auto& port : daemon.ports()) {
     const pty::PseudoTerminal* const terminal = port->terminal();

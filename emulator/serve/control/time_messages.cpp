@@ -19,8 +19,8 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-SimTime demand_duration(const Daemon& daemon, const Json& message, const std::string& key) {
-  const Json& field = demand(message, key.c_str());
+SimTime require_duration(const Daemon& daemon, const Json& message, const std::string& key) {
+  const Json& field = require(message, key.c_str());
   const auto duration = field.is_string() ? parse_duration(field.get<std::string>()) : std::nullopt;
   if (!duration) throw is_not(key, field, "a duration with a unit", "one such as \"250ms\"");
   if (*duration > std::chrono::hours(24 * 365))
@@ -59,23 +59,23 @@ Json time_reply(const Daemon& daemon) {
 }  // namespace
 
 Json pause_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do"});
+  require_keys(message, {"do"});
   daemon.pause();
   return time_reply(daemon);
 }
 
 Json resume_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do"});
+  require_keys(message, {"do"});
   if (!daemon.resume()) throw MessageError("time is being advanced; expected `resume` after that");
   return time_reply(daemon);
 }
 
 void run_until_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
-  demand_keys(message, {"do", "condition", "within"});
-  const SimTime within = demand_duration(daemon, message, "within");
+  require_keys(message, {"do", "condition", "within"});
+  const SimTime within = require_duration(daemon, message, "within");
   daemon.catch_up();
   const auto condition = std::make_shared<Condition>(daemon.world());
-  const std::string text = demand_text(message, "condition");
+  const std::string text = require_text(message, "condition");
   try {
     condition->expression = world::parse_expression(text, condition->probes);
   } catch (const world::ExpressionError& error) {
@@ -95,8 +95,8 @@ void run_until_message(Daemon& daemon, const Json& message, const ControlServer:
 }
 
 void advance_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
-  demand_keys(message, {"do", "by"});
-  const SimTime duration = demand_duration(daemon, message, "by");
+  require_keys(message, {"do", "by"});
+  const SimTime duration = require_duration(daemon, message, "by");
   const bool begun = daemon.advance(duration, [&daemon, reply] { reply(time_reply(daemon).dump()); });
   if (!begun) throw MessageError(std::string(kRunsByItself));
 }

@@ -65,8 +65,8 @@ class Travel {
   }
 
   Json timeline(const Json& message) {
-    demand_keys(message, {"do", "from"});
-    const std::size_t from = message.contains("from") ? demand_count(message, "from") : 0;
+    require_keys(message, {"do", "from"});
+    const std::size_t from = message.contains("from") ? require_count(message, "from") : 0;
     Json marks = Json::array();
     for (std::size_t i = from; i < std::min(marks_.size(), from + kMarksAtOnce); ++i)
       marks.push_back(marks_[i]);
@@ -82,12 +82,12 @@ class Travel {
 
   /// {"do":"seek","to_ns":N}, or {"do":"seek","by":"tick"|"frame"|"event","steps":-1}
   Json seek(const Json& message) {
-    demand_keys(message, {"do", "to_ns", "by", "steps"});
+    require_keys(message, {"do", "to_ns", "by", "steps"});
     if (daemon_.is_advancing()) throw MessageError("time is being advanced; expected `seek` after that");
     if (message.contains("to_ns")) {
-      go_to(SimTime{static_cast<std::int64_t>(demand_count(message, "to_ns", INT64_MAX))});
+      go_to(SimTime{static_cast<std::int64_t>(require_count(message, "to_ns", INT64_MAX))});
     } else {
-      go_to(stepped(demand_text(message, "by"), demand_steps(message)));
+      go_to(stepped(require_text(message, "by"), require_steps(message)));
     }
     return Json{{"ok", true}, {"simulated_time_ns", daemon_.world().now().count()}};
   }
@@ -99,7 +99,7 @@ class Travel {
     std::vector<world::Event> events;
   };
 
-  static std::int64_t demand_steps(const Json& message) {
+  static std::int64_t require_steps(const Json& message) {
     if (!message.contains("steps")) return 1;
     const Json& steps = message["steps"];
     constexpr std::int64_t kMax = 1'000'000;

@@ -68,8 +68,8 @@ MessageError no_number(const world::KnownDevices& known, const std::string& name
 
 /// The object under "values": names with numbers, whole ones for registers that hold no other.
 WantedValues named_values(const Json& message, const world::KnownDevices& known) {
-  demand_keys(message, {"do", "values"});
-  const Json& values = demand_values(message, "names and whole numbers");
+  require_keys(message, {"do", "values"});
+  const Json& values = require_values(message, "names and whole numbers");
   WantedValues all;
   for (const auto& [name, given] : values.items()) {
     const Json value = given.is_boolean() ? Json(given.get<bool>() ? 1 : 0) : given;
@@ -114,13 +114,13 @@ world::NamedNumber resolve(const world::World& world, const world::Probes& probe
       value = world::find_value(world.known(), name);
     } catch (const world::NameError&) {
     }
-    if (value) demand_power(world.device(value->device));
+    if (value) require_power(world.device(value->device));
     throw;
   }
 }
 
-void demand_accepted(Refusal refusal, const std::string& name, const std::string& told,
-                     const NamedPlace& place, Value value) {
+void require_accepted(Refusal refusal, const std::string& name, const std::string& told,
+                      const NamedPlace& place, Value value) {
   switch (refusal) {
     case Refusal::none: return;
     case Refusal::no_register: throw MessageError(name + " " + why_not_writable(place));
@@ -139,12 +139,12 @@ Value value_for(const world::RegisterName& place, const WantedRegister& wanted) 
 }
 
 /// Each is tried on a device that is made alike, so that all are given or none.
-void demand_possible(const world::World& world,
-                     const std::vector<std::pair<world::ValueName, double>>& wanted) {
+void require_possible(const world::World& world,
+                      const std::vector<std::pair<world::ValueName, double>>& wanted) {
   std::map<std::size_t, std::unique_ptr<Device>> trials;
   for (const auto& [place, value] : wanted) {
     const Device& device = world.device(place.device);
-    demand_power(device);
+    require_power(device);
     auto& trial = trials[place.device];
     if (!trial) {
       trial = make_device(device.model(), device.settings());
@@ -165,8 +165,8 @@ namespace {
 
 /// All that are named are looked up first, then read in one go.
 Telling get_names_message(Daemon& daemon, Json message) {
-  demand_keys(message, {"do", "names"});
-  const Json& names = demand(message, "names");
+  require_keys(message, {"do", "names"});
+  const Json& names = require(message, "names");
   if (!names.is_array() || names.empty()) throw is_not("names", names, "a list of names");
   daemon.catch_up();
   const Pause pause(daemon);
@@ -186,7 +186,7 @@ Telling get_names_message(Daemon& daemon, Json message) {
   daemon.catch_up();
   std::vector<world::Number> values;
   for (const world::NamedNumber& one : found) {
-    if (const auto device = probes.device_read(one.handle)) demand_power(world.device(*device));
+    if (const auto device = probes.device_read(one.handle)) require_power(world.device(*device));
     values.push_back(probes.value(one.handle));
   }
   ReplyText text;
@@ -212,8 +212,8 @@ Telling get_message(Daemon& daemon, Json message) {
 }
 
 Json eval_message(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do", "expression"});
-  const std::string text = demand_text(message, "expression");
+  require_keys(message, {"do", "expression"});
+  const std::string text = require_text(message, "expression");
   daemon.catch_up();
   const world::Probes probes(daemon.world());
   world::ExpressionParser parser(text, probes);
@@ -221,7 +221,7 @@ Json eval_message(Daemon& daemon, const Json& message) {
   parser.expect_end();
   const world::Expression expression = parser.take();
   for (const std::int32_t name : world::names_in(expression)) {
-    if (const auto device = probes.device_read(name)) demand_power(daemon.world().device(*device));
+    if (const auto device = probes.device_read(name)) require_power(daemon.world().device(*device));
   }
   Json reply{{"ok", true}, {"value", json_number(world::evaluate(expression, probes))}};
   if (term.unit != world::Unit::none) reply["unit"] = unit_word(term.unit);
@@ -232,7 +232,7 @@ Json set_message(Daemon& daemon, const Json& message) {
   daemon.catch_up();
   world::World& world = daemon.world();
   const auto [wanted, values] = named_values(message, world.known());
-  demand_possible(world, values);
+  require_possible(world, values);
   std::vector<world::RegisterName> places;
   std::vector<PreparedWrite> writes(wanted.size());
   std::vector<bool> low_first;
@@ -246,20 +246,20 @@ Json set_message(Daemon& daemon, const Json& message) {
       }
     }
     places.push_back(place);
-    demand_power(world.device(place.device));
+    require_power(world.device(place.device));
     const RegisterBank& bank = *world.device(place.device).register_bank();
     low_first.push_back(bank.low_word_first());
     const Value value = value_for(place, wanted[i]);
     const Refusal refusal = prepare_value(bank, place.place, value, writes[i]);
-    demand_accepted(refusal, name, wanted[i].number.dump(), place.place, value);
+    require_accepted(refusal, name, wanted[i].number.dump(), place.place, value);
   }
   for (std::size_t i = 0; i < writes.size(); ++i) {
     // The order of words may be what has just been written.
     const RegisterBank& bank = *world.device(places[i].device).register_bank();
     if (bank.low_word_first() != low_first[i]) {
       const Value value = value_for(places[i], wanted[i]);
-      demand_accepted(prepare_value(bank, places[i].place, value, writes[i]), wanted[i].name,
-                      wanted[i].number.dump(), places[i].place, value);
+      require_accepted(prepare_value(bank, places[i].place, value, writes[i]), wanted[i].name,
+                       wanted[i].number.dump(), places[i].place, value);
     }
     if (world.write(places[i].device, writes[i]) == Refusal::none) continue;
     throw MessageError(wanted[i].name + " was not written: " +

@@ -34,7 +34,7 @@ std::filesystem::path file_of(const world::DeviceSetup& device) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(device.nv_path));
 }
 
-void demand_own_files(const world::Bench& bench) {
+void require_own_files(const world::Bench& bench) {
   std::map<std::filesystem::path, std::string> owners;
   for (const world::DeviceSetup& device : bench.devices) {
     if (device.nv_path.empty()) continue;
@@ -85,9 +85,9 @@ void read_memories(world::Bench& bench, const std::string& folder) {
       device.nv_path = folder + "/" + device.settings.name + ".json";
     }
   }
-  demand_own_files(bench);
+  require_own_files(bench);
   world::Complaints complaints;
-  complaints.demand([&] {
+  complaints.require([&] {
     for (world::DeviceSetup& device : bench.devices) {
       if (!device.nv_path.empty()) read_memory(device, complaints);
     }

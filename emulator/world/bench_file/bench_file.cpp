@@ -48,7 +48,7 @@ class BenchReader {
   /// Throws all that is wrong, with what was wrong before.
   Bench read(const YamlFields& root, Complaints complaints) {
     all_ = std::move(complaints);
-    all_.demand([&] { read_all(root); });
+    all_.require([&] { read_all(root); });
     return std::move(bench_);
   }
 
@@ -74,15 +74,15 @@ class BenchReader {
 
   // --- devices -------------------------------------------------------------------------------
   void read_devices(const YamlFields& devices) {
-    devices.demand_map();
+    devices.require_map();
     for (const auto& [name, fields] : devices.entries()) {
-      all_.attempt([&, &keys = fields] { keys.demand_keys(kDeviceKeys); });
+      all_.attempt([&, &keys = fields] { keys.require_keys(kDeviceKeys); });
       all_.attempt([&, &called = name, &keys = fields] { add_device(keys, called, keys); });
     }
   }
 
   std::size_t add_device(const YamlFields& name_field, const std::string& name, const YamlFields& fields) {
-    demand_name(name_field, name);
+    require_name(name_field, name);
     if (name == kTime) name_field.fail("is the name of the time in conditions; expected another name");
     if (names_.find_device(name) >= 0)
       name_field.fail("two devices are called " + understudy::quoted(name) + "; expected a new name");
@@ -100,7 +100,7 @@ class BenchReader {
 
   // --- lines ---------------------------------------------------------------------------------
   void read_lines(const YamlFields& lines) {
-    lines.demand_map();
+    lines.require_map();
     if (lines.entries().empty()) lines.fail("has no line; expected at least one");
     for (const auto& [name, fields] : lines.entries()) {
       all_.attempt([&, &called = name, &keys = fields] {
@@ -113,8 +113,8 @@ class BenchReader {
   }
 
   void read_line(const std::string& name, const YamlFields& fields) {
-    all_.attempt([&] { fields.demand_keys(kLineKeys); });
-    all_.attempt([&] { demand_name(fields, name); });
+    all_.attempt([&] { fields.require_keys(kLineKeys); });
+    all_.attempt([&] { require_name(fields, name); });
     LineSetup line{.name = name, .link = {}, .stations = {}};
     all_.attempt([&] {
       if (const auto link = fields.find("link")) line.link = read_link(*link, links_, bench_.lines);
@@ -144,7 +144,7 @@ class BenchReader {
     for (const YamlFields& station : stations) {
       all_.attempt([&] { read_station(station, line, numbered); });
     }
-    all_.attempt([&] { demand_ports(fields, line, bench_); });
+    all_.attempt([&] { require_ports(fields, line, bench_); });
     bench_.lines.push_back(std::move(line));
   }
 
@@ -152,10 +152,10 @@ class BenchReader {
     if (!station.is_map()) station.fail("expected a map, as in `key: value`");
     std::size_t device = 0;
     if (station.has("device")) {
-      all_.attempt([&] { station.demand_keys(kPlacedStationKeys); });
-      device = names_.demand_device(station.at("device"), station.at("device").text());
+      all_.attempt([&] { station.require_keys(kPlacedStationKeys); });
+      device = names_.require_device(station.at("device"), station.at("device").text());
     } else {
-      all_.attempt([&] { station.demand_keys(kStationKeys); });
+      all_.attempt([&] { station.require_keys(kStationKeys); });
       const bool is_known =
           all_.attempt([&] { device = add_device(station.at("name"), station.at("name").text(), station); });
       if (!is_known) {
@@ -168,7 +168,7 @@ class BenchReader {
     DeviceSetup& setup = bench_.devices[device];
     const std::size_t port = take_port(station, device, line);
     setup.settings.bauds[port] = line.baud;
-    demand_room(station, {device, port}, line, bench_);
+    require_room(station, {device, port}, line, bench_);
     numbered.push_back({station, device, read_address(station, setup)});
     line.stations.emplace_back(device, port);
   }
@@ -203,11 +203,11 @@ class BenchReader {
 
   // --- plant and wires -------------------------------------------------------------------------
   void read_plant(const YamlFields& plant) {
-    plant.demand_map();
+    plant.require_map();
     for (const auto& [name, fields] : plant.entries()) {
       all_.attempt([&, &called = name, &machine = fields] { read_machine_of(called, machine); });
     }
-    demand_own_inputs(plant);
+    require_own_inputs(plant);
   }
 
   void read_machine_of(const std::string& name, const YamlFields& fields) {
@@ -227,7 +227,7 @@ class BenchReader {
   }
 
   /// A switch that is wired elsewhere may come upon another one.
-  void demand_own_inputs(const YamlFields& plant) const {
+  void require_own_inputs(const YamlFields& plant) const {
     std::map<std::pair<std::size_t, int>, std::string> taken;
     for (const MachineSetup& machine : bench_.machines) {
       const DeviceSetup& device = bench_.devices[machine.device];
@@ -272,7 +272,7 @@ class BenchReader {
     const KnownDevices known = known_devices_of(bench_);
     all_.attempt([&] {
       if (!root.has("inputs")) return;
-      all_.attempt([&] { root.at("inputs").demand_map(); });
+      all_.attempt([&] { root.at("inputs").require_map(); });
       for (const auto& [name, level] : root.at("inputs").entries()) {
         all_.attempt([&, &called = name, &field = level] {
           if (names_.names_lost(called)) throw Untold();
@@ -294,7 +294,7 @@ class BenchReader {
       if (faults.back().second) bench_.faults.push_back(*faults.back().second);
     }
     const BenchInventory inventory(bench_);
-    for (const auto& [fields, fault] : faults) demand_possible(fields, inventory, fault, all_);
+    for (const auto& [fields, fault] : faults) require_possible(fields, inventory, fault, all_);
   }
 
   ModelList models_;
@@ -317,7 +317,7 @@ Bench read_whole(const std::string& text, const std::string& name, BenchReader r
     throw FileError({name, 1, 1}, "bench: is a model file; expected a bench, whose stations name it");
   }
   Complaints complaints;
-  complaints.attempt([&] { root.demand_keys(kBenchKeys); });
+  complaints.attempt([&] { root.require_keys(kBenchKeys); });
   complaints.attempt([&] { root.at("understudy").integer(kVersionForm); });
   return reader.read(root, std::move(complaints));
 }
@@ -335,7 +335,7 @@ Bench parse_recorded_bench(ModelList models, const std::string& text) {
 
 Bench read_bench(ModelList models, const YamlFields& fields, const std::string& folder) {
   Complaints complaints;
-  complaints.attempt([&] { fields.demand_keys(kInlineBenchKeys); });
+  complaints.attempt([&] { fields.require_keys(kInlineBenchKeys); });
   return BenchReader(models, folder).read(fields, std::move(complaints));
 }
 

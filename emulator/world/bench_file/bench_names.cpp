@@ -48,7 +48,7 @@ int BenchNames::find_device(const std::string& name) const {
   return -1;
 }
 
-std::size_t BenchNames::demand_device(const YamlFields& field, const std::string& name) const {
+std::size_t BenchNames::require_device(const YamlFields& field, const std::string& name) const {
   const int found = find_device(name);
   if (found >= 0) return static_cast<std::size_t>(found);
   if (lost_devices_.contains(name)) throw Untold();
@@ -62,11 +62,11 @@ std::pair<std::size_t, std::string> BenchNames::split(const YamlFields& field, c
   const std::size_t dot = name.find('.');
   if (dot == std::string::npos)
     field.fail(quoted(name) + " names no device; expected a name like " + example);
-  return {demand_device(field, name.substr(0, dot)), name.substr(dot + 1)};
+  return {require_device(field, name.substr(0, dot)), name.substr(dot + 1)};
 }
 
-std::pair<std::size_t, int> BenchNames::demand_terminal(const YamlFields& field, const std::string& name,
-                                                        TerminalRow::Kind kind, const char* example) const {
+std::pair<std::size_t, int> BenchNames::require_terminal(const YamlFields& field, const std::string& name,
+                                                         TerminalRow::Kind kind, const char* example) const {
   const auto [device, terminal_name] = split(field, name, example);
   const Model& model = *bench_.devices[device].model;
   const int terminal = find_terminal(model, terminal_name);

@@ -32,12 +32,12 @@ class BenchNames {
   // --- what was read: these fail with the names that would do, or as Untold -----------------------
   /// Returns -1 if there is no such device.
   int find_device(const std::string& name) const;
-  std::size_t demand_device(const YamlFields& field, const std::string& name) const;
+  std::size_t require_device(const YamlFields& field, const std::string& name) const;
   /// Splits "feeder.A" into the number of the device and the text behind the dot.
   std::pair<std::size_t, std::string> split(const YamlFields& field, const std::string& name,
                                             const char* example) const;
-  std::pair<std::size_t, int> demand_terminal(const YamlFields& field, const std::string& name,
-                                              TerminalRow::Kind kind, const char* example) const;
+  std::pair<std::size_t, int> require_terminal(const YamlFields& field, const std::string& name,
+                                               TerminalRow::Kind kind, const char* example) const;
   const Model& model_of(std::size_t device) const { return *bench_.devices[device].model; }
 
  private:

@@ -45,7 +45,7 @@ class Complaints {
   }
   /// Attempts `read`, and throws all errors so far.
   template <typename Read>
-  void demand(const Read& read) {
+  void require(const Read& read) {
     try {
       attempt(read);
     } catch (const LastError&) {  // it is among them

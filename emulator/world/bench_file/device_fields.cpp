@@ -36,7 +36,7 @@ namespace {
 // Ports and memories are files that are named after lines and devices.
 constexpr std::size_t kLongestName = 100;
 
-double demand_real(const YamlFields& field) {
+double require_real(const YamlFields& field) {
   if (const auto value = parse_real(field.text())) return *value;
   field.fail(understudy::quoted(field.text()) + " is not a number; expected one");
 }
@@ -69,13 +69,13 @@ void read_value_of_memory(const std::string& name, const YamlFields& value, NvIm
   } else if (text.find_first_of(".eE") == std::string::npos) {
     image.registers.emplace_back(name, value.integer(kRegisterValueForm));
   } else {
-    image.reals.emplace_back(name, demand_real(value));
+    image.reals.emplace_back(name, require_real(value));
   }
 }
 
 /// Blocks of text of one kind, by name.
 void read_blocks(const std::string& kind, const YamlFields& entries, NvImage& image) {
-  entries.demand_map();
+  entries.require_map();
   auto& of_kind = image.blocks[kind];
   for (const auto& [name, text] : entries.entries()) of_kind[name] = SharedText(text.text());
 }
@@ -93,13 +93,13 @@ bool is_register(const Model& model, std::string_view name) {
 /// as the run.
 NvImage read_memory(const YamlFields& field, const Model& model, Complaints& complaints) {
   NvImage image{.model = std::string(model.name), .firmware = {}, .registers = {}};
-  complaints.attempt([&] { field.demand_map(); });
+  complaints.attempt([&] { field.require_map(); });
   for (const auto& [register_name, value] : field.entries()) {
     complaints.attempt([&, &name = register_name, &number = value] {
       if (number.is_map()) return read_blocks(name, number, image);
       if (model.registers == nullptr) return read_value_of_memory(name, number, image);
       if (is_real_register(model, name)) {
-        image.reals.emplace_back(name, demand_real(number));
+        image.reals.emplace_back(name, require_real(number));
       } else if (!is_register(model, name) && !(number.is_scalar() && parse_integer(number.text()))) {
         number.fail(why_no_register(model, name, model.firmwares.back()) +
                     " (texts of a kind are a map, as in `files: { NAME: TEXT }`)");
@@ -124,8 +124,9 @@ void read_nv_path(const YamlFields& field, const std::optional<std::string>& fol
 }
 
 /// A model's name, the path of a file that describes it, or, if it has several lines, that text itself.
-const Model& demand_model(ModelList models, const YamlFields& field, const std::optional<std::string>& folder,
-                          const std::string& device, Bench& bench) {
+const Model& require_model(ModelList models, const YamlFields& field,
+                           const std::optional<std::string>& folder, const std::string& device,
+                           Bench& bench) {
   const std::string name = field.text();
   if (const Model* const model = find_model(models, name)) return *model;
   if (models.files != nullptr && name.find('\n') != std::string::npos)
@@ -143,13 +144,13 @@ const Model& demand_model(ModelList models, const YamlFields& field, const std::
 
 /// Without a model they are numbers at least.
 void read_set(const YamlFields& field, const Model* model, DeviceSettings& settings, Complaints& complaints) {
-  complaints.attempt([&] { field.demand_map(); });
+  complaints.attempt([&] { field.require_map(); });
   for (const auto& [register_name, value] : field.entries()) {
     complaints.attempt([&, &name = register_name, &number = value] {
       if (model == nullptr) {
-        demand_real(number);
+        require_real(number);
       } else if (model->registers == nullptr || is_real_register(*model, name)) {
-        settings.assignments.emplace_back(name, demand_real(number));
+        settings.assignments.emplace_back(name, require_real(number));
       } else {
         settings.set.emplace_back(name, number.integer(kRegisterValueForm));
       }
@@ -204,7 +205,7 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
 
 }  // namespace
 
-void demand_name(const YamlFields& field, const std::string& name) {
+void require_name(const YamlFields& field, const std::string& name) {
   const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
@@ -227,7 +228,7 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
   DeviceSetup device;
   DeviceSettings& settings = device.settings;
   settings.name = name;
-  complaints.attempt([&] { device.model = &demand_model(models, fields.at("model"), folder, name, bench); });
+  complaints.attempt([&] { device.model = &require_model(models, fields.at("model"), folder, name, bench); });
   const auto read = [&](const char* key, const auto& how) {
     return complaints.attempt([&] {
       if (const auto field = fields.find(key)) how(*field);
@@ -244,7 +245,7 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
   if (!knows_modules && device.model != nullptr) settings.modules = device.model->most_modules;
   read("set", [&](const YamlFields& field) { read_set(field, device.model, settings, complaints); });
   read("dip", [&](const YamlFields& field) {
-    complaints.attempt([&] { field.demand_map(); });
+    complaints.attempt([&] { field.require_map(); });
     for (const auto& [dip, level] : field.entries()) {
       complaints.attempt([&, &of = dip, &is = level] { settings.dip[of] = is.on_or_off(); });
     }
@@ -255,7 +256,7 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
     if (device.model != nullptr) settings.nv = read_memory(field, *device.model, complaints);
   });
   read("choices", [&](const YamlFields& field) {
-    complaints.attempt([&] { field.demand_map(); });
+    complaints.attempt([&] { field.require_map(); });
     for (const auto& [id, option] : field.entries()) {
       complaints.attempt([&, &of = id, &is = option] { settings.choices[of] = is.text(); });
     }

@@ -12,7 +12,7 @@
 namespace understudy::emulator::world {
 
 /// Checks that a name can be followed by a dot and another name.
-void demand_name(const YamlFields& field, const std::string& name);
+void require_name(const YamlFields& field, const std::string& name);
 
 /// Reads the entry of a device without its name. Keeps all errors; if the model is unknown, the device has
 /// none. Paths are relative to `folder`, and refused without one. Files that it reads are added to the

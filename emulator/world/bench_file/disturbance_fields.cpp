@@ -23,7 +23,7 @@ namespace understudy::emulator::world {
 namespace {
 
 FaultText text_of_fault(const YamlFields& fields, std::string_view other_key) {
-  fields.demand_map();
+  fields.require_map();
   FaultText text{};
   bool is_first = true;
   for (const auto& [key, value] : fields.entries()) {
@@ -65,7 +65,7 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
     const auto level = parse_level(field.text(), row.kind);
     if (!level)
       field.fail(quoted(field.text()) + " is not a level; expected " + std::string(level_example(row.kind)));
-    demand_level(row, name, *level);
+    require_level(row, name, *level);
     return {.device = input.device, .terminal = input.terminal, .level = static_cast<std::int32_t>(*level)};
   } catch (const NameError& error) {
     field.fail(error.what());
@@ -94,8 +94,8 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
   }
 }
 
-void demand_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
-                     Complaints& complaints) {
+void require_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
+                      Complaints& complaints) {
   complaints.attempt([&] {
     try {
       if (fault) return check_fault(inventory, *fault);

@@ -23,7 +23,7 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
 
 /// Reports a fault that the bench cannot have. Its condition is checked even if the fault itself could not
 /// be read.
-void demand_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
-                     Complaints& complaints);
+void require_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
+                      Complaints& complaints);
 
 }  // namespace understudy::emulator::world

@@ -71,7 +71,7 @@ std::vector<TcpAddress> read_listen(const YamlFields& listen, const std::vector<
   return all;
 }
 
-void demand_ports(const YamlFields& fields, const LineSetup& line, const Bench& bench) {
+void require_ports(const YamlFields& fields, const LineSetup& line, const Bench& bench) {
   if (!line.has_pty && line.tcp.empty())
     fields.at("pty").fail("leaves the line without a port; expected `listen` as well");
   if (!line.has_pty && !line.link.empty())

@@ -26,7 +26,7 @@ std::vector<TcpAddress> read_listen(const YamlFields& listen, const std::vector<
 
 /// Checks that a line's ports fit together and suit its stations. `fields` are those of the line; its
 /// stations have been read.
-void demand_ports(const YamlFields& fields, const LineSetup& line, const Bench& bench);
+void require_ports(const YamlFields& fields, const LineSetup& line, const Bench& bench);
 
 /// Reads the path of a link, relative to `folder`. No other line may have the same link.
 std::string read_link(const YamlFields& link, const std::optional<std::string>& folder,

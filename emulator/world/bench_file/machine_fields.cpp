@@ -26,7 +26,7 @@ class Keys {
  public:
   Keys(const YamlFields& fields, std::span<const KeyRow> known, Complaints& complaints)
       : fields_(fields), complaints_(complaints) {
-    complaints_.attempt([&] { fields_.demand_keys(known); });
+    complaints_.attempt([&] { fields_.require_keys(known); });
   }
   /// Calls `how` with the field if it is there. Whether nothing is wrong with it.
   template <typename How>
@@ -37,7 +37,7 @@ class Keys {
   }
   /// Demands that it is there.
   template <typename How>
-  bool demand(const std::string& key, const How& how) const {
+  bool require(const std::string& key, const How& how) const {
     return complaints_.attempt([&] { how(fields_.at(key)); });
   }
 
@@ -112,8 +112,8 @@ void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& set
   const auto per_revolution = [](const YamlFields& field) {
     return static_cast<int>(field.integer(kPerRevolutionForm));
   };
-  keys.demand("per_revolution",
-              [&](const YamlFields& field) { setup.encoder_counts_per_revolution = per_revolution(field); });
+  keys.require("per_revolution",
+               [&](const YamlFields& field) { setup.encoder_counts_per_revolution = per_revolution(field); });
   keys.read("motor_pulses_per_revolution",
             [&](const YamlFields& field) { setup.pulses_per_revolution = per_revolution(field); });
   keys.read("on", [&](const YamlFields& field) { setup.has_wheel = read_word(field, "wheel", "machine"); });
@@ -147,8 +147,8 @@ SwitchSetup read_switch(const YamlFields& fields, const Model& model, Complaints
   SwitchSetup setup;
   std::int64_t at = 0;
   std::int64_t width = 1;
-  keys.demand("at", [&](const YamlFields& field) { at = field.integer(kPositionForm); });
-  keys.demand("width", [&](const YamlFields& field) { width = field.integer(kWidthForm); });
+  keys.require("at", [&](const YamlFields& field) { at = field.integer(kPositionForm); });
+  keys.require("width", [&](const YamlFields& field) { width = field.integer(kWidthForm); });
   setup.on = {at, at + width - 1};
   keys.read("hysteresis",
             [&](const YamlFields& field) { setup.hysteresis_pulses = field.integer(kHysteresisForm); });

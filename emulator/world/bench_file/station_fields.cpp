@@ -28,8 +28,8 @@ std::size_t read_port(const YamlFields& station, const Model& model) {
               suggestion(field->text(), names));
 }
 
-void demand_room(const YamlFields& station, const StationSetup& wanted, const LineSetup& line,
-                 const Bench& bench) {
+void require_room(const YamlFields& station, const StationSetup& wanted, const LineSetup& line,
+                  const Bench& bench) {
   const auto rules_of = [&](const StationSetup& some) -> const LineRules& {
     return bench.devices[some.device].model->line;
   };

@@ -16,8 +16,8 @@ namespace understudy::emulator::world {
 std::size_t read_port(const YamlFields& station, const Model& model);
 
 /// Throws if one of the two stations must be alone on its line.
-void demand_room(const YamlFields& station, const StationSetup& wanted, const LineSetup& line,
-                 const Bench& bench);
+void require_room(const YamlFields& station, const StationSetup& wanted, const LineSetup& line,
+                  const Bench& bench);
 
 /// Reads the station's number, if it has one, and gives it to the device. A device has the same number on
 /// all its lines, so it need be given at one of its stations only.

@@ -53,8 +53,8 @@ std::size_t find_word(const YamlFields& wire, const MachinePlace& place, const N
 
 /// Complains unless the bench has a machine there that `has` what is named.
 template <class Has>
-void demand_machine(const YamlFields& wire, const MachinePlace& place, const Bench& bench,
-                    const BenchNames& names, const std::string& what, Has has) {
+void require_machine(const YamlFields& wire, const MachinePlace& place, const Bench& bench,
+                     const BenchNames& names, const std::string& what, Has has) {
   for (const MachineSetup& machine : bench.machines) {
     if (machine.device == place.device && machine.axis == place.axis && has(PlantAxis(machine.plant))) return;
   }
@@ -81,22 +81,22 @@ WireSetup read_wire(const YamlFields& wire, const Bench& bench, const BenchNames
     made.from_device = place->device;
     made.from_axis = place->axis;
     made.from_contact = static_cast<Contact>(find_word(wire, *place, kContactNames, "a switch of a machine"));
-    demand_machine(wire, *place, bench, names, place->word,
-                   [&](const PlantAxis& machine) { return machine.has_contact(made.from_contact); });
+    require_machine(wire, *place, bench, names, place->word,
+                    [&](const PlantAxis& machine) { return machine.has_contact(made.from_contact); });
   } else {
     std::tie(made.from_device, made.from_terminal) =
-        names.demand_terminal(wire, from, TerminalRow::Kind::digital_out, "feeder.DOUT_4");
+        names.require_terminal(wire, from, TerminalRow::Kind::digital_out, "feeder.DOUT_4");
   }
   const std::string to = trimmed(text.substr(arrow + 2));
   if (const auto place = find_machine_place(wire, to, names, "feeder.A.alarm_clear")) {
     made.to_device = place->device;
     made.to_axis = place->axis;
     made.to_input = static_cast<DriveInput>(find_word(wire, *place, kDriveInputNames, "an input of a drive"));
-    demand_machine(wire, *place, bench, names, "drive",
-                   [](const PlantAxis& machine) { return machine.has_drive(); });
+    require_machine(wire, *place, bench, names, "drive",
+                    [](const PlantAxis& machine) { return machine.has_drive(); });
   } else {
     std::tie(made.to_device, made.to_terminal) =
-        names.demand_terminal(wire, to, TerminalRow::Kind::digital_in, "turner.DIN_10");
+        names.require_terminal(wire, to, TerminalRow::Kind::digital_in, "turner.DIN_10");
   }
   return made;
 }

@@ -243,8 +243,8 @@ bool is_closed(std::string_view text) {
 }
 
 /// The library takes the end of the file for the end of a quoted text.
-void demand_closed_quote(const std::string& text, const YAML::Mark& mark, const std::string& file,
-                         const std::string& what) {
+void require_closed_quote(const std::string& text, const YAML::Mark& mark, const std::string& file,
+                          const std::string& what) {
   if (mark.is_null()) return;
   const Stop stop(text, mark);
   const std::string_view line = stop.line.substr(std::min(stop.before.size(), stop.line.size()));
@@ -264,7 +264,7 @@ std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::s
     Passage passage;
     while (parser.HandleNextDocument(passage)) {
     }
-    demand_closed_quote(text, passage.last_text(), file, what);
+    require_closed_quote(text, passage.last_text(), file, what);
     return passage.root();
   } catch (const Passage::SecondDocument& second) {
     const Stop stop(text, second.mark);

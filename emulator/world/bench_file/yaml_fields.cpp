@@ -155,18 +155,18 @@ void YamlFields::for_each_entry(Take take) const {
   }
 }
 
-void YamlFields::demand_map() const { demand_keys_of(nullptr); }
+void YamlFields::require_map() const { require_keys_of(nullptr); }
 
-void YamlFields::demand_keys(std::span<const KeyRow> known) const { demand_keys_of(&known); }
+void YamlFields::require_keys(std::span<const KeyRow> known) const { require_keys_of(&known); }
 
-void YamlFields::demand_keys_of(const std::span<const KeyRow>* known) const {
+void YamlFields::require_keys_of(const std::span<const KeyRow>* known) const {
   Complaints complaints;
   std::set<std::string> seen;
   const auto is_known = [&](const std::string& key) {
     return known == nullptr ||
            std::any_of(known->begin(), known->end(), [&](const KeyRow& row) { return row.key == key; });
   };
-  complaints.demand([&] {
+  complaints.require([&] {
     for_each_entry([&](const std::string& key, const YamlNode& value) {
       if (!seen.insert(key).second) {
         complaints.attempt([&] { part(value, field_of(key)).fail("is given twice; expected it once"); });

@@ -58,9 +58,9 @@ class YamlFields {
   bool is_scalar() const;
 
   /// Requires a map without duplicate keys. Throws all errors together.
-  void demand_map() const;
+  void require_map() const;
   /// Also requires that all keys are `known`.
-  void demand_keys(std::span<const KeyRow> known) const;
+  void require_keys(std::span<const KeyRow> known) const;
   /// find() returns nothing if the key is missing; at() throws.
   std::optional<YamlFields> find(std::string_view key) const;
   bool has(std::string_view key) const { return find(key).has_value(); }
@@ -90,7 +90,7 @@ class YamlFields {
   /// Calls take(key, value) for each entry of a map.
   template <typename Take>
   void for_each_entry(Take take) const;
-  void demand_keys_of(const std::span<const KeyRow>* known) const;
+  void require_keys_of(const std::span<const KeyRow>* known) const;
   [[noreturn]] void refuse_key(const std::string& key, std::span<const KeyRow> known) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 

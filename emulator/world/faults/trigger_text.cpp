@@ -94,16 +94,16 @@ bool set_trigger_field(FaultTrigger& trigger, std::string_view name, const std::
 }
 
 void validate_rows(const FaultTrigger& trigger) {
-  const auto demand = [](bool holds, const char* what) {
+  const auto require = [](bool holds, const char* what) {
     if (!holds) throw NameError(what);
   };
   const bool is_moment = trigger.at >= SimTime{0};
   const bool has_span = trigger.from > SimTime{0} || trigger.to != kForever;
-  demand(!is_moment || !has_span, "at: cannot be combined with from and to; expected one or the other");
-  demand(!is_moment || trigger.times == 0, "at: happens only once; expected it without times");
-  demand(trigger.from < trigger.to, "to: is not after from; expected a later time");
-  demand(trigger.seed < 0 || trigger.chance != 0,
-         "seed: has no effect without chance; expected chance as well");
+  require(!is_moment || !has_span, "at: cannot be combined with from and to; expected one or the other");
+  require(!is_moment || trigger.times == 0, "at: happens only once; expected it without times");
+  require(trigger.from < trigger.to, "to: is not after from; expected a later time");
+  require(trigger.seed < 0 || trigger.chance != 0,
+          "seed: has no effect without chance; expected chance as well");
 }
 
 std::vector<std::pair<std::string, std::string>> fields_of(const FaultTrigger& trigger) {

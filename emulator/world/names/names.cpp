@@ -115,7 +115,7 @@ InputName find_input(const KnownDevices& devices, std::string_view name) {
                   suggestion(rest, names));
 }
 
-void demand_level(const TerminalRow& row, std::string_view name, std::int64_t level) {
+void require_level(const TerminalRow& row, std::string_view name, std::int64_t level) {
   if (row.kind == TerminalRow::Kind::counted_in) {
     throw NameError(std::string(name) + " is counted; expected it to be turned, as by `turn`");
   }

@@ -56,7 +56,7 @@ struct InputName {
 /// Finds inputs of every kind, including switches.
 InputName find_input(const KnownDevices& devices, std::string_view name);
 /// Throws NameError for a level that the input cannot have.
-void demand_level(const TerminalRow& row, std::string_view name, std::int64_t level);
+void require_level(const TerminalRow& row, std::string_view name, std::int64_t level);
 
 struct AxisName {
   std::size_t device = 0;

@@ -275,20 +275,20 @@ std::int64_t PlantAxis::upper_limit_end() const {
 }
 
 void PlantAxis::check(const State& state) {
-  demand_within(state.position_pulses, -kFarthest_pulses, kFarthest_pulses);
+  require_within(state.position_pulses, -kFarthest_pulses, kFarthest_pulses);
   for (const std::int64_t pulses :
        {state.lost_pulses, state.pulses_to_lose, state.loses_one_in, state.faults.loses_one_in}) {
-    demand_state(pulses >= 0, "a machine has lost a negative number of pulses");
-    demand_reach(pulses);
+    require_state(pulses >= 0, "a machine has lost a negative number of pulses");
+    require_reach(pulses);
   }
-  demand_reach(state.faults.slipped_pulses);
-  demand_reach(state.wheel_counts);
-  demand_reach(state.turn_counts);
-  demand_reach(state.turn_ticks);
-  demand_state(state.ticks_to_turn >= 0, "a wheel's time to turn is negative");
-  demand_state(state.ticks_to_turn <= state.turn_ticks, "a wheel has more time left than its turn takes");
-  demand_reach(state.faults.encoder_noise_counts);
-  if (state.enabled_at != kNever) demand_reach(state.enabled_at);
+  require_reach(state.faults.slipped_pulses);
+  require_reach(state.wheel_counts);
+  require_reach(state.turn_counts);
+  require_reach(state.turn_ticks);
+  require_state(state.ticks_to_turn >= 0, "a wheel's time to turn is negative");
+  require_state(state.ticks_to_turn <= state.turn_ticks, "a wheel has more time left than its turn takes");
+  require_reach(state.faults.encoder_noise_counts);
+  if (state.enabled_at != kNever) require_reach(state.enabled_at);
 }
 
 void PlantAxis::restore(const State& state) {

@@ -92,20 +92,20 @@ Json parse_line(std::string_view line) {
   }
 }
 
-const Json& demand(const Json& object, const char* key) {
+const Json& require(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) throw RecordingError(std::string(key) + ": is missing; expected one");
   return *found;
 }
 
 std::string text_at(const Json& object, const char* key) {
-  const Json& value = demand(object, key);
+  const Json& value = require(object, key);
   if (!value.is_string()) throw RecordingError(std::string(key) + ": is not text; expected one");
   return value.get<std::string>();
 }
 
 std::int64_t number_at(const Json& object, const char* key, std::int64_t lowest, std::int64_t highest) {
-  const Json& value = demand(object, key);
+  const Json& value = require(object, key);
   const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
   if (!value.is_number_integer() || huge || value.get<std::int64_t>() < lowest ||
       value.get<std::int64_t>() > highest) {
@@ -116,7 +116,7 @@ std::int64_t number_at(const Json& object, const char* key, std::int64_t lowest,
 }
 
 bool truth_at(const Json& object, const char* key) {
-  const Json& value = demand(object, key);
+  const Json& value = require(object, key);
   if (!value.is_boolean())
     throw RecordingError(std::string(key) + ": is neither true nor false; expected one of the two");
   return value.get<bool>();
@@ -155,7 +155,7 @@ std::vector<std::uint8_t> bytes_at(const Json& object, const char* key) {
 }
 
 Fault fault_at(const Json& object, const KnownDevices& devices) {
-  const Json& fault = demand(object, "fault");
+  const Json& fault = require(object, "fault");
   if (!fault.is_object() || fault.empty()) throw RecordingError("fault: is not an object; expected one");
   FaultText text{};
   for (const auto& [name, value] : fault.items()) {
@@ -359,7 +359,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
     case What::write: event.write = write_at(line); break;
     case What::assign:
       event.text = text_at(line, "name");
-      if (!demand(line, "value").is_number()) throw RecordingError("value: is not a number; expected one");
+      if (!require(line, "value").is_number()) throw RecordingError("value: is not a number; expected one");
       event.real = line["value"].get<double>();
       break;
     case What::program:

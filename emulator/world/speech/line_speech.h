@@ -74,7 +74,7 @@ class LineSpeech {
   /// Returns the facts of a message that a fault's trigger asks for.
   virtual FrameFacts facts_of(const HeardFrame& frame) const = 0;
   /// Throws NameError for a fault that messages of this protocol cannot have.
-  virtual void demand_possible(const std::string& /*device*/, const Fault& /*fault*/) const {}
+  virtual void require_possible(const std::string& /*device*/, const Fault& /*fault*/) const {}
 
  protected:
   ~LineSpeech() = default;

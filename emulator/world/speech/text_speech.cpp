@@ -62,7 +62,7 @@ class TextSpeech final : public LineSpeech {
   /// Lines have neither station nor function.
   FrameFacts facts_of(const HeardFrame& frame) const override { return {.at = frame.now}; }
   /// They have no functions, no stations, no checksum and no exceptions.
-  void demand_possible(const std::string& device, const Fault& fault) const override {
+  void require_possible(const std::string& device, const Fault& fault) const override {
     const std::string kind(fault_kind(fault.kind).name);
     switch (fault.kind) {
       case Fault::Kind::busy:

@@ -84,13 +84,13 @@ void FaultyWire::keep(Late message) {
 }
 
 void FaultyWire::check(const std::vector<Late>& late) {
-  const auto demand = [](bool holds) {
+  const auto require = [](bool holds) {
     if (!holds) throw std::invalid_argument("a station cannot hold such late messages");
   };
-  demand(late.size() <= kMaxLate);
+  require(late.size() <= kMaxLate);
   pty::SimTime before{0};
   for (const Late& message : late) {
-    demand(message.at >= before && pty::is_within_reach(message.at) && !message.bytes.empty());
+    require(message.at >= before && pty::is_within_reach(message.at) && !message.bytes.empty());
     before = message.at;
   }
 }

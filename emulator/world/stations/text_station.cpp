@@ -27,12 +27,12 @@ namespace understudy {
 
 void StateOf<emulator::world::TextStation::State>::check(const emulator::world::TextStation::State& state) {
   emulator::world::FaultyWire::check(state.late);
-  const auto demand = [](bool holds) { demand_state(holds, "a station cannot have such text"); };
-  demand(state.waiting.size() <= 1);
-  for (const auto& waiting : state.waiting) demand(pty::is_within_reach(waiting.heard.end));
-  for (const auto& outgoing : state.outgoing) demand(!outgoing.text.empty());
-  demand(state.free_at >= pty::SimTime{0} && pty::is_within_reach(state.free_at));
-  demand(!state.speaks_at || pty::is_within_reach(*state.speaks_at));
+  const auto require = [](bool holds) { require_state(holds, "a station cannot have such text"); };
+  require(state.waiting.size() <= 1);
+  for (const auto& waiting : state.waiting) require(pty::is_within_reach(waiting.heard.end));
+  for (const auto& outgoing : state.outgoing) require(!outgoing.text.empty());
+  require(state.free_at >= pty::SimTime{0} && pty::is_within_reach(state.free_at));
+  require(!state.speaks_at || pty::is_within_reach(*state.speaks_at));
 }
 
 }  // namespace understudy

@@ -14,7 +14,7 @@ using interpreter::simple2::Execution;
 using interpreter::simple2::Program;
 
 void StateOf<Execution>::check(const Execution& execution) {
-  demand_within(execution.delay_until_ms, 0, tick_at(kHorizon) * 2);
+  require_within(execution.delay_until_ms, 0, tick_at(kHorizon) * 2);
 }
 
 void StateOf<Program>::write(const Program& program, StateWriter& writer) {
@@ -30,7 +30,7 @@ void StateOf<Program>::read(Program& program, StateReader& reader) {
   reader.read(rules);
   interpreter::simple2::FlagLines flag_lines{};
   reader.read(flag_lines);
-  for (const std::int16_t line : flag_lines) demand_within(line, -1, interpreter::simple2::kLineCount - 1);
+  for (const std::int16_t line : flag_lines) require_within(line, -1, interpreter::simple2::kLineCount - 1);
   program = Program(lines, rules, flag_lines);
 }
 

@@ -16,26 +16,26 @@ class Feeder {
  public:
   explicit Feeder(const std::string& port) : host_(modbus_new_rtu(port.c_str(), 19200, 'E', 8, 1)) {
     modbus_set_slave(host_.get(), 1);
-    demand(modbus_connect(host_.get()) == 0);
-    demand(modbus_write_register(host_.get(), 0x1014, 1) == 1);  // Aaxis_SVON
+    require(modbus_connect(host_.get()) == 0);
+    require(modbus_write_register(host_.get(), 0x1014, 1) == 1);  // Aaxis_SVON
   }
 
   long feed(int pulses) {
     const uint16_t move[] = {static_cast<uint16_t>(pulses), static_cast<uint16_t>(pulses >> 16), 1200};
-    demand(modbus_write_registers(host_.get(), 0x1000, 3, move) == 3);  // Aaxis_Pulse, Aaxis_Speed
-    demand(modbus_write_register(host_.get(), 0x1005, 1) == 1);         // Aaxis_Move_INC
+    require(modbus_write_registers(host_.get(), 0x1000, 3, move) == 3);  // Aaxis_Pulse, Aaxis_Speed
+    require(modbus_write_register(host_.get(), 0x1005, 1) == 1);         // Aaxis_Move_INC
     uint16_t status = 0;
     do {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      demand(modbus_read_registers(host_.get(), 0x0000, 1, &status) == 1);
+      require(modbus_read_registers(host_.get(), 0x0000, 1, &status) == 1);
     } while ((status & 0x10) != 0);
     uint16_t words[2] = {};
-    demand(modbus_read_registers(host_.get(), 0x0E04, 2, words) == 2);  // Cord_A
+    require(modbus_read_registers(host_.get(), 0x0E04, 2, words) == 2);  // Cord_A
     return static_cast<int32_t>(static_cast<uint32_t>(words[1]) << 16 | words[0]);
   }
 
  private:
-  static void demand(bool is_well) {
+  static void require(bool is_well) {
     if (!is_well) throw std::runtime_error(modbus_strerror(errno));
   }
   struct Free {

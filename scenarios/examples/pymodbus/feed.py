@@ -16,7 +16,7 @@ MOVING_A = 1 << 4
 STATION = 1
 
 
-def demand(reply):
+def require(reply):
     if reply.isError():
         sys.exit(f"feed.py: {reply}")
     return reply
@@ -26,19 +26,19 @@ def write_long(client, address, value):
     """A register of 32 bits: its low word first."""
     builder = BinaryPayloadBuilder(byteorder=Endian.Big, wordorder=Endian.Little)
     builder.add_32bit_int(value)
-    demand(client.write_registers(address, builder.to_registers(), slave=STATION))
+    require(client.write_registers(address, builder.to_registers(), slave=STATION))
 
 
 def read_long(client, address):
-    words = demand(client.read_holding_registers(address, 2, slave=STATION)).registers
+    words = require(client.read_holding_registers(address, 2, slave=STATION)).registers
     return BinaryPayloadDecoder.fromRegisters(words, byteorder=Endian.Big, wordorder=Endian.Little).decode_32bit_int()
 
 
 def move_by(client, pulses):
     write_long(client, A_PULSE, pulses)
-    demand(client.write_register(A_MOVE_INC, 1, slave=STATION))
+    require(client.write_register(A_MOVE_INC, 1, slave=STATION))
     begin = time.monotonic()
-    while demand(client.read_holding_registers(STATUS, 1, slave=STATION)).registers[0] & MOVING_A:
+    while require(client.read_holding_registers(STATUS, 1, slave=STATION)).registers[0] & MOVING_A:
         if time.monotonic() > begin + 5:
             sys.exit("feed.py: axis A does not stop; expected it within 5 s")
 
@@ -49,8 +49,8 @@ client = ModbusSerialClient(os.environ["UNDERSTUDY_PORT"], baudrate=19200, parit
 for pulses, target in ((3200, 3200), (-3200, 0)):
     if not client.connect():
         sys.exit("feed.py: the port cannot be opened")
-    demand(client.write_register(A_SVON, 1, slave=STATION))
-    demand(client.write_register(A_SPEED, 600, slave=STATION))
+    require(client.write_register(A_SVON, 1, slave=STATION))
+    require(client.write_register(A_SPEED, 600, slave=STATION))
     move_by(client, pulses)
     at = read_long(client, CORD_A)
     if at != target:

@@ -14,7 +14,7 @@ SILENCE_S = 0.3
 PATIENCE_S = 5
 
 
-def demand(read, expected, what):
+def require(read, expected, what):
     if read != expected:
         sys.exit(f"{what}: read {read!r}, expected {expected!r}")
 
@@ -27,7 +27,7 @@ def opened(url, **settings):
 def ask(port, expected, what):
     port.timeout = PATIENCE_S if expected else SILENCE_S
     port.write(REQUEST)
-    demand(port.read(len(REPLY)), REPLY if expected else b"", what)
+    require(port.read(len(REPLY)), REPLY if expected else b"", what)
 
 
 def settings(url):
@@ -49,7 +49,7 @@ def settings(url):
 def lines(url):
     """What a UART has beside its bytes."""
     with opened(url) as port:
-        demand((port.cts, port.dsr, port.cd, port.ri), (True, True, True, False), "modem lines")
+        require((port.cts, port.dsr, port.cd, port.ri), (True, True, True, False), "modem lines")
         port.dtr = False
         port.rts = False
         port.rtscts = True
@@ -79,7 +79,7 @@ def every_byte(url):
         for request, reply in [("01101000000204FFFFFFFF3FFB", "0110100000024508"),
                                ("010310000002C0CB", "010304FFFFFFFFFBA7")]:
             port.write(bytes.fromhex(request))
-            demand(port.read(len(reply) // 2), bytes.fromhex(reply), request)
+            require(port.read(len(reply) // 2), bytes.fromhex(reply), request)
 
 
 CASES = {case.__name__: case for case in (settings, lines, second, every_byte)}

@@ -83,7 +83,7 @@ struct StateOf<fields_test::Lamp> {
   static constexpr auto fields = FieldList{field("colour", &fields_test::Lamp::colour),
                                            field("brightness", &fields_test::Lamp::brightness)};
   static void check(const fields_test::Lamp& lamp) {
-    demand_state(lamp.brightness >= 0, "a lamp must not be darker than dark");
+    require_state(lamp.brightness >= 0, "a lamp must not be darker than dark");
   }
 };
 template <>
@@ -161,7 +161,7 @@ TEST(Fields, AreSavedInTheOrderOfTheirListAndComeBack) {
   Panel restored;
   StateReader reader(bytes);
   reader.read(restored);
-  reader.demand_end();
+  reader.require_end();
   EXPECT_EQ(first_difference(restored, a_panel()), "");
   EXPECT_EQ(bytes_of(restored), bytes);
 }

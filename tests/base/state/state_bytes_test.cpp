@@ -55,7 +55,7 @@ template <>
 struct StateOf<state_bytes_test::Point> {
   using Value = state_bytes_test::Point;
   static constexpr auto fields = FieldList{field("x", &Value::x), field("y", &Value::y)};
-  static void check(const Value& point) { demand_within(point.x, -100, 100); }
+  static void check(const Value& point) { require_within(point.x, -100, 100); }
 };
 template <>
 struct StateOf<state_bytes_test::Sample> {
@@ -97,7 +97,7 @@ T restored(const std::vector<std::byte>& from) {
   StateReader reader(from);
   T value;
   reader.read(value);
-  reader.demand_end();
+  reader.require_end();
   return value;
 }
 

@@ -67,7 +67,7 @@ TEST(Models, AreListedByTheirOwnNames) {
 TEST(Models, GiveEachRegisterANameOfItsOwn) {
   for (const Model* model : models::all_models()) {
     if (model->registers == nullptr) continue;
-    EXPECT_NO_THROW(model->registers->demand_distinct_names()) << model->name;
+    EXPECT_NO_THROW(model->registers->require_distinct_names()) << model->name;
   }
 }
 

@@ -255,10 +255,10 @@ class Workbench final : public DeviceOf<Workbench>,
   std::function<void()> read_own_state(StateReader& reader) override {
     const auto restored = std::make_shared<WorkbenchState>();
     reader.read(*restored);
-    demand_state(restored->image.size() == state.image.size(), "the image has another size");
+    require_state(restored->image.size() == state.image.size(), "the image has another size");
     restored->kept.eeprom.check_restored(state.kept.eeprom);
     restored->kept.blocks.check_restored(state.kept.blocks);
-    demand_state(restored->fifo.size() <= kFifo, "the FIFO holds more than it can");
+    require_state(restored->fifo.size() <= kFifo, "the FIFO holds more than it can");
     return [this, restored] { state = *restored; };
   }
   std::string own_difference(StateReader& a, StateReader& b) const override {

@@ -195,7 +195,7 @@ TEST(RegisterMap, RefusesRowsThatClaimOneName) {
       {u16(0x10, "a").times(2, 1, 0)},  // a range without numbers
   };
   for (const auto& rows : bad) {
-    EXPECT_THROW(RegisterMap(rows, {}).demand_distinct_names(), std::logic_error)
+    EXPECT_THROW(RegisterMap(rows, {}).require_distinct_names(), std::logic_error)
         << rows[0].name << " and " << rows.back().name;
   }
 }

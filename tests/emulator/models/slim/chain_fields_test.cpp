@@ -18,7 +18,7 @@ Chain restored(std::span<const std::byte> bytes, const ChainOptions& options = {
   Chain chain(options);
   StateReader reader(bytes);
   reader.read(chain);
-  reader.demand_end();
+  reader.require_end();
   return chain;
 }
 

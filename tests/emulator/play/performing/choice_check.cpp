@@ -173,7 +173,7 @@ class ChoiceCheck {
       }
       outcomes.push_back(outcome_of(results));
     }
-    demand_different(outcomes, "what comes out");
+    require_different(outcomes, "what comes out");
   }
 
   void look_at_causes(const std::vector<Scenario>& cases) {
@@ -187,10 +187,10 @@ class ChoiceCheck {
                  "differ");
       }
     }
-    demand_different(outcomes, "what comes out by the choice alone");
+    require_different(outcomes, "what comes out by the choice alone");
   }
 
-  void demand_different(const std::vector<Outcome>& outcomes, const std::string& what) {
+  void require_different(const std::vector<Outcome>& outcomes, const std::string& what) {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
         if (outcomes[i] != outcomes[k]) continue;

@@ -44,7 +44,7 @@ TEST(Complaints, AreTwentyAtMost) {
 TEST(Complaints, EndTheReadingWhereTheyAreTooMany) {
   Complaints all;
   int tried = 0;
-  EXPECT_THROW(all.demand([&] {
+  EXPECT_THROW(all.require([&] {
     for (; tried < 100'000; ++tried) all.attempt([&] { throw error_at(tried + 1, 1, "wrong"); });
   }),
                FileError);
