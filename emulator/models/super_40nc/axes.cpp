@@ -171,12 +171,12 @@ motion::AxisSettings Super40nc::motor_settings(int axis, bool homes) const {
                           (action == 1 || action == kRamp);
     if (!is_limit) continue;
     made.*side.limit = its.raw(side.value, axis) - counter_lead;
-    const motion::Reaction way =
+    const motion::Reaction at_limit =
         action == kRamp ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
     if (side.limit == &motion::AxisSettings::soft_limit_plus) {
-      made.at_soft_limit = way;
+      made.at_soft_limit = at_limit;
     } else {
-      made.at_soft_limit_minus = way;
+      made.at_soft_limit_minus = at_limit;
     }
   }
   return made;
