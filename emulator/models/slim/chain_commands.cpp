@@ -210,13 +210,13 @@ void Chain::begin_jog(int module, int way, Tick begin_at) {
   mine.next_jog_way = 0;
   mine.next_thrust = mine.thrust = 0;
   mine.starved = false;
-  const int direction = mine.settings.jog_speed < 0 ? -way : way;
+  const int pulse_direction = mine.settings.jog_speed < 0 ? -way : way;
   if (mine.settings.jog_speed == 0) {
-    axes_[at(module)].hang(direction);
+    axes_[at(module)].hang(pulse_direction);
   } else if (mine.jog_law(options_).top_speed_u_s == 0) {
     mine.starved = true;
   } else {
-    axes_[at(module)].run(direction, mine.jog_law(options_), begin_at - 1);
+    axes_[at(module)].run(pulse_direction, mine.jog_law(options_), begin_at - 1);
   }
 }
 
