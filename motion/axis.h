@@ -110,10 +110,10 @@ struct Comparator {
 
   /// Returns the only direction of the count in which the relation can become true; 0 if both can, and
   /// writing a number can too.
-  int way() const {
+  int sense() const {
     return relation == Relation::equal_upwards ? +1 : relation == Relation::equal_downwards ? -1 : 0;
   }
-  bool asks_for_one_place() const { return relation == Relation::equal || way() != 0; }
+  bool asks_for_one_place() const { return relation == Relation::equal || sense() != 0; }
 
   bool holds(std::int64_t travel) const;
   /// Returns how many pulses (1 ...) in `direction` it takes until the relation may change, or nothing if

@@ -117,7 +117,7 @@ void Axis::compare(Count count, std::int64_t value, Instant at, int way) {
     Comparator& mine = comparators[i];
     if (mine.relation == Comparator::Relation::off || mine.count != count) continue;
     const bool holds = mine.holds(value);
-    if (holds && !mine.was_true && (mine.way() == 0 || mine.way() == way)) {
+    if (holds && !mine.was_true && (mine.sense() == 0 || mine.sense() == way)) {
       events_between |= bit(comparator_event(i));
       event_at[i] = at;
       mine.was_true = true;

@@ -91,7 +91,7 @@ void Axis::watch(const Surroundings& here) {
     if (steps && by_encoder) steps = here.encoder.steps_until(travel_pulses, way, *steps);
     consider(nearest, steps);
   };
-  const int encoder_way = here.encoder.way();
+  const int encoder_way = here.encoder.sense();
   for (const Comparator& mine : comparators) {
     const bool by_encoder = mine.count == Count::encoder;
     if (mine.relation == Comparator::Relation::off || (by_encoder && !encoder_is_known)) continue;

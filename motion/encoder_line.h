@@ -32,7 +32,7 @@ struct EncoderLine {
   bool is_known() const { return counts != 0; }
   std::int64_t at(std::int64_t travel) const;
   /// Returns +1 if the count rises with the travel, -1 if it falls.
-  int way() const { return (mirrored != reversed) != turned ? -1 : +1; }
+  int sense() const { return (mirrored != reversed) != turned ? -1 : +1; }
   /// Returns how many pulses (1 ...) in `direction` it takes until the count has changed by `count_steps` (1
   /// ...) in its direction of change, or nothing if it never will.
   std::optional<std::int64_t> steps_until(std::int64_t travel, int direction, std::int64_t count_steps) const;

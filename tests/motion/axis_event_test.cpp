@@ -258,7 +258,7 @@ TEST(AxisEvent, ComparatorsFireAsCountingPulseByPulseSays) {
           travel += way;
           for (std::size_t k = 0; k < 4; ++k) {
             const bool holds = wanted[k].holds(travel);
-            const bool comes_by_it = wanted[k].way() == 0 || wanted[k].way() == way;
+            const bool comes_by_it = wanted[k].sense() == 0 || wanted[k].sense() == way;
             if (holds && !was[k] && comes_by_it) fired |= static_cast<Events>(bit(Event::comparator_0) << k);
             was[k] = holds;
           }

@@ -39,7 +39,7 @@ TEST(EncoderLine, StepsUntilACountAreThoseOfAWalk) {
     constexpr std::int64_t kFar = 6000;  // 30 counts, 40 pulses each, a quarter of them counted
     for (std::int64_t n = 1; n <= kFar && !walked; ++n) {
       const std::int64_t gone = line.at(travel + direction * n) - line.at(travel);
-      ASSERT_GE(gone * direction * line.way(), 0) << i;
+      ASSERT_GE(gone * direction * line.sense(), 0) << i;
       if (std::abs(gone) >= count_steps) walked = n;
     }
     ASSERT_EQ(line.steps_until(travel, direction, count_steps), walked) << i << " " << seed();
