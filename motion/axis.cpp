@@ -70,14 +70,14 @@ SpeedLaw no_gentler(const SpeedLaw& law, const Sample& here) {
 
 }  // namespace
 
-Cause Axis::forbidden(int way, Signals ignored) const {
+Cause Axis::forbidden(int direction, Signals ignored) const {
   if (settings.needs_servo && !servo_on) return Cause::servo_off;
   const auto blocks = [&](Signal signal, Reaction reaction) {
     return (signals & ~ignored & bit(signal)) != 0 && reaction != Reaction::ignore;
   };
   if (blocks(Signal::emergency, settings.at_emergency)) return Cause::emergency;
   if (blocks(Signal::alarm, settings.at_alarm)) return Cause::alarm;
-  if (way > 0) {
+  if (direction > 0) {
     if (blocks(Signal::limit_plus, settings.at_limit_plus)) return Cause::limit_plus;
     if (settings.at_soft_limit != Reaction::ignore && settings.soft_limit_plus &&
         soft_limit_place() >= *settings.soft_limit_plus) {
@@ -95,7 +95,7 @@ Cause Axis::forbidden(int way, Signals ignored) const {
 
 // ---- Beginning
 
-Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedLaw& speed, Instant at,
+Cause Axis::begin(Task what, int direction, std::int64_t distance_pulses, const SpeedLaw& speed, Instant at,
                   bool for_homing) {
   check(speed);
   // Plan before anything changes: an impossible motion must change nothing.
@@ -105,10 +105,10 @@ Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedL
                               : plan(static_cast<double>(size_of(distance_pulses)), speed);
   // A stop from the greatest speed must be possible as well: a reaction cannot be refused.
   (void)slow_to_stop({.speed_u_s = speed.top_speed_u_s}, speed);
-  const std::int64_t play = play_before(way);
+  const std::int64_t play = play_before(direction);
   if (play > 0) require_positive(settings.backlash_speed_pps, "backlash", "speed");
   const Signals ignored = for_homing ? homing.row().ignores : Signals{0};
-  if (const Cause why_not = forbidden(way, ignored); why_not != Cause::none) return why_not;
+  if (const Cause why_not = forbidden(direction, ignored); why_not != Cause::none) return why_not;
 
   drop(at);
   if (!for_homing) homing.phase = -1;
@@ -117,8 +117,8 @@ Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedL
   target_pulses = what == Task::move ? size_of(distance_pulses) : 0;
   cause = Cause::none;
   if (!for_homing) events_between |= bit(Event::started);
-  play_pulses = way > 0 ? settings.backlash_pulses - play : play;
-  last_direction = static_cast<std::int8_t>(way);
+  play_pulses = direction > 0 ? settings.backlash_pulses - play : play;
+  last_direction = static_cast<std::int8_t>(direction);
   base_pulses = travel_pulses;
   if (play > 0) {
     in_backlash = true;
@@ -126,19 +126,20 @@ Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedL
     const auto pulses = static_cast<double>(play);
     extra.append(pulses / settings.backlash_speed_pps, settings.backlash_speed_pps, 0, 0);
     extra.end_exactly_at(pulses);
-    drive.start(extra, way, at);
+    drive.start(extra, direction, at);
   } else {
-    drive.start(profile, way, at);
+    drive.start(profile, direction, at);
   }
   return Cause::none;
 }
 
-/// Returns how many pulses of backlash precede a motion in `way`. Before the first motion it is unknown: 0.
-std::int64_t Axis::play_before(int way) const {
+/// Returns how many pulses of backlash precede a motion in `direction`. Before the first motion it is
+/// unknown: 0.
+std::int64_t Axis::play_before(int direction) const {
   if (settings.slips) return settings.backlash_pulses;
   if (last_direction == 0) return 0;
   const std::int64_t play = std::clamp<std::int64_t>(play_pulses, 0, settings.backlash_pulses);
-  return way > 0 ? settings.backlash_pulses - play : play;
+  return direction > 0 ? settings.backlash_pulses - play : play;
 }
 
 Profile Axis::planned(const SpeedLaw& speed) const {
@@ -171,8 +172,8 @@ Cause Axis::move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now) 
 
 Cause Axis::move_on(double speed_pps, std::int64_t distance_pulses, const SpeedLaw& speed, Tick now) {
   if (speed_pps == 0 || distance_pulses == 0) return move(distance_pulses, speed, now);
-  const int way = speed_pps < 0 ? -1 : +1;
-  const std::int64_t target = distance_pulses * way;
+  const int direction = speed_pps < 0 ? -1 : +1;
+  const std::int64_t target = distance_pulses * direction;
   require_distance(distance_pulses);
   check(speed);
   const Sample here{.speed_u_s = std::abs(speed_pps)};
@@ -183,7 +184,7 @@ Cause Axis::move_on(double speed_pps, std::int64_t distance_pulses, const SpeedL
   const bool passes = to_stop.end_position_u > static_cast<double>(target) + 0.5;
   if (passes) plan(std::abs(std::floor(to_stop.end_position_u) - static_cast<double>(target)), speed);
   const Profile rest = passes ? to_stop : forward_to(here, static_cast<double>(target), speed);
-  for (const int each : {way, sign_of(distance_pulses)}) {
+  for (const int each : {direction, sign_of(distance_pulses)}) {
     if (const Cause why_not = forbidden(each); why_not != Cause::none) return why_not;
   }
   drop({.tick = now});
@@ -194,22 +195,22 @@ Cause Axis::move_on(double speed_pps, std::int64_t distance_pulses, const SpeedL
   cause = Cause::none;
   comes_back = slowing = passes;
   events_between |= bit(Event::started);
-  last_direction = static_cast<std::int8_t>(way);
-  drive.start(rest, way, Instant{.tick = now});
+  last_direction = static_cast<std::int8_t>(direction);
+  drive.start(rest, direction, Instant{.tick = now});
   return Cause::none;
 }
 
-Cause Axis::run(int way, const SpeedLaw& speed, Tick now) {
-  return begin(Task::endless, way < 0 ? -1 : +1, 0, speed, {.tick = now + 1});
+Cause Axis::run(int direction, const SpeedLaw& speed, Tick now) {
+  return begin(Task::endless, direction < 0 ? -1 : +1, 0, speed, {.tick = now + 1});
 }
 
-Cause Axis::hang(int way) {
-  if (const Cause why_not = forbidden(way); why_not != Cause::none) return why_not;
+Cause Axis::hang(int direction) {
+  if (const Cause why_not = forbidden(direction); why_not != Cause::none) return why_not;
   drop();
   homing.phase = -1;
   task = Task::hanging;
   cause = Cause::none;
-  drive.hang(way);
+  drive.hang(direction);
   events_between |= bit(Event::started);
   return Cause::none;
 }

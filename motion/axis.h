@@ -215,10 +215,10 @@ struct alignas(64) Axis {
   /// Like move(), but from a signed speed that the axis already has from another generator. It goes on to the
   /// target; if that is too near or behind, it stops and comes back.
   Cause move_on(double speed_pps, std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
-  /// Runs without end in direction `way` (+1 or -1).
-  Cause run(int way, const SpeedLaw& speed, Tick now);
+  /// Runs without end in `direction` (+1 or -1).
+  Cause run(int direction, const SpeedLaw& speed, Tick now);
   /// Begins a move at speed 0: the axis counts as moving, but sends no pulse (Simple2-R3).
-  Cause hang(int way);
+  Cause hang(int direction);
   /// Follows the counts from feed() until stopped (motion/following.h).
   Cause follow(const Follower& by);
   void feed(std::int64_t counts);
@@ -261,8 +261,8 @@ struct alignas(64) Axis {
   // ---- State
 
   bool moving() const { return task != Task::none || homing.active(); }
-  /// Returns why a motion in direction `way` would be refused now, or none if it may begin.
-  Cause forbidden(int way) const { return forbidden(way, 0); }
+  /// Returns why a motion in `direction` would be refused now, or none if it may begin.
+  Cause forbidden(int direction) const { return forbidden(direction, 0); }
   /// Like forbidden(), but only for what forbids both directions (servo, emergency, alarm).
   Cause forbidden_anywhere() const;
   /// Returns the count that the soft limits refer to.
@@ -367,7 +367,7 @@ struct alignas(64) Axis {
  private:
   friend class AxisTick;
 
-  Cause forbidden(int way, Signals ignored) const;
+  Cause forbidden(int direction, Signals ignored) const;
   std::int64_t step_with_care(Tick tick, const Surroundings& here, std::optional<std::int64_t> pulses = {});
   bool follow_quietly(const Surroundings& here, QuietTick& quiet);
   /// Returns true if nothing has changed since the last tick except the carried pulses, and all pulses sent
@@ -377,10 +377,10 @@ struct alignas(64) Axis {
   }
 
   // Starting and ending, at moments within a tick.
-  Cause begin(Task what, int way, std::int64_t distance_pulses, const SpeedLaw& speed, Instant at,
+  Cause begin(Task what, int direction, std::int64_t distance_pulses, const SpeedLaw& speed, Instant at,
               bool for_homing = false);
   void go_on_by(const SpeedLaw& speed, Instant at);
-  std::int64_t play_before(int way) const;
+  std::int64_t play_before(int direction) const;
   void know_encoder(const Surroundings& here);
   void follow_encoder_count(Instant at);
   bool counts_by_encoder() const;
@@ -391,10 +391,10 @@ struct alignas(64) Axis {
   void end(Cause why, Instant at);
 
   // Inside a tick.
-  // `way`: direction in which the axis came here; 0: it has not moved
-  void meet(const Surroundings& here, Instant at, int way);
+  // `direction`: direction in which the axis came here; 0: it has not moved
+  void meet(const Surroundings& here, Instant at, int direction);
   void see(Signals now_on, Instant at);
-  void compare(Count count, std::int64_t value, Instant at, int way);
+  void compare(Count count, std::int64_t value, Instant at, int direction);
   void watch(const Surroundings& here);
   void raise(Event event, Instant at);
   void look_at_speed(std::int64_t sent_before, Instant from, Instant until);

@@ -95,7 +95,7 @@ void Axis::know_encoder(const Surroundings& here) {
 
 /// Moves the encoder's count from its old value to its new one; comparators check everything between.
 void Axis::follow_encoder_count(Instant at) {
-  const int way = encoder_pulses == encoder_seen ? 0 : encoder_pulses < encoder_seen ? -1 : +1;
+  const int direction = encoder_pulses == encoder_seen ? 0 : encoder_pulses < encoder_seen ? -1 : +1;
   // A jump that far is not a motion: only its end counts.
   constexpr std::int64_t kFarthestWalk = 100'000;
   while (encoder_seen != encoder_pulses && encoder_pulses - kFarthestWalk <= encoder_seen &&
@@ -103,21 +103,22 @@ void Axis::follow_encoder_count(Instant at) {
     std::int64_t steps = std::abs(encoder_pulses - encoder_seen);
     for (const Comparator& mine : comparators) {
       if (mine.count != Count::encoder) continue;
-      if (const auto change = mine.steps_until_change(encoder_seen, way)) steps = std::min(steps, *change);
+      if (const auto change = mine.steps_until_change(encoder_seen, direction))
+        steps = std::min(steps, *change);
     }
-    encoder_seen += steps * way;
-    compare(Count::encoder, encoder_seen, at, way);
+    encoder_seen += steps * direction;
+    compare(Count::encoder, encoder_seen, at, direction);
   }
   encoder_seen = encoder_pulses;
-  compare(Count::encoder, encoder_pulses, at, way);
+  compare(Count::encoder, encoder_pulses, at, direction);
 }
 
-void Axis::compare(Count count, std::int64_t value, Instant at, int way) {
+void Axis::compare(Count count, std::int64_t value, Instant at, int direction) {
   for (std::size_t i = 0; i < comparators.size(); ++i) {
     Comparator& mine = comparators[i];
     if (mine.relation == Comparator::Relation::off || mine.count != count) continue;
     const bool holds = mine.holds(value);
-    if (holds && !mine.was_true && (mine.sense() == 0 || mine.sense() == way)) {
+    if (holds && !mine.was_true && (mine.sense() == 0 || mine.sense() == direction)) {
       events_between |= bit(comparator_event(i));
       event_at[i] = at;
       mine.was_true = true;

@@ -37,9 +37,9 @@ bool Axis::follow_quietly(const Surroundings& here, QuietTick& quiet) {
 }
 
 /// Handles everything that depends on the position, at the position that the axis has reached.
-void Axis::meet(const Surroundings& here, Instant at, int way) {
+void Axis::meet(const Surroundings& here, Instant at, int direction) {
   know_encoder(here);
-  compare(Count::command, travel_pulses, at, way);
+  compare(Count::command, travel_pulses, at, direction);
   follow_encoder_count(at);
   see(here.at(travel_pulses, signals), at);
   if (settings.soft_limit_plus && soft_limit_place() > *settings.soft_limit_plus && drive.direction > 0) {
@@ -85,18 +85,18 @@ void Axis::watch(const Surroundings& here) {
     consider(down, here.steps_until_change(travel_pulses, -1));
   }
   // In steps of travel, if a number of counts is asked for.
-  const auto consider_by = [&](Count count, std::int64_t& nearest, int way,
+  const auto consider_by = [&](Count count, std::int64_t& nearest, int direction,
                                std::optional<std::int64_t> steps) {
     const bool by_encoder = count == Count::encoder;
-    if (steps && by_encoder) steps = here.encoder.steps_until(travel_pulses, way, *steps);
+    if (steps && by_encoder) steps = here.encoder.steps_until(travel_pulses, direction, *steps);
     consider(nearest, steps);
   };
-  const int encoder_way = here.encoder.sense();
+  const int encoder_direction = here.encoder.sense();
   for (const Comparator& mine : comparators) {
     const bool by_encoder = mine.count == Count::encoder;
     if (mine.relation == Comparator::Relation::off || (by_encoder && !encoder_is_known)) continue;
     const std::int64_t count = by_encoder ? encoder_pulses : travel_pulses;
-    const int rising = by_encoder ? encoder_way : +1;
+    const int rising = by_encoder ? encoder_direction : +1;
     consider_by(mine.count, up, +1, mine.steps_until_change(count, rising));
     consider_by(mine.count, down, -1, mine.steps_until_change(count, -rising));
   }
@@ -108,7 +108,7 @@ void Axis::watch(const Surroundings& here) {
   const auto& most = settings.soft_limit_plus;
   const auto& least = settings.soft_limit_minus;
   const Count of = settings.soft_limits_of;
-  const bool goes_its_way = of == Count::command || (encoder_is_known && encoder_way > 0);
+  const bool goes_its_way = of == Count::command || (encoder_is_known && encoder_direction > 0);
   const std::int64_t place = soft_limit_place();
   if (most && goes_its_way && place <= *most && *most < place + kNoEdge) {
     consider_by(of, up, +1, *most + 1 - place);

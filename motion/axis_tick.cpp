@@ -166,12 +166,12 @@ void AxisTick::look() {
       const std::int64_t pulses = left > kMaxInATick ? left : room + 1;
       come_ += pulses;
       at_ = moment_;
-      const int way = carried_ < 0 ? -1 : +1;
-      go_on_carried(pulses * way, at_);
-      if (axis_.task == carried_by_ && against(way) == Cause::none) break;
+      const int direction = carried_ < 0 ? -1 : +1;
+      go_on_carried(pulses * direction, at_);
+      if (axis_.task == carried_by_ && against(direction) == Cause::none) break;
       const bool is_ended = come_ != std::abs(carried_) && axis_.task == Task::coordinated;
       come_ = std::abs(carried_);
-      if (is_ended) axis_.end(against(way), at_);
+      if (is_ended) axis_.end(against(direction), at_);
       break;
     }
     case What::nothing:
@@ -205,10 +205,10 @@ void AxisTick::end_backlash() {
   axis_.backlash_sent += come;
   axis_.play_pulses += come;
   const Profile rest = axis_.planned(axis_.law);
-  const int way = static_cast<int>(drive.direction);
+  const int direction = static_cast<int>(drive.direction);
   axis_.in_backlash = false;
   at_ = moment_;
-  drive.start(rest, way, at_);
+  drive.start(rest, direction, at_);
 }
 
 /// Sends the last pulses of a drive. What follows without a command begins at the tick's end.
@@ -243,29 +243,29 @@ void AxisTick::end_drive() {
 }
 
 /// Returns why a carried axis may not continue in a direction.
-Cause AxisTick::against(int way) const {
+Cause AxisTick::against(int direction) const {
   // The one pulse beyond a soft limit is sent, as in the drive's own motions: it triggers the limit.
-  const auto& soft_limit = way > 0 ? axis_.settings.soft_limit_plus : axis_.settings.soft_limit_minus;
-  const Cause why = axis_.forbidden(way);
+  const auto& soft_limit = direction > 0 ? axis_.settings.soft_limit_plus : axis_.settings.soft_limit_minus;
+  const Cause why = axis_.forbidden(direction);
   const bool soft = why == Cause::soft_limit_plus || why == Cause::soft_limit_minus;
   if (soft && axis_.soft_limit_place() == *soft_limit) return Cause::none;
   // The axis is already slowing down to a stop.
   return axis_.slowing && why != Cause::servo_off ? Cause::none : why;
 }
 
-/// Begins to go in `way` by carried pulses. Backlash comes out at once: it has no time of its own.
-bool AxisTick::sets_out(int way, Instant at) {
-  if (const Cause why = against(way); why != Cause::none) {
+/// Begins to go in `direction` by carried pulses. Backlash comes out at once: it has no time of its own.
+bool AxisTick::sets_out(int direction, Instant at) {
+  if (const Cause why = against(direction); why != Cause::none) {
     // At a limit, a wheel has no effect; a path cannot continue.
     if (axis_.task == Task::coordinated) axis_.end(why, at);
     return false;
   }
-  axis_.drive.direction = way;
+  axis_.drive.direction = direction;
   if (!axis_.settings.slips) {
-    axis_.backlash_sent += axis_.play_before(way) * way;
-    axis_.play_pulses = way > 0 ? axis_.settings.backlash_pulses : 0;
+    axis_.backlash_sent += axis_.play_before(direction) * direction;
+    axis_.play_pulses = direction > 0 ? axis_.settings.backlash_pulses : 0;
   }
-  axis_.last_direction = static_cast<std::int8_t>(way);
+  axis_.last_direction = static_cast<std::int8_t>(direction);
   return true;
 }
 
@@ -277,24 +277,24 @@ void AxisTick::go_on_carried(std::int64_t pulses, Instant at) {
 
 void AxisTick::go_by(std::int64_t pulses, Instant at) {
   at_ = at;
-  const int way = pulses < 0 ? -1 : +1;
-  if (pulses != 0 && sets_out(way, at)) {
-    const bool too_fast = pulses * way > kMaxInATick;
-    while (pulses != 0 && axis_.task == Task::coordinated && against(way) == Cause::none) {
+  const int direction = pulses < 0 ? -1 : +1;
+  if (pulses != 0 && sets_out(direction, at)) {
+    const bool too_fast = pulses * direction > kMaxInATick;
+    while (pulses != 0 && axis_.task == Task::coordinated && against(direction) == Cause::none) {
       axis_.watch(here_);
       const std::int64_t room =
-          way > 0 ? axis_.watch_high - axis_.travel_pulses : axis_.travel_pulses - axis_.watch_low;
-      if (pulses * way <= room) {
+          direction > 0 ? axis_.watch_high - axis_.travel_pulses : axis_.travel_pulses - axis_.watch_low;
+      if (pulses * direction <= room) {
         axis_.travel_pulses += pulses;
         axis_.base_pulses = axis_.travel_pulses;
         pulses = 0;
         break;
       }
-      const std::int64_t now = too_fast ? pulses : (room + 1) * way;
+      const std::int64_t now = too_fast ? pulses : (room + 1) * direction;
       pulses -= now;
       go_on_carried(now, at);
     }
-    if (pulses != 0 && axis_.task == Task::coordinated) axis_.end(against(way), at);
+    if (pulses != 0 && axis_.task == Task::coordinated) axis_.end(against(direction), at);
   }
   axis_.know_encoder(here_);
   forget_next();

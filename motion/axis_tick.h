@@ -62,9 +62,9 @@ class AxisTick {
   void go_to_edge();
   void end_backlash();
   void end_drive();
-  void set_travel(std::int64_t travel, Instant at, int way);
-  Cause against(int way) const;
-  bool sets_out(int way, Instant at);
+  void set_travel(std::int64_t travel, Instant at, int direction);
+  Cause against(int direction) const;
+  bool sets_out(int direction, Instant at);
   void go_on_carried(std::int64_t pulses, Instant at);
 
   Axis& axis_;

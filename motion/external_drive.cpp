@@ -40,7 +40,7 @@ DriveOrder watch_inputs(ExternalDrive& drive, bool plus_high, bool minus_high, b
       }
       if (drive.running == 0 && (plus_falls || minus_falls)) {
         drive.running = plus_falls ? std::int8_t{+1} : std::int8_t{-1};
-        return {.what = DriveOrder::What::run, .way = drive.running};
+        return {.what = DriveOrder::What::run, .direction = drive.running};
       }
       break;
   }

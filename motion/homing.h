@@ -22,12 +22,12 @@ enum class Cause : std::uint8_t;  // motion/axis.h
 /// One row of a homing table.
 struct HomingPhase {
   enum class Does : std::uint8_t {
-    search,   // goes `way` until `until` turns `until_on`, as a fresh edge, `count` times
+    search,   // goes in `direction` until `until` turns `until_on`, as a fresh edge, `count` times
     go,       // by `distance_pulses`; repeatedly while a signal of `again_while` is on, if any is given;
               // one that runs on is past them at the speed of the next phase, or goes at that from the start
               // where they are too few to slow down to it
     go_back,  // to the travel that a phase before marked
-    hang,     // goes `way` at speed 0: no pulse, until a command ends it (Simple2-R3)
+    hang,     // goes in `direction` at speed 0: no pulse, until a command ends it (Simple2-R3)
   };
   enum class Then : std::uint8_t {
     stop_at_once,
@@ -42,8 +42,8 @@ struct HomingPhase {
   static constexpr std::int8_t kAwait = -4;  // nowhere: the signal must go away and come again
 
   Does does = Does::search;
-  std::int8_t way = +1;   // +1 or -1; of go and go_back the sign of the distance
-  std::int8_t speed = 0;  // index into HomingProgram::speeds
+  std::int8_t direction = +1;  // +1 or -1; of go and go_back the sign of the distance
+  std::int8_t speed = 0;       // index into HomingProgram::speeds
   Signal until = Signal::home;
   bool until_on = true;
   Then then = Then::slow_down;

@@ -64,7 +64,7 @@ void check(const HomingProgram& program) {
     require(is_row(row.if_already) || row.if_already == HomingPhase::kAwait ||
                 (row.if_already == HomingPhase::kNext && row.count == 1),
             "a signal to be counted must be awaited");
-    require(row.way == +1 || row.way == -1, "way must be +1 or -1");
+    require(row.direction == +1 || row.direction == -1, "way must be +1 or -1");
     require(row.count >= 1, "count must be at least 1");
     require(row.distance_pulses >= -kFarthestPlace_pulses && row.distance_pulses <= kFarthestPlace_pulses,
             "distance must be within 2^53 pulses");
@@ -111,8 +111,8 @@ const SpeedLaw* Homing::runs_on_by() const {
                        mine.distance_pulses != 0 && number >= 0 && number < program.phase_count;
   if (!runs_on) return nullptr;
   const HomingPhase& next = program.phases[static_cast<std::size_t>(number)];
-  const bool same_way = (mine.distance_pulses < 0) == (next.way < 0);
-  if (next.does != HomingPhase::Does::search || !same_way) return nullptr;
+  const bool same_direction = (mine.distance_pulses < 0) == (next.direction < 0);
+  if (next.does != HomingPhase::Does::search || !same_direction) return nullptr;
   return &program.speeds[static_cast<std::size_t>(next.speed)];
 }
 
@@ -132,7 +132,7 @@ std::optional<std::int64_t> Axis::homing_place() const {
   const HomingPhase& row = homing.row();
   if (homing.runs_on_by() != nullptr) return homing.began_pulses + row.distance_pulses;
   const bool is_bounded = row.does == HomingPhase::Does::search && row.within_pulses > 0;
-  return is_bounded ? std::optional(homing.began_pulses + row.way * row.within_pulses) : std::nullopt;
+  return is_bounded ? std::optional(homing.began_pulses + row.direction * row.within_pulses) : std::nullopt;
 }
 
 void Axis::homing_comes_to_its_place(Instant at) {
@@ -223,7 +223,7 @@ Cause Axis::enter_phase(std::int8_t number, Instant at, bool running) {
         number = row_number(homing, row.if_already);
         continue;
       }
-      if (running && drive.direction == row.way) {
+      if (running && drive.direction == row.direction) {
         const SpeedLaw& speed = homing.program.speeds[static_cast<std::size_t>(row.speed)];
         if (speed != law) go_on_by(speed, at);
         return Cause::none;
@@ -252,18 +252,18 @@ Cause Axis::begin_phase(Instant at) {
     return begin(Task::move, distance_pulses < 0 ? -1 : +1, distance_pulses, speed, at, true);
   };
   switch (row.does) {
-    case HomingPhase::Does::search: return begin(Task::endless, row.way, 0, speed, at, true);
+    case HomingPhase::Does::search: return begin(Task::endless, row.direction, 0, speed, at, true);
     case HomingPhase::Does::go:
       if (homing.runs_on_by() == nullptr) return go(row.distance_pulses);
       return begin(Task::endless, row.distance_pulses < 0 ? -1 : +1, 0, speed, at, true);
     case HomingPhase::Does::go_back: return go(homing.reference_pulses - travel_pulses);
     case HomingPhase::Does::hang: break;
   }
-  if (const Cause why_not = forbidden(row.way); why_not != Cause::none) return why_not;
+  if (const Cause why_not = forbidden(row.direction); why_not != Cause::none) return why_not;
   drop();
   task = Task::hanging;
   cause = Cause::none;
-  drive.hang(row.way);
+  drive.hang(row.direction);
   return Cause::none;
 }
 

@@ -27,13 +27,13 @@ constexpr std::int8_t kAwait = HomingPhase::kAwait;
 constexpr std::int8_t kFast = 0;
 constexpr std::int8_t kCreep = 1;
 
-std::int8_t sign(int way) { return way < 0 ? std::int8_t{-1} : std::int8_t{+1}; }
-std::int8_t opposite(int way) { return way < 0 ? std::int8_t{+1} : std::int8_t{-1}; }
-Signal limit_towards(int way) { return way < 0 ? Signal::limit_minus : Signal::limit_plus; }
+std::int8_t sign(int direction) { return direction < 0 ? std::int8_t{-1} : std::int8_t{+1}; }
+std::int8_t opposite(int direction) { return direction < 0 ? std::int8_t{+1} : std::int8_t{-1}; }
+Signal limit_towards(int direction) { return direction < 0 ? Signal::limit_minus : Signal::limit_plus; }
 
-HomingProgram hanging(int way) {
+HomingProgram hanging(int direction) {
   HomingProgram program;
-  program.add({.does = Does::hang, .way = sign(way)});
+  program.add({.does = Does::hang, .direction = sign(direction)});
   return program;
 }
 
@@ -92,8 +92,8 @@ bool super40nc_homes_by_limit(int mode) { return mode_row(mode).at == At::limit;
 
 HomingProgram super40nc_homing(const Super40ncHoming& how) {
   const Mode& mode = mode_row(how.mode);
-  const std::int8_t on = sign(how.way);
-  const std::int8_t back = opposite(how.way);
+  const std::int8_t on = sign(how.direction);
+  const std::int8_t back = opposite(how.direction);
   HomingProgram program{.speeds = {how.fast, how.creep}};
 
   if (mode.at == At::dog) {
@@ -106,9 +106,9 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   const bool at_once = mode.at == At::limit && how.limit_stops_at_once;
   // Behind the switch it would look for the index from a wrong place (《X32.》 note); modes 0 and 9 do not.
   const bool must_stay = mode.then == kSlowDown && mode.after != After::nothing;
-  program.add({.way = on,
+  program.add({.direction = on,
                .speed = kFast,
-               .until = mode.at == At::dog ? Signal::home : limit_towards(how.way),
+               .until = mode.at == At::dog ? Signal::home : limit_towards(how.direction),
                .then = at_once ? kStop : mode.then,
                .marks = mode.after == After::nothing,
                .if_gone = must_stay && !how.plate_may_be_short ? kFail : kNext});
@@ -117,19 +117,19 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   switch (mode.after) {
     case After::nothing: break;
     case After::edge_again:
-      program.add({.way = back, .speed = law, .until = Signal::home, .until_on = false, .then = kStop});
-      program.add({.way = on, .speed = law, .until = Signal::home, .then = mode.then_2, .marks = true});
+      program.add({.direction = back, .speed = law, .until = Signal::home, .until_on = false, .then = kStop});
+      program.add({.direction = on, .speed = law, .until = Signal::home, .then = mode.then_2, .marks = true});
       break;
     case After::off_again:
-      program.add({.way = back,
+      program.add({.direction = back,
                    .speed = law,
-                   .until = limit_towards(how.way),
+                   .until = limit_towards(how.direction),
                    .until_on = false,
                    .then = mode.then_2,
                    .marks = true});
       break;
     case After::index:
-      program.add({.way = mode.direction == Direction::on ? on : back,
+      program.add({.direction = mode.direction == Direction::on ? on : back,
                    .speed = law,
                    .until = Signal::index,
                    .then = mode.then_2,
@@ -146,7 +146,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   const std::int8_t past = program.phase_count;
   program.phases[static_cast<std::size_t>(search)].if_limit = past;
   program.phases[static_cast<std::size_t>(past - 1)].next = static_cast<std::int8_t>(past + 1);
-  program.add({.way = back,
+  program.add({.direction = back,
                .speed = kFast,
                .until = Signal::home,
                .until_on = false,
@@ -159,11 +159,11 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
   if (how.search_pulses == 0) {
     throw BadMotion(Refusal::out_of_range, "mark search", "distance must not be 0");
   }
-  const std::int8_t way = how.search_pulses < 0 ? std::int8_t{-1} : std::int8_t{+1};
-  const Signal mark = limit_towards(way);
+  const std::int8_t direction = how.search_pulses < 0 ? std::int8_t{-1} : std::int8_t{+1};
+  const Signal mark = limit_towards(direction);
   HomingProgram program{.speeds = {how.fast, how.creep}};
   const std::int64_t search = std::abs(how.search_pulses);
-  const bool goes_on = how.distance_pulses * way > 0;
+  const bool goes_on = how.distance_pulses * direction > 0;
   std::int64_t behind = 0;  // the distance in which it slows down there
   if (how.slows_behind && goes_on && how.fast.top_speed_u_s > how.creep.top_speed_u_s) {
     const double braking = ramp_distance(how.fast.down, how.creep.top_speed_u_s, how.fast.top_speed_u_s);
@@ -172,10 +172,10 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
   program.add({.does = Does::go,
                .speed = kFast,
                .then = kRunOn,
-               .distance_pulses = how.distance_pulses + way * behind,
+               .distance_pulses = how.distance_pulses + direction * behind,
                .ignores = how.looks_all_the_way ? Signals{0} : bit(mark),
                .if_limit = how.looks_all_the_way ? HomingPhase::kRowBelow : kFail});
-  program.add({.way = way,
+  program.add({.direction = direction,
                .speed = kCreep,
                .until = mark,
                .then = how.mark_slows ? kSlowDown : kStop,
@@ -189,25 +189,25 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
 // ---- RS-M8194H
 
 HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
-  const auto& [way_1, way_2, way_3, way_4] = how.ways;
+  const auto& [direction_1, direction_2, direction_3, direction_4] = how.ways;
   constexpr std::int8_t kDrive = 0;
   constexpr std::int8_t kHome = 1;
   HomingProgram program{.speeds = {how.drive, how.home}, .soft_limits_lead_on = how.soft_limits_lead_on};
-  if (way_1 != 0) {
-    program.add({.way = sign(way_1),
+  if (direction_1 != 0) {
+    program.add({.direction = sign(direction_1),
                  .speed = kDrive,
-                 .until = how.limit_is_near_home ? limit_towards(way_1) : Signal::near_home,
+                 .until = how.limit_is_near_home ? limit_towards(direction_1) : Signal::near_home,
                  .then = kSlowDown,
                  .code = 3,
                  .if_limit = HomingPhase::kRowBelow});
   }
-  if (way_2 != 0) {
-    const Signal home = how.limit_is_home ? limit_towards(way_2) : Signal::home;
+  if (direction_2 != 0) {
+    const Signal home = how.limit_is_home ? limit_towards(direction_2) : Signal::home;
     const std::int8_t search = program.phase_count;
     const auto leave = static_cast<std::int8_t>(search + 1);      // irregular (a): home is on already
     const auto come_back = static_cast<std::int8_t>(search + 2);  // irregular (b) and (c): the limit is on
     const auto step_3 = static_cast<std::int8_t>(search + 3);
-    program.add({.way = sign(way_2),
+    program.add({.direction = sign(direction_2),
                  .speed = kHome,
                  .until = home,
                  .then = kStop,
@@ -216,18 +216,22 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
                  .next = step_3,
                  .if_already = leave,
                  .if_limit = come_back});
-    program.add({.way = opposite(way_2),
+    program.add({.direction = opposite(direction_2),
                  .speed = kHome,
                  .until = home,
                  .until_on = false,
                  .then = kStop,
                  .code = 12,
                  .next = search});
-    program.add(
-        {.way = opposite(way_2), .speed = kHome, .until = home, .then = kRunOn, .code = 8, .next = leave});
+    program.add({.direction = opposite(direction_2),
+                 .speed = kHome,
+                 .until = home,
+                 .then = kRunOn,
+                 .code = 8,
+                 .next = leave});
   }
-  if (way_3 != 0) {
-    program.add({.way = sign(way_3),
+  if (direction_3 != 0) {
+    program.add({.direction = sign(direction_3),
                  .speed = kHome,
                  .until = Signal::index,
                  .then = kStop,
@@ -235,9 +239,11 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
                  .code = 20,
                  .if_already = kFail});
   }
-  if (way_4 != 0) {
-    program.add(
-        {.does = Does::go, .speed = kDrive, .code = 25, .distance_pulses = sign(way_4) * how.offset_pulses});
+  if (direction_4 != 0) {
+    program.add({.does = Does::go,
+                 .speed = kDrive,
+                 .code = 25,
+                 .distance_pulses = sign(direction_4) * how.offset_pulses});
   }
   return program;
 }
@@ -248,8 +254,8 @@ HomingProgram simple2_homing(const Simple2Homing& how) {
   if (how.speed.top_speed_u_s == 0) {
     // It would turn back at the limit as well, at the same low speed.
     HomingProgram both_ways;
-    both_ways.add({.does = Does::hang, .way = sign(how.way), .if_limit = 1});
-    both_ways.add({.does = Does::hang, .way = opposite(how.way)});
+    both_ways.add({.does = Does::hang, .direction = sign(how.direction), .if_limit = 1});
+    both_ways.add({.does = Does::hang, .direction = opposite(how.direction)});
     return both_ways;
   }
   // Rows that other rows lead to.
@@ -257,14 +263,14 @@ HomingProgram simple2_homing(const Simple2Homing& how) {
   constexpr std::int8_t kOtherWay = 2;
   constexpr std::int8_t kBeyond = 3;
   constexpr std::int8_t kReturn = 5;
-  const std::int8_t on = sign(how.way);
-  const std::int8_t back = opposite(how.way);
+  const std::int8_t on = sign(how.direction);
+  const std::int8_t back = opposite(how.direction);
   HomingProgram program{.speeds = {how.speed}};
-  program.add({.way = on, .marks = true, .next = kReturn, .if_already = kLeave, .if_limit = kOtherWay});
-  program.add({.way = back, .until_on = false, .next = 0});
-  program.add({.way = back, .then = kRunOn, .next = kBeyond});
-  program.add({.way = back, .until_on = false});
-  program.add({.way = on, .marks = true});
+  program.add({.direction = on, .marks = true, .next = kReturn, .if_already = kLeave, .if_limit = kOtherWay});
+  program.add({.direction = back, .until_on = false, .next = 0});
+  program.add({.direction = back, .then = kRunOn, .next = kBeyond});
+  program.add({.direction = back, .until_on = false});
+  program.add({.direction = on, .marks = true});
   program.add({.does = Does::go_back});
   return program;
 }
@@ -272,9 +278,9 @@ HomingProgram simple2_homing(const Simple2Homing& how) {
 // ---- SLIM
 
 HomingProgram slim_homing(const SlimHoming& how) {
-  if (how.jog.top_speed_u_s == 0) return hanging(how.way);
+  if (how.jog.top_speed_u_s == 0) return hanging(how.direction);
   HomingProgram program{.speeds = {how.jog}};
-  program.add({.way = sign(how.way), .then = kSlowDown, .marks = true});
+  program.add({.direction = sign(how.direction), .then = kSlowDown, .marks = true});
   return program;
 }
 

@@ -13,12 +13,12 @@ namespace understudy::motion {
 /// Signals: home is DOG, index is EZ.
 struct Super40ncHoming {
   int mode = 0;                      // X20, 0 .. 12
-  int way = +1;                      // X23
+  int direction = +1;                // X23
   SpeedLaw fast;                     // X21, Vh
   SpeedLaw creep;                    // X22, Vc
   std::int32_t index_count = 1;      // X31 + 1
   std::int64_t leave_pulses = 5;     // X25, away from a DOG that is on at the start; 0 acts as 1
-  std::int64_t offset_pulses = 0;    // X30, signed, independent of `way`
+  std::int64_t offset_pulses = 0;    // X30, signed, independent of `direction`
   bool limit_stops_at_once = false;  // modes 6 to 8 and 12: as the chip would with D9x01 = 0
   bool leaves_fast = false;          // true: leaves a DOG that is on at the start at `fast`
   bool offset_creeps = false;        // true: returns to the reference and goes the offset at `creep`
@@ -29,8 +29,8 @@ struct Super40ncHoming {
 /// Returns the table of a mode. The reference is the DOG's edge (modes 0, 1, 9), the limit's edge (6), else
 /// the last EZ counted. Throws BadMotion(out_of_range) for a mode that does not exist.
 HomingProgram super40nc_homing(const Super40ncHoming& how);
-/// Returns true for modes that look for the limit on the side of `way`, and so cannot find home if that limit
-/// is not in use.
+/// Returns true for modes that look for the limit on the side of `direction`, and so cannot find home if that
+/// limit is not in use.
 bool super40nc_homes_by_limit(int mode);
 
 /// SUPER-40NC, instruction MRK: the axis passes its target at the creep speed and creeps on to a mark on one
@@ -64,17 +64,17 @@ struct Rsm8194hHoming {
 HomingProgram rsm8194h_homing(const Rsm8194hHoming& how);
 
 /// Simple2-R3, *_Home_Speed, *_Home_AccTime, *_GoHome_DIR. The manual gives no sequence. This one always ends
-/// on the edge of the home switch that is met in direction `way`, wherever it began.
+/// on the edge of the home switch that is met in `direction`, wherever it began.
 struct Simple2Homing {
-  int way = -1;    // GoHome_DIR: 0 -1, 1 +1
-  SpeedLaw speed;  // a top speed of 0 hangs, as every Simple2-R3 move does
+  int direction = -1;  // GoHome_DIR: 0 -1, 1 +1
+  SpeedLaw speed;      // a top speed of 0 hangs, as every Simple2-R3 move does
 };
 HomingProgram simple2_homing(const Simple2Homing& how);
 
 /// SLIM, H: at -VJ until horg is on, then slow down.
 struct SlimHoming {
-  int way = -1;  // +1 for a negative VJ
-  SpeedLaw jog;  // VJ; a top speed of 0 hangs
+  int direction = -1;  // +1 for a negative VJ
+  SpeedLaw jog;        // VJ; a top speed of 0 hangs
 };
 HomingProgram slim_homing(const SlimHoming& how);
 

@@ -191,7 +191,7 @@ struct StateOf<motion::ExternalDrive> {
 template <>
 struct StateOf<motion::HomingPhase> {
   static constexpr auto fields = FieldList{field("does", &motion::HomingPhase::does),
-                                           field("way", &motion::HomingPhase::way),
+                                           field("way", &motion::HomingPhase::direction),
                                            field("speed", &motion::HomingPhase::speed),
                                            field("until", &motion::HomingPhase::until),
                                            field("until_on", &motion::HomingPhase::until_on),

@@ -67,7 +67,7 @@ void write_homing_samples(const std::filesystem::path& folder) {
   std::ofstream super(folder / "homing_super40nc.dat");
   for (int mode = 0; mode <= 12; ++mode) {
     trace(super, super40nc_homing({.mode = mode,
-                                   .way = +1,
+                                   .direction = +1,
                                    .fast = speed(12000),
                                    .creep = speed(3000),
                                    .index_count = 2,
@@ -77,9 +77,9 @@ void write_homing_samples(const std::filesystem::path& folder) {
   trace(others,
         rsm8194h_homing(
             {.ways = {+1, +1, -1, +1}, .drive = speed(12000), .home = speed(3000), .offset_pulses = 1500}));
-  trace(others, simple2_homing({.way = +1, .speed = speed(12000)}));
-  trace(others, simple2_homing({.way = -1, .speed = speed(12000)}));
-  trace(others, slim_homing({.way = +1, .jog = speed(12000)}));
+  trace(others, simple2_homing({.direction = +1, .speed = speed(12000)}));
+  trace(others, simple2_homing({.direction = -1, .speed = speed(12000)}));
+  trace(others, slim_homing({.direction = +1, .jog = speed(12000)}));
 }
 
 }  // namespace understudy::docs

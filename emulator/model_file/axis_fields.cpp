@@ -170,7 +170,7 @@ AxisBinding read_axis(const YamlFields& fields, const std::string& name, const D
     }
   });
   read("home_way",
-       [&](const YamlFields& field) { axis.home_way = read_word(field, kWayForm) == 0 ? -1 : +1; });
+       [&](const YamlFields& field) { axis.home_direction = read_word(field, kWayForm) == 0 ? -1 : +1; });
   read("home_position", [&](const YamlFields& field) { axis.home_position = field.integer(kCountsForm); });
   read("pulses_per_revolution", [&](const YamlFields& field) {
     axis.pulses_per_revolution = static_cast<int>(field.integer(kPerRevolutionForm));

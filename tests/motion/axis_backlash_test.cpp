@@ -23,37 +23,37 @@ AxisCourse moved_up(const AxisSettings& settings = kBacklash) {
 }
 
 TEST(AxisBacklash, IsNotTakenUpBeforeADirectionIsKnown) {
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     AxisCourse course;
     course.axis.set(kBacklash);
-    course.axis.move(way * 100, constant(10'000), 0);
+    course.axis.move(direction * 100, constant(10'000), 0);
     course.until_rest();
-    course.axis.move(way * 100, constant(10'000), course.now);
+    course.axis.move(direction * 100, constant(10'000), course.now);
     course.until_rest();
-    EXPECT_EQ(course.output_pulses, way * 200);
+    EXPECT_EQ(course.output_pulses, direction * 200);
     EXPECT_EQ(course.axis.backlash_sent, 0);
   }
 }
 
 TEST(AxisBacklash, OneThatComesLaterIsTakenUpInTheLastDirection) {
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     AxisCourse course;
-    course.axis.move(way * 100, constant(10'000), 0);
+    course.axis.move(direction * 100, constant(10'000), 0);
     course.until_rest();
     course.axis.set(kBacklash);
-    course.axis.move(way * 100, constant(10'000), course.now);
+    course.axis.move(direction * 100, constant(10'000), course.now);
     course.until_rest();
     EXPECT_EQ(course.axis.backlash_sent, 0);
-    course.axis.move(-way * 100, constant(10'000), course.now);
+    course.axis.move(-direction * 100, constant(10'000), course.now);
     course.until_rest();
-    EXPECT_EQ(course.axis.backlash_sent, -way * kExtra);
+    EXPECT_EQ(course.axis.backlash_sent, -direction * kExtra);
     AxisSettings none = kBacklash;
     none.backlash_pulses = 0;
     course.axis.set(none);
     course.axis.set(kBacklash);
-    course.axis.move(-way * 100, constant(10'000), course.now);
+    course.axis.move(-direction * 100, constant(10'000), course.now);
     course.until_rest();
-    EXPECT_EQ(course.axis.backlash_sent, -way * kExtra);
+    EXPECT_EQ(course.axis.backlash_sent, -direction * kExtra);
   }
 }
 
@@ -64,11 +64,11 @@ TEST(AxisBacklash, SlipComesAtEveryStart) {
   course.axis.set(slipping);
   std::int64_t travel = 0;
   std::int64_t extra = 0;
-  for (const int way : {+1, +1, -1, -1, +1}) {
-    course.axis.move(way * 100, constant(10'000), course.now);
+  for (const int direction : {+1, +1, -1, -1, +1}) {
+    course.axis.move(direction * 100, constant(10'000), course.now);
     course.until_rest();
-    travel += way * 100;
-    extra += way * kExtra;
+    travel += direction * 100;
+    extra += direction * kExtra;
     EXPECT_EQ(course.travel(), travel);
     EXPECT_EQ(course.axis.backlash_sent, extra);
   }

@@ -28,26 +28,29 @@ TEST(AxisChange, ASpeedChangedInTheMidstIsReachedAlongTheRamp) {
 
 TEST(AxisChange, AMoveTakesOverASpeedThatThereIs) {
   // From 1000 to 1000: 450 at speed, and 50 in 100 ms to stop. At once, without a tick in between.
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     AxisCourse course;
     course.steps(10);
-    ASSERT_EQ(course.axis.move_on(way * 1000.0, way * 500, trapezoid(1000, 10'000), course.now), Cause::none);
-    EXPECT_EQ(course.steps(100), way * 100);
+    ASSERT_EQ(course.axis.move_on(direction * 1000.0, direction * 500, trapezoid(1000, 10'000), course.now),
+              Cause::none);
+    EXPECT_EQ(course.steps(100), direction * 100);
     EXPECT_EQ(course.until_rest(), 350 + 100);
-    EXPECT_EQ(course.travel(), way * 500);
+    EXPECT_EQ(course.travel(), direction * 500);
     EXPECT_EQ(course.axis.cause, Cause::arrived);
     // Faster than it is to be: 150 in 100 ms down to 1000, 800 ms there, 50 down.
     AxisCourse faster;
-    ASSERT_EQ(faster.axis.move_on(way * 2000.0, way * 1000, trapezoid(1000, 10'000), 0), Cause::none);
+    ASSERT_EQ(faster.axis.move_on(direction * 2000.0, direction * 1000, trapezoid(1000, 10'000), 0),
+              Cause::none);
     EXPECT_EQ(faster.until_rest(), 100 + 800 + 100);
-    EXPECT_EQ(faster.travel(), way * 1000);
+    EXPECT_EQ(faster.travel(), direction * 1000);
     // The other way, and too near: 50 further to a stop, and back.
     for (const int distance : {-100, 20}) {
       AxisCourse back;
-      ASSERT_EQ(back.axis.move_on(way * 1000.0, way * distance, trapezoid(1000, 10'000), 0), Cause::none);
-      EXPECT_EQ(back.steps(100), way * 50);
+      ASSERT_EQ(back.axis.move_on(direction * 1000.0, direction * distance, trapezoid(1000, 10'000), 0),
+                Cause::none);
+      EXPECT_EQ(back.steps(100), direction * 50);
       EXPECT_GT(back.until_rest(), 0);
-      EXPECT_EQ(back.travel(), way * distance);
+      EXPECT_EQ(back.travel(), direction * distance);
       EXPECT_EQ(back.axis.cause, Cause::arrived);
       EXPECT_EQ(back.endings, 1);
     }
@@ -178,14 +181,15 @@ TEST(AxisChange, AnotherDistanceIsCountedFromWhereTheMoveBegan) {
       {1'090, 9'000, 10'000},
   }};
   for (const DistanceCase& c : kCases) {
-    for (const int way : {+1, -1}) {
+    for (const int direction : {+1, -1}) {
       AxisCourse course;
-      course.axis.move(way * 10'000, trapezoid(10'000, 100'000), 0);
+      course.axis.move(direction * 10'000, trapezoid(10'000, 100'000), 0);
       course.steps(c.when);
       course.axis.change_distance(c.changed, false, course.now);
       ASSERT_GE(course.until_rest(), 0);
-      EXPECT_EQ(course.travel(), way * c.changed) << c.when << " to " << c.changed;
-      EXPECT_EQ(way > 0 ? course.farthest : -course.nearest, c.farthest) << c.when << " to " << c.changed;
+      EXPECT_EQ(course.travel(), direction * c.changed) << c.when << " to " << c.changed;
+      EXPECT_EQ(direction > 0 ? course.farthest : -course.nearest, c.farthest)
+          << c.when << " to " << c.changed;
       EXPECT_EQ(course.output_pulses, course.travel());
       EXPECT_EQ(course.axis.cause, Cause::arrived);
       EXPECT_EQ(course.endings, 1);
@@ -299,18 +303,18 @@ TEST(AxisChange, NoChangeEverLosesOrRepeatsOrReversesAPulse) {
     };
     const SpeedLaw law = any_law();
     auto target = static_cast<std::int64_t>(laws.of_any_size(1, 1e6));
-    const int way = laws.below(2) == 0 ? +1 : -1;
+    const int direction = laws.below(2) == 0 ? +1 : -1;
     std::string input = "seed " + std::to_string(seed()) + ": { " + code(law) + " move(" +
-                        std::to_string(way * target) + ", law, 0); }";
+                        std::to_string(direction * target) + ", law, 0); }";
     AxisCourse course;
-    ASSERT_EQ(course.axis.move(way * target, law, 0), Cause::none);
+    ASSERT_EQ(course.axis.move(direction * target, law, 0), Cause::none);
     bool stopped = false;
     bool may_return = false;
     for (int changes = 0; changes < 4 && course.axis.moving(); ++changes) {
       const auto ticks = static_cast<Tick>(laws.of_any_size(1, 500)) - 1;
       for (Tick tick = 0; tick < ticks; ++tick) {
         const std::int64_t pulses = course.step();
-        ASSERT_TRUE(may_return || pulses * way >= 0) << input << " tick " << course.now;
+        ASSERT_TRUE(may_return || pulses * direction >= 0) << input << " tick " << course.now;
       }
       if (!course.axis.moving()) break;
       const std::string when = ", " + std::to_string(course.now) + ");";
@@ -328,7 +332,7 @@ TEST(AxisChange, NoChangeEverLosesOrRepeatsOrReversesAPulse) {
           case 4:
           case 5: {
             if (may_return) break;  // its coordinate may be that of the return
-            const std::int64_t sent = course.travel() * way;
+            const std::int64_t sent = course.travel() * direction;
             auto changed = sent + static_cast<std::int64_t>(laws.of_any_size(1, 1e4)) - 1;
             const bool back = laws.below(4) == 0;
             if (back) changed = sent - static_cast<std::int64_t>(laws.of_any_size(1, 1e4));
@@ -360,13 +364,13 @@ TEST(AxisChange, NoChangeEverLosesOrRepeatsOrReversesAPulse) {
     }
     for (Tick ticks = 0; ticks < 300'000 && course.axis.moving(); ++ticks) {
       const std::int64_t pulses = course.step();
-      ASSERT_TRUE(may_return || pulses * way >= 0) << input << " tick " << course.now;
+      ASSERT_TRUE(may_return || pulses * direction >= 0) << input << " tick " << course.now;
     }
     ASSERT_EQ(course.output_pulses, course.travel()) << input;
     if (course.axis.moving()) continue;  // at a crawl
     course.step();                       // which tells of a stop
     if (!stopped) {
-      ASSERT_EQ(course.travel(), way * target) << input;
+      ASSERT_EQ(course.travel(), direction * target) << input;
       ASSERT_EQ(course.axis.cause, Cause::arrived) << input;
     }
     ASSERT_EQ(course.endings, 1) << input;

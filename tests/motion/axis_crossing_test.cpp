@@ -55,9 +55,9 @@ TEST(AxisCrossing, StaysWithinTheRangeItIsGiven) {
   RandomMoves random(seed() + 6);
   for (int i = 0; i < random_cases(2000); ++i) {
     AxisCourse course;
-    const int way = random.between(0, 1) == 0 ? -1 : +1;
+    const int direction = random.between(0, 1) == 0 ? -1 : +1;
     const auto top = static_cast<double>(random.of_any_size(1, 1'000'000));
-    course.axis.move(way * random.of_any_size(1, 10'000'000),
+    course.axis.move(direction * random.of_any_size(1, 10'000'000),
                      trapezoid(top, static_cast<double>(random.of_any_size(100, 10'000'000))), 0);
     course.step();
     AxisCourse single = course;

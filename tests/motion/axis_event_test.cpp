@@ -27,7 +27,7 @@ std::vector<Tick> firings(AxisCourse& course, Tick ticks, std::size_t number = 0
 
 struct RelationCase {
   Relation relation;
-  int way;
+  int direction;
   std::int64_t value;
   Tick fires;  // at 1 pulse a tick, from 0 in tick 1; 0: never
 };
@@ -57,10 +57,10 @@ TEST(AxisEvent, AComparatorFiresInTheTickItsRelationBecomesTrue) {
     for (const RelationCase& c : kCases) {
       AxisCourse course;
       course.axis.set_comparator(number, {.relation = c.relation, .value = c.value});
-      course.axis.run(c.way, constant(1'000), 0);
+      course.axis.run(c.direction, constant(1'000), 0);
       const std::vector<Tick> expected = c.fires == 0 ? std::vector<Tick>{} : std::vector<Tick>{c.fires};
       EXPECT_EQ(firings(course, 40, number), expected)
-          << static_cast<int>(c.relation) << " " << c.value << " way " << c.way;
+          << static_cast<int>(c.relation) << " " << c.value << " way " << c.direction;
     }
   }
 }
@@ -139,25 +139,25 @@ TEST(AxisEvent, AComparatorOfTheEncoderMeetsWhatComesAfterIt) {
 
 TEST(AxisEvent, AnEncoderThatJumpsFarPassesNothing) {
   // 100,000 counts within a tick are a motion, which passes what lies between; more are a jump.
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     AxisCourse course;
-    course.axis.set_comparator(0,
-                               {.relation = Relation::equal, .count = Count::encoder, .value = way * 50'000});
-    course.axis.set_comparator(1, {.relation = way > 0 ? Relation::at_least : Relation::below,
+    course.axis.set_comparator(
+        0, {.relation = Relation::equal, .count = Count::encoder, .value = direction * 50'000});
+    course.axis.set_comparator(1, {.relation = direction > 0 ? Relation::at_least : Relation::below,
                                    .count = Count::encoder,
-                                   .value = way * 100'001});
+                                   .value = direction * 100'001});
     EXPECT_TRUE(firings(course, 1).empty());
-    course.axis.set_encoder(way * 100'000);
-    EXPECT_EQ(firings(course, 1).size(), 1U) << way;
+    course.axis.set_encoder(direction * 100'000);
+    EXPECT_EQ(firings(course, 1).size(), 1U) << direction;
     course.axis.set_encoder(0);
-    EXPECT_EQ(firings(course, 1).size(), 1U) << "and back, " << way;
-    course.axis.set_encoder(way * 100'001);
-    EXPECT_TRUE(firings(course, 1).empty()) << way;
+    EXPECT_EQ(firings(course, 1).size(), 1U) << "and back, " << direction;
+    course.axis.set_encoder(direction * 100'001);
+    EXPECT_TRUE(firings(course, 1).empty()) << direction;
     course.axis.set_encoder(0);
-    EXPECT_TRUE(firings(course, 1).empty()) << "and back, " << way;
+    EXPECT_TRUE(firings(course, 1).empty()) << "and back, " << direction;
     // Of a jump only the end counts, and it does.
-    course.axis.set_encoder(way * 200'000);
-    EXPECT_EQ(firings(course, 1, 1).size(), 1U) << way;
+    course.axis.set_encoder(direction * 200'000);
+    EXPECT_EQ(firings(course, 1, 1).size(), 1U) << direction;
   }
 }
 
@@ -199,20 +199,20 @@ TEST(AxisEvent, SeveralEdgesInOneTickAreAllMet) {
 }
 
 TEST(AxisEvent, AComparatorThatStopsAtOnceStopsOnItsPulse) {
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     for (const std::int64_t value : {1, 3'999, 4'000, 4'001, 123'456}) {
       AxisCourse course;
       course.axis.set_comparator(
-          2, {.relation = Relation::equal, .reaction = Reaction::stop_at_once, .value = way * value});
-      course.axis.run(way, constant(4e6), 0);
+          2, {.relation = Relation::equal, .reaction = Reaction::stop_at_once, .value = direction * value});
+      course.axis.run(direction, constant(4e6), 0);
       ASSERT_GE(course.until_rest(), 0);
-      EXPECT_EQ(course.travel(), way * value);
+      EXPECT_EQ(course.travel(), direction * value);
       EXPECT_EQ(course.axis.cause, Cause::comparator);
       EXPECT_TRUE(course.saw(Event::comparator_2));
       // It stands on it, and goes on from it.
-      course.axis.move(way * 5, constant(4e6), course.now);
+      course.axis.move(direction * 5, constant(4e6), course.now);
       course.until_rest();
-      EXPECT_EQ(course.travel(), way * (value + 5));
+      EXPECT_EQ(course.travel(), direction * (value + 5));
     }
   }
 }
@@ -254,11 +254,11 @@ TEST(AxisEvent, ComparatorsFireAsCountingPulseByPulseSays) {
         course.step();
         Events fired = 0;
         while (travel != course.travel()) {
-          const int way = travel < course.travel() ? +1 : -1;
-          travel += way;
+          const int direction = travel < course.travel() ? +1 : -1;
+          travel += direction;
           for (std::size_t k = 0; k < 4; ++k) {
             const bool holds = wanted[k].holds(travel);
-            const bool comes_by_it = wanted[k].sense() == 0 || wanted[k].sense() == way;
+            const bool comes_by_it = wanted[k].sense() == 0 || wanted[k].sense() == direction;
             if (holds && !was[k] && comes_by_it) fired |= static_cast<Events>(bit(Event::comparator_0) << k);
             was[k] = holds;
           }

@@ -73,49 +73,49 @@ TEST(AxisFollowing, AStopEndsItAndWhatWasGathered) {
 }
 
 TEST(AxisFollowing, StopsAtALimitOnItsEdge) {
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     AxisCourse course;
     course.here.add(Signal::limit_plus, 50, INT64_MAX);
     course.here.add(Signal::limit_minus, INT64_MIN, -50);
     course.axis.follow({});
-    course.axis.feed(way * 30);
+    course.axis.feed(direction * 30);
     course.step();
-    course.axis.feed(way * 30);
-    EXPECT_EQ(course.step(), way * 20);
-    EXPECT_EQ(course.travel(), way * 50);
+    course.axis.feed(direction * 30);
+    EXPECT_EQ(course.step(), direction * 20);
+    EXPECT_EQ(course.travel(), direction * 50);
     EXPECT_FALSE(course.axis.moving());
-    EXPECT_EQ(course.axis.cause, way > 0 ? Cause::limit_plus : Cause::limit_minus);
+    EXPECT_EQ(course.axis.cause, direction > 0 ? Cause::limit_plus : Cause::limit_minus);
 
     // It may follow again: towards the limit in vain, and freely away from it.
     EXPECT_EQ(course.axis.follow({}), Cause::none);
-    course.axis.feed(way * 10);
+    course.axis.feed(direction * 10);
     EXPECT_EQ(course.steps(3), 0);
     EXPECT_TRUE(course.axis.moving());
-    course.axis.feed(-way * 10);
-    EXPECT_EQ(course.steps(3), -way * 10);
-    course.axis.feed(way * 10);
-    EXPECT_EQ(course.steps(3), way * 10);
+    course.axis.feed(-direction * 10);
+    EXPECT_EQ(course.steps(3), -direction * 10);
+    course.axis.feed(direction * 10);
+    EXPECT_EQ(course.steps(3), direction * 10);
     EXPECT_FALSE(course.axis.moving());
   }
 }
 
 TEST(AxisFollowing, StopsOnePulseBeyondASoftLimitWhateverTheTicks) {
   for (const std::int64_t each : {1, 2, 3, 25, 33, 50, 51, 1'000}) {
-    for (const int way : {+1, -1}) {
+    for (const int direction : {+1, -1}) {
       AxisCourse course;
       course.axis.set({.soft_limit_plus = 50, .soft_limit_minus = -50});
       course.axis.follow({});
       for (int tick = 0; tick < 60 && course.axis.moving(); ++tick) {
-        course.axis.feed(way * each);
+        course.axis.feed(direction * each);
         course.step();
       }
-      EXPECT_EQ(course.travel(), way * 51) << each;
-      EXPECT_EQ(course.axis.cause, way > 0 ? Cause::soft_limit_plus : Cause::soft_limit_minus) << each;
+      EXPECT_EQ(course.travel(), direction * 51) << each;
+      EXPECT_EQ(course.axis.cause, direction > 0 ? Cause::soft_limit_plus : Cause::soft_limit_minus) << each;
       course.axis.follow({});
-      course.axis.feed(way * each);
+      course.axis.feed(direction * each);
       EXPECT_EQ(course.step(), 0);
-      course.axis.feed(-way);
-      EXPECT_EQ(course.step(), -way);
+      course.axis.feed(-direction);
+      EXPECT_EQ(course.step(), -direction);
     }
   }
 }
@@ -176,18 +176,18 @@ TEST(AxisCarried, GoesByThePulsesItIsGiven) {
 }
 
 TEST(AxisCarried, EndsAtALimitOnItsEdge) {
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     for (const std::int64_t each : {1, 7, 50, 999}) {
       AxisCourse course;
       course.here.add(Signal::limit_plus, 50, INT64_MAX);
       course.here.add(Signal::limit_minus, INT64_MIN, -50);
       course.axis.take_part();
-      for (int tick = 0; tick < 60 && course.axis.moving(); ++tick) course.carry(way * each);
-      EXPECT_EQ(course.travel(), way * 50) << each;
-      EXPECT_EQ(course.output_pulses, way * 50) << each;
-      EXPECT_EQ(course.axis.cause, way > 0 ? Cause::limit_plus : Cause::limit_minus);
+      for (int tick = 0; tick < 60 && course.axis.moving(); ++tick) course.carry(direction * each);
+      EXPECT_EQ(course.travel(), direction * 50) << each;
+      EXPECT_EQ(course.output_pulses, direction * 50) << each;
+      EXPECT_EQ(course.axis.cause, direction > 0 ? Cause::limit_plus : Cause::limit_minus);
       EXPECT_EQ(course.endings, 1);
-      EXPECT_EQ(course.carry(way * each), 0);
+      EXPECT_EQ(course.carry(direction * each), 0);
     }
   }
 }

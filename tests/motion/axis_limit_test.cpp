@@ -19,7 +19,7 @@ AxisCourse track(std::int64_t low, std::int64_t high) {
 }
 
 struct WayCase {
-  int way;
+  int direction;
   Cause hard;
   Cause soft;
 };
@@ -217,18 +217,18 @@ constexpr std::array<TroubleCase, 2> kTroubles{{
 
 TEST(AxisLimit, AlarmAndEmergencyStopBothWaysAndRefuseWhileOn) {
   for (const TroubleCase& trouble : kTroubles) {
-    for (const int way : {+1, -1}) {
+    for (const int direction : {+1, -1}) {
       AxisCourse course;
-      course.axis.run(way, constant(10'000), 0);
+      course.axis.run(direction, constant(10'000), 0);
       course.steps(101);
       course.here.set_steady(trouble.signal, true);
       EXPECT_EQ(course.steps(10), 0);
       EXPECT_EQ(course.axis.cause, trouble.cause);
-      EXPECT_EQ(course.axis.move(way, constant(1'000), course.now), trouble.cause);
-      EXPECT_EQ(course.axis.move(-way, constant(1'000), course.now), trouble.cause);
+      EXPECT_EQ(course.axis.move(direction, constant(1'000), course.now), trouble.cause);
+      EXPECT_EQ(course.axis.move(-direction, constant(1'000), course.now), trouble.cause);
       course.here.set_steady(trouble.signal, false);
       course.step();
-      EXPECT_EQ(course.axis.move(way, constant(1'000), course.now), Cause::none);
+      EXPECT_EQ(course.axis.move(direction, constant(1'000), course.now), Cause::none);
     }
   }
 }
@@ -288,18 +288,18 @@ TEST(AxisLimit, AnAxisBetweenTwoSwitchesStopsOnEitherAtAnySpeed) {
     const std::int64_t high = random.of_any_size(1, 100'000);
     AxisCourse course = track(low, high);
     course.here.index_period = random.of_any_size(50, 5'000);
-    int way = random.between(0, 1) == 0 ? +1 : -1;
+    int direction = random.between(0, 1) == 0 ? +1 : -1;
     std::string input = "seed " + std::to_string(seed()) + ": track(" + std::to_string(low) + ", " +
                         std::to_string(high) + ")";
-    for (int runs = 0; runs < 4; ++runs, way = -way) {
+    for (int runs = 0; runs < 4; ++runs, direction = -direction) {
       const auto pps = static_cast<double>(random.of_any_size(1'000, 4'000'000));
       const auto slope = static_cast<double>(random.of_any_size(10'000, 100'000'000));
-      input += " run(" + std::to_string(way) + ", trapezoid(" + std::to_string(pps) + ", " +
+      input += " run(" + std::to_string(direction) + ", trapezoid(" + std::to_string(pps) + ", " +
                std::to_string(slope) + "), now)";
-      ASSERT_EQ(course.axis.run(way, trapezoid(pps, slope), course.now), Cause::none) << input;
+      ASSERT_EQ(course.axis.run(direction, trapezoid(pps, slope), course.now), Cause::none) << input;
       ASSERT_GE(course.until_rest(), 0) << input;
-      ASSERT_EQ(course.travel(), way > 0 ? high : low) << input;
-      ASSERT_EQ(course.axis.cause, way > 0 ? Cause::limit_plus : Cause::limit_minus) << input;
+      ASSERT_EQ(course.travel(), direction > 0 ? high : low) << input;
+      ASSERT_EQ(course.axis.cause, direction > 0 ? Cause::limit_plus : Cause::limit_minus) << input;
     }
   }
 }
@@ -316,15 +316,15 @@ TEST(AxisLimit, SlowingDownWithinATickStartsFromTheSpeedAtTheEdge) {
     if (braking > 1e6) continue;  // takes long
     const SpeedLaw law{
         .top_speed_u_s = top_pps, .up = RampLaw::by_slope(up), .down = RampLaw::by_slope(down)};
-    const int way = random.between(0, 1) == 0 ? +1 : -1;
-    const std::string input = "seed " + std::to_string(seed()) + ": edge " + std::to_string(way * edge) +
-                              ", top " + std::to_string(top_pps) + ", up " + std::to_string(up) + ", down " +
-                              std::to_string(down);
+    const int direction = random.between(0, 1) == 0 ? +1 : -1;
+    const std::string input = "seed " + std::to_string(seed()) + ": edge " +
+                              std::to_string(direction * edge) + ", top " + std::to_string(top_pps) +
+                              ", up " + std::to_string(up) + ", down " + std::to_string(down);
     AxisCourse course = track(-edge, edge);
     course.axis.set({.at_limit_plus = Reaction::slow_down, .at_limit_minus = Reaction::slow_down});
-    course.axis.run(way, law, 0);
-    while (course.axis.moving()) ASSERT_GE(way * course.step(), 0) << input << " tick " << course.now;
-    const double beyond = static_cast<double>(way * course.travel() - edge);
+    course.axis.run(direction, law, 0);
+    while (course.axis.moving()) ASSERT_GE(direction * course.step(), 0) << input << " tick " << course.now;
+    const double beyond = static_cast<double>(direction * course.travel() - edge);
     ASSERT_NEAR(beyond, std::floor(braking), 1) << input;
     ASSERT_EQ(course.output_pulses, course.travel()) << input;
     ASSERT_EQ(course.endings, 1) << input;

@@ -78,12 +78,12 @@ TEST(AxisMotion, ANewMoveBeginsFromWhereTheAxisIs) {
 }
 
 TEST(AxisMotion, AnEndlessRunGoesOnAtItsSpeed) {
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     AxisCourse course;
-    EXPECT_EQ(course.axis.run(way, trapezoid(50'000, 100'000), 0), Cause::none);
+    EXPECT_EQ(course.axis.run(direction, trapezoid(50'000, 100'000), 0), Cause::none);
     course.steps(501);
-    EXPECT_EQ(course.travel(), way * 12'500);
-    EXPECT_EQ(course.steps(10'000), way * 500'000);
+    EXPECT_EQ(course.travel(), direction * 12'500);
+    EXPECT_EQ(course.steps(10'000), direction * 500'000);
     EXPECT_TRUE(course.axis.moving());
     EXPECT_EQ(course.axis.remaining_pulses(), 0);
   }

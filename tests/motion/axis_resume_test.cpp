@@ -79,7 +79,7 @@ TEST(AxisResume, OnlyAStopByCommandThatIsUnderWayCanBeTakenBack) {
   EXPECT_FALSE(back.axis.resume(law, back.tick));
   Running homes;
   HomingProgram program{.speeds = {law}};
-  program.add({.way = -1});
+  program.add({.direction = -1});
   homes.axis.home(program, 0);
   homes.steps(500);
   homes.axis.slow_down(homes.tick);

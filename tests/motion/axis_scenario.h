@@ -36,8 +36,8 @@ class AxisScenario {
   /// What happens before the next tick, mostly nothing. It may refuse, by throwing or by its cause.
   std::function<void(AxisCourse&)> next() {
     const SpeedLaw law = speed_law();
-    const int way = between(0, 1) == 0 ? +1 : -1;
-    const std::int64_t distance = way * random_.of_any_size(1, 50'000);
+    const int direction = between(0, 1) == 0 ? +1 : -1;
+    const std::int64_t distance = direction * random_.of_any_size(1, 50'000);
     const auto signal = static_cast<Signal>(between(0, kSignals - 1));
     const bool on = between(0, 3) == 0;
     const auto number = static_cast<std::size_t>(between(0, 3));
@@ -52,7 +52,7 @@ class AxisScenario {
       case 1:
       case 2: return [=](AxisCourse& c) { c.axis.move(distance, law, c.now); };
       case 3:
-      case 4: return [=](AxisCourse& c) { c.axis.run(way, law, c.now); };
+      case 4: return [=](AxisCourse& c) { c.axis.run(direction, law, c.now); };
       case 5:
       case 6: return [=](AxisCourse& c) { c.axis.change_speed(law, c.now); };
       case 7:

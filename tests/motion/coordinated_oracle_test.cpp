@@ -39,7 +39,7 @@ Point as_point(const Travels& t) {
                   static_cast<double>(t[3]));
 }
 
-Travels random_way(RandomMoves& random, int axes, std::int64_t size) {
+Travels random_direction(RandomMoves& random, int axes, std::int64_t size) {
   Travels way{};
   for (int i = 0; i < axes; ++i) {
     const std::int64_t kind = random.between(0, 5);
@@ -60,7 +60,7 @@ TEST(CoordinatedOracle, AtOnePulseATickALongestAxisLineMatchesBresenham) {
   SpeedLaw one_a_tick = by_slope(1000, 1000);
   one_a_tick.start_speed_u_s = 1000;
   for (int i = 0; i < random_cases(600); ++i) {
-    const Travels way = random_way(random, 2 + i % 3, random.of_any_size(1, 700));
+    const Travels way = random_direction(random, 2 + i % 3, random.of_any_size(1, 700));
     Bench bench(one_a_tick);
     bench.add(line(place_of(0, 0), as_point(way), Measure::longest_axis));
     bench.begin();
@@ -82,7 +82,7 @@ TEST(CoordinatedOracle, AtOnePulseATickALongestAxisLineMatchesBresenham) {
 TEST(CoordinatedOracle, AtAnySpeedEveryPlaceIsWithinHalfAPulseOfTheLine) {
   RandomMoves random(seed() + 1);
   for (int i = 0; i < random_cases(600); ++i) {
-    const Travels way = random_way(random, 2 + i % 3, random.of_any_size(1, 3000));
+    const Travels way = random_direction(random, 2 + i % 3, random.of_any_size(1, 3000));
     const auto measure = random.between(0, 1) == 0 ? Measure::vector : Measure::longest_axis;
     Bench bench(by_slope(static_cast<double>(random.of_any_size(500, 50'000)),
                          static_cast<double>(random.of_any_size(100'000, 10'000'000))));

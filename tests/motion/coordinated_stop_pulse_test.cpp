@@ -70,8 +70,8 @@ TEST(CoordinatedStopPulse, TheOthersStandWhereThePathWas) {
       if (speed < 1000 && std::abs(course.limit) > 1000) continue;  // minutes of ticks
       Bench bench(by_slope(speed, 1e12));
       course.lay(bench);
-      const int way = course.limit < 0 ? -1 : +1;
-      if (way > 0) {
+      const int direction = course.limit < 0 ? -1 : +1;
+      if (direction > 0) {
         bench.here[0].add(Signal::limit_plus, course.limit, 1'000'000);
       } else {
         bench.here[0].add(Signal::limit_minus, -1'000'000, course.limit);
@@ -80,7 +80,7 @@ TEST(CoordinatedStopPulse, TheOthersStandWhereThePathWas) {
       ASSERT_GT(bench.to_the_end(), 0);
       EXPECT_EQ(bench.axes[0].travel_pulses, course.limit);
       // The pulse comes where the path is half a pulse before it.
-      const Point expected = course.others(static_cast<double>(course.limit) - 0.5 * way);
+      const Point expected = course.others(static_cast<double>(course.limit) - 0.5 * direction);
       for (std::size_t i = 1; i < 3; ++i) {
         const auto number = static_cast<Eigen::Index>(i);
         EXPECT_NEAR(static_cast<double>(bench.axes[i].travel_pulses), expected[number], 0.5 + 1e-6) << i;

@@ -13,7 +13,7 @@ using What = DriveOrder::What;
 constexpr DriveOrder kNothing{};
 constexpr DriveOrder kSlowDown{.what = What::slow_down};
 constexpr DriveOrder moves(std::int64_t pulses) { return {.what = What::move, .pulses = pulses}; }
-constexpr DriveOrder runs(std::int8_t way) { return {.what = What::run, .way = way}; }
+constexpr DriveOrder runs(std::int8_t direction) { return {.what = What::run, .direction = direction}; }
 
 /// The inputs in one tick, and what follows.
 struct InputCase {
@@ -28,7 +28,7 @@ void expect_orders(ExternalDrive drive, const std::vector<InputCase>& ticks) {
     const InputCase& now = ticks[i];
     const DriveOrder order = watch_inputs(drive, now.plus_high, now.minus_high, now.axis_moving);
     EXPECT_EQ(order, now.order) << "tick " << i << ": " << static_cast<int>(order.what) << " " << order.pulses
-                                << " " << int{order.way};
+                                << " " << int{order.direction};
   }
 }
 

@@ -25,7 +25,7 @@ inline constexpr std::int64_t kRunsOn = INT64_MIN;
 /// What ran for a while: a row of the homing table, in a direction, until it came to stand.
 struct Leg {
   int row = 0;
-  int way = +1;
+  int direction = +1;
   std::int64_t stood_at = 0;
 
   bool operator==(const Leg&) const = default;
@@ -33,13 +33,13 @@ struct Leg {
 using Trace = std::vector<Leg>;
 
 inline std::ostream& operator<<(std::ostream& out, const Leg& leg) {
-  out << "row " << leg.row << (leg.way > 0 ? " +" : " -");
+  out << "row " << leg.row << (leg.direction > 0 ? " +" : " -");
   return leg.stood_at == kRunsOn ? out << " runs on" : out << " to " << leg.stood_at;
 }
 
 inline Trace mirrored(Trace trace) {
   for (Leg& leg : trace) {
-    leg.way = -leg.way;
+    leg.direction = -leg.direction;
     if (leg.stood_at != kRunsOn) leg.stood_at = -leg.stood_at;
   }
   return trace;
@@ -100,8 +100,9 @@ struct HomingBench {
     const Running is = active ? leg_now() : Running{};
     if (runs_.row >= 0 && is != runs_) {
       const std::int64_t stood_at = active ? axis.base_pulses : axis.travel_pulses;
-      const bool ran_on = active && is.began_at == runs_.began_at && is.way == runs_.way;
-      trace.push_back({.row = runs_.row, .way = runs_.way, .stood_at = ran_on ? kRunsOn : stood_at});
+      const bool ran_on = active && is.began_at == runs_.began_at && is.direction == runs_.direction;
+      trace.push_back(
+          {.row = runs_.row, .direction = runs_.direction, .stood_at = ran_on ? kRunsOn : stood_at});
     }
     runs_ = is;
   }
@@ -123,13 +124,14 @@ struct HomingBench {
   /// A leg begins where its drive's coordinate is 0.
   struct Running {
     int row = -1;
-    int way = 0;
+    int direction = 0;
     std::int64_t began_at = 0;
     bool operator==(const Running&) const = default;
   };
   Running leg_now() const {
-    return {
-        .row = axis.homing.phase, .way = axis.drive.direction < 0 ? -1 : +1, .began_at = axis.base_pulses};
+    return {.row = axis.homing.phase,
+            .direction = axis.drive.direction < 0 ? -1 : +1,
+            .began_at = axis.base_pulses};
   }
   Running runs_;
 };

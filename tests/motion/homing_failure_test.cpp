@@ -25,8 +25,8 @@ std::vector<Journey> journeys() {
       {"RS-M8194H",
        rsm8194h_homing({.ways = {+1, +1, -1, +1}, .drive = drive, .home = home, .offset_pulses = 3500}),
        30'000});
-  all.push_back({"Simple2-R3", simple2_homing({.way = +1, .speed = drive}), 70'000});
-  all.push_back({"SLIM", slim_homing({.way = +1, .jog = drive}), 0});
+  all.push_back({"Simple2-R3", simple2_homing({.direction = +1, .speed = drive}), 70'000});
+  all.push_back({"SLIM", slim_homing({.direction = +1, .jog = drive}), 0});
   return all;
 }
 
@@ -131,14 +131,15 @@ TEST(HomingFailure, ASoftLimitEndsItOnePulseBeyondInEveryRow) {
       const std::int64_t gone = free.axis.travel_pulses - bench.axis.travel_pulses;
       if (std::abs(gone) < 2 || free.axis.homing.phase != bench.axis.homing.phase) continue;
       const int row = bench.axis.homing.phase;
-      const int way = gone > 0 ? +1 : -1;
-      const std::int64_t last = bench.axis.travel_pulses + way;
+      const int direction = gone > 0 ? +1 : -1;
+      const std::int64_t last = bench.axis.travel_pulses + direction;
       AxisSettings settings;
-      (way > 0 ? settings.soft_limit_plus : settings.soft_limit_minus) = last;
+      (direction > 0 ? settings.soft_limit_plus : settings.soft_limit_minus) = last;
       bench.axis.set(settings);
       bench.step();
-      EXPECT_EQ(bench.axis.travel_pulses, last + way);
-      expect_ended(bench, {.by = way > 0 ? Cause::soft_limit_plus : Cause::soft_limit_minus, .in_row = row});
+      EXPECT_EQ(bench.axis.travel_pulses, last + direction);
+      expect_ended(bench,
+                   {.by = direction > 0 ? Cause::soft_limit_plus : Cause::soft_limit_minus, .in_row = row});
     }
   }
 }
@@ -339,7 +340,7 @@ TEST(HomingFailure, TablesThatCannotBeRunAreRefused) {
       {"if_already", {.if_already = 2}},
       {"count", {.count = 0, .if_already = HomingPhase::kAwait}},
       {"counted at once", {.count = 2}},
-      {"way", {.way = 0}},
+      {"way", {.direction = 0}},
       {"speed", {.speed = 2}},
       {"no such law", {.speed = 1}},
       {"nothing again and again", {.does = HomingPhase::Does::go, .again_while = bit(Signal::home)}},

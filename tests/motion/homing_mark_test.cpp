@@ -71,8 +71,8 @@ TEST(HomingMark, RunsThroughItsTargetAndStopsOnTheMark) {
   EXPECT_TRUE(bench.axis.homing.reference_known);
   EXPECT_EQ(bench.axis.homing.reference_pulses, 5'300);
   EXPECT_NEAR(static_cast<double>(bench.now - passed), 300 / kCreepPps * 1000, 1.5);
-  EXPECT_EQ(bench.trace,
-            (Trace{{.row = 0, .way = 1, .stood_at = kRunsOn}, {.row = 1, .way = 1, .stood_at = 5'300}}));
+  EXPECT_EQ(bench.trace, (Trace{{.row = 0, .direction = 1, .stood_at = kRunsOn},
+                                {.row = 1, .direction = 1, .stood_at = 5'300}}));
 }
 
 TEST(HomingMark, WithoutAMarkItEndsExactlyAtTheEndOfItsSearch) {
@@ -134,23 +134,23 @@ TEST(HomingMark, AgainstTheTravelItStopsAndTurns) {
   ASSERT_TRUE(bench.run());
   expect_ended(bench, {});
   EXPECT_EQ(bench.axis.travel_pulses, 4'800);
-  EXPECT_EQ(bench.trace,
-            (Trace{{.row = 0, .way = 1, .stood_at = 5'000}, {.row = 1, .way = -1, .stood_at = 4'800}}));
+  EXPECT_EQ(bench.trace, (Trace{{.row = 0, .direction = 1, .stood_at = 5'000},
+                                {.row = 1, .direction = -1, .stood_at = 4'800}}));
 }
 
 TEST(HomingMark, FromEveryPlaceEndsOnTheSamePulse) {
   // The same by single pulses: the first one from the target on at which the mark is on, or the end.
   RandomMoves random(seed() + 2);
   for (int i = 0; i < random_cases(400); ++i) {
-    const int way = random.between(0, 1) == 0 ? -1 : +1;
+    const int direction = random.between(0, 1) == 0 ? -1 : +1;
     const std::int64_t start = random.between(-3'000, 3'000);
-    const std::int64_t distance = way * random.of_any_size(1, 20'000);
+    const std::int64_t distance = direction * random.of_any_size(1, 20'000);
     const std::int64_t search = random.of_any_size(1, 800);
-    const std::int64_t from = start + distance + random.between(-300, 900) * way;
-    const std::int64_t other = from + way * random.between(0, 200);
-    const Signal eye = way < 0 ? Signal::limit_minus : Signal::limit_plus;
+    const std::int64_t from = start + distance + random.between(-300, 900) * direction;
+    const std::int64_t other = from + direction * random.between(0, 200);
+    const Signal eye = direction < 0 ? Signal::limit_minus : Signal::limit_plus;
     HomingBench bench(eye_at(std::min(from, other), std::max(from, other), eye), start);
-    Super40ncMark how = mark(distance, way * search);
+    Super40ncMark how = mark(distance, direction * search);
     how.fast.top_speed_u_s = static_cast<double>(random.of_any_size(100, 400'000));
     how.creep.top_speed_u_s = static_cast<double>(random.of_any_size(100, 30'000));
     how.creep.start_speed_u_s = how.fast.start_speed_u_s = static_cast<double>(random.of_any_size(1, 5'000));
@@ -159,8 +159,8 @@ TEST(HomingMark, FromEveryPlaceEndsOnTheSamePulse) {
     bench.home(super40nc_mark(how));
     ASSERT_TRUE(bench.run(4'000'000));
     std::int64_t wanted = start + distance;
-    while (wanted != start + distance + way * search && (bench.here.at(wanted) & bit(eye)) == 0)
-      wanted += way;
+    while (wanted != start + distance + direction * search && (bench.here.at(wanted) & bit(eye)) == 0)
+      wanted += direction;
     ASSERT_EQ(bench.axis.travel_pulses, wanted) << "seed " << seed() << " case " << i;
   }
 }

@@ -21,7 +21,7 @@ Rsm8194hHoming steps(std::array<int, 4> ways, std::int64_t offset = 0) {
 }
 
 Rsm8194hHoming mirrored(Rsm8194hHoming how) {
-  for (int& way : how.ways) way = -way;
+  for (int& direction : how.ways) direction = -direction;
   return how;
 }
 

@@ -36,7 +36,7 @@ void expect(const Case& wanted, const Surroundings& here) {
   for (const bool turned : {false, true}) {
     SCOPED_TRACE(std::string(wanted.name) + (turned ? ", mirrored" : ""));
     HomingBench bench(turned ? mirrored(here) : here, turned ? -wanted.start : wanted.start);
-    ASSERT_EQ(bench.home(simple2_homing({.way = turned ? -1 : +1, .speed = by_times()})), Cause::none);
+    ASSERT_EQ(bench.home(simple2_homing({.direction = turned ? -1 : +1, .speed = by_times()})), Cause::none);
     ASSERT_TRUE(bench.run());
     EXPECT_EQ(bench.trace, turned ? mirrored(wanted.trace) : wanted.trace);
     expect_ended(bench, {.by = turned ? mirrored(wanted.ending.by) : wanted.ending.by,
@@ -86,7 +86,7 @@ TEST(HomingSimple2, ASwitchThatReachesBackToTheLimitCannotBeLeft) {
 
 TEST(HomingSimple2, ReturnsToTheEdgeAsItWasWhenNoted) {
   HomingBench bench(machine(), 0);
-  ASSERT_EQ(bench.home(simple2_homing({.way = +1, .speed = by_times()})), Cause::none);
+  ASSERT_EQ(bench.home(simple2_homing({.direction = +1, .speed = by_times()})), Cause::none);
   while (!bench.axis.homing.met) bench.step();
   bench.here.zones[1].from = 50'150;
   ++bench.here.version;
@@ -98,7 +98,7 @@ TEST(HomingSimple2, AtSpeed0ItHangsUntilStopped) {
   SpeedLaw still = by_times();
   still.top_speed_u_s = 0;
   HomingBench bench(machine(), 0);
-  ASSERT_EQ(bench.home(simple2_homing({.way = +1, .speed = still})), Cause::none);
+  ASSERT_EQ(bench.home(simple2_homing({.direction = +1, .speed = still})), Cause::none);
   EXPECT_FALSE(bench.run(5000));
   EXPECT_TRUE(bench.axis.moving());
   EXPECT_EQ(bench.pulses_out, 0);
@@ -110,7 +110,7 @@ TEST(HomingSimple2, AtSpeed0ItHangsUntilStopped) {
 TEST(HomingSimple2, TakesTheTimeOfItsLegs) {
   HomingBench bench(machine(), 0);
   const Tick begun = bench.now + 1;
-  ASSERT_EQ(bench.home(simple2_homing({.way = +1, .speed = by_times()})), Cause::none);
+  ASSERT_EQ(bench.home(simple2_homing({.direction = +1, .speed = by_times()})), Cause::none);
   ASSERT_TRUE(bench.run());
   // 49500 at full speed after 500 speeding up; back over 500 in two ramps, at 5000 pps.
   EXPECT_NEAR(static_cast<double>(bench.now - begun), 100 + 4950 + 100 + 200, 3.0);
@@ -122,7 +122,7 @@ constexpr double kJogSlope = 50'000;
 TEST(HomingSlim, RunsUntilHorgAndSlowsDownThere) {
   struct Row {
     const char* name;
-    int way;
+    int direction;
     std::int64_t start;
     Trace trace;
     std::int64_t reference;
@@ -142,8 +142,9 @@ TEST(HomingSlim, RunsUntilHorgAndSlowsDownThere) {
     for (const bool turned : {false, true}) {
       SCOPED_TRACE(std::string(row.name) + (turned ? ", mirrored" : ""));
       HomingBench bench(turned ? mirrored(here) : here, turned ? -row.start : row.start);
-      const int way = turned ? -row.way : row.way;
-      ASSERT_EQ(bench.home(slim_homing({.way = way, .jog = slope_law(kJogPps, kJogSlope)})), Cause::none);
+      const int direction = turned ? -row.direction : row.direction;
+      ASSERT_EQ(bench.home(slim_homing({.direction = direction, .jog = slope_law(kJogPps, kJogSlope)})),
+                Cause::none);
       bench.step();
       ASSERT_TRUE(bench.run());
       EXPECT_EQ(bench.trace, turned ? mirrored(row.trace) : row.trace);
@@ -155,7 +156,7 @@ TEST(HomingSlim, RunsUntilHorgAndSlowsDownThere) {
 
 TEST(HomingSlim, WithoutHorgItRunsUntilStopped) {
   HomingBench bench(Surroundings{}, 0);
-  ASSERT_EQ(bench.home(slim_homing({.way = -1, .jog = slope_law(kJogPps, kJogSlope)})), Cause::none);
+  ASSERT_EQ(bench.home(slim_homing({.direction = -1, .jog = slope_law(kJogPps, kJogSlope)})), Cause::none);
   EXPECT_FALSE(bench.run(10'000));
   bench.axis.slow_down(bench.now);
   EXPECT_TRUE(bench.run(11'000));

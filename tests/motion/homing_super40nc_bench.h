@@ -38,7 +38,7 @@ inline void move_zone(Surroundings& here, std::size_t number, std::int64_t from,
 }
 
 inline Super40ncHoming mirrored(Super40ncHoming how) {
-  how.way = -how.way;
+  how.direction = -how.direction;
   how.offset_pulses = -how.offset_pulses;
   return how;
 }

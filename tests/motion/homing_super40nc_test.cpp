@@ -133,7 +133,7 @@ TEST(HomingSuper40nc, TheFirstExampleEnds200000BehindTheThirdIndex) {
 
 TEST(HomingSuper40nc, TheManualsSecondExampleEndsOnTheEdge) {
   Super40ncHoming how = super40nc_factory(1);
-  how.way = -1;
+  how.direction = -1;
   Surroundings here;
   here.add(Signal::home, -10'000, -5000);
   HomingBench bench(here, 0);

@@ -151,7 +151,7 @@ TEST(HomingValue, ALawThatNoDoubleHoldsIsRefusedAndChangesNothing) {
   ASSERT_EQ(bench.home(super40nc_homing(thorough(0))), Cause::none);
   bench.run_ticks(100);
   const Axis before = bench.axis;
-  const HomingProgram program = slim_homing({.way = -1, .jog = slope_law(kFastPps, 1e-310)});
+  const HomingProgram program = slim_homing({.direction = -1, .jog = slope_law(kFastPps, 1e-310)});
   EXPECT_THROW(bench.axis.home(program, bench.now), BadMotion);
   EXPECT_EQ(bench.axis, before);
 }
@@ -215,11 +215,11 @@ HomingProgram random_program(std::mt19937_64& random) {
   };
   const SpeedLaw fast = slope_law(between(1000, 200'000), between(1000, 1'000'000), between(0, 500));
   const SpeedLaw slow = slope_law(between(100, 3000), between(1000, 1'000'000), between(0, 500));
-  const int way = between(0, 1) == 0 ? -1 : +1;
+  const int direction = between(0, 1) == 0 ? -1 : +1;
   switch (between(0, 3)) {
     case 0:
       return super40nc_homing({.mode = between(0, 12),
-                               .way = way,
+                               .direction = direction,
                                .fast = fast,
                                .creep = slow,
                                .index_count = between(1, 4),
@@ -231,8 +231,8 @@ HomingProgram random_program(std::mt19937_64& random) {
                               .home = slow,
                               .offset_pulses = between(0, 300),
                               .limit_is_home = between(0, 3) == 0});
-    case 2: return simple2_homing({.way = way, .speed = fast});
-    default: return slim_homing({.way = way, .jog = slow});
+    case 2: return simple2_homing({.direction = direction, .speed = fast});
+    default: return slim_homing({.direction = direction, .jog = slow});
   }
 }
 

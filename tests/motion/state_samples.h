@@ -55,7 +55,8 @@ inline Output go_on(Coordinated& group, Tick tick) {
 
 inline Output go_on(ExternalDrive& drive, Tick tick) {
   const DriveOrder order = watch_inputs(drive, tick % 3 == 0, tick % 5 < 2, tick % 7 < 3);
-  return {static_cast<double>(order.what), static_cast<double>(order.pulses), static_cast<double>(order.way)};
+  return {static_cast<double>(order.what), static_cast<double>(order.pulses),
+          static_cast<double>(order.direction)};
 }
 
 inline Output go_on(Follower& follower, Tick tick) {

@@ -259,13 +259,13 @@ TEST(Surroundings, SlackKeepsASignalOnUntilItIsFarEnough) {
     Signals seen = here.at(0);
     const auto go = [&](std::int64_t to, std::int64_t from) {
       for (std::int64_t at = from; at != to; at += to > from ? 1 : -1) {
-        const int way = to > from ? +1 : -1;
-        const std::int64_t next = at + way;
+        const int direction = to > from ? +1 : -1;
+        const std::int64_t next = at + direction;
         is_on = is_on ? next >= 7 && next <= 22 : next >= 10 && next <= 19;
         const Signals now = here.at(next, seen);
-        EXPECT_EQ(now == bit(Signal::home), is_on != outside) << next << " going " << way;
+        EXPECT_EQ(now == bit(Signal::home), is_on != outside) << next << " going " << direction;
         if (now != seen) {
-          EXPECT_EQ(here.steps_until_change(at, way), 1) << at << " going " << way;
+          EXPECT_EQ(here.steps_until_change(at, direction), 1) << at << " going " << direction;
         }
         seen = now;
       }

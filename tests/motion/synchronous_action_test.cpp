@@ -71,8 +71,8 @@ struct FactorCase {
 };
 
 TEST(SyncFactor, EachEventActivatesInTheTickItHappensAndNoneBut) {
-  const auto moving = [](SyncBench& bench, int way) {
-    bench.axes[0].run(way, at_speed(1000), bench.tick);
+  const auto moving = [](SyncBench& bench, int direction) {
+    bench.axes[0].run(direction, at_speed(1000), bench.tick);
     bench.step();  // at its beginning
     bench.steps(4);
   };

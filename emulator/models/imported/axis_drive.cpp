@@ -111,7 +111,7 @@ void go_home(AxisState& axis, const AxisBinding& binding, const AxisNumbers& num
   const double top = std::abs(numbers.pps(Number::home_speed).value_or(numbers.speed_pps()));
   if (top == 0) return;
   motion::Simple2Homing how;
-  how.way = binding.home_way;
+  how.direction = binding.home_direction;
   how.speed = numbers.law(top);
   if (axis.motor.home(motion::simple2_homing(how), now) != motion::Cause::none) return;
   axis.arrived = false;
@@ -124,7 +124,7 @@ void obey(AxisState& axis, const AxisBinding& binding, Command command, const Ax
           Tick now) {
   const Answer answer = answer_to(command, doing_of(axis), binding.while_busy);
   const bool is_stop = command == Command::stop || command == Command::stop_at_once;
-  if (is_stop) axis.way_is_spent = true;
+  if (is_stop) axis.direction_is_spent = true;
   switch (answer) {
     case nothing: return;
     case slow_down: axis.motor.slow_down(now); return;
@@ -132,7 +132,7 @@ void obey(AxisState& axis, const AxisBinding& binding, Command command, const Ax
     case begin:
     case join: break;
   }
-  axis.way_is_spent = true;  // what was held is over; it counts again when it is told anew
+  axis.direction_is_spent = true;  // what was held is over; it counts again when it is told anew
   if (command == Command::home) return go_home(axis, binding, numbers, now);
   std::int64_t distance = 0;
   if (command == Command::start) {
@@ -144,12 +144,12 @@ void obey(AxisState& axis, const AxisBinding& binding, Command command, const Ax
   go(axis, distance, answer == join, numbers, now);
 }
 
-void steer(AxisState& axis, int way, const AxisNumbers& numbers, Tick now) {
-  if (way != axis.wanted_way) axis.way_is_spent = false;
-  axis.wanted_way = static_cast<std::int8_t>(way);
+void steer(AxisState& axis, int direction, const AxisNumbers& numbers, Tick now) {
+  if (direction != axis.wanted_direction) axis.direction_is_spent = false;
+  axis.wanted_direction = static_cast<std::int8_t>(direction);
   const double speed = numbers.speed_pps();
   const double top = std::abs(speed);
-  int wanted = axis.way_is_spent || top == 0 ? 0 : way;
+  int wanted = axis.direction_is_spent || top == 0 ? 0 : direction;
   if (speed < 0) wanted = -wanted;
   const Doing doing = doing_of(axis);
   if (doing == Doing::rests) {
@@ -157,7 +157,7 @@ void steer(AxisState& axis, int way, const AxisNumbers& numbers, Tick now) {
     axis.arrived = false;
     axis.run_pps = top;
     // Against a limit, or without enable: it would be refused in every tick.
-    axis.way_is_spent = axis.motor.run(wanted, numbers.law(top), now) != motion::Cause::none;
+    axis.direction_is_spent = axis.motor.run(wanted, numbers.law(top), now) != motion::Cause::none;
     return;
   }
   if (axis.motor.task != motion::Task::endless || doing == Doing::homes) return;
@@ -174,7 +174,7 @@ void enable(AxisState& axis, const AxisBinding& binding, bool on) {
   const bool is_on = on || !binding.command(Command::enable);
   if (axis.motor.servo_on == is_on) return;
   axis.motor.switch_servo(is_on);
-  if (is_on) axis.way_is_spent = false;  // what hosts hold counts from now on
+  if (is_on) axis.direction_is_spent = false;  // what hosts hold counts from now on
 }
 
 bool note_events(AxisState& axis, const AxisBinding& binding) {
@@ -189,7 +189,7 @@ bool note_events(AxisState& axis, const AxisBinding& binding) {
     const motion::Cause cause = axis.motor.cause;
     if (cause == motion::Cause::arrived) axis.arrived = true;
     // Whoever holds it is to tell it anew, but for one that was to turn round.
-    if (cause != motion::Cause::arrived && cause != motion::Cause::stopped) axis.way_is_spent = true;
+    if (cause != motion::Cause::arrived && cause != motion::Cause::stopped) axis.direction_is_spent = true;
   }
   return has_ended || (events & motion::bit(motion::Event::homed)) != 0;
 }

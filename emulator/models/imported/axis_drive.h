@@ -23,10 +23,10 @@ struct AxisState {
   motion::Counter counter{};     // the position, in pulses
   std::int64_t sent_pulses = 0;  // pulses of the last tick, in the motor's direction
   std::int64_t encoder_counts = 0;
-  double run_pps = 0;          // speed at which it runs forward or backward
-  std::int8_t wanted_way = 0;  // direction that hosts request: +1 forward, -1 backward, 0 neither or both
-  bool way_is_spent = false;   // another command has come since: it runs again only on a new request
-  bool arrived = false;        // the last move has reached its target
+  double run_pps = 0;                // speed at which it runs forward or backward
+  std::int8_t wanted_direction = 0;  // that hosts request: +1 forward, -1 backward, 0 neither or both
+  bool direction_is_spent = false;   // another command has come since: it runs again only on a new request
+  bool arrived = false;              // the last move has reached its target
   bool homed = false;
 
   bool operator==(const AxisState&) const = default;
@@ -72,7 +72,7 @@ class AxisNumbers {
 /// no motion can have; then nothing has changed.
 void obey(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers, Tick now);
 /// Runs the axis in the direction that hosts request now: +1, -1 or 0. Throws as obey() does.
-void steer(AxisState& axis, int way, const AxisNumbers& numbers, Tick now);
+void steer(AxisState& axis, int direction, const AxisNumbers& numbers, Tick now);
 /// Enables or disables the axis. An axis without that command is always enabled.
 void enable(AxisState& axis, const AxisBinding& binding, bool on);
 /// Handles the events of the tick just stepped. Returns true if a motion has ended.

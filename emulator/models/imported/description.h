@@ -153,7 +153,7 @@ struct AxisBinding {
   int lower_limit_input = -1;
   int home_input = -1;
   int alarm_input = -1;
-  int home_way = -1;              // direction in which to look for the home switch
+  int home_direction = -1;        // direction in which to look for the home switch
   Value home_position = 0;        // position in counts once home is found
   int pulses_per_revolution = 0;  // 0: unknown
   WhileBusy while_busy = WhileBusy::replace;

@@ -273,8 +273,8 @@ void ImportedDevice::steer_axes(Tick done) {
     };
     if (const auto& condition = binding.command(Command::enable))
       enable(state_.axes[i], binding, holds_now(*condition));
-    const int way = holds(Command::forward) - holds(Command::backward);
-    attempt(i, [&] { steer(state_.axes[i], way, AxisNumbers(binding, counts_of_), done); });
+    const int direction = holds(Command::forward) - holds(Command::backward);
+    attempt(i, [&] { steer(state_.axes[i], direction, AxisNumbers(binding, counts_of_), done); });
   }
 }
 

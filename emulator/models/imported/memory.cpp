@@ -35,7 +35,8 @@ std::function<void()> ImportedDevice::read_own_state(StateReader& reader) {
     require_state(std::isfinite(value), "a value is not a number");
   for (const AxisState& axis : restored->axes) {
     require_state(std::isfinite(axis.run_pps) && axis.run_pps >= 0, "a speed is not one");
-    require_state(axis.wanted_way >= -1 && axis.wanted_way <= 1, "a way is neither forward nor backward");
+    require_state(axis.wanted_direction >= -1 && axis.wanted_direction <= 1,
+                  "a way is neither forward nor backward");
   }
   restored->eeprom.check_restored(state_.eeprom);
   check_restored_registers(*this, restored->image, restored->eeprom.kept());

@@ -18,8 +18,8 @@ struct StateOf<emulator::models::imported::AxisState> {
                                            field("sent_pulses", &Value::sent_pulses),
                                            field("encoder_counts", &Value::encoder_counts),
                                            field("run_pps", &Value::run_pps),
-                                           field("wanted_way", &Value::wanted_way),
-                                           field("way_is_spent", &Value::way_is_spent),
+                                           field("wanted_way", &Value::wanted_direction),
+                                           field("way_is_spent", &Value::direction_is_spent),
                                            field("arrived", &Value::arrived),
                                            field("homed", &Value::homed)};
 };

@@ -172,9 +172,9 @@ bool RsM8194h::takes_place_of_endless(std::size_t axis, const Drive& what) {
   const bool is_again = what.what == Drive::What::endless && going(axis) == Going::single &&
                         motor.task == motion::Task::endless;
   if (!is_again || !chose(option("continue_move_again", "takes_its_place"))) return false;
-  const bool is_same_way =
+  const bool is_same_direction =
       !motor.slowing && what.value != 0 && (what.value < 0) == (motor.drive.direction < 0);
-  if (is_same_way) {
+  if (is_same_direction) {
     AxisUnit& unit = state_.units[axis];
     const auto drive_pps = static_cast<std::uint32_t>(std::abs(std::int64_t{what.value}));
     if (chose(option("continue_move_speed", "yes"))) unit.speed.drive_pps = drive_pps;
@@ -262,7 +262,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
     const double spacing = static_cast<double>(scan_spacing(scan));
     if (scan.set && law.top_speed_u_s / spacing > kMaxScanTriggers_hz) return;
   }
-  const int way = distance < 0 ? -1 : +1;
+  const int direction = distance < 0 ? -1 : +1;
   motion::Cause refused = motion::Cause::none;
   if (what.what == Drive::What::home) {
     const HomingOptions options{.fails_at_limit_in_step_1 = chose(option("home_step_1_limit", "fails")),
@@ -270,7 +270,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
                                 .turns_at_soft_limits = chose(option("home_soft_limit", "turns_round"))};
     refused = motor.home(homing_of(unit, machine_.speed, options), now());
   } else if (what.what == Drive::What::endless) {
-    refused = motor.run(way, law, now());
+    refused = motor.run(direction, law, now());
   } else {
     refused = motor.move(distance, law, now());
   }

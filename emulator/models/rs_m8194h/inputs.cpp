@@ -267,11 +267,11 @@ bool RsM8194h::start_external(std::size_t axis, const motion::DriveOrder& order)
   const std::uint32_t drive_pps = unit.speed.drive_pps;  // the input's speed does not replace V
   start(axis,
         {.what = is_run ? Drive::What::endless : Drive::What::fixed,
-         .value = is_run ? order.way * speed : static_cast<std::int32_t>(order.pulses)},
+         .value = is_run ? order.direction * speed : static_cast<std::int32_t>(order.pulses)},
         chose(option("exd_speed", "v_without_ramps")));
   unit.speed.drive_pps = drive_pps;
   const bool has_begun = going(axis) == Going::single;
-  if (is_run && has_begun) unit.external.running = order.way;
+  if (is_run && has_begun) unit.external.running = order.direction;
   return has_begun;
 }
 

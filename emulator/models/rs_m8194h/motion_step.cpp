@@ -184,8 +184,8 @@ std::int64_t RsM8194h::scan_spacing(const LineScan& scan) const {
 void RsM8194h::end_scan(std::size_t axis) {
   LineScan& scan = state_.scans[axis];
   if (chose(option("scan_comparator", "the_next_trigger"))) {
-    const std::int64_t way = scan_travel(axis) < scan.begin ? -1 : +1;
-    const std::int64_t next = scan.begin + way * (scan.triggered + 1) * scan_spacing(scan);
+    const std::int64_t direction = scan_travel(axis) < scan.begin ? -1 : +1;
+    const std::int64_t next = scan.begin + direction * (scan.triggered + 1) * scan_spacing(scan);
     const AxisUnit& unit = state_.units[axis];
     const motion::Counter& counter = scan.type >= 2 ? unit.encoder : unit.logic;
     state_.units[axis].compare[0] = {.value = static_cast<std::int32_t>(counter.at(next)),

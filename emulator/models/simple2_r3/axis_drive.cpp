@@ -35,12 +35,12 @@ bool alarm_forbids(const AxisState& axis) {
 }
 
 /// Whether the limit on that side forbids motion.
-bool limit_forbids(const AxisState& axis, int way) {
+bool limit_forbids(const AxisState& axis, int direction) {
   const motion::AxisSettings& settings = axis.motor.settings;
-  if (way > 0) {
+  if (direction > 0) {
     return is_on(axis, motion::Signal::limit_plus) && settings.at_limit_plus != motion::Reaction::ignore;
   }
-  return way < 0 && is_on(axis, motion::Signal::limit_minus) &&
+  return direction < 0 && is_on(axis, motion::Signal::limit_minus) &&
          settings.at_limit_minus != motion::Reaction::ignore;
 }
 
@@ -138,18 +138,18 @@ int heading(const AxisState& axis) {
 
 Phase phase_of(const AxisState& axis, Tick now) {
   if (alarm_forbids(axis)) return Phase::in_alarm;
-  const int way = heading(axis);
+  const int direction = heading(axis);
   const bool at_any_limit = limit_forbids(axis, +1) || limit_forbids(axis, -1);
   if (axis.mode == Mode::pwm) {
     return at_any_limit ? Phase::at_limit : axis.pwm_percent != 0 ? Phase::moving : Phase::standing;
   }
-  if (way == 0) return at_any_limit ? Phase::at_limit : Phase::standing;
-  if (limit_forbids(axis, way)) return Phase::at_limit;
-  if (limit_forbids(axis, -way)) return Phase::leaving;
+  if (direction == 0) return at_any_limit ? Phase::at_limit : Phase::standing;
+  if (limit_forbids(axis, direction)) return Phase::at_limit;
+  if (limit_forbids(axis, -direction)) return Phase::leaving;
   if (axis.mode == Mode::velocity) {
     const int wanted = sign_of(axis.target_urpm);
-    if (wanted == -way) return Phase::turning;
-    return axis.target_urpm * way < axis.speed_urpm * way ? Phase::slowing : Phase::moving;
+    if (wanted == -direction) return Phase::turning;
+    return axis.target_urpm * direction < axis.speed_urpm * direction ? Phase::slowing : Phase::moving;
   }
   if (axis.mode == Mode::position && axis.motor.sample(now).acceleration_u_s2 < 0) return Phase::slowing;
   return Phase::moving;
@@ -251,10 +251,11 @@ motion::Follower follower_by(SyncSettings settings) {
 
 motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how) {
   if (how.speed.top_speed_u_s == 0) return motion::simple2_homing(how);
-  const auto way = static_cast<std::int8_t>(how.way < 0 ? -1 : +1);
+  const auto direction = static_cast<std::int8_t>(how.direction < 0 ? -1 : +1);
   motion::HomingProgram program{.speeds = {how.speed}};
-  program.add({.way = way, .marks = true, .next = 2, .if_limit = 1});  // 2 is below the last: found
-  program.add({.way = static_cast<std::int8_t>(-way), .marks = true});
+  program.add(
+      {.direction = direction, .marks = true, .next = 2, .if_limit = 1});  // 2 is below the last: found
+  program.add({.direction = static_cast<std::int8_t>(-direction), .marks = true});
   return program;
 }
 

@@ -72,8 +72,8 @@ bool Simple2R3::servo_matters(int axis) const {
          assigned(kAxisSlots[static_cast<std::size_t>(axis)].servo_output_assigned);
 }
 
-Event Simple2R3::way_event(int axis, int way, Event towards, Event away) const {
-  const motion::Cause why_not = state_.axes[static_cast<std::size_t>(axis)].motor.forbidden(way);
+Event Simple2R3::event_by_direction(int axis, int direction, Event towards, Event away) const {
+  const motion::Cause why_not = state_.axes[static_cast<std::size_t>(axis)].motor.forbidden(direction);
   const bool into = why_not == motion::Cause::limit_plus || why_not == motion::Cause::limit_minus;
   return into ? towards : away;
 }
@@ -133,7 +133,7 @@ void Simple2R3::start_move(int axis_number, Command command, const MoveParameter
   const int direction = distance_pulses < 0 ? -1 : +1;
   const Event event = distance_pulses == 0
                           ? Event::move_nowhere
-                          : way_event(axis_number, direction, Event::move_towards, Event::move_away);
+                          : event_by_direction(axis_number, direction, Event::move_towards, Event::move_away);
   const Outcome outcome = reaction(axis_number, event);
   if (!may_begin(axis_number, outcome, {.command = command, .move = move})) return;
   const double speed_pps = outcome == Outcome::changes ? speed_of_pulses(axis_number) : 0;
@@ -171,7 +171,7 @@ void Simple2R3::go_home(int axis_number, bool by_trigger) {
   axis.homed = false;
   axis.motor.signals = axis.signals.steady;
   const std::uint32_t time_10ms = state_.image[slots.home_acc_time];
-  const motion::Simple2Homing how{.way = state_.image[slots.home_direction] != 0 ? +1 : -1,
+  const motion::Simple2Homing how{.direction = state_.image[slots.home_direction] != 0 ? +1 : -1,
                                   .speed = law_of(axis_number, speed_rpm, time_10ms, time_10ms)};
   const motion::Cause refused =
       axis.motor.home(chose(option("homing_sequence", "stops_at_first_edge")) ? homing_to_first_edge(how)
@@ -207,8 +207,8 @@ void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
   const bool is_refused =
       (milli_rpm != 0 && lacks_ready(axis_number)) || is_refused_as_too_fast(axis_number, milli_rpm);
   const Event event = milli_rpm == 0 ? Event::velocity_zero
-                                     : way_event(axis_number, milli_rpm < 0 ? -1 : +1,
-                                                 Event::velocity_towards, Event::velocity_away);
+                                     : event_by_direction(axis_number, milli_rpm < 0 ? -1 : +1,
+                                                          Event::velocity_towards, Event::velocity_away);
   const Outcome outcome = is_refused ? Outcome::dropped : reaction(axis_number, event);
   switch (outcome) {
     case Outcome::begins:

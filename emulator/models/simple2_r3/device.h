@@ -296,7 +296,7 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   /// Returns the axis's reaction to an event, in its present state and under the chosen options.
   Outcome reaction(int axis_number, Event event) const;
   /// Returns `towards` if a limit that is on forbids that direction, else `away`.
-  Event way_event(int axis, int way, Event towards, Event away) const;
+  Event event_by_direction(int axis, int direction, Event towards, Event away) const;
   /// Returns true if a command begins; if not, does what happens instead.
   bool may_begin(int axis_number, Outcome outcome, const KeptCommand& what);
   void carry_out_kept(int axis);

@@ -76,8 +76,8 @@ class Chain {
 
   Error move(int module, bool absolute, double units);
   Error home(int module);
-  /// `way` is +1 for JGF, -1 for JGR, 0 for JG0.
-  Error jog(int module, int way);
+  /// `direction` is +1 for JGF, -1 for JGR, 0 for JG0.
+  Error jog(int module, int direction);
   Error thrust(int module, std::int32_t force);  // 1 .. 20000
   Error set_coordinate(int module, double units);
   /// XMA, XMR ...: moves the module that has the letter now.
@@ -256,14 +256,14 @@ class Chain {
   Error enqueue_move(int module, bool absolute, double units);
   Error enqueue_output(int module, const OutputOrder& order);
   Error enqueue_coordinated(Job job);
-  Error replace_jog(int module, int way, std::int32_t force);
-  void begin_jog(int module, int way, Tick begin_at);
+  Error replace_jog(int module, int direction, std::int32_t force);
+  void begin_jog(int module, int direction, Tick begin_at);
   void begin_thrust(int module, std::int32_t force, Tick begin_at);
   void begin_next(int module, Tick begin_at);
   void stop_jog(int module);
   void hold_jog(int module);
   void go_on_with_jog(int module);
-  void order_jog(int module, int way, std::int32_t force);
+  void order_jog(int module, int direction, std::int32_t force);
 
   // Queues: chain_queues.cpp.
   void serve(Tick begin_at);  // starts the commands that can start; they begin at that tick

@@ -144,14 +144,14 @@ Error Chain::set_coordinate(int module, double units) {
 
 // ---- Jogs and thrust
 
-Error Chain::jog(int module, int way) {
-  if (way == 0) {
+Error Chain::jog(int module, int direction) {
+  if (direction == 0) {
     if (const Error why = refusal(module); why != Error::none) return why;
     stop_jog(module);
     serve(now_ + 1);
     return Error::none;
   }
-  return replace_jog(module, way < 0 ? -1 : +1, 0);
+  return replace_jog(module, direction < 0 ? -1 : +1, 0);
 }
 
 Error Chain::thrust(int module, std::int32_t force) {
@@ -159,8 +159,8 @@ Error Chain::thrust(int module, std::int32_t force) {
   return replace_jog(module, 0, force);
 }
 
-/// A jog in `way`, or thrust if that is 0.
-Error Chain::replace_jog(int module, int way, std::int32_t force) {
+/// A jog in `direction`, or thrust if that is 0.
+Error Chain::replace_jog(int module, int direction, std::int32_t force) {
   if (const Error why = refusal_of_jog(module); why != Error::none) return why;
   const Module& mine = modules_[at(module)];
   const bool gives_up = mine.activity != Activity::jog && mine.activity != Activity::thrust;
@@ -168,49 +168,50 @@ Error Chain::replace_jog(int module, int way, std::int32_t force) {
     slow_for_discard(module);  // no matter where there is nothing to give up
     forget_queue(module);
   }
-  order_jog(module, way, force);
+  order_jog(module, direction, force);
   if (gives_up) serve(now_ + 1);  // what waited in other FIFOs for a command that is gone
   return Error::none;
 }
 
 /// Like the above, if nothing is abandoned for it: it replaces another one, or follows what stops.
-void Chain::order_jog(int module, int way, std::int32_t force) {
+void Chain::order_jog(int module, int direction, std::int32_t force) {
   Module& mine = modules_[at(module)];
   motion::Axis& axis = axes_[at(module)];
   if (mine.activity != Activity::jog && mine.activity != Activity::thrust) {
-    mine.next_jog_way = static_cast<std::int8_t>(way);
+    mine.next_jog_direction = static_cast<std::int8_t>(direction);
     mine.next_thrust = force;
     if (mine.activity == Activity::idle) begin_next(module, now_ + 1);
     return;
   }
-  if (mine.activity == Activity::thrust && way == 0 && !axis.slowing) {
+  if (mine.activity == Activity::thrust && direction == 0 && !axis.slowing) {
     mine.thrust = force;
     return;
   }
   const bool stands = mine.starved || axis.task == motion::Task::hanging;
   const motion::SpeedLaw law = mine.jog_law(options_);
-  if (mine.activity == Activity::jog && way == mine.jog_way && (stands || law.top_speed_u_s > 0)) {
-    mine.next_jog_way = 0;
+  if (mine.activity == Activity::jog && direction == mine.jog_direction &&
+      (stands || law.top_speed_u_s > 0)) {
+    mine.next_jog_direction = 0;
     mine.next_thrust = 0;
     if (stands) return;
     if (!axis.resume(law, now_)) axis.change_speed(law, now_);
     return;
   }
-  mine.next_jog_way = static_cast<std::int8_t>(way);
+  mine.next_jog_direction = static_cast<std::int8_t>(direction);
   mine.next_thrust = force;
   mine.starved = false;
   axis.slow_down(now_);
   after_motion(module, now_ + 1);
 }
 
-void Chain::begin_jog(int module, int way, Tick begin_at) {
+void Chain::begin_jog(int module, int direction, Tick begin_at) {
   Module& mine = modules_[at(module)];
   mine.activity = Activity::jog;
-  mine.jog_way = static_cast<std::int8_t>(way);
-  mine.next_jog_way = 0;
+  mine.jog_direction = static_cast<std::int8_t>(direction);
+  mine.next_jog_direction = 0;
   mine.next_thrust = mine.thrust = 0;
   mine.starved = false;
-  const int pulse_direction = mine.settings.jog_speed < 0 ? -way : way;
+  const int pulse_direction = mine.settings.jog_speed < 0 ? -direction : direction;
   if (mine.settings.jog_speed == 0) {
     axes_[at(module)].hang(pulse_direction);
   } else if (mine.jog_law(options_).top_speed_u_s == 0) {
@@ -227,7 +228,7 @@ void Chain::begin_thrust(int module, std::int32_t force, Tick begin_at) {
   if (!axes_[at(module)].moving()) axes_[at(module)].hang(+1);
   mine.starved = false;
   mine.activity = Activity::thrust;
-  mine.jog_way = mine.next_jog_way = 0;
+  mine.jog_direction = mine.next_jog_direction = 0;
   mine.next_thrust = 0;
   mine.thrust = force;
 }
@@ -237,14 +238,14 @@ void Chain::begin_next(int module, Tick begin_at) {
   const Module& mine = modules_[at(module)];
   if (mine.next_thrust != 0) {
     begin_thrust(module, mine.next_thrust, begin_at);
-  } else if (mine.next_jog_way != 0) {
-    begin_jog(module, mine.next_jog_way, begin_at);
+  } else if (mine.next_jog_direction != 0) {
+    begin_jog(module, mine.next_jog_direction, begin_at);
   }
 }
 
 void Chain::stop_jog(int module) {
   Module& mine = modules_[at(module)];
-  mine.next_jog_way = mine.held_jog_way = 0;
+  mine.next_jog_direction = mine.held_jog_direction = 0;
   mine.next_thrust = mine.held_thrust = 0;
   if (mine.activity != Activity::jog && mine.activity != Activity::thrust) return;
   mine.starved = false;
@@ -256,25 +257,25 @@ void Chain::stop_jog(int module) {
 void Chain::hold_jog(int module) {
   Module& mine = modules_[at(module)];
   const bool is_over = axes_[at(module)].slowing && !mine.starved;
-  std::int8_t way = mine.held_jog_way;
+  std::int8_t direction = mine.held_jog_direction;
   std::int32_t force = mine.held_thrust;
-  if (mine.next_jog_way != 0 || mine.next_thrust != 0) {
-    way = mine.next_jog_way;
+  if (mine.next_jog_direction != 0 || mine.next_thrust != 0) {
+    direction = mine.next_jog_direction;
     force = mine.next_thrust;
   } else if (!mine.holds_jog() && !is_over) {
-    way = mine.jog_way;
+    direction = mine.jog_direction;
     force = mine.thrust;
   }
   stop_jog(module);
-  mine.held_jog_way = way;
+  mine.held_jog_direction = direction;
   mine.held_thrust = force;
 }
 
 void Chain::go_on_with_jog(int module) {
   Module& mine = modules_[at(module)];
   if (!mine.holds_jog()) return;
-  const int way = std::exchange(mine.held_jog_way, std::int8_t{0});
-  order_jog(module, way, std::exchange(mine.held_thrust, 0));
+  const int direction = std::exchange(mine.held_jog_direction, std::int8_t{0});
+  order_jog(module, direction, std::exchange(mine.held_thrust, 0));
 }
 
 // ---- Motor control

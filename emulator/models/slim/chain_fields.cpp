@@ -120,9 +120,9 @@ void StateOf<Job>::check(const Job& job) {
 }
 
 void StateOf<Module>::check(const Module& module) {
-  require_within(module.jog_way, -1, 1);
-  require_within(module.next_jog_way, -1, 1);
-  require_within(module.held_jog_way, -1, 1);
+  require_within(module.jog_direction, -1, 1);
+  require_within(module.next_jog_direction, -1, 1);
+  require_within(module.held_jog_direction, -1, 1);
   require_within(module.analog, 0, kFullAnalog);
   require_reach(module.zero_pulses);
   require_reach(module.sent_pulses);

@@ -119,7 +119,7 @@ bool Chain::start_home(int module, Tick begin_at) {
   const bool forwards =
       options_.chose(option("homing", "at_vj_forwards_to_horg_then_0")) != (mine.settings.jog_speed < 0);
   const motion::Cause refused =
-      axis.home(motion::slim_homing({.way = forwards ? +1 : -1, .jog = law}), begin_at - 1);
+      axis.home(motion::slim_homing({.direction = forwards ? +1 : -1, .jog = law}), begin_at - 1);
   if (refused != motion::Cause::none) {
     drop_head(module, Error::not_allowed);
     return true;

@@ -185,7 +185,7 @@ Activity Chain::activity_or_held(int module) const {
   const Module& mine = modules_[at(module)];
   if (mine.activity != Activity::idle) return mine.activity;
   if (mine.held_thrust != 0) return Activity::thrust;
-  if (mine.held_jog_way != 0) return Activity::jog;
+  if (mine.held_jog_direction != 0) return Activity::jog;
   if (mine.fifo.empty() || !mine.fifo[0].begun) return Activity::idle;
   return mine.fifo[0].kind == Job::Kind::home ? Activity::home : Activity::move;
 }

@@ -122,7 +122,7 @@ void Chain::after_motion(int module, Tick begin_at) {
       break;
     case Activity::jog:
     case Activity::thrust:
-      mine.jog_way = 0;
+      mine.jog_direction = 0;
       mine.thrust = 0;
       begin_next(module, begin_at);
       break;

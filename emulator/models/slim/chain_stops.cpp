@@ -165,7 +165,7 @@ void Chain::cut(int module, motion::Cause why) {
   if (mine.activity == Activity::move || mine.activity == Activity::home) mine.fifo.pop();
   if (mine.activity != Activity::idle) mine.place_units = coordinate(module);
   mine.activity = Activity::idle;
-  mine.jog_way = mine.next_jog_way = mine.held_jog_way = 0;
+  mine.jog_direction = mine.next_jog_direction = mine.held_jog_direction = 0;
   mine.thrust = mine.next_thrust = mine.held_thrust = 0;
   mine.starved = false;
 }
@@ -206,7 +206,7 @@ void Chain::refresh_speed(int module) {
     const motion::SpeedLaw law = is_move ? mine.working_law(options_) : mine.jog_law(options_);
     const bool stands_still = !is_move && mine.settings.jog_speed == 0;
     const bool stops = axis.slowing && !mine.starved;  // for JG0, say
-    const bool stops_anyhow = stops || held(module) || mine.next_jog_way != 0 || mine.next_thrust != 0;
+    const bool stops_anyhow = stops || held(module) || mine.next_jog_direction != 0 || mine.next_thrust != 0;
     if (stops_anyhow || (stands_still && axis.task == motion::Task::hanging)) return;
     if (law.top_speed_u_s == 0) {
       mine.starved = true;
@@ -217,7 +217,7 @@ void Chain::refresh_speed(int module) {
     } else {
       mine.starved = false;
       const bool stands = !axis.resume(law, now_) && !axis.moving();
-      if (stands && !is_move) begin_jog(module, mine.jog_way, now_ + 1);
+      if (stands && !is_move) begin_jog(module, mine.jog_direction, now_ + 1);
     }
   }
   serve(now_ + 1);

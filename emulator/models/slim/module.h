@@ -54,16 +54,16 @@ struct Module {
   bool linked = false;
   bool homed = false;
   Activity activity = Activity::idle;
-  std::int8_t jog_way = 0;         // direction of the running jog
-  std::int8_t next_jog_way = 0;    // jog that begins when the running motion has stopped, or ...
-  std::int32_t next_thrust = 0;    // ... thrust that does
-  std::int8_t held_jog_way = 0;    // jog that continues after the pause, or ...
-  std::int32_t held_thrust = 0;    // ... thrust that does
-  bool analog_speed = false;       // AVM
-  bool starved = false;            // slowed down because AVM gives no speed
-  std::int16_t analog = 0;         // 0 .. kFullAnalog
-  std::int32_t thrust = 0;         // number of FT while it pushes; else 0
-  std::int64_t zero_pulses = 0;    // travel at which the coordinate is 0
+  std::int8_t jog_direction = 0;       // direction of the running jog
+  std::int8_t next_jog_direction = 0;  // jog that begins when the running motion has stopped, or ...
+  std::int32_t next_thrust = 0;        // ... thrust that does
+  std::int8_t held_jog_direction = 0;  // jog that continues after the pause, or ...
+  std::int32_t held_thrust = 0;        // ... thrust that does
+  bool analog_speed = false;           // AVM
+  bool starved = false;                // slowed down because AVM gives no speed
+  std::int16_t analog = 0;             // 0 .. kFullAnalog
+  std::int32_t thrust = 0;             // number of FT while it pushes; else 0
+  std::int64_t zero_pulses = 0;        // travel at which the coordinate is 0
   double place_units = 0;          // at rest: the commanded coordinate, of which travel is the rounded value
   std::int64_t sent_pulses = 0;    // of the last tick, as they come out
   Error late_error = Error::none;  // error of a queued command when its turn came
@@ -74,7 +74,7 @@ struct Module {
   bool operator==(const Module&) const = default;
 
   /// Returns true if a pause has stopped a jog or thrust.
-  bool holds_jog() const { return held_jog_way != 0 || held_thrust != 0; }
+  bool holds_jog() const { return held_jog_direction != 0 || held_thrust != 0; }
 
   /// Converts to pulses, rounded half away from zero.
   std::int64_t pulses_of(double units) const;

@@ -253,12 +253,12 @@ void Super40nc::change_jog_speed() {
   }
 }
 
-void Super40nc::start_jog(int axis_number, int way, bool AxisState::*asked_by) {
+void Super40nc::start_jog(int axis_number, int direction, bool AxisState::*asked_by) {
   AxisState& state = axis(axis_number);
   const Grant given = ask(axis_number, Request::jog);
   const motion::SpeedLaw law = jog_law(axis_number);
   if (given == Grant::same_or_no) {
-    if (chip(axis_number).last_direction != way) {
+    if (chip(axis_number).last_direction != direction) {
       report(Code::axis_taken);
       return;
     }
@@ -268,10 +268,10 @@ void Super40nc::start_jog(int axis_number, int way, bool AxisState::*asked_by) {
   }
   if (given != Grant::starts) return;
   prepare(axis_number);
-  begun(axis_number, chip(axis_number).run(way, law, before_motion()), Holder::jog);
+  begun(axis_number, chip(axis_number).run(direction, law, before_motion()), Holder::jog);
   if (state.holder != Holder::jog) return;
   state.*asked_by = true;
-  mirror_start(axis_number, kModeContinuous + (way < 0 ? kModeNegative : 0), 0, law);
+  mirror_start(axis_number, kModeContinuous + (direction < 0 ? kModeNegative : 0), 0, law);
 }
 
 /// Stops a jog by its ramp when no request is left.

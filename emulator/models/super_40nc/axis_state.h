@@ -66,7 +66,7 @@ struct AxisState {
   bool is_held = false;                 // held by a pause
   Rest rest;
   std::array<std::int8_t, 2> jog_keys{};  // jog direction of each pressed key, + and -; 0: not pressed
-  std::int8_t plc_jog_way = 0;            // jog direction that the PLC requested in its last scan
+  std::int8_t plc_jog_direction = 0;      // jog direction that the PLC requested in its last scan
   bool asked_by_plc = false;              // the jog was requested by PJG or MJG
   bool masked = false;                    // the pulses of the current motion do not come out
   bool homed = false;

@@ -211,10 +211,10 @@ bool Super40nc::is_level_again(int axis, int contact) const {
 }
 
 void Super40nc::obey_jogs(int axis) {
-  for (const int way : {+1, -1}) {
-    const int contact = of_axis(axis, way > 0 ? kJogPlus : kJogMinus);
+  for (const int direction : {+1, -1}) {
+    const int contact = of_axis(axis, direction > 0 ? kJogPlus : kJogMinus);
     const bool asks = rises(contact) || is_level_again(axis, contact);
-    if (asks && !is_inhibited(axis)) start_jog(axis, way, &AxisState::asked_by_contact);
+    if (asks && !is_inhibited(axis)) start_jog(axis, direction, &AxisState::asked_by_contact);
   }
   const int contact = of_axis(axis, chip(axis).last_direction > 0 ? kJogPlus : kJogMinus);
   if (!is_on(contact)) meet(axis, ManualMotion::jog, ManualEvent::contact_off);

@@ -80,11 +80,11 @@ bool Super40nc::comparator_holds(int axis, int number) const {
   if (method == 0) return false;
   const std::int32_t value = settings.raw(its.value, axis);
   const std::int64_t present = compared_number(axis, static_cast<std::size_t>(number));
-  const int way = chip(axis).last_direction;
+  const int direction = chip(axis).last_direction;
   switch (method) {
     case kEqual: return present == value;
-    case kEqualUpwards: return present == value && way > 0;
-    case kEqualDownwards: return present == value && way < 0;
+    case kEqualUpwards: return present == value && direction > 0;
+    case kEqualDownwards: return present == value && direction < 0;
     case kSetAbove: return value > present;
     case kSetBelow: return value < present;
     case kSoftLimit: return number == 0 ? present > value : number == 1 && present < value;
@@ -186,11 +186,12 @@ void Super40nc::compare_counters(int axis_number) {
     const bool by_ramp = its.of(row.action, axis_number) == kByRamp;
     const Value method = its.of(row.method, axis_number);
     if (method == kSoftLimit) {
-      const int way = which == 0 ? +1 : -1;
-      if (which > 1 || chip(axis_number).last_direction != way ||
+      const int direction = which == 0 ? +1 : -1;
+      if (which > 1 || chip(axis_number).last_direction != direction ||
           !comparator_holds(axis_number, static_cast<int>(which)))
         continue;
-      const motion::Cause why = way > 0 ? motion::Cause::soft_limit_plus : motion::Cause::soft_limit_minus;
+      const motion::Cause why =
+          direction > 0 ? motion::Cause::soft_limit_plus : motion::Cause::soft_limit_minus;
       stop_by_comparator(axis_number, by_ramp, why);
     } else if (is_met(method, before, present, its.raw(row.value, axis_number))) {
       stop_by_comparator(axis_number, by_ramp, motion::Cause::comparator);

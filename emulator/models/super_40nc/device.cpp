@@ -334,8 +334,8 @@ double Super40nc::commanded_pps(int axis_number) const {
   const motion::Axis& motor = chip(axis_number);
   if (!motor.moving()) return 0;
   if (axis(axis_number).path_backlash != 0 && !state_.path_is_held) {
-    const double way = axis(axis_number).path_backlash < 0 ? -1 : +1;
-    return way * motor.settings.backlash_speed_pps;
+    const double direction = axis(axis_number).path_backlash < 0 ? -1 : +1;
+    return direction * motor.settings.backlash_speed_pps;
   }
   if (is_on_path(axis_number)) return state_.path.speed_pps(static_cast<std::size_t>(axis_number), now());
   if (motor.task == motion::Task::following) {

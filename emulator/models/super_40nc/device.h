@@ -216,7 +216,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void stop_by_command(int axis_number);
   void start_home(int axis_number, int order = 0);
   void start_wheel(int axis_number, WheelSource source);
-  void start_jog(int axis_number, int way, bool AxisState::*asked_by);
+  void start_jog(int axis_number, int direction, bool AxisState::*asked_by);
   void release_jog(int axis_number, bool AxisState::*asked_by);
   void hold_axis(int axis_number);
   void go_on_axis(int axis_number);
@@ -409,7 +409,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void see_first_signals();
   void look_round(int axis_number);
   /// Returns X33 or X34: 0 not in use, 1 NO, 2 NC.
-  Value limit_logic(int axis, int way) const;
+  Value limit_logic(int axis, int direction) const;
   /// Returns true if D8x18 and D8x19 are what acts of X33 and X34.
   bool has_limit_copies() const { return !chose(option("limit_copies", "plain_registers")); }
 

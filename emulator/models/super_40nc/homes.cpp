@@ -35,12 +35,12 @@ void Super40nc::start_home(int axis_number, int order) {
   AxisState& state = axis(axis_number);
   const auto rpm = [&](Kept kept) { return static_cast<double>(its.of(kept, axis_number)); };
   const int mode = static_cast<int>(its.of(kept_x(21), axis_number));
-  const int way = its.is_on(kept_x(81), axis_number) ? -1 : +1;
+  const int direction = its.is_on(kept_x(81), axis_number) ? -1 : +1;
   state.homed = false;
   state.order = static_cast<std::int8_t>(order);
   const bool is_by_limit = motion::super40nc_homes_by_limit(mode);
-  const bool lacks_limit =
-      limit_logic(axis_number, way) == 0 && !chose(option("home_without_limit", "runs_until_it_is_stopped"));
+  const bool lacks_limit = limit_logic(axis_number, direction) == 0 &&
+                           !chose(option("home_without_limit", "runs_until_it_is_stopped"));
   if (is_by_limit && lacks_limit) {
     home_ended(axis_number, false, Code::home_failed);
     let_go(axis_number);
@@ -54,7 +54,7 @@ void Super40nc::start_home(int axis_number, int order) {
     let_go(axis_number);
     return;
   }
-  const motion::Signal ahead = way > 0 ? motion::Signal::limit_plus : motion::Signal::limit_minus;
+  const motion::Signal ahead = direction > 0 ? motion::Signal::limit_plus : motion::Signal::limit_minus;
   if (is_by_limit && has_signal(axis_number, ahead) && chose(option("home_on_its_limit", "fails"))) {
     home_ended(axis_number, false, Code::home_failed);
     let_go(axis_number);
@@ -65,7 +65,7 @@ void Super40nc::start_home(int axis_number, int order) {
   const motion::SpeedLaw fast = its.law(axis_number, rpm(kept_x(79)));
   const motion::HomingProgram program = motion::super40nc_homing(
       {.mode = mode,
-       .way = way,
+       .direction = direction,
        .fast = fast,
        .creep = its.law(axis_number, rpm(kept_x(80))),
        .index_count = static_cast<std::int32_t>(its.of(kept_x(22), axis_number) + 1),
@@ -82,7 +82,7 @@ void Super40nc::start_home(int axis_number, int order) {
     return;
   }
   begun(axis_number, motion::Cause::none, Holder::home);
-  mirror_start(axis_number, way < 0 ? kModeGoHomeBack : kModeGoHome, 0, fast);
+  mirror_start(axis_number, direction < 0 ? kModeGoHomeBack : kModeGoHome, 0, fast);
 }
 
 void Super40nc::start_zero(int axis_number, int order) {

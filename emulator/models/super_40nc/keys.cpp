@@ -30,7 +30,7 @@ bool has_digit(std::int32_t mask, int digits, int digit) {
 }
 
 /// Returns contact M8x03 or M8x04.
-int jog_contact(int axis, int way) { return 8100 + 100 * axis + (way > 0 ? 3 : 4); }
+int jog_contact(int axis, int direction) { return 8100 + 100 * axis + (direction > 0 ? 3 : 4); }
 
 /// Returns which of its two meanings M8514 has.
 bool is_origin_the_home_key(const Super40nc& device) { return device.chose(option("m8514_meaning", "home")); }
@@ -59,23 +59,24 @@ void Super40nc::read_jog_keys() {
     const int sense = registers().is_on(kept_x(97), number) ? -1 : +1;
     auto& driven = axis(number).jog_keys;
     for (std::size_t i = 0; i < driven.size(); ++i) {
-      const int way = i == 0 ? +1 : -1;
+      const int direction = i == 0 ? +1 : -1;
       bool is_down = false;
       bool is_pressed = false;
       for (const Key& key : kKeys) {
         const bool is_unknown = key.contact < kFirstJogKey && !knows_older;
-        if (key.does != KeyDoes::jog || key.axis != number || key.way != way || is_unknown) continue;
+        if (key.does != KeyDoes::jog || key.axis != number || key.direction != direction || is_unknown)
+          continue;
         is_down = is_down || is_on(key.contact);
         is_pressed = is_pressed || (rises(key.contact) && !is_locked(key));
       }
       if (!is_down && driven[i] != 0) set_contact(jog_contact(number, driven[i]), false);
       if (!is_down) driven[i] = 0;
-      if (is_pressed && driven[i] == 0) driven[i] = static_cast<std::int8_t>(way * sense);
+      if (is_pressed && driven[i] == 0) driven[i] = static_cast<std::int8_t>(direction * sense);
     }
-    for (const std::int8_t way : driven) {
-      if (way == 0) continue;
-      set_contact(jog_contact(number, way), true);
-      state_.contacts.write(jog_contact(number, way), true);
+    for (const std::int8_t direction : driven) {
+      if (direction == 0) continue;
+      set_contact(jog_contact(number, direction), true);
+      state_.contacts.write(jog_contact(number, direction), true);
     }
   }
 }

@@ -25,9 +25,9 @@ enum class KeyDoes : std::uint8_t {
 struct Key {
   int contact = 0;
   KeyDoes does = KeyDoes::jog;
-  int axis = -1;  // -1: on the main page, locked by D9025; else on the axis' page, locked by D9x98
-  int way = 0;    // jog direction
-  int lock = 0;   // the lock digit, counted from the left from 1
+  int axis = -1;      // -1: on the main page, locked by D9025; else on the axis' page, locked by D9x98
+  int direction = 0;  // jog direction
+  int lock = 0;       // the lock digit, counted from the left from 1
 };
 
 inline constexpr int kMainLockDigits = 6;
@@ -55,8 +55,8 @@ inline constexpr auto kKeys = [] {
     add({.contact = older, .does = key.does, .lock = lock});
   }
   for (int axis = 0; axis < 4; ++axis) {
-    add({.contact = 8560 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .way = +1, .lock = 2});
-    add({.contact = 8561 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .way = -1, .lock = 3});
+    add({.contact = 8560 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .direction = +1, .lock = 2});
+    add({.contact = 8561 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .direction = -1, .lock = 3});
     add({.contact = 8568 + axis, .does = KeyDoes::home, .axis = axis, .lock = 4});
     add({.contact = 8572 + axis, .does = KeyDoes::zero, .axis = axis, .lock = 5});
     add({.contact = 8576 + axis, .does = KeyDoes::oset, .axis = axis, .lock = 6});
@@ -64,8 +64,8 @@ inline constexpr auto kKeys = [] {
     add({.contact = 8580 + axis, .does = KeyDoes::start, .axis = axis, .lock = 8});
     add({.contact = 8584 + axis, .does = KeyDoes::stop, .axis = axis, .lock = 9});
     if (axis == 3) continue;  // U has no older jog keys
-    add({.contact = 8519 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .way = +1, .lock = 2});
-    add({.contact = 8520 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .way = -1, .lock = 3});
+    add({.contact = 8519 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .direction = +1, .lock = 2});
+    add({.contact = 8520 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .direction = -1, .lock = 3});
   }
   return keys;
 }();

@@ -24,12 +24,12 @@ namespace understudy::emulator::models::super_40nc {
 namespace {
 
 /// Returns the backlash as for a separate motion.
-std::int64_t play_before(const motion::Axis& motor, int way) {
+std::int64_t play_before(const motion::Axis& motor, int direction) {
   const std::int64_t all = motor.settings.backlash_pulses;
   if (motor.settings.slips) return all;
   if (motor.last_direction == 0) return 0;
   const std::int64_t play = std::clamp<std::int64_t>(motor.play_pulses, 0, all);
-  return way > 0 ? all - play : play;
+  return direction > 0 ? all - play : play;
 }
 
 /// Returns how many of `pulses` have come after `ticks`.
@@ -53,14 +53,14 @@ void Super40nc::begin_path_backlash(const motion::Path& path) {
     if (!is_on_path(number)) continue;
     const double ahead = path.at(path.length_u * kFirstPart)[number] - path.begin[number];
     if (ahead == 0) continue;
-    const int way = ahead < 0 ? -1 : +1;
+    const int direction = ahead < 0 ? -1 : +1;
     motion::Axis& motor = chip(number);
-    const std::int64_t play = play_before(motor, way);
+    const std::int64_t play = play_before(motor, direction);
     if (play == 0) continue;
-    axis(number).path_backlash = play * way;
+    axis(number).path_backlash = play * direction;
     // Record how much has come, in case it is stopped.
-    motor.play_pulses = way > 0 ? motor.settings.backlash_pulses - play : play;
-    motor.last_direction = static_cast<std::int8_t>(way);
+    motor.play_pulses = direction > 0 ? motor.settings.backlash_pulses - play : play;
+    motor.last_direction = static_cast<std::int8_t>(direction);
   }
   awaits_path() ? state_.path.run.pause(before_motion()) : end_path_backlash();
 }
@@ -106,10 +106,10 @@ void Super40nc::step_arc_backlash(const std::array<std::int8_t, kAxisCount>& way
     const auto n = static_cast<std::size_t>(number);
     AxisState& state = axis(number);
     motion::Axis& motor = chip(number);
-    const std::int8_t way = motor.last_direction;
-    const bool turns = is_on_path(number) && ways_before[n] != 0 && way != ways_before[n];
+    const std::int8_t direction = motor.last_direction;
+    const bool turns = is_on_path(number) && ways_before[n] != 0 && direction != ways_before[n];
     if (turns && its.of(kept_x(57), number) == kBacklash) {
-      state.arc_backlash = way * (its.of(kept_x(56), number) - std::abs(state.arc_backlash));
+      state.arc_backlash = direction * (its.of(kept_x(56), number) - std::abs(state.arc_backlash));
       state.arc_backlash_part = 0;
     }
     if (state.arc_backlash == 0) continue;

@@ -70,12 +70,13 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
     const int running = state.asked_by_plc ? device_.chip(axis).last_direction : 0;
     // Both at once: the running direction continues.
     const int of_both = stops_both ? 0 : running;
-    const int way = positive && negative ? of_both : positive ? +1 : negative ? -1 : 0;
-    if (running != 0 && running != way) {
+    const int direction = positive && negative ? of_both : positive ? +1 : negative ? -1 : 0;
+    if (running != 0 && running != direction) {
       device_.meet(axis, ManualMotion::plc_jog, ManualEvent::contact_off);
     }
-    const bool is_new = way != 0 && (way != state.plc_jog_way || device_.acts_behind_reset(axis));
-    state.plc_jog_way = static_cast<std::int8_t>(way);
+    const bool is_new =
+        direction != 0 && (direction != state.plc_jog_direction || device_.acts_behind_reset(axis));
+    state.plc_jog_direction = static_cast<std::int8_t>(direction);
     if (!is_new || device_.is_inhibited(axis)) continue;
     const int step = steps[static_cast<std::size_t>(axis)];
     if (!language::may_move(*this, device_.language_options(), Area::plc, axis)) {
@@ -85,7 +86,7 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
     device_.set_plc_step(step);
     const bool is_free = state.holder == Holder::nobody;
     if (is_free) state.mover = Mover::plc;  // if the motion begins
-    device_.start_jog(axis, way, &AxisState::asked_by_plc);
+    device_.start_jog(axis, direction, &AxisState::asked_by_plc);
     if (is_free) state.mover = Mover::hand;
     device_.set_plc_step(0);
   }

@@ -191,7 +191,7 @@ void Super40nc::hold_axis(int axis_number) {
     const motion::HomingPhase& row = motor.homing.row();
     const bool searches = row.does == motion::HomingPhase::Does::search;
     state.rest.travel =
-        motor.homing.began_pulses + (searches ? row.way * row.within_pulses : row.distance_pulses);
+        motor.homing.began_pulses + (searches ? row.direction * row.within_pulses : row.distance_pulses);
     state.rest.searches = searches;
   }
   if (state.holder == Holder::home) state.rest = {.kind = RestKind::home};

@@ -20,15 +20,15 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-Value Super40nc::limit_logic(int axis, int way) const {
-  if (!has_limit_copies()) return registers().of(way > 0 ? kept_x(63) : kept_x(64), axis);
-  return registers().of(way > 0 ? kept_d(8118) : kept_d(8119), axis);
+Value Super40nc::limit_logic(int axis, int direction) const {
+  if (!has_limit_copies()) return registers().of(direction > 0 ? kept_x(63) : kept_x(64), axis);
+  return registers().of(direction > 0 ? kept_d(8118) : kept_d(8119), axis);
 }
 
 void Super40nc::look_round(int axis_number) {
   const Settings its = registers();
-  const auto limit_level = [&](int way) -> std::optional<bool> {  // of an active limit, if it is in use
-    const Value how = limit_logic(axis_number, way);
+  const auto limit_level = [&](int direction) -> std::optional<bool> {  // of an active limit, if it is in use
+    const Value how = limit_logic(axis_number, direction);
     return how == 0 ? std::nullopt : std::optional(how == 1);
   };
   struct Function {
@@ -38,13 +38,13 @@ void Super40nc::look_round(int axis_number) {
   };
   // MRK looks for its mark on a limit input, whatever its use as a limit.
   const Rest& rest = axis(axis_number).rest;
-  const auto limit_of_line = [&](int way) {
-    const std::optional<bool> level = limit_level(way);
+  const auto limit_of_line = [&](int direction) {
+    const std::optional<bool> level = limit_level(direction);
     return rest.limits_count ? level.value_or(true) : level;
   };
-  const auto limit_or_mark = [&](int way) {
-    const bool is_mark = rest.kind == RestKind::mark && rest.marks_positive == (way > 0);
-    return is_mark ? std::optional(true) : limit_of_line(way);
+  const auto limit_or_mark = [&](int direction) {
+    const bool is_mark = rest.kind == RestKind::mark && rest.marks_positive == (direction > 0);
+    return is_mark ? std::optional(true) : limit_of_line(direction);
   };
   const bool dog_level = !its.is_on(kept_x(2), axis_number);
   const int dog =

@@ -109,7 +109,7 @@ struct StateOf<emulator::models::super_40nc::AxisState> {
                                            field("is_held", &Value::is_held),
                                            field("rest", &Value::rest),
                                            field("jog_keys", &Value::jog_keys),
-                                           field("plc_jog_way", &Value::plc_jog_way),
+                                           field("plc_jog_way", &Value::plc_jog_direction),
                                            field("asked_by_plc", &Value::asked_by_plc),
                                            field("masked", &Value::masked),
                                            field("homed", &Value::homed),

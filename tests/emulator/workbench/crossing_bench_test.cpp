@@ -73,22 +73,22 @@ class Course {
       return [fault](World& world) { world.inject(world::find_fault(world.known(), fault)); };
     };
     const motion::SpeedLaw speed = law();
-    const int way = one_in(2) ? +1 : -1;
-    const std::int64_t distance = way * of_any_size(20'000);
+    const int direction = one_in(2) ? +1 : -1;
+    const std::int64_t distance = direction * of_any_size(20'000);
     switch (between(0, 13)) {
       case 0:
       case 1:
       case 2: return [=](World& world) { axis(world).move(distance, speed, now(world)); };
-      case 3: return [=](World& world) { axis(world).run(way, speed, now(world)); };
+      case 3: return [=](World& world) { axis(world).run(direction, speed, now(world)); };
       case 4:
       case 5: {
-        const auto program =
-            motion::rsm8194h_homing({.ways = {way, way, -way, 0}, .drive = speed, .home = speed});
+        const auto program = motion::rsm8194h_homing(
+            {.ways = {direction, direction, -direction, 0}, .drive = speed, .home = speed});
         return [=](World& world) { axis(world).home(program, now(world)); };
       }
       case 6: {
         const auto program = motion::super40nc_homing({.mode = static_cast<int>(between(0, 12)),
-                                                       .way = way,
+                                                       .direction = direction,
                                                        .fast = speed,
                                                        .creep = speed,
                                                        .index_count = 2});

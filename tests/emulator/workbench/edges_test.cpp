@@ -93,13 +93,14 @@ int sense(std::size_t motor) { return motor == Motors::kReversed ? -1 : +1; }
 
 /// Near home, home and index, the machine going down, down and up.
 motion::HomingProgram four_steps(std::size_t motor, double pps) {
-  const int way = sense(motor);
-  return motion::rsm8194h_homing({.ways = {-way, -way, way, 0}, .drive = law(pps), .home = law(pps)});
+  const int direction = sense(motor);
+  return motion::rsm8194h_homing(
+      {.ways = {-direction, -direction, direction, 0}, .drive = law(pps), .home = law(pps)});
 }
 
 motion::HomingProgram by_mode(std::size_t motor, int mode, double pps) {
   return motion::super40nc_homing(
-      {.mode = mode, .way = -sense(motor), .fast = law(pps), .creep = law(pps / 2), .index_count = 2});
+      {.mode = mode, .direction = -sense(motor), .fast = law(pps), .creep = law(pps / 2), .index_count = 2});
 }
 
 constexpr double kSpeeds_pps[] = {10, 100, 4'000'000};
@@ -283,20 +284,20 @@ TEST(Edges, FollowAxesThatAllCountAnew) {
 TEST(Edges, AnIndexBeyondAHardStopIsNeverSeen) {
   struct Case {
     std::int64_t position;
-    int way;
+    int direction;
     std::int64_t stop;
   };
-  for (const auto& [position, way, stop] : {Case{3400, +1, 3500}, Case{-3400, -1, -3500}}) {
+  for (const auto& [position, direction, stop] : {Case{3400, +1, 3500}, Case{-3400, -1, -3500}}) {
     for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
       Rig rig({.position = position});
       rig.axis(motor).settings.at_limit_plus = motion::Reaction::ignore;
       rig.axis(motor).settings.at_limit_minus = motion::Reaction::ignore;
       const motion::HomingProgram program = motion::rsm8194h_homing(
-          {.ways = {0, 0, sense(motor) * way, 0}, .drive = law(4e6), .home = law(4e6)});
+          {.ways = {0, 0, sense(motor) * direction, 0}, .drive = law(4e6), .home = law(4e6)});
       ASSERT_EQ(rig.axis(motor).home(program, rig.device().now()), motion::Cause::none);
       rig.advance(20);
       EXPECT_EQ(rig.place(motor), stop);
-      EXPECT_TRUE(rig.axis(motor).homing.active()) << motor << " " << way;
+      EXPECT_TRUE(rig.axis(motor).homing.active()) << motor << " " << direction;
     }
   }
 }

@@ -223,8 +223,8 @@ class Workbench final : public DeviceOf<Workbench>,
   void run_interpreters(Tick) override {
     for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
       std::int32_t& position = state.positions[axis];
-      const std::int64_t way = std::int64_t{state.targets[axis]} - position;
-      position += static_cast<std::int32_t>(std::clamp<std::int64_t>(way, -100, 100));
+      const std::int64_t direction = std::int64_t{state.targets[axis]} - position;
+      position += static_cast<std::int32_t>(std::clamp<std::int64_t>(direction, -100, 100));
     }
     if (stored(run_) == 0 || state.fifo.empty() || is_moving()) return;
     const std::vector<std::uint16_t> command = state.fifo.front();

@@ -105,7 +105,7 @@ std::string number(double value) { return std::to_string(static_cast<long long>(
 
 TEST(RsM8194hDurations, AreThoseOfTheClosedForms) {
   for (const Move& move : kMoves) {
-    for (const int way : {+1, -1}) {
+    for (const int direction : {+1, -1}) {
       OneRsm rsm;
       const std::string up = is_s(move) ? "K" : "A";
       const std::string down = is_s(move) ? "L" : "D";
@@ -117,12 +117,12 @@ TEST(RsM8194hDurations, AreThoseOfTheClosedForms) {
       rsm.send("RSM_SET_AO Y " + number(move.ao));
       if (move.ends == Ends::half_constant) rsm.send("RSM_AVTRI_ENABLE Y");
       rsm.run(1);
-      rsm.send("RSM_FIXED_MOVE Y " + number(way * move.distance));
+      rsm.send("RSM_FIXED_MOVE Y " + number(direction * move.distance));
       const auto ticks = static_cast<Tick>(std::ceil(seconds_of(move) * 1000 - 1e-6)) + 1;
-      SCOPED_TRACE("mode " + number(move.mode) + ", " + number(way * move.distance) + " pulses, V " +
+      SCOPED_TRACE("mode " + number(move.mode) + ", " + number(direction * move.distance) + " pulses, V " +
                    number(move.v) + ", AO " + number(move.ao));
       EXPECT_EQ(rsm.run_to_rest(), ticks);
-      EXPECT_EQ(rsm.get("LP_Y"), way * move.distance);
+      EXPECT_EQ(rsm.get("LP_Y"), direction * move.distance);
     }
   }
 }
@@ -174,7 +174,7 @@ constexpr double kDistance = 15000;
 
 TEST(RsM8194hDurations, AreWhereTheirLawSaysAtEveryTick) {
   for (const Law& law : kLaws) {
-    for (const int way : {+1, -1}) {
+    for (const int direction : {+1, -1}) {
       OneRsm rsm;
       const bool is_s = law.mode == 1 || law.mode == 3;
       rsm.send("RSM_NORMAL_SPEED Z " + number(law.mode));
@@ -184,18 +184,18 @@ TEST(RsM8194hDurations, AreWhereTheirLawSaysAtEveryTick) {
       rsm.send((is_s ? "RSM_SET_L Z " : "RSM_SET_D Z ") + number(law.down));
       rsm.send("RSM_SET_AO Z 0");
       rsm.run(1);
-      rsm.send("RSM_FIXED_MOVE Z " + number(way * kDistance));
+      rsm.send("RSM_FIXED_MOVE Z " + number(direction * kDistance));
       const Tick begin = rsm.now();
       do {
         rsm.run(1);
         const double t = static_cast<double>(rsm.now() - begin - 1) / 1000;  // from the next tick on
         const double should = law.at(t, kDistance);
         // A pulse goes out when its place has been reached.
-        const auto is = static_cast<double>(way * rsm.get("LP_Z"));
+        const auto is = static_cast<double>(direction * rsm.get("LP_Z"));
         ASSERT_LE(is, should + kRounding) << "mode " << law.mode << " at " << t;
         ASSERT_GT(is, should - 1 - kRounding) << "mode " << law.mode << " at " << t;
       } while (rsm.get("DRIVING_AXIS") != 0);
-      EXPECT_EQ(rsm.get("LP_Z"), way * kDistance);
+      EXPECT_EQ(rsm.get("LP_Z"), direction * kDistance);
     }
   }
 }

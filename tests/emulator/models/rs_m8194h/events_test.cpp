@@ -151,20 +151,20 @@ TEST(RsM8194hEvents, EachDriveAndPresetDoesWhatItsLineSays) {
       rsm.send("RSM_FIXED_MOVE X 2");
       rsm.run(400);
       const bool is_endless = drive == endless_plus || drive == endless_minus;
-      const int way = drive == fixed_plus || drive == endless_plus ? 1 : -1;
+      const int direction = drive == fixed_plus || drive == endless_plus ? 1 : -1;
       const bool is_fixed = drive == fixed_plus || drive == fixed_minus;
       EXPECT_EQ(rsm.get("DRIVING_AXIS"), is_endless ? 2 : 0);
       // Neither a distance nor a speed has a meaning for an endless drive.
       if (is_endless) {
         EXPECT_EQ(rsm.get("CV_Y"), 2000);
       }
-      const Value moved = is_fixed && preset == distance ? way * kPreset : 0;
+      const Value moved = is_fixed && preset == distance ? direction * kPreset : 0;
       const Value absolute = rsm.get("ABS_Y");
       if (!is_endless && !is_stop) {
         EXPECT_EQ(absolute, moved);
       }
       if (is_endless) {
-        EXPECT_EQ(absolute > 0, way > 0);
+        EXPECT_EQ(absolute > 0, direction > 0);
       }
       // All three have counted the same but for what was preset; a stop takes some pulses first.
       EXPECT_EQ(rsm.get("LP_Y") != absolute, preset == position);
@@ -261,12 +261,12 @@ TEST(RsM8194hEvents, ALineScanByAnEncoderHasItsLastTriggerToo) {
   world::PlantSetup plant;
   plant.encoder_counts_per_revolution = 4000;
   plant.pulses_per_revolution = 1000;
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     OneRsm rsm({.plant = {{0, plant}}});
     rsm.send({"RSM_SET_SV X 2000", "RSM_SET_V X 2000", "RSM_LINE_SCAN X 2 0 0 -39"});
-    rsm.send("RSM_LINE_SCAN_START X 2 " + std::to_string(way * 1000));
+    rsm.send("RSM_LINE_SCAN_START X 2 " + std::to_string(direction * 1000));
     rsm.run(550);
-    EXPECT_EQ(rsm.get("EP_X"), way * 4000);
+    EXPECT_EQ(rsm.get("EP_X"), direction * 4000);
     EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
     EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
   }

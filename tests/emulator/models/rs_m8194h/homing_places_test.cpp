@@ -55,7 +55,7 @@ struct Steps {
   int ways[4];  // 1: +, 2: -, 0: left out
   bool limit_is_home;
 };
-int sign_of(int way) { return way == 1 ? +1 : way == 2 ? -1 : 0; }
+int sign_of(int direction) { return direction == 1 ? +1 : direction == 2 ? -1 : 0; }
 
 struct End {
   std::int64_t place;
@@ -110,7 +110,7 @@ void expect_end(const Speeds& speeds, const Steps& steps, std::int64_t from) {
   for (const std::string_view command : speeds.commands) rsm.send(command);
   rsm.send({"RSM_SET_AO X 0", steps.limit_is_home ? "RSM_HOME_LIMIT X 1" : "RSM_HOME_LIMIT X 0"});
   std::string mode = "RSM_SET_HOME_MODE X";
-  for (const int way : steps.ways) mode += " " + std::to_string(way);
+  for (const int direction : steps.ways) mode += " " + std::to_string(direction);
   mode += " " + std::to_string(kOffset);
   rsm.send(mode);
   rsm.run(5);
@@ -138,9 +138,9 @@ TEST(RsM8194hHomingPlaces, EachWayEndsByItsClosedForm) {
 
 TEST(RsM8194hHomingPlaces, TheLimitAsHomeIsMetAtItsPulse) {
   for (const Speeds& speeds : kSpeeds) {
-    for (const int way : {1, 2}) {
+    for (const int direction : {1, 2}) {
       for (const int back : {0, 1, 2}) {
-        for (const std::int64_t from : kPlaces) expect_end(speeds, {{0, way, 0, back}, true}, from);
+        for (const std::int64_t from : kPlaces) expect_end(speeds, {{0, direction, 0, back}, true}, from);
       }
     }
   }
@@ -149,7 +149,7 @@ TEST(RsM8194hHomingPlaces, TheLimitAsHomeIsMetAtItsPulse) {
 struct Irregular {
   const char* name;
   std::int64_t from;
-  int way;
+  int direction;
   std::vector<Value> states;
 };
 const Irregular kIrregular[] = {
@@ -168,7 +168,7 @@ TEST(RsM8194hHomingPlaces, IrregularWaysPassTheirStates) {
     OneRsm rsm({.plant = {{0, machine(row.from)}}});
     // Half a pulse a tick: no phase is shorter than a tick.
     rsm.send({"RSM_SET_SV X 500", "RSM_SET_V X 500", "RSM_SET_HV X 500",
-              "RSM_SET_HOME_MODE X 0 " + std::to_string(row.way) + " 0 0 0"});
+              "RSM_SET_HOME_MODE X 0 " + std::to_string(row.direction) + " 0 0 0"});
     rsm.run(5);
     rsm.send("RSM_HOME_START X");
     std::vector<Value> states;
@@ -179,22 +179,22 @@ TEST(RsM8194hHomingPlaces, IrregularWaysPassTheirStates) {
       rsm.run(1);
     }
     EXPECT_EQ(states, row.states) << row.name << " " << row.from;
-    EXPECT_EQ(rsm.world().plant(0, 0).save().position_pulses, row.way == 1 ? kHomeFirst : kHomeLast)
+    EXPECT_EQ(rsm.world().plant(0, 0).save().position_pulses, row.direction == 1 ? kHomeFirst : kHomeLast)
         << row.name << " " << row.from;
   }
 }
 
 /// Z that is active outside its mark: it is met where the mark ends.
 TEST(RsM8194hHomingPlaces, AnIndexMayBeActiveBetweenItsMarks) {
-  for (const int way : {1, 2}) {
+  for (const int direction : {1, 2}) {
     OneRsm rsm({.plant = {{0, machine(kIndexAt + 1)}}});
     rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_SET_HV X 1000", "RSM_SET_ENCODER X 0 0 1"});
-    rsm.send("RSM_SET_HOME_MODE X 0 0 " + std::to_string(way) + " 0 0");
+    rsm.send("RSM_SET_HOME_MODE X 0 0 " + std::to_string(direction) + " 0 0");
     rsm.run(3);
     rsm.send("RSM_HOME_START X");
     rsm.run_to_rest();
-    EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0) << way;
-    EXPECT_EQ(rsm.get("LP_X"), way == 1 ? kIndexWidth - 1 : -2) << way;
+    EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0) << direction;
+    EXPECT_EQ(rsm.get("LP_X"), direction == 1 ? kIndexWidth - 1 : -2) << direction;
   }
 }
 

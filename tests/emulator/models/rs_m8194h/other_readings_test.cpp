@@ -97,13 +97,13 @@ TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathLeavesTheOthersOnIt) {
 
 TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathSlowsDownByItsOwnRamp) {
   // From 1,000 PPS to 100 by 5,000 PPS/s: 99 pulses, in 180 ms. The line is at its speed from the beginning.
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     OneRsm rsm(GivenRsm{.choices = {{"stop_one_of_path", "it_alone_stops"}}});
     rsm.send({"RSM_SET_MAX_V XY 8000", "RSM_SET_SV XY 100", "RSM_SET_V XY 100", "RSM_SET_A XY 5000",
               "RSM_AXIS_ASSIGN X Y 0", "RSM_VECTOR_SPEED 0", "RSM_SET_VV 1000"});
     rsm.run(3);
     rsm.send("RSM_INTFACTOR_ENABLE X 7 1");
-    rsm.send("RSM_LINE_2D " + std::to_string(way * 2000) + " 0");
+    rsm.send("RSM_LINE_2D " + std::to_string(direction * 2000) + " 0");
     rsm.run(1001);
     const Value from = rsm.get("LP_X");
     rsm.send("RSM_STOP_SLOWLY X");
@@ -114,7 +114,7 @@ TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathSlowsDownByItsOwnRamp) {
     rsm.run(4);
     EXPECT_EQ(rsm.get("DRIVING_AXIS"), 2);
     EXPECT_EQ(rsm.get("INT_D-END"), 1);
-    EXPECT_NEAR(static_cast<double>(rsm.get("LP_X") - from), way * 99, 1);
+    EXPECT_NEAR(static_cast<double>(rsm.get("LP_X") - from), direction * 99, 1);
     rsm.run_to_rest();
   }
 }

@@ -86,13 +86,13 @@ TEST(RsM8194hEncoder, IsDividedAndTurnedRound) {
       EXPECT_EQ(value_of(world, "cell.EP_X"), 40) << "what was counted stays";
       const bool is_quadrature = mode == 0 || mode == 2;
       const int by = is_quadrature ? 1 << division : 1;
-      const int way = mode < 2 ? 1 : -1;
+      const int direction = mode < 2 ? 1 : -1;
       move_by(world, 1001);
-      EXPECT_EQ(value_of(world, "cell.EP_X"), 40 + way * (4004 / by)) << mode << " " << division;
+      EXPECT_EQ(value_of(world, "cell.EP_X"), 40 + direction * (4004 / by)) << mode << " " << division;
       move_by(world, -1001);
       EXPECT_EQ(value_of(world, "cell.EP_X"), 40) << mode << " " << division;
       move_by(world, -300);
-      EXPECT_EQ(value_of(world, "cell.EP_X"), 40 - way * (1200 / by)) << mode << " " << division;
+      EXPECT_EQ(value_of(world, "cell.EP_X"), 40 - direction * (1200 / by)) << mode << " " << division;
       EXPECT_EQ(value_of(world, "cell.LP_X"), -290);
     }
   }

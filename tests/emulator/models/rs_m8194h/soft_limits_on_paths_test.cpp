@@ -23,11 +23,11 @@ struct PathKind {
   const char* name;
   bool has_ramps;
   double farthest;  // of axis1
-  std::function<Commands(int way)> commands;
+  std::function<Commands(int direction)> commands;
 };
 
-std::string arc(const char* plus, const char* minus, int way) { return way > 0 ? plus : minus; }
-std::string by(int way, int number) { return std::to_string(way * number); }
+std::string arc(const char* plus, const char* minus, int direction) { return direction > 0 ? plus : minus; }
+std::string by(int direction, int number) { return std::to_string(direction * number); }
 
 const PathKind kPaths[] = {
     {"line", true, 6000,
@@ -114,16 +114,16 @@ struct Run {
   OneRsm rsm;
   std::vector<std::vector<Value>> places;
 
-  explicit Run(const LimitKind& limit, const PathKind& path, int way, Value most) : rsm(given(limit)) {
+  explicit Run(const LimitKind& limit, const PathKind& path, int direction, Value most) : rsm(given(limit)) {
     rsm.send({"RSM_SET_MAX_V XYZ 80000", "RSM_AXIS_ASSIGN X Y Z", "RSM_SET_VSV 400", "RSM_SET_VV 2000",
               "RSM_SET_VA 4000"});
     rsm.run(3);
     if (most != 0) {
-      const std::string plus = std::to_string(way > 0 ? most : 1'000'000);
-      const std::string minus = std::to_string(way > 0 ? -1'000'000 : -most);
+      const std::string plus = std::to_string(direction > 0 ? most : 1'000'000);
+      const std::string minus = std::to_string(direction > 0 ? -1'000'000 : -most);
       rsm.send("RSM_SET_SLMT X " + plus + " " + minus + " " + std::to_string(limit.source));
     }
-    for (const std::string& command : path.commands(way)) rsm.send(command);
+    for (const std::string& command : path.commands(direction)) rsm.send(command);
     do {
       places.push_back(rsm.positions());
       rsm.run(1);
@@ -152,29 +152,30 @@ double apart(const std::vector<Value>& one, const std::vector<Value>& other) {
   return farthest;
 }
 
-void check(const LimitKind& limit, const PathKind& path, int way, Value most) {
-  SCOPED_TRACE(std::string(path.name) + " meets a limit " + limit.name + " at " + std::to_string(way * most));
-  const Run free(limit, path, way, 0);
-  const Run run(limit, path, way, most);
+void check(const LimitKind& limit, const PathKind& path, int direction, Value most) {
+  SCOPED_TRACE(std::string(path.name) + " meets a limit " + limit.name + " at " +
+               std::to_string(direction * most));
+  const Run free(limit, path, direction, 0);
+  const Run run(limit, path, direction, most);
   EXPECT_EQ(run.rsm.get("DRIVING_AXIS"), 0);
   EXPECT_EQ(run.rsm.get("ERROR_CODE_Y"), 0);
   EXPECT_EQ(run.rsm.get("ERROR_CODE_Z"), 0);
   const bool is_met = static_cast<double>(most) < path.farthest;
-  EXPECT_EQ(run.rsm.get("ERROR_CODE_X"), !is_met ? 0 : way > 0 ? 1 : 2);
+  EXPECT_EQ(run.rsm.get("ERROR_CODE_X"), !is_met ? 0 : direction > 0 ? 1 : 2);
   if (!is_met) {
     EXPECT_TRUE(run.places == free.places);
     return;
   }
   // Until it is met nothing is different.
   std::size_t met = 0;
-  while (free.places[met][0] * way <= most) ++met;
+  while (free.places[met][0] * direction <= most) ++met;
   for (std::size_t t = 0; t < met; ++t) ASSERT_EQ(run.places[t], free.places[t]) << t;
   // It goes on along the path by its ramp, from 2,000 to 400 PPS at 4,000 PPS/s: 480 pulses, 240 ticks of the
   // path at full speed. An encoder is told a tick later.
   const bool slows = path.has_ramps && !limit.at_once;
   const std::size_t ramp = slows ? 240 : 0;
   if (limit.at_once && !limit.has_encoder) {
-    EXPECT_EQ(run.places.back()[0], way * (most + 1));
+    EXPECT_EQ(run.places.back()[0], direction * (most + 1));
   }
   // A line slows down for its own end there.
   const std::size_t end = std::min(met + ramp, free.places.size() - 1);
@@ -185,12 +186,12 @@ void check(const LimitKind& limit, const PathKind& path, int way, Value most) {
 TEST(RsM8194hSoftLimitsOnPaths, AreHeededByEveryKindOfPath) {
   for (const LimitKind& limit : kLimits) {
     for (const PathKind& path : kPaths) {
-      for (const int way : {+1, -1}) {
+      for (const int direction : {+1, -1}) {
         // In its midst; so near its turn that it is back before it stands; by one pulse; not at all.
-        check(limit, path, way, static_cast<Value>(path.farthest * 0.7));
+        check(limit, path, direction, static_cast<Value>(path.farthest * 0.7));
         if (is_sanitized()) continue;
-        check(limit, path, way, static_cast<Value>(path.farthest * 0.995));
-        check(limit, path, way, static_cast<Value>(path.farthest));
+        check(limit, path, direction, static_cast<Value>(path.farthest * 0.995));
+        check(limit, path, direction, static_cast<Value>(path.farthest));
       }
     }
   }
@@ -198,21 +199,21 @@ TEST(RsM8194hSoftLimitsOnPaths, AreHeededByEveryKindOfPath) {
 
 /// An arc that leaves the switch, or the encoder's count, before it stands.
 TEST(RsM8194hSoftLimitsOnPaths, ALimitSwitchThatIsLeftAgainIsTold) {
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     world::PlantSetup plant;
-    (way > 0 ? plant.upper_limit : plant.lower_limit) = way * 1990;
+    (direction > 0 ? plant.upper_limit : plant.lower_limit) = direction * 1990;
     OneRsm rsm({.plant = {{0, plant}}});
     rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_AXIS_ASSIGN X Y 0", "RSM_SET_VSV 400", "RSM_SET_VV 2000",
               "RSM_SET_VA 4000", "RSM_LIMITSTOP_MODE XY 1", "RSM_VECTOR_SPEED 5"});
-    rsm.send(std::string(way > 0 ? "RSM_ARC_CCW" : "RSM_ARC_CW") + " 0 2000 0 4000");
+    rsm.send(std::string(direction > 0 ? "RSM_ARC_CCW" : "RSM_ARC_CW") + " 0 2000 0 4000");
     rsm.run_to_rest();
     EXPECT_LT(std::abs(rsm.get("LP_X")), 1990);
     EXPECT_GT(rsm.get("LP_Y"), 2200);
     EXPECT_LT(rsm.get("LP_Y"), 2500);
-    EXPECT_EQ(rsm.get("ERROR_CODE_X"), way > 0 ? 4 : 8);
+    EXPECT_EQ(rsm.get("ERROR_CODE_X"), direction > 0 ? 4 : 8);
     EXPECT_EQ(rsm.get("ERROR_CODE_Y"), 0);
     // It is history, and the next drive takes it away.
-    rsm.send(way > 0 ? "RSM_LINE_2D -100 0" : "RSM_LINE_2D 100 0");
+    rsm.send(direction > 0 ? "RSM_LINE_2D -100 0" : "RSM_LINE_2D 100 0");
     EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
     rsm.run_to_rest();
     EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);

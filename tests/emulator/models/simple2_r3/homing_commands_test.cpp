@@ -29,13 +29,13 @@ TEST(HomingCommands, AMoveReplacesItFromStandstillWhereItIs) {
       ASSERT_EQ(machine.place(), 45);
       // To -5: 50 pulses at one a ms, 60 ms with both ramps.
       const bool incremental = std::string_view(trigger) == "Move_INC";
-      machine.set_one_pulse_a_tick(build.axis, build.way * (incremental ? -50 : -5));
+      machine.set_one_pulse_a_tick(build.axis, build.direction * (incremental ? -50 : -5));
       machine.set(name(trigger), 1);
       const HomingCourse course{.legs = {run_leg(0, kBack, 45), slow_leg(50, kBack, 45, 45)}, .end = 60};
       for (Tick ms = -1; ms <= 200; ++ms) {
         if (ms >= 0) machine.step();
         ASSERT_EQ(machine.place(), course.place_at(std::max<Tick>(ms, 0))) << ms;
-        ASSERT_EQ(machine.coordinate(build.axis), build.way * machine.place()) << ms;
+        ASSERT_EQ(machine.coordinate(build.axis), build.direction * machine.place()) << ms;
         ASSERT_EQ(machine.is_moving(), ms < 60) << ms;
         ASSERT_EQ(machine.get(name(trigger)), ms < 60) << ms;
         ASSERT_FALSE(machine.homing());
@@ -83,7 +83,7 @@ TEST(HomingCommands, ItReplacesAMoveFromStandstillWhereItIs) {
     for (const char* trigger : {"Move_INC", "Move_ABS"}) {
       SCOPED_TRACE(std::string(trigger) + ", " + text_of(build));
       HomingSimple2 machine({build});
-      machine.set_one_pulse_a_tick(build.axis, build.way * 1000);
+      machine.set_one_pulse_a_tick(build.axis, build.direction * 1000);
       machine.set(machine.name(build.axis, trigger), 1);
       machine.step_by(51);  // at 50 ms: 45
       machine.go_home();
@@ -120,8 +120,9 @@ TEST(HomingCommands, ItReplacesTheOtherModesAndIsAMatterOfPositionMode) {
       SCOPED_TRACE(std::string(other.trigger) + ", " + text_of(build));
       HomingSimple2 machine({build});
       machine.set(build.axis == 'A' ? "Axis_VelMode_ACC" : "Baxis_VelMode_ACC", 32768);
-      machine.set(machine.name(build.axis, other.trigger),
-                  std::string_view(other.trigger) == "DirectmRPM" ? build.way * other.value : other.value);
+      machine.set(machine.name(build.axis, other.trigger), std::string_view(other.trigger) == "DirectmRPM"
+                                                               ? build.direction * other.value
+                                                               : other.value);
       machine.step_by(200);
       // 65.536 RPM a second up to 10 RPM: 152.6 ms and 38.1 pulses, then half a pulse a ms: 61.8.
       const bool runs = std::string_view(other.trigger) == "DirectmRPM";
@@ -163,7 +164,7 @@ TEST(HomingCommands, IsDroppedWithServoOffOrAlarmAndKeepsTheHomeBit) {
 }
 
 TEST(HomingCommands, ToAllTakesOnlyTheAxisWhoseServoIsOn) {
-  HomingSimple2 machine({{.axis = 'A'}, {.axis = 'B', .way = -1}});
+  HomingSimple2 machine({{.axis = 'A'}, {.axis = 'B', .direction = -1}});
   machine.set("Aaxis_SVON", 0);
   machine.set("ALL_GoHome", 1);
   machine.step_by(136);
@@ -192,7 +193,7 @@ TEST(HomingCommands, TheHomeBitOutlastsEverythingButTheNextHoming) {
     const auto name = [&](std::string_view what) { return machine.name(build.axis, what); };
     machine.go_home();
     EXPECT_EQ(machine.milliseconds_to_end(), 135);
-    machine.set_one_pulse_a_tick(build.axis, build.way * -500);
+    machine.set_one_pulse_a_tick(build.axis, build.direction * -500);
     machine.set(name("Move_INC"), 1);
     machine.step_by(200);
     EXPECT_TRUE(machine.homed());
@@ -239,7 +240,7 @@ TEST(HomingCommands, TheCoordinateIsZeroedOrKeptAsTheFirmwareCounts) {
         machine.go_home();
         // 5 pulses past the edge and back come to nothing: 100 pulses remain. Until 1.40 the coordinate
         // counts the motor's sense.
-        const int sense = build.reversed && firmware <= 140 ? -build.way : build.way;
+        const int sense = build.reversed && firmware <= 140 ? -build.direction : build.direction;
         machine.step_by(116);
         EXPECT_EQ(machine.get(cord), 7000 + sense * 105);
         EXPECT_EQ(machine.milliseconds_to_end(), 135 - 116);
@@ -256,7 +257,7 @@ TEST(HomingCommands, AGivenUpHomingLeavesTheCoordinateAlone) {
     HomingSimple2 machine({build});
     machine.go_home();
     EXPECT_EQ(machine.milliseconds_to_end(), 611);
-    EXPECT_EQ(machine.coordinate(build.axis), build.way * -200);
+    EXPECT_EQ(machine.coordinate(build.axis), build.direction * -200);
   }
 }
 

@@ -193,8 +193,9 @@ TEST(HomingFromEverywhere, TakesItsSpeedAndRampsFromItsParameters) {
 TEST(HomingFromEverywhere, FromEveryPulseItEndsOnThatEdgeWithinTheLimits) {
   for (std::int64_t start = -205; start <= 205; ++start) {
     for (const char axis : {'A', 'B'}) {
-      for (const int way : {+1, -1}) {
-        const HomingAxis build{.axis = axis, .way = way, .reversed = start % 2 != 0, .start = start};
+      for (const int direction : {+1, -1}) {
+        const HomingAxis build{
+            .axis = axis, .direction = direction, .reversed = start % 2 != 0, .start = start};
         SCOPED_TRACE(text_of(build));
         HomingSimple2 machine({build});
         machine.go_home();
@@ -232,10 +233,13 @@ TEST(HomingFromEverywhere, FromEveryPulseItEndsOnThatEdgeWithinTheLimits) {
 }
 
 TEST(HomingFromEverywhere, BothAxesAtOnceEachTakeTheirOwn) {
-  for (const int way : {+1, -1}) {
-    HomingAxis slow{.axis = 'A', .way = way, .start = 150};
-    HomingAxis fast{
-        .axis = 'B', .way = -way, .home = world::PulseSpan{1000, 1200}, .behind = -2000, .ahead = 2000};
+  for (const int direction : {+1, -1}) {
+    HomingAxis slow{.axis = 'A', .direction = direction, .start = 150};
+    HomingAxis fast{.axis = 'B',
+                    .direction = -direction,
+                    .home = world::PulseSpan{1000, 1200},
+                    .behind = -2000,
+                    .ahead = 2000};
     fast.speed_rpm = 200;
     fast.time_10ms = 10;
     HomingSimple2 machine({slow, fast});

@@ -46,7 +46,7 @@ struct HomedSimple2 : HomingSimple2 {
     set(build.axis == 'A' ? "DIN0_Aaxis_Alarm" : "DIN5_Baxis_Alarm", 1);
     go_home();
     EXPECT_GT(milliseconds_to_end(), 0);
-    set_one_pulse_a_tick(build.axis, build.way * 50);
+    set_one_pulse_a_tick(build.axis, build.direction * 50);
     set(name(build.axis, "Move_INC"), 1);
     EXPECT_EQ(milliseconds_to_end(), 60);
     EXPECT_EQ(place(), kStart);
@@ -67,7 +67,7 @@ struct HomedSimple2 : HomingSimple2 {
   void expect_at_rest(const Moment& moment) {
     const char letter = axis().axis;
     EXPECT_EQ(place(), moment.place);
-    EXPECT_EQ(coordinate(letter), axis().way * (moment.place - 100));
+    EXPECT_EQ(coordinate(letter), axis().direction * (moment.place - 100));
     EXPECT_FALSE(is_moving());
     EXPECT_FALSE(homing());
     EXPECT_FALSE(homed());
@@ -253,7 +253,7 @@ TEST(HomingInterrupted, ItsParametersAreThoseOfItsBeginning) {
     machine.set(machine.name(build.axis, "Home_Speed"), 1000);
     machine.set(machine.name(build.axis, "Home_AccTime"), 77);
     machine.set(machine.name(build.axis, "Resoultion"), 123);
-    machine.set(machine.direction_name(build.axis), build.way < 0);
+    machine.set(machine.direction_name(build.axis), build.direction < 0);
     ASSERT_NO_FATAL_FAILURE(expect_courses(machine, {kWhole}));
   }
 }

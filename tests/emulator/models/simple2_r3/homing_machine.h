@@ -27,7 +27,7 @@ struct HomingLeg {
 
   Tick at = 0;
   Does does = Does::run;
-  int way = +1;
+  int direction = +1;
   std::int64_t from = 0;      // where the axis last stood
   double gone_pulses = 0;     // of slow: from there to where slowing down began
   double pulses_a_ms = 0;     // of slow: the speed there
@@ -55,24 +55,26 @@ struct HomingLeg {
   }
   std::int64_t place_at(Tick ms, const HomingPace& pace) const {
     const double gone = gone_after(static_cast<double>(ms - at), pace);
-    return from + way * static_cast<std::int64_t>(std::floor(gone + 1e-6));
+    return from + direction * static_cast<std::int64_t>(std::floor(gone + 1e-6));
   }
 };
 
 /// From standstill on `from`, along the direction of homing (+1) or against it.
-inline HomingLeg run_leg(Tick at, int way, std::int64_t from) { return {.at = at, .way = way, .from = from}; }
+inline HomingLeg run_leg(Tick at, int direction, std::int64_t from) {
+  return {.at = at, .direction = direction, .from = from};
+}
 /// The same run slows down, `gone` pulses after `from`.
-inline HomingLeg slow_leg(Tick at, int way, std::int64_t from, double gone, double pulses_a_ms = 1) {
+inline HomingLeg slow_leg(Tick at, int direction, std::int64_t from, double gone, double pulses_a_ms = 1) {
   return {.at = at,
           .does = HomingLeg::Does::slow,
-          .way = way,
+          .direction = direction,
           .from = from,
           .gone_pulses = gone,
           .pulses_a_ms = pulses_a_ms};
 }
 /// Against the direction, back to the edge.
 inline HomingLeg back_leg(Tick at, std::int64_t from, std::int64_t distance) {
-  return {.at = at, .does = HomingLeg::Does::back, .way = -1, .from = from, .distance = distance};
+  return {.at = at, .does = HomingLeg::Does::back, .direction = -1, .from = from, .distance = distance};
 }
 /// Stopped at once.
 inline HomingLeg stand_leg(Tick at, std::int64_t place) {
@@ -96,7 +98,7 @@ struct HomingCourse {
 
 struct HomingAxis {
   char axis = 'A';
-  int way = +1;           // GoHome_DIR: +1 is 1, -1 is 0
+  int direction = +1;     // GoHome_DIR: +1 is 1, -1 is 0
   bool reversed = false;  // DIR_Polarity, and the limit switches wired to match
   std::int64_t start = 0;
   std::optional<world::PulseSpan> home = world::PulseSpan{100, 120};
@@ -109,10 +111,10 @@ struct HomingAxis {
   bool limits_assigned = true;
 
   int number() const { return axis == 'A' ? 0 : 1; }
-  int sign() const { return reversed ? -way : way; }  // of the plant's positions
+  int sign() const { return reversed ? -direction : direction; }  // of the plant's positions
   int input_of(int din_of_a) const { return din_of_a + 5 * number(); }
-  int ahead_input() const { return input_of(way > 0 ? 2 : 3); }
-  int behind_input() const { return input_of(way > 0 ? 3 : 2); }
+  int ahead_input() const { return input_of(direction > 0 ? 2 : 3); }
+  int behind_input() const { return input_of(direction > 0 ? 3 : 2); }
 };
 
 /// Stands still with its servos on, at tick 20.
@@ -126,7 +128,7 @@ class HomingSimple2 : public ReadySimple2 {
       set(name(a.axis, "Home_Speed"), a.speed_rpm);
       set(name(a.axis, "Home_AccTime"), a.time_10ms);
       set(name(a.axis, "DIR_Polarity"), a.reversed);
-      set(direction_name(a.axis), a.way > 0);
+      set(direction_name(a.axis), a.direction > 0);
       set(a.axis == 'A' ? "DIN4_Aaxis_Home" : "DIN9_Baxis_Home", a.home_assigned);
       set(a.axis == 'A' ? "DIN2_Aaxis_UP_Limit" : "DIN7_Baxis_UP_Limit", a.limits_assigned);
       set(a.axis == 'A' ? "DIN3_Aaxis_DN_Limit" : "DIN8_Baxis_DN_Limit", a.limits_assigned);
@@ -177,8 +179,8 @@ class HomingSimple2 : public ReadySimple2 {
                                   : world::PulseSpan{in_plant(a.home->last), in_plant(a.home->first)};
       }
       if (!a.reversed) {
-        auto& ahead = a.way > 0 ? plant.upper_limit : plant.lower_limit;
-        auto& behind = a.way > 0 ? plant.lower_limit : plant.upper_limit;
+        auto& ahead = a.direction > 0 ? plant.upper_limit : plant.lower_limit;
+        auto& behind = a.direction > 0 ? plant.lower_limit : plant.upper_limit;
         if (a.ahead) ahead = in_plant(*a.ahead);
         if (a.behind) behind = in_plant(*a.behind);
       }
@@ -213,7 +215,7 @@ inline void expect_courses(HomingSimple2& machine, const std::vector<HomingCours
   std::vector<Value> coordinate_before;
   for (std::size_t i = 0; i < courses.size(); ++i) {
     const HomingAxis& a = machine.axis(i);
-    coordinate_before.push_back(machine.coordinate(a.axis) - a.way * machine.place(i));
+    coordinate_before.push_back(machine.coordinate(a.axis) - a.direction * machine.place(i));
   }
   for (Tick ms = -1; ms <= last + 30; ++ms) {  // -1: the request is answered, and no tick has passed
     if (ms >= 0) machine.step();
@@ -224,7 +226,8 @@ inline void expect_courses(HomingSimple2& machine, const std::vector<HomingCours
       const bool over = ms >= course.end;
       const std::int64_t place = course.place_at(std::max<Tick>(ms, 0));
       ASSERT_EQ(machine.place(i), place) << a.axis << " at " << ms << " ms";
-      ASSERT_EQ(machine.coordinate(a.axis), over && course.found ? 0 : coordinate_before[i] + a.way * place)
+      ASSERT_EQ(machine.coordinate(a.axis),
+                over && course.found ? 0 : coordinate_before[i] + a.direction * place)
           << a.axis << " at " << ms << " ms";
       ASSERT_EQ(machine.get(machine.name(a.axis, "GoHome")), !over) << a.axis << " at " << ms << " ms";
 
@@ -233,8 +236,8 @@ inline void expect_courses(HomingSimple2& machine, const std::vector<HomingCours
       Value bits = over ? 0 : 1 << 4 | 1 << 6;
       if (over && course.found) bits |= 1 << 8;
       bits |= 1 << 10;
-      if (a.limits_assigned && a.ahead && seen >= *a.ahead) bits |= a.way > 0 ? 1 << 12 : 1 << 14;
-      if (a.limits_assigned && a.behind && seen <= *a.behind) bits |= a.way > 0 ? 1 << 14 : 1 << 12;
+      if (a.limits_assigned && a.ahead && seen >= *a.ahead) bits |= a.direction > 0 ? 1 << 12 : 1 << 14;
+      if (a.limits_assigned && a.behind && seen <= *a.behind) bits |= a.direction > 0 ? 1 << 14 : 1 << 12;
       ASSERT_EQ(status_of(machine.status(), a.number()), bits << a.number())
           << a.axis << " at " << ms << " ms";
     }
@@ -245,10 +248,10 @@ inline void expect_courses(HomingSimple2& machine, const std::vector<HomingCours
 inline std::vector<HomingAxis> every_build_of(HomingAxis machine) {
   std::vector<HomingAxis> builds;
   for (const char axis : {'A', 'B'}) {
-    for (const int way : {+1, -1}) {
+    for (const int direction : {+1, -1}) {
       for (const bool reversed : {false, true}) {
         machine.axis = axis;
-        machine.way = way;
+        machine.direction = direction;
         machine.reversed = reversed;
         builds.push_back(machine);
       }
@@ -258,8 +261,8 @@ inline std::vector<HomingAxis> every_build_of(HomingAxis machine) {
 }
 
 inline std::string text_of(const HomingAxis& a) {
-  return std::string(1, a.axis) + (a.way > 0 ? " +" : " -") + (a.reversed ? " reversed" : "") + " from " +
-         std::to_string(a.start);
+  return std::string(1, a.axis) + (a.direction > 0 ? " +" : " -") + (a.reversed ? " reversed" : "") +
+         " from " + std::to_string(a.start);
 }
 
 }  // namespace understudy::emulator::models::simple2_r3

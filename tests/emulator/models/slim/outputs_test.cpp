@@ -133,21 +133,21 @@ TEST(SlimOutputs, PwmShowsItsPeriodAndDutyAsFarAsTicksCan) {
 }
 
 TEST(SlimTriggers, FireOnceInTheTickThatPassesThemFromEitherSide) {
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     OneChain bench;
     bench.speeds(0, 100'000, 1'000'000);  // up to 100 pulses a tick
     bench.chain.set_output_at_once(0, 4, true);
-    ASSERT_EQ(bench.chain.arm(0, 1, 3, true, way * 12'345), Error::none);
-    ASSERT_EQ(bench.chain.arm(0, 2, 4, false, way * 20'000), Error::none);
-    bench.chain.move(0, true, way * 30'000);
+    ASSERT_EQ(bench.chain.arm(0, 1, 3, true, direction * 12'345), Error::none);
+    ASSERT_EQ(bench.chain.arm(0, 2, 4, false, direction * 20'000), Error::none);
+    bench.chain.move(0, true, direction * 30'000);
     while (!bench.all_done()) {
       bench.step();
-      EXPECT_EQ(bench.chain.output(0, 3), bench.travel(0) * way >= 12'345) << bench.tick;
-      EXPECT_EQ(bench.chain.output(0, 4), bench.travel(0) * way < 20'000) << bench.tick;
+      EXPECT_EQ(bench.chain.output(0, 3), bench.travel(0) * direction >= 12'345) << bench.tick;
+      EXPECT_EQ(bench.chain.output(0, 4), bench.travel(0) * direction < 20'000) << bench.tick;
     }
     // Once, also where the coordinate is set again.
     bench.chain.set_outputs(0, 0b1000);
-    bench.chain.set_coordinate(0, way * 30'000);
+    bench.chain.set_coordinate(0, direction * 30'000);
     bench.chain.move(0, true, 0);
     bench.finish();
     EXPECT_EQ(levels(bench.chain, 0), 0b1000);

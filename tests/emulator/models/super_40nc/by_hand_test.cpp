@@ -23,22 +23,22 @@ TEST(Super40ncJog, RunsAsLongAsItsContactIsOn) {
     double rpm;
   };
   for (const auto& [selected, rpm] : {Case{0, 50}, Case{1, 100}, Case{2, 250}, Case{7, 250}, Case{-1, 50}}) {
-    for (const int way : {+1, -1}) {
+    for (const int direction : {+1, -1}) {
       OneSuper40nc one;
       one.set("D8022", selected);
-      const std::string contact = way > 0 ? "M8203" : "M8204";
+      const std::string contact = direction > 0 ? "M8203" : "M8204";
       one.set(contact, 1);
       one.run(1000);
       EXPECT_TRUE(one.on("M8221"));
       EXPECT_TRUE(one.on("M8238"));
-      EXPECT_EQ(one.on("M8244"), way < 0);
+      EXPECT_EQ(one.on("M8244"), direction < 0);
       EXPECT_EQ(one.get("D8264"), 12);
       one.set(contact, 0);
       one.run(1);
       const Tick ramp = one.run_while("M8220");
       EXPECT_NEAR(static_cast<double>(ramp + 1), ramp_s(rpm) * 1000, 2) << rpm;
       const double expected = ramp_distance(rpm) * 2 + pps(rpm) * (1.0 - ramp_s(rpm));
-      EXPECT_NEAR(static_cast<double>(one.get("D8217")), way * expected, 3) << rpm;
+      EXPECT_NEAR(static_cast<double>(one.get("D8217")), direction * expected, 3) << rpm;
       EXPECT_TRUE(one.on("M8223"));
       EXPECT_TRUE(one.on("M8222"));
       EXPECT_EQ(one.get("D8117"), 0);
@@ -133,19 +133,19 @@ TEST(Super40ncJog, TheHighestSpeedIsNotPassed) {
 }
 
 TEST(Super40ncLimits, SoftLimitStopsAPulseBeyond) {
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     OneSuper40nc one;
-    one.set(way > 0 ? "D9185" : "D9186", way * 1234);
-    one.set(way > 0 ? "M8103" : "M8104", 1);
+    one.set(direction > 0 ? "D9185" : "D9186", direction * 1234);
+    one.set(direction > 0 ? "M8103" : "M8104", 1);
     one.run(2000);
-    EXPECT_EQ(one.get("D8140"), way * 1235);
-    EXPECT_TRUE(one.on(way > 0 ? "M8128" : "M8129"));
+    EXPECT_EQ(one.get("D8140"), direction * 1235);
+    EXPECT_TRUE(one.on(direction > 0 ? "M8128" : "M8129"));
     EXPECT_TRUE(one.on("M8124"));
-    EXPECT_EQ(one.get("D8094"), way > 0 ? 13 : 14);
+    EXPECT_EQ(one.get("D8094"), direction > 0 ? 13 : 14);
     one.set("M8103", 0);
     one.set("M8104", 0);
     one.run(1);
-    one.set(way > 0 ? "M8104" : "M8103", 1);  // back is free
+    one.set(direction > 0 ? "M8104" : "M8103", 1);  // back is free
     one.run(100);
     EXPECT_TRUE(one.on("M8120"));
     EXPECT_FALSE(one.on("M8124"));

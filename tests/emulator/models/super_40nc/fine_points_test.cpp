@@ -93,7 +93,7 @@ TEST(Super40ncFinePoints, RisingContactsActOnce) {
 
 /// Comparators 1 and 2 as soft limits of COUNTER2, which the tick's end looks at.
 TEST(Super40ncFinePoints, SoftLimitsOfAnotherCounterStop) {
-  for (const int way : {+1, -1}) {
+  for (const int direction : {+1, -1}) {
     OneSuper40nc one;
     for (const auto& [name, value] : {std::pair{"D9123", 1},
                                       {"D9131", 1},
@@ -105,11 +105,11 @@ TEST(Super40ncFinePoints, SoftLimitsOfAnotherCounterStop) {
                                       {"D8144", 500},
                                       {"D8145", -500}})
       one.set(name, value);
-    one.set(way > 0 ? "M8103" : "M8104", 1);
+    one.set(direction > 0 ? "M8103" : "M8104", 1);
     one.run(1000);
-    EXPECT_FALSE(one.on("M8120")) << way;
-    EXPECT_EQ(one.get("D8094"), way > 0 ? 13 : 14);
-    EXPECT_NEAR(static_cast<double>(one.get("D8141")), way * 502.0, 4.0);
+    EXPECT_FALSE(one.on("M8120")) << direction;
+    EXPECT_EQ(one.get("D8094"), direction > 0 ? 13 : 14);
+    EXPECT_NEAR(static_cast<double>(one.get("D8141")), direction * 502.0, 4.0);
   }
 }
 

@@ -12,9 +12,9 @@ namespace homing_test {
 
 constexpr int kBraking = 833;
 
-Given machine(int way, int stands_at = 0) {
+Given machine(int direction, int stands_at = 0) {
   world::PlantSetup plant;
-  plant.home = way > 0 ? world::PulseSpan{50000, 70000} : world::PulseSpan{-70000, -50000};
+  plant.home = direction > 0 ? world::PulseSpan{50000, 70000} : world::PulseSpan{-70000, -50000};
   plant.upper_limit = 99000;
   plant.lower_limit = -99000;
   plant.index = world::IndexSetup{.at = 0, .width = 1, .period = 4000};
@@ -23,9 +23,9 @@ Given machine(int way, int stands_at = 0) {
 }
 
 /// So that D8140 tells where it came to: it keeps its pulses.
-void prepare(OneSuper40nc& one, int mode, int way) {
+void prepare(OneSuper40nc& one, int mode, int direction) {
   one.set("D9121", mode);
-  one.set("D9181", way > 0 ? 0 : 1);
+  one.set("D9181", direction > 0 ? 0 : 1);
   one.set("D9128", 0);
   one.set("D9182", 1234);
 }
@@ -42,17 +42,17 @@ constexpr Case kCases[] = {
 
 TEST(Super40ncHoming, EndsWhereTheModeSays) {
   for (const Case& each : kCases) {
-    for (const int way : {+1, -1}) {
-      OneSuper40nc one(machine(way));
-      prepare(one, each.mode, way);
+    for (const int direction : {+1, -1}) {
+      OneSuper40nc one(machine(direction));
+      prepare(one, each.mode, direction);
       one.set("M8105", 1);
       one.run(2);
       EXPECT_TRUE(one.on("M8197")) << each.mode;
       EXPECT_FALSE(one.on("M8195"));
       one.run_while("M8197");
       EXPECT_TRUE(one.on("M8195")) << each.mode;
-      EXPECT_NEAR(static_cast<double>(one.get("D8140")), way * each.end, each.tolerance)
-          << "mode " << each.mode << " way " << way;
+      EXPECT_NEAR(static_cast<double>(one.get("D8140")), direction * each.end, each.tolerance)
+          << "mode " << each.mode << " way " << direction;
       EXPECT_EQ(one.get("D8117"), 1234);
       EXPECT_EQ(one.get("D8094"), 0);
     }
@@ -120,20 +120,21 @@ TEST(Super40ncHoming, EndsAlikeFromEverywhere) {
     for (const int from : {-99'000, 0, 49'990, 50'000, 61'234, 69'990, 75'000, 99'000}) {
       for (const int count : {1, 3}) {
         for (const double rpm : {300.0, 3000.0}) {
-          const int way = (from / 10 + mode + count) % 2 == 0 ? +1 : -1;
+          const int direction = (from / 10 + mode + count) % 2 == 0 ? +1 : -1;
           const Found expected = by_hand({mode, from, count, rpm});
-          OneSuper40nc one(machine(way, way * from));
-          prepare(one, mode, way);
+          OneSuper40nc one(machine(direction, direction * from));
+          prepare(one, mode, direction);
           one.set("D9122", count - 1);
           one.set("D9179", static_cast<Value>(rpm));
           one.press("M8105");
           for (int looks = 0; looks < 300 && one.on("M8197"); ++looks) one.run(200);
-          const std::string which = "mode " + std::to_string(mode) + " from " + std::to_string(way * from) +
-                                    ", C " + std::to_string(count) + ", rpm " + std::to_string(rpm);
+          const std::string which = "mode " + std::to_string(mode) + " from " +
+                                    std::to_string(direction * from) + ", C " + std::to_string(count) +
+                                    ", rpm " + std::to_string(rpm);
           EXPECT_EQ(one.on("M8195"), expected.is_home) << which;
           EXPECT_EQ(one.get("D8094"), expected.is_home ? 0 : 15) << which;
           if (!expected.is_home && expected.end != 99'000) continue;  // it stands wherever it has stopped
-          EXPECT_NEAR(static_cast<double>(one.get("D8140")), way * (expected.end - from),
+          EXPECT_NEAR(static_cast<double>(one.get("D8140")), direction * (expected.end - from),
                       is_by_ramp ? 1 + rpm / 500 : 0)
               << which;
         }
