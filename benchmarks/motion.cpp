@@ -145,10 +145,10 @@ SpeedLaw long_s_curve() {
 
 double axis_tick(std::size_t axes, bool watched) {
   std::vector<Axis> all(axes);
-  Surroundings here;
+  Environment environment;
   if (watched) {
-    here.add(Signal::limit_plus, 1'000'000'000, 2'000'000'000);
-    here.index_period = 4000;
+    environment.add(Signal::limit_plus, 1'000'000'000, 2'000'000'000);
+    environment.index_period = 4000;
   }
   AxisSettings settings{.needs_servo = false};
   if (watched) settings.soft_limit_plus = 900'000'000;
@@ -160,7 +160,7 @@ double axis_tick(std::size_t axes, bool watched) {
   std::int64_t pulses = 0;
   const double each_ns = nanoseconds_each(static_cast<double>(ticks) * static_cast<double>(axes), [&] {
     for (Tick tick = 1; tick <= ticks; ++tick) {
-      for (Axis& axis : all) pulses += axis.step(tick, here);
+      for (Axis& axis : all) pulses += axis.step(tick, environment);
     }
   });
   keep(pulses);
@@ -191,7 +191,7 @@ void ticking() {
 double coordinated_tick(const std::function<void(PathRun&)>& fill, Tick ticks) {
   std::vector<Axis> axes(4);
   for (Axis& axis : axes) axis.set({.needs_servo = false});
-  const std::vector<Surroundings> here(4);
+  const std::vector<Environment> environment(4);
   std::vector<std::int64_t> pulses(4);
   const auto group = std::make_unique<Coordinated>();
   group->axis_of = {0, 1, 2, 3};
@@ -200,7 +200,7 @@ double coordinated_tick(const std::function<void(PathRun&)>& fill, Tick ticks) {
   fill(group->run);
   group->begin(Point::Zero(), axes, 0);
   const double each_ns = nanoseconds_each(static_cast<double>(ticks), [&] {
-    for (Tick tick = 1; tick <= ticks; ++tick) group->step(tick, axes, here, pulses);
+    for (Tick tick = 1; tick <= ticks; ++tick) group->step(tick, axes, environment, pulses);
   });
   keep(pulses);
   return each_ns;
@@ -239,9 +239,9 @@ void coordinated() {
 void simulated_time() {
   // Four axes that move to and fro without a rest, with limits and an index to look out for.
   std::vector<Axis> axes(4);
-  Surroundings here;
-  here.add(Signal::limit_plus, 1'000'000, 2'000'000);
-  here.index_period = 4000;
+  Environment environment;
+  environment.add(Signal::limit_plus, 1'000'000, 2'000'000);
+  environment.index_period = 4000;
   for (Axis& axis : axes) axis.set({.needs_servo = false});
   constexpr Tick kSimulated = 2'000'000;
   std::int64_t pulses = 0;
@@ -249,7 +249,7 @@ void simulated_time() {
     for (Tick tick = 1; tick <= kSimulated; ++tick) {
       for (Axis& axis : axes) {
         if (!axis.moving()) axis.move(axis.travel_pulses > 0 ? -50000 : 50000, long_s_curve(), tick - 1);
-        pulses += axis.step(tick, here);
+        pulses += axis.step(tick, environment);
       }
     }
   });

@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "motion/bad_motion.h"
+#include "motion/environment.h"
 #include "motion/move.h"
 #include "motion/profile.h"
 #include "motion/pulse_drive.h"
-#include "motion/surroundings.h"
 #include "motion/tick.h"
 
 // Commands and reactions; the tick is in axis_step.cpp.

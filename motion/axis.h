@@ -1,6 +1,6 @@
 // One axis of a controller, as a value: a pulse generator with its limits, signals, backlash and events.
 //
-//   commands ──> drive (profile on the clock) ──> travel ──> counters, comparators   <── surroundings
+//   commands ──> drive (profile on the clock) ──> travel ──> counters, comparators   <── environment
 //                   ^ reactions to limits, alarm, emergency, homing <──────────────────────┘
 //
 // Travel is the sum of the pulses that the user's coordinate counts, in 64 bits, from power-up. Soft limits,
@@ -16,11 +16,11 @@
 #include <optional>
 
 #include "motion/counter.h"
+#include "motion/environment.h"
 #include "motion/following.h"
 #include "motion/homing.h"
 #include "motion/move.h"
 #include "motion/pulse_drive.h"
-#include "motion/surroundings.h"
 
 namespace understudy::motion {
 
@@ -196,7 +196,7 @@ struct alignas(64) Axis {
   bool slowing = false;            // slowing down to a stop, for `cause`
   bool comes_back = false;         // after that, returns to the target it has passed
   bool settling = false;           // all pulses are sent; it waits for in-position
-  bool encoder_is_known = false;   // the surroundings say what the encoder counts along the travel
+  bool encoder_is_known = false;   // the environment says what the encoder counts along the travel
   std::int64_t target_pulses = 0;  // whole distance of a move, in the drive's coordinate
   SpeedLaw law;
   Follower follower;
@@ -285,9 +285,10 @@ struct alignas(64) Axis {
   // ---- The tick
 
   /// Runs one tick, the next after the last one. Returns the pulses that come out, signed as they come out.
-  std::int64_t step(Tick tick, const Surroundings& here) {
+  std::int64_t step(Tick tick, const Environment& environment) {
     QuietTick quiet;
-    return step_quietly(tick, here, quiet) ? quiet.pulses : step_with_care(tick, here, quiet.followed);
+    return step_quietly(tick, environment, quiet) ? quiet.pulses
+                                                  : step_with_care(tick, environment, quiet.followed);
   }
 
   /// The result of a tick in which nothing can happen, and the state before it. Such a tick can be taken back
@@ -300,10 +301,10 @@ struct alignas(64) Axis {
     std::optional<std::int64_t> followed{};
   };
   /// Runs such a tick, or returns false.
-  bool step_quietly(Tick tick, const Surroundings& here, QuietTick& quiet) {
+  bool step_quietly(Tick tick, const Environment& environment, QuietTick& quiet) {
     quiet.travel = travel_pulses;
     quiet.sent = drive.sent_pulses;
-    if (tick < drive.next_look && here.version == seen_version && !attentive) [[likely]] {
+    if (tick < drive.next_look && environment.version == seen_version && !attentive) [[likely]] {
       const std::int64_t sent = drive.pulses_of_segment(tick);
       const std::int64_t travel = base_pulses + drive.direction * sent;
       if (travel >= watch_low && travel <= watch_high) [[likely]] {
@@ -315,7 +316,7 @@ struct alignas(64) Axis {
         return true;
       }
     }
-    return task == Task::following && follow_quietly(here, quiet);
+    return task == Task::following && follow_quietly(environment, quiet);
   }
   void take_back(const QuietTick& quiet) {
     travel_pulses = quiet.travel;
@@ -325,12 +326,12 @@ struct alignas(64) Axis {
 
   /// Runs one tick of an axis in a coordinated motion, instead of step(): the axis goes by `pulses`, evenly
   /// over the tick. Pulses left over after a reaction are not sent.
-  std::int64_t carry(std::int64_t pulses, Tick tick, const Surroundings& here) {
+  std::int64_t carry(std::int64_t pulses, Tick tick, const Environment& environment) {
     const std::int64_t travel = travel_pulses + pulses;
-    if (carries_quietly(here) && travel >= watch_low && travel <= watch_high) [[likely]] {
+    if (carries_quietly(environment) && travel >= watch_low && travel <= watch_high) [[likely]] {
       return carry_across(pulses);
     }
-    return step_with_care(tick, here, pulses);
+    return step_with_care(tick, environment, pulses);
   }
 
   // ---- Many ticks in one step: motion/axis_crossing.cpp
@@ -341,7 +342,7 @@ struct alignas(64) Axis {
   };
   /// Returns the last tick up to which the axis continues along its plan within `range` and nothing happens
   /// to it. `next` is the next tick, `most` the latest to consider. Returns next - 1 if there is none.
-  Tick quiet_until(Tick next, Tick most, const Surroundings& here, TravelRange range) const;
+  Tick quiet_until(Tick next, Tick most, const Environment& environment, TravelRange range) const;
   /// Returns the travel after one of those ticks.
   std::int64_t travel_ahead(Tick tick) const {
     return base_pulses + drive.direction * drive.pulses_of_segment(tick);
@@ -350,8 +351,8 @@ struct alignas(64) Axis {
   /// tick by tick.
   std::int64_t cross_to(Tick tick);
   /// Returns true if carry() only counts while travel stays within watch_low and watch_high.
-  bool carries_quietly(const Surroundings& here) const {
-    return task == Task::coordinated && is_undisturbed(here);
+  bool carries_quietly(const Environment& environment) const {
+    return task == Task::coordinated && is_undisturbed(environment);
   }
   /// Adds the pulses of several carry() ticks at once. Only while carries_quietly(), all of one sign.
   std::int64_t carry_across(std::int64_t pulses) {
@@ -368,12 +369,14 @@ struct alignas(64) Axis {
   friend class AxisTick;
 
   Cause forbidden(int direction, Signals ignored) const;
-  std::int64_t step_with_care(Tick tick, const Surroundings& here, std::optional<std::int64_t> pulses = {});
-  bool follow_quietly(const Surroundings& here, QuietTick& quiet);
+  std::int64_t step_with_care(Tick tick, const Environment& environment,
+                              std::optional<std::int64_t> pulses = {});
+  bool follow_quietly(const Environment& environment, QuietTick& quiet);
   /// Returns true if nothing has changed since the last tick except the carried pulses, and all pulses sent
   /// are travel.
-  bool is_undisturbed(const Surroundings& here) const {
-    return here.version == seen_version && !attentive && settings.backlash_pulses <= 0 && play_pulses == 0;
+  bool is_undisturbed(const Environment& environment) const {
+    return environment.version == seen_version && !attentive && settings.backlash_pulses <= 0 &&
+           play_pulses == 0;
   }
 
   // Starting and ending, at moments within a tick.
@@ -381,7 +384,7 @@ struct alignas(64) Axis {
               bool for_homing = false);
   void go_on_by(const SpeedLaw& speed, Instant at);
   std::int64_t play_before(int direction) const;
-  void know_encoder(const Surroundings& here);
+  void know_encoder(const Environment& environment);
   void follow_encoder_count(Instant at);
   bool counts_by_encoder() const;
   Profile planned(const SpeedLaw& speed) const;  // plans the task from its beginning
@@ -392,10 +395,10 @@ struct alignas(64) Axis {
 
   // Inside a tick.
   // `direction`: direction in which the axis came here; 0: it has not moved
-  void meet(const Surroundings& here, Instant at, int direction);
+  void meet(const Environment& environment, Instant at, int direction);
   void see(Signals now_on, Instant at);
   void compare(Count count, std::int64_t value, Instant at, int direction);
-  void watch(const Surroundings& here);
+  void watch(const Environment& environment);
   void raise(Event event, Instant at);
   void look_at_speed(std::int64_t sent_before, Instant from, Instant until);
   bool waits_for_constant_speed() const;

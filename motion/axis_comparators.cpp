@@ -89,8 +89,8 @@ void Axis::set_encoder(std::int64_t pulses) {
 }
 
 /// Computes the encoder's count at this very pulse, if the machine follows the axis.
-void Axis::know_encoder(const Surroundings& here) {
-  if (encoder_is_known) encoder_pulses = here.encoder.at(travel_pulses);
+void Axis::know_encoder(const Environment& environment) {
+  if (encoder_is_known) encoder_pulses = environment.encoder.at(travel_pulses);
 }
 
 /// Moves the encoder's count from its old value to its new one; comparators check everything between.

@@ -2,16 +2,16 @@
 #include <cstdint>
 
 #include "motion/axis.h"
+#include "motion/environment.h"
 #include "motion/pulse_drive.h"
-#include "motion/surroundings.h"
 #include "motion/tick.h"
 
 // Many ticks in one step, while an axis only continues along its plan.
 namespace understudy::motion {
 
-Tick Axis::quiet_until(Tick next, Tick most, const Surroundings& here, TravelRange range) const {
+Tick Axis::quiet_until(Tick next, Tick most, const Environment& environment, TravelRange range) const {
   const Tick none = next - 1;
-  if (attentive || here.version != seen_version || task == Task::coordinated) return none;
+  if (attentive || environment.version != seen_version || task == Task::coordinated) return none;
   const std::int64_t low = std::max(range.low, watch_low);
   const std::int64_t high = std::min(range.high, watch_high);
   const Tick last = std::min(most, drive.next_look - 1);

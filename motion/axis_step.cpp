@@ -5,8 +5,8 @@
 
 #include "motion/axis.h"
 #include "motion/axis_tick.h"
+#include "motion/environment.h"
 #include "motion/pulse_drive.h"
-#include "motion/surroundings.h"
 #include "motion/tick.h"
 
 // The tick of an axis in which something can happen.
@@ -19,15 +19,16 @@ constexpr std::int64_t kNoEdge = std::int64_t{1} << 56;
 
 }  // namespace
 
-std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here, std::optional<std::int64_t> pulses) {
-  AxisTick part(*this, here, tick, pulses);
+std::int64_t Axis::step_with_care(Tick tick, const Environment& environment,
+                                  std::optional<std::int64_t> pulses) {
+  AxisTick part(*this, environment, tick, pulses);
   while (!part.is_over()) part.look();
   return part.finish();
 }
 
 /// Steps the follower, and moves the axis if nothing lies between.
-bool Axis::follow_quietly(const Surroundings& here, QuietTick& quiet) {
-  if (!is_undisturbed(here)) return false;
+bool Axis::follow_quietly(const Environment& environment, QuietTick& quiet) {
+  if (!is_undisturbed(environment)) return false;
   const std::int64_t pulses = follower.step();
   quiet.followed = pulses;
   const std::int64_t travel = travel_pulses + pulses;
@@ -37,11 +38,11 @@ bool Axis::follow_quietly(const Surroundings& here, QuietTick& quiet) {
 }
 
 /// Handles everything that depends on the position, at the position that the axis has reached.
-void Axis::meet(const Surroundings& here, Instant at, int direction) {
-  know_encoder(here);
+void Axis::meet(const Environment& environment, Instant at, int direction) {
+  know_encoder(environment);
   compare(Count::command, travel_pulses, at, direction);
   follow_encoder_count(at);
-  see(here.at(travel_pulses, signals), at);
+  see(environment.at(travel_pulses, signals), at);
   if (settings.soft_limit_plus && soft_limit_place() > *settings.soft_limit_plus && drive.direction > 0) {
     react(settings.at_soft_limit, Cause::soft_limit_plus, at);
   }
@@ -74,24 +75,24 @@ void Axis::see(Signals now_on, Instant at) {
 }
 
 /// Computes how far the axis may go before meet() has anything to do.
-void Axis::watch(const Surroundings& here) {
+void Axis::watch(const Environment& environment) {
   std::int64_t up = kNoEdge;
   std::int64_t down = kNoEdge;
   const auto consider = [](std::int64_t& nearest, std::optional<std::int64_t> steps) {
     if (steps) nearest = std::min(nearest, *steps);
   };
-  if (here.depends_on_place()) {
-    consider(up, here.steps_until_change(travel_pulses, +1));
-    consider(down, here.steps_until_change(travel_pulses, -1));
+  if (environment.depends_on_place()) {
+    consider(up, environment.steps_until_change(travel_pulses, +1));
+    consider(down, environment.steps_until_change(travel_pulses, -1));
   }
   // In steps of travel, if a number of counts is asked for.
   const auto consider_by = [&](Count count, std::int64_t& nearest, int direction,
                                std::optional<std::int64_t> steps) {
     const bool by_encoder = count == Count::encoder;
-    if (steps && by_encoder) steps = here.encoder.steps_until(travel_pulses, direction, *steps);
+    if (steps && by_encoder) steps = environment.encoder.steps_until(travel_pulses, direction, *steps);
     consider(nearest, steps);
   };
-  const int encoder_direction = here.encoder.sense();
+  const int encoder_direction = environment.encoder.sense();
   for (const Comparator& mine : comparators) {
     const bool by_encoder = mine.count == Count::encoder;
     if (mine.relation == Comparator::Relation::off || (by_encoder && !encoder_is_known)) continue;

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "motion/axis.h"
+#include "motion/environment.h"
 #include "motion/pulse_drive.h"
-#include "motion/surroundings.h"
 #include "motion/tick.h"
 
 namespace understudy::motion {
@@ -24,9 +24,9 @@ Instant later(const Instant& one, const Instant& other) { return is_before(one, 
 
 }  // namespace
 
-AxisTick::AxisTick(Axis& axis, const Surroundings& here, Tick tick, std::optional<std::int64_t> carried)
+AxisTick::AxisTick(Axis& axis, const Environment& environment, Tick tick, std::optional<std::int64_t> carried)
     : axis_(axis),
-      here_(here),
+      here_(environment),
       tick_(tick),
       at_{.tick = tick - 1},
       until_{.tick = tick},
@@ -38,14 +38,15 @@ AxisTick::AxisTick(Axis& axis, const Surroundings& here, Tick tick, std::optiona
     const bool was_between = (axis_.events_between >> i & 1U) != 0;
     if (was_between && axis_.event_at[i].tick < tick - 1) axis_.event_at[i] = at_;
   }
-  axis_.encoder_is_known = here.encoder.is_known();
+  axis_.encoder_is_known = environment.encoder.is_known();
   if (axis_.encoder_is_known) {
     // Since the last check nothing has happened, unless the machine was moved, or no longer follows.
-    if (axis_.seen_version == here.version) axis_.encoder_seen = here.encoder.at(axis_.travel_pulses);
+    if (axis_.seen_version == environment.version)
+      axis_.encoder_seen = environment.encoder.at(axis_.travel_pulses);
   }
-  axis_.seen_version = here.version;
+  axis_.seen_version = environment.version;
   axis_.attentive = false;
-  axis_.meet(here, at_, 0);
+  axis_.meet(environment, at_, 0);
   const bool is_carried = axis_.task == Task::following || (carried && axis_.task == Task::coordinated);
   if (!is_carried) return;
   carried_by_ = axis_.task;

@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "motion/axis.h"
+#include "motion/environment.h"
 #include "motion/pulse_drive.h"
-#include "motion/surroundings.h"
 #include "motion/tick.h"
 
 namespace understudy::motion {
@@ -24,7 +24,7 @@ class AxisTick {
  public:
   /// Begins the tick and handles at once what has changed since the last tick. `carried` is the number of
   /// pulses that come from elsewhere, evenly over the tick, or those already taken from the axis's follower.
-  AxisTick(Axis& axis, const Surroundings& here, Tick tick, std::optional<std::int64_t> carried = {});
+  AxisTick(Axis& axis, const Environment& environment, Tick tick, std::optional<std::int64_t> carried = {});
 
   /// Returns the next moment at which something can happen to the axis, or the tick's end if nothing can.
   const Instant& next();
@@ -68,7 +68,7 @@ class AxisTick {
   void go_on_carried(std::int64_t pulses, Instant at);
 
   Axis& axis_;
-  const Surroundings& here_;
+  const Environment& here_;
   Tick tick_;
   Instant at_;
   Instant until_;

@@ -8,9 +8,9 @@
 #include <span>
 
 #include "motion/axis.h"
+#include "motion/environment.h"
 #include "motion/path.h"
 #include "motion/shared_tick.h"
-#include "motion/surroundings.h"
 #include "motion/tick.h"
 #include "motion/unit_scale.h"
 
@@ -107,7 +107,7 @@ Cause Coordinated::begin(const Point& from, std::span<Axis> axes, Tick now) {
 }
 
 Coordinated::Ahead Coordinated::look_ahead(Tick tick, std::span<const Axis> axes,
-                                           std::span<const Surroundings> here, bool stays_engaged) {
+                                           std::span<const Environment> environment, bool stays_engaged) {
   Ahead ahead;
   const Point& place = run.step(tick, &ahead.gone);
   ahead.is_quiet = !is_over(stays_engaged);
@@ -119,7 +119,7 @@ Coordinated::Ahead Coordinated::look_ahead(Tick tick, std::span<const Axis> axes
     const std::int64_t target = ahead.target[i] = travel_at(i, place[static_cast<Eigen::Index>(i)]);
     ahead.is_quiet = ahead.is_quiet && !axis->slowing && target >= axis->watch_low &&
                      target <= axis->watch_high &&
-                     axis->carries_quietly(here[static_cast<std::size_t>(axis_of[i])]);
+                     axis->carries_quietly(environment[static_cast<std::size_t>(axis_of[i])]);
     has_edges_near = has_edges_near || (bends && may_turn_beyond(*axis, target, kFarthestTurn_pulses));
   }
   if (!ahead.is_quiet || !has_edges_near) [[likely]]
@@ -142,9 +142,9 @@ void Coordinated::cross(const Ahead& ahead, std::span<Axis> axes, std::span<std:
   }
 }
 
-void Coordinated::step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
+void Coordinated::step(Tick tick, std::span<Axis> axes, std::span<const Environment> environment,
                        std::span<std::int64_t> pulses, bool stays_engaged) {
-  step_together({.tick = tick, .axes = axes, .here = here, .pulses = pulses}, 0, this, nullptr,
+  step_together({.tick = tick, .axes = axes, .environment = environment, .pulses = pulses}, 0, this, nullptr,
                 stays_engaged);
 }
 

@@ -36,13 +36,13 @@ struct Coordinated {
   /// that is not finite or not where the first path begins, and for an invalid scale.
   Cause begin(const Point& from, std::span<Axis> axes, Tick now);
 
-  /// Runs one tick of the axes that took part before it, instead of their own step(). `here` and
+  /// Runs one tick of the axes that took part before it, instead of their own step(). `environment` and
   /// `pulses` have one element for each of `axes`; `pulses` is added to, signed as the pulses come out. When
   /// one axis is stopped, for any reason, all axes stop where they are then and the rest of the path is
   /// abandoned. When the queue has run empty at rest, the axes are released, unless the owner keeps them with
   /// `stays_engaged`. An axis that is to slow down slows down all of them from there on. If axes act on each
   /// other within a tick, use motion/shared_tick.h.
-  void step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
+  void step(Tick tick, std::span<Axis> axes, std::span<const Environment> environment,
             std::span<std::int64_t> pulses, bool stays_engaged = false);
 
   /// Slows down on the path from now on and ends there for `why`; the rest is abandoned. An axis whose
@@ -59,7 +59,7 @@ struct Coordinated {
     Targets target{};
     bool is_quiet = false;
   };
-  Ahead look_ahead(Tick tick, std::span<const Axis> axes, std::span<const Surroundings> here,
+  Ahead look_ahead(Tick tick, std::span<const Axis> axes, std::span<const Environment> environment,
                    bool stays_engaged);
   /// Moves the axes to the targets of a quiet look_ahead().
   void cross(const Ahead& ahead, std::span<Axis> axes, std::span<std::int64_t> pulses);

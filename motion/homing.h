@@ -6,14 +6,14 @@
 //   phase 2  search +, creep, until home on, stop             ╰─────● the reference
 //
 // The tables of the four controllers are in motion/homing_tables.h. The code that runs them, homing_run.cpp,
-// is independent of the controllers. Every edge is handled at its pulse (motion/surroundings.h).
+// is independent of the controllers. Every edge is handled at its pulse (motion/environment.h).
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "motion/environment.h"
 #include "motion/move.h"
-#include "motion/surroundings.h"
 
 namespace understudy::motion {
 

@@ -4,11 +4,11 @@
 
 #include "motion/axis.h"
 #include "motion/bad_motion.h"
+#include "motion/environment.h"
 #include "motion/homing.h"
 #include "motion/move.h"
 #include "motion/profile.h"
 #include "motion/pulse_drive.h"
-#include "motion/surroundings.h"
 #include "motion/tick.h"
 
 // Runs a homing table. Phases begin and end inside ticks, at the edges that separate them.

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "motion/bad_motion.h"
+#include "motion/environment.h"
 #include "motion/homing.h"
 #include "motion/ramp.h"
-#include "motion/surroundings.h"
 
 namespace understudy::motion {
 

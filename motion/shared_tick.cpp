@@ -32,12 +32,12 @@ void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* pa
   std::size_t count = 0;
   for (std::uint32_t left = singles; left != 0; left &= left - 1) {
     const auto axis = static_cast<std::size_t>(std::countr_zero(left));
-    const bool is_quiet = all.axes[axis].step_quietly(all.tick, all.here[axis], quiet[count++]);
+    const bool is_quiet = all.axes[axis].step_quietly(all.tick, all.environment[axis], quiet[count++]);
     if (!is_quiet) [[unlikely]]
       restless |= 1U << axis;
   }
   std::optional<Coordinated::Ahead> ahead;
-  if (path != nullptr) ahead = path->look_ahead(all.tick, all.axes, all.here, stays_engaged);
+  if (path != nullptr) ahead = path->look_ahead(all.tick, all.axes, all.environment, stays_engaged);
   count = 0;
   if (restless == 0 && (!ahead || ahead->is_quiet)) [[likely]] {
     for (std::uint32_t left = singles; left != 0; left &= left - 1) {
@@ -70,7 +70,7 @@ void SharedTick::open(Member& member) {
   if (member.part) return;
   Axis& axis = all_.axes[member.axis];
   if (member.is_quiet) axis.take_back(member.quiet);
-  member.part.emplace(axis, all_.here[member.axis], all_.tick, member.quiet.followed);
+  member.part.emplace(axis, all_.environment[member.axis], all_.tick, member.quiet.followed);
 }
 
 void SharedTick::open_path() {

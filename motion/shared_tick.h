@@ -40,7 +40,7 @@ class EdgeOwner {
 struct TickOfAxes {
   Tick tick = 0;
   std::span<Axis> axes;
-  std::span<const Surroundings> here;
+  std::span<const Environment> environment;
   std::span<std::int64_t> pulses;
 };
 

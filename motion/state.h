@@ -21,7 +21,7 @@ class PathRun;
 struct Profile;
 struct PulseDrive;
 struct SpeedLaw;
-struct Surroundings;
+struct Environment;
 struct SyncTable;
 struct UnitScale;
 

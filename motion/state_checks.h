@@ -75,7 +75,7 @@ inline void check_restored(const Comparator& comparator) {
   require_within(comparator.value, INT64_MIN + 1, INT64_MAX - 1);
 }
 
-inline void check_restored(const Surroundings::Zone& zone) { require_within(zone.slack, 0, INT64_MAX / 2); }
+inline void check_restored(const Environment::Zone& zone) { require_within(zone.slack, 0, INT64_MAX / 2); }
 
 inline void check_restored(const EncoderLine& line) {
   for (const std::int64_t value : {line.counts, line.factor, line.pulses, line.divider}) {
@@ -87,10 +87,10 @@ inline void check_restored(const EncoderLine& line) {
   require_within(line.first, INT64_MIN, line.last);
 }
 
-inline void check_restored(const Surroundings& here) {
-  require_within(here.zone_count, 0, static_cast<std::int64_t>(Surroundings::kMaxZones));
-  require_within(here.index_period, INT64_MIN, INT64_MAX / 2);
-  require_within(here.index_from, INT64_MIN, here.index_to);
+inline void check_restored(const Environment& environment) {
+  require_within(environment.zone_count, 0, static_cast<std::int64_t>(Environment::kMaxZones));
+  require_within(environment.index_period, INT64_MIN, INT64_MAX / 2);
+  require_within(environment.index_from, INT64_MIN, environment.index_to);
 }
 
 inline void check_restored(const Follower& follower) {

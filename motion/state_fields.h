@@ -127,11 +127,11 @@ struct StateOf<motion::Comparator> {
 };
 
 template <>
-struct StateOf<motion::Surroundings::Zone> {
+struct StateOf<motion::Environment::Zone> {
   static constexpr auto fields = FieldList{
-      field("signal", &motion::Surroundings::Zone::signal), field("from", &motion::Surroundings::Zone::from),
-      field("to", &motion::Surroundings::Zone::to), field("slack", &motion::Surroundings::Zone::slack)};
-  static void check(const motion::Surroundings::Zone& value) { motion::check_restored(value); }
+      field("signal", &motion::Environment::Zone::signal), field("from", &motion::Environment::Zone::from),
+      field("to", &motion::Environment::Zone::to), field("slack", &motion::Environment::Zone::slack)};
+  static void check(const motion::Environment::Zone& value) { motion::check_restored(value); }
 };
 
 template <>
@@ -147,18 +147,18 @@ struct StateOf<motion::EncoderLine> {
 };
 
 template <>
-struct StateOf<motion::Surroundings> {
-  static constexpr auto fields = FieldList{field("version", &motion::Surroundings::version),
-                                           field("steady", &motion::Surroundings::steady),
-                                           field("zone_count", &motion::Surroundings::zone_count),
-                                           field("zones", &motion::Surroundings::zones),
-                                           field("index_period", &motion::Surroundings::index_period),
-                                           field("index_at", &motion::Surroundings::index_at),
-                                           field("index_width", &motion::Surroundings::index_width),
-                                           field("index_from", &motion::Surroundings::index_from),
-                                           field("index_to", &motion::Surroundings::index_to),
-                                           field("encoder", &motion::Surroundings::encoder)};
-  static void check(const motion::Surroundings& value) { motion::check_restored(value); }
+struct StateOf<motion::Environment> {
+  static constexpr auto fields = FieldList{field("version", &motion::Environment::version),
+                                           field("steady", &motion::Environment::steady),
+                                           field("zone_count", &motion::Environment::zone_count),
+                                           field("zones", &motion::Environment::zones),
+                                           field("index_period", &motion::Environment::index_period),
+                                           field("index_at", &motion::Environment::index_at),
+                                           field("index_width", &motion::Environment::index_width),
+                                           field("index_from", &motion::Environment::index_from),
+                                           field("index_to", &motion::Environment::index_to),
+                                           field("encoder", &motion::Environment::encoder)};
+  static void check(const motion::Environment& value) { motion::check_restored(value); }
 };
 
 template <>
@@ -409,7 +409,7 @@ struct StateOf<motion::Coordinated> {
 
 UNDERSTUDY_STATE_ELSEWHERE(Axis);
 UNDERSTUDY_STATE_ELSEWHERE(Coordinated);
-UNDERSTUDY_STATE_ELSEWHERE(Surroundings);
+UNDERSTUDY_STATE_ELSEWHERE(Environment);
 UNDERSTUDY_STATE_ELSEWHERE(UnitScale);
 
 #undef UNDERSTUDY_STATE_ELSEWHERE

@@ -5,11 +5,11 @@
 #include <fstream>
 
 #include "motion/axis.h"
+#include "motion/environment.h"
 #include "motion/homing.h"
 #include "motion/homing_tables.h"
 #include "motion/move.h"
 #include "motion/ramp.h"
-#include "motion/surroundings.h"
 #include "motion/tick.h"
 
 namespace understudy::docs {
@@ -30,33 +30,33 @@ SpeedLaw speed(double top_pps) {
 }
 
 /// A machine with a home switch, a limit beyond it on both sides, and an index each 2000 pulses.
-Surroundings machine() {
-  Surroundings here;
-  here.add(Signal::near_home, 4000, 9000);
-  here.add(Signal::home, kHomeFrom, kHomeTo);
-  here.add(Signal::limit_plus, kLimit, 100000);
-  here.add(Signal::limit_minus, -100000, -4000);
-  here.index_period = 2000;
-  here.index_at = 500;
-  return here;
+Environment machine() {
+  Environment environment;
+  environment.add(Signal::near_home, 4000, 9000);
+  environment.add(Signal::home, kHomeFrom, kHomeTo);
+  environment.add(Signal::limit_plus, kLimit, 100000);
+  environment.add(Signal::limit_minus, -100000, -4000);
+  environment.index_period = 2000;
+  environment.index_at = 500;
+  return environment;
 }
 
 /// time s, travel, phase; every other tick until it stands.
 void trace(std::ofstream& file, const HomingProgram& program) {
-  const Surroundings here = machine();
+  const Environment environment = machine();
   Axis axis;
   AxisSettings settings;
   settings.needs_servo = false;
   settings.at_limit_plus = settings.at_limit_minus = Reaction::slow_down;
   axis.set(settings);
-  axis.step(0, here);
+  axis.step(0, environment);
   axis.home(program, 0);
   for (Tick tick = 1; axis.moving() && tick < 20000; ++tick) {
     if (tick % 4 == 1) {
       file << static_cast<double>(tick) / kTicksPerSecond << ' ' << axis.travel_pulses << ' '
            << static_cast<int>(axis.homing.phase) << '\n';
     }
-    axis.step(tick, here);
+    axis.step(tick, environment);
   }
   file << "\n\n";
 }

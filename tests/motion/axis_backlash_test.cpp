@@ -169,10 +169,10 @@ TEST(AxisBacklash, ALimitAheadStopsItToo) {
     AxisCourse course = moved_up(settings);
     course.axis.move(-100, constant(10'000), course.now);
     course.steps(4);
-    course.here.set_steady(Signal::limit_plus, true);
+    course.environment.set_steady(Signal::limit_plus, true);
     course.step();
     EXPECT_TRUE(course.axis.moving());
-    course.here.set_steady(Signal::limit_minus, true);
+    course.environment.set_steady(Signal::limit_minus, true);
     EXPECT_EQ(course.step(), 0);
     EXPECT_FALSE(course.axis.moving());
     EXPECT_EQ(course.axis.cause, Cause::limit_minus);

@@ -266,7 +266,7 @@ TEST(AxisChange, AReturnThatIsForbiddenEndsWhereItTurns) {
   course.axis.move(10'000, trapezoid(10'000, 100'000), 0);
   course.steps(501);
   course.axis.change_distance(1'000, false, course.now);
-  course.here.set_steady(Signal::limit_minus, true);
+  course.environment.set_steady(Signal::limit_minus, true);
   course.until_rest();
   EXPECT_EQ(course.travel(), 5'000);
   EXPECT_EQ(course.axis.cause, Cause::limit_minus);

@@ -22,7 +22,7 @@ inline SpeedLaw constant(double pps) {
 
 struct AxisCourse {
   Axis axis;
-  Surroundings here;
+  Environment environment;
   Tick now = 0;
   std::int64_t output_pulses = 0;  // all that came out, signed
   std::int64_t farthest = 0;       // the greatest and the least travel at any tick
@@ -43,11 +43,11 @@ struct AxisCourse {
 
   std::int64_t step() {
     ++now;
-    return note(axis.step(now, here));
+    return note(axis.step(now, environment));
   }
   std::int64_t carry(std::int64_t pulses) {
     ++now;
-    return note(axis.carry(pulses, now, here));
+    return note(axis.carry(pulses, now, environment));
   }
   std::int64_t steps(Tick ticks) {
     std::int64_t sent = 0;

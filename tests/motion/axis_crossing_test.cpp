@@ -10,7 +10,7 @@ namespace axis_crossing_test {
 void go_to(AxisCourse& course, Tick until, AxisScenario& scenario, Tick& crossed) {
   while (course.now < until) {
     const Tick most = scenario.between(0, 2) == 0 ? course.now + scenario.between(1, 200) : until;
-    const Tick quiet = course.axis.quiet_until(course.now + 1, std::min(most, until), course.here, {});
+    const Tick quiet = course.axis.quiet_until(course.now + 1, std::min(most, until), course.environment, {});
     if (quiet > course.now) {
       crossed += quiet - course.now;
       course.now = quiet;
@@ -64,7 +64,7 @@ TEST(AxisCrossing, StaysWithinTheRangeItIsGiven) {
     const Axis::TravelRange range{.low = -random.of_any_size(1, 1'000'000),
                                   .high = random.of_any_size(1, 1'000'000)};
     const Tick most = random.of_any_size(1, 100'000);
-    const Tick quiet = course.axis.quiet_until(2, most, course.here, range);
+    const Tick quiet = course.axis.quiet_until(2, most, course.environment, range);
     while (single.now < std::min<Tick>(quiet, 20'000)) {
       single.step();
       ASSERT_GE(single.travel(), range.low);
@@ -80,7 +80,7 @@ TEST(AxisCrossing, AnHourIsAFewSteps) {
   course.axis.move(3'600'000'000, trapezoid(1'000'000, 1e6), 0);
   int steps = 0;
   while (course.axis.moving()) {
-    const Tick quiet = course.axis.quiet_until(course.now + 1, kNoTick - 1, course.here, {});
+    const Tick quiet = course.axis.quiet_until(course.now + 1, kNoTick - 1, course.environment, {});
     if (quiet > course.now) {
       course.now = quiet;
       course.axis.cross_to(quiet);
@@ -99,7 +99,7 @@ TEST(AxisCrossing, OutsideItsRangeThereIsNone) {
   for (int i = 0; i < 5; ++i) course.step();
   const std::int64_t travel = course.travel();
   const auto quiet_within = [&](std::int64_t low, std::int64_t high) {
-    return course.axis.quiet_until(course.now + 1, 1000, course.here, {.low = low, .high = high});
+    return course.axis.quiet_until(course.now + 1, 1000, course.environment, {.low = low, .high = high});
   };
   EXPECT_GT(quiet_within(travel, travel + 1000), course.now);
   EXPECT_EQ(quiet_within(travel + 1, travel + 1000), course.now) << "it will be in it, but is not yet";
@@ -112,19 +112,19 @@ TEST(AxisCrossing, WhereEveryPulseIsLookedAtThereIsNone) {
   course.axis.run(+1, constant(10'000), 0);
   for (int i = 0; i < 20; ++i) {
     course.step();
-    EXPECT_EQ(course.axis.quiet_until(course.now + 1, 1000, course.here, {}), course.now);
+    EXPECT_EQ(course.axis.quiet_until(course.now + 1, 1000, course.environment, {}), course.now);
   }
 }
 
 TEST(AxisCrossing, WhatIsCarriedEvenlyIsCarriedAtOnce) {
   for (const std::int64_t pulses : {-7, 0, 12}) {
     AxisCourse bulk;
-    bulk.here.add(Signal::home, 5'000, 6'000);
+    bulk.environment.add(Signal::home, 5'000, 6'000);
     bulk.axis.take_part();
     bulk.carry(pulses);
     bulk.carry(pulses);
     AxisCourse single = bulk;
-    ASSERT_TRUE(bulk.axis.carries_quietly(bulk.here));
+    ASSERT_TRUE(bulk.axis.carries_quietly(bulk.environment));
     for (int i = 0; i < 100; ++i) single.carry(pulses);
     bulk.axis.carry_across(100 * pulses);
     EXPECT_EQ(bulk.axis, single.axis) << pulses;

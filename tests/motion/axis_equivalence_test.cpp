@@ -90,7 +90,7 @@ TEST(AxisEquivalence, WithinItsWindowNothingDependsOnThePlace) {
       const std::int64_t low = std::max(axis.watch_low, axis.travel_pulses - 1'000'000);
       const std::int64_t high = std::min(axis.watch_high, axis.travel_pulses + 1'000'000);
       for (const std::int64_t place : {low, high, scenario.between(low, high), scenario.between(low, high)}) {
-        ASSERT_EQ(course.here.at(place), axis.signals)
+        ASSERT_EQ(course.environment.at(place), axis.signals)
             << scenario.code() << " " << course.now << " " << place;
         for (const Comparator& comparator : axis.comparators) {
           if (comparator.count != Count::command) continue;
@@ -130,7 +130,7 @@ TEST(AxisEquivalence, WhatComesOutIsTravelAndBacklashAndNothingAtRest) {
 
 TEST(AxisEquivalence, AnEdgeAtEveryPulseIsSlowButSure) {
   AxisCourse course;
-  course.here.index_period = 2;
+  course.environment.index_period = 2;
   for (std::size_t i = 0; i < 4; ++i) {
     course.axis.set_comparator(i,
                                {.relation = Comparator::Relation::equal,

@@ -184,7 +184,7 @@ TEST(AxisEvent, SeveralEdgesInOneTickAreAllMet) {
     course.axis.set_comparator(i,
                                {.relation = Relation::equal, .value = 1'000 + static_cast<std::int64_t>(i)});
   }
-  course.here.add(Signal::mark, 2'000, 2'000);
+  course.environment.add(Signal::mark, 2'000, 2'000);
   course.axis.run(+1, constant(4e6), 0);
   course.step();
   course.seen = 0;
@@ -231,7 +231,7 @@ TEST(AxisEvent, ComparatorsFireAsCountingPulseByPulseSays) {
   RandomMoves random(seed());
   for (int i = 0; i < random_cases(300); ++i) {
     AxisCourse course;
-    course.here.index_period = random.between(0, 60);
+    course.environment.index_period = random.between(0, 60);
     course.axis.set({.at_limit_plus = Reaction::ignore});
     std::array<Comparator, 4> wanted;
     for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -273,7 +273,7 @@ TEST(AxisEvent, ComparatorsFireAsCountingPulseByPulseSays) {
 
 TEST(AxisEvent, TheMarkComesAndGoes) {
   AxisCourse course;
-  course.here.add(Signal::mark, 5, 9);
+  course.environment.add(Signal::mark, 5, 9);
   course.axis.run(+1, constant(1'000), 0);
   course.steps(5);
   EXPECT_FALSE(course.saw(Event::mark_on));
@@ -284,7 +284,7 @@ TEST(AxisEvent, TheMarkComesAndGoes) {
   EXPECT_EQ(course.seen, 0);
   course.step();
   EXPECT_EQ(course.axis.events, bit(Event::mark_off));
-  course.here.set_steady(Signal::mark, true);
+  course.environment.set_steady(Signal::mark, true);
   course.step();
   EXPECT_EQ(course.axis.events, bit(Event::mark_on));
 }
@@ -301,7 +301,7 @@ TEST(AxisEvent, AMotionThatWaitsForInPositionEndsWhenItComesOn) {
   EXPECT_EQ(course.endings, 0);
   course.axis.change_speed(constant(5'000), course.now);
   course.axis.change_distance(100, false, course.now);
-  course.here.set_steady(Signal::in_position, true);
+  course.environment.set_steady(Signal::in_position, true);
   EXPECT_EQ(course.step(), 0);
   EXPECT_FALSE(course.axis.moving());
   EXPECT_EQ(course.endings, 1);
@@ -311,7 +311,7 @@ TEST(AxisEvent, AMotionThatWaitsForInPositionEndsWhenItComesOn) {
 
 TEST(AxisEvent, InPositionAtTheEndAlreadyIsNoWait) {
   AxisCourse course;
-  course.here.set_steady(Signal::in_position, true);
+  course.environment.set_steady(Signal::in_position, true);
   course.axis.set({.waits_for_in_position = true});
   course.axis.move(10, constant(1'000), 0);
   course.steps(11);

@@ -75,8 +75,8 @@ TEST(AxisFollowing, AStopEndsItAndWhatWasGathered) {
 TEST(AxisFollowing, StopsAtALimitOnItsEdge) {
   for (const int direction : {+1, -1}) {
     AxisCourse course;
-    course.here.add(Signal::limit_plus, 50, INT64_MAX);
-    course.here.add(Signal::limit_minus, INT64_MIN, -50);
+    course.environment.add(Signal::limit_plus, 50, INT64_MAX);
+    course.environment.add(Signal::limit_minus, INT64_MIN, -50);
     course.axis.follow({});
     course.axis.feed(direction * 30);
     course.step();
@@ -124,11 +124,11 @@ TEST(AxisFollowing, AlarmServoOffAndComparatorEndIt) {
   AxisCourse course;
   course.axis.follow({});
   course.step();
-  course.here.set_steady(Signal::alarm, true);
+  course.environment.set_steady(Signal::alarm, true);
   course.step();
   EXPECT_EQ(course.axis.cause, Cause::alarm);
   EXPECT_FALSE(course.axis.moving());
-  course.here.set_steady(Signal::alarm, false);
+  course.environment.set_steady(Signal::alarm, false);
   EXPECT_EQ(course.axis.follow({}), Cause::alarm) << "as last seen";
   course.step();
   course.axis.follow({});
@@ -179,8 +179,8 @@ TEST(AxisCarried, EndsAtALimitOnItsEdge) {
   for (const int direction : {+1, -1}) {
     for (const std::int64_t each : {1, 7, 50, 999}) {
       AxisCourse course;
-      course.here.add(Signal::limit_plus, 50, INT64_MAX);
-      course.here.add(Signal::limit_minus, INT64_MIN, -50);
+      course.environment.add(Signal::limit_plus, 50, INT64_MAX);
+      course.environment.add(Signal::limit_minus, INT64_MIN, -50);
       course.axis.take_part();
       for (int tick = 0; tick < 60 && course.axis.moving(); ++tick) course.carry(direction * each);
       EXPECT_EQ(course.travel(), direction * 50) << each;
@@ -206,7 +206,7 @@ TEST(AxisCarried, EndsOnePulseBeyondASoftLimitWhateverTheTicks) {
 
 TEST(AxisCarried, OnALimitItMayStandAndLeaveItButNotGoFurther) {
   AxisCourse course;
-  course.here.add(Signal::limit_plus, 0, INT64_MAX);
+  course.environment.add(Signal::limit_plus, 0, INT64_MAX);
   course.axis.move(-1, constant(1'000), 0);
   course.until_rest();
   course.axis.move(1, constant(1'000), course.now);  // up to it: the last direction is towards it
@@ -232,10 +232,10 @@ TEST(AxisCarried, AlarmStopServoAndComparatorEndItWithTheirCause) {
   AxisCourse course;
   course.axis.take_part();
   course.carry(5);
-  course.here.set_steady(Signal::emergency, true);
+  course.environment.set_steady(Signal::emergency, true);
   EXPECT_EQ(course.carry(5), 0);
   EXPECT_EQ(course.axis.cause, Cause::emergency);
-  course.here.set_steady(Signal::emergency, false);
+  course.environment.set_steady(Signal::emergency, false);
   course.step();
   course.axis.take_part();
   course.carry(5);

@@ -13,8 +13,8 @@ namespace axis_limit_test {
 /// A track with a switch at either end.
 AxisCourse track(std::int64_t low, std::int64_t high) {
   AxisCourse course;
-  course.here.add(Signal::limit_minus, INT64_MIN, low);
-  course.here.add(Signal::limit_plus, high, INT64_MAX);
+  course.environment.add(Signal::limit_minus, INT64_MIN, low);
+  course.environment.add(Signal::limit_plus, high, INT64_MAX);
   return course;
 }
 
@@ -99,9 +99,9 @@ TEST(AxisLimit, ThatAppearsUnderAMotionStopsIt) {
   AxisCourse course;
   course.axis.run(+1, constant(10'000), 0);
   course.steps(101);
-  course.here.set_steady(Signal::limit_minus, true);
+  course.environment.set_steady(Signal::limit_minus, true);
   EXPECT_EQ(course.steps(10), 100);
-  course.here.set_steady(Signal::limit_plus, true);
+  course.environment.set_steady(Signal::limit_plus, true);
   EXPECT_EQ(course.step(), 0);
   EXPECT_EQ(course.axis.cause, Cause::limit_plus);
   EXPECT_EQ(course.travel(), 1'100);
@@ -221,12 +221,12 @@ TEST(AxisLimit, AlarmAndEmergencyStopBothWaysAndRefuseWhileOn) {
       AxisCourse course;
       course.axis.run(direction, constant(10'000), 0);
       course.steps(101);
-      course.here.set_steady(trouble.signal, true);
+      course.environment.set_steady(trouble.signal, true);
       EXPECT_EQ(course.steps(10), 0);
       EXPECT_EQ(course.axis.cause, trouble.cause);
       EXPECT_EQ(course.axis.move(direction, constant(1'000), course.now), trouble.cause);
       EXPECT_EQ(course.axis.move(-direction, constant(1'000), course.now), trouble.cause);
-      course.here.set_steady(trouble.signal, false);
+      course.environment.set_steady(trouble.signal, false);
       course.step();
       EXPECT_EQ(course.axis.move(direction, constant(1'000), course.now), Cause::none);
     }
@@ -240,7 +240,7 @@ TEST(AxisLimit, AlarmAndEmergencySlowDownWhereThatIsAskedFor) {
     course.axis.run(+1, trapezoid(10'000, 100'000), 0);
     course.steps(1'001);
     const std::int64_t travel = course.travel();
-    course.here.set_steady(trouble.signal, true);
+    course.environment.set_steady(trouble.signal, true);
     course.until_rest();
     EXPECT_EQ(course.travel(), travel + 500);
     EXPECT_EQ(course.axis.cause, trouble.cause);
@@ -250,8 +250,8 @@ TEST(AxisLimit, AlarmAndEmergencySlowDownWhereThatIsAskedFor) {
 TEST(AxisLimit, AlarmAndEmergencyMayBeIgnored) {
   AxisCourse course;
   course.axis.set({.at_alarm = Reaction::ignore, .at_emergency = Reaction::ignore});
-  course.here.set_steady(Signal::alarm, true);
-  course.here.set_steady(Signal::emergency, true);
+  course.environment.set_steady(Signal::alarm, true);
+  course.environment.set_steady(Signal::emergency, true);
   course.axis.move(100, constant(10'000), 0);
   course.until_rest();
   EXPECT_EQ(course.travel(), 100);
@@ -263,7 +263,7 @@ TEST(AxisLimit, AnEmergencyOfStopAtOnceEndsASlowingDown) {
   course.steps(1'001);
   course.axis.slow_down(course.now);
   course.steps(100);
-  course.here.set_steady(Signal::emergency, true);
+  course.environment.set_steady(Signal::emergency, true);
   EXPECT_EQ(course.steps(10), 0);
   EXPECT_EQ(course.axis.cause, Cause::emergency);
 }
@@ -274,7 +274,7 @@ TEST(AxisLimit, AHangingMoveIsEndedByWhatItWouldBeStoppedBy) {
     course.axis.set({.at_alarm = reaction});
     course.axis.hang(+1);
     course.steps(10);
-    course.here.set_steady(Signal::alarm, true);
+    course.environment.set_steady(Signal::alarm, true);
     course.step();
     EXPECT_FALSE(course.axis.moving());
     EXPECT_EQ(course.axis.cause, Cause::alarm);
@@ -287,7 +287,7 @@ TEST(AxisLimit, AnAxisBetweenTwoSwitchesStopsOnEitherAtAnySpeed) {
     const std::int64_t low = -random.of_any_size(1, 100'000);
     const std::int64_t high = random.of_any_size(1, 100'000);
     AxisCourse course = track(low, high);
-    course.here.index_period = random.of_any_size(50, 5'000);
+    course.environment.index_period = random.of_any_size(50, 5'000);
     int direction = random.between(0, 1) == 0 ? +1 : -1;
     std::string input = "seed " + std::to_string(seed()) + ": track(" + std::to_string(low) + ", " +
                         std::to_string(high) + ")";
@@ -344,7 +344,7 @@ TEST(AxisLimit, TimeRoundingTakesNoPulseBackEvenAfterHours) {
     course.now = random.of_any_size(1'000'000, 1'000'000'000);
     course.step();
     const std::int64_t edge = course.travel() + static_cast<std::int64_t>(pps / kTicksPerSecond);
-    course.here.add(Signal::limit_plus, edge, INT64_MAX);
+    course.environment.add(Signal::limit_plus, edge, INT64_MAX);
     while (course.axis.moving()) {
       ASSERT_GE(course.step(), 0) << "seed " << seed() << ": " << pps << " pps, tick " << course.now;
     }

@@ -14,7 +14,7 @@ SpeedLaw law() {
 
 struct Course {
   Axis axis;
-  Surroundings here;
+  Environment environment;
   Tick now = 0;
 
   explicit Course(std::int64_t backlash = 100) {
@@ -25,7 +25,7 @@ struct Course {
     axis.set(settings);
   }
   void steps(int count) {
-    for (int i = 0; i < count; ++i) axis.step(++now, here);
+    for (int i = 0; i < count; ++i) axis.step(++now, environment);
   }
   void to_the_end() {
     for (int i = 0; i < 5000 && axis.moving(); ++i) steps(1);
@@ -116,8 +116,8 @@ TEST(AxisLaw, OneThatNoStopCanBePlannedByIsRefusedAtOnce) {
 
 TEST(AxisFollowing, AHugeRatioOverADenseIndexDoesNotHang) {
   Course course(0);
-  course.here.index_period = 10;
-  ++course.here.version;
+  course.environment.index_period = 10;
+  ++course.environment.version;
   course.axis.follow({.numerator = INT32_MAX});
   course.axis.feed(50);
   course.steps(1);

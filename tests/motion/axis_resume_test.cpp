@@ -12,12 +12,12 @@ SpeedLaw by_slope(double speed, double slope) {
 
 struct Running {
   Axis axis;
-  Surroundings here;
+  Environment environment;
   Tick tick = 0;
 
   Running() { axis.switch_servo(true); }
   void steps(int count) {
-    for (; count > 0; --count) axis.step(++tick, here);
+    for (; count > 0; --count) axis.step(++tick, environment);
   }
 };
 

@@ -24,10 +24,10 @@ class AxisScenario {
     for (std::int64_t i = 0; i < zones; ++i) {
       const std::int64_t from = place();
       const std::int64_t to = between(0, 5) == 0 ? INT64_MAX : from + random_.of_any_size(1, 5'000) - 1;
-      course.here.add(static_cast<Signal>(between(0, kSignals - 1)), from, to);
+      course.environment.add(static_cast<Signal>(between(0, kSignals - 1)), from, to);
     }
-    course.here.index_period = between(0, 1) == 0 ? 0 : random_.of_any_size(2, 20'000);
-    course.here.index_width = random_.of_any_size(1, 30);
+    course.environment.index_period = between(0, 1) == 0 ? 0 : random_.of_any_size(2, 20'000);
+    course.environment.index_width = random_.of_any_size(1, 30);
     course.axis.set(settings());
     course.axis.inverted = between(0, 1) == 0;
     return course;
@@ -60,7 +60,7 @@ class AxisScenario {
       case 9: return [=](AxisCourse& c) { c.axis.change_distance(-distance / 100, on, c.now); };
       case 10: return [=](AxisCourse& c) { c.axis.slow_down(c.now); };
       case 11: return [=](AxisCourse& c) { number == 0 ? c.axis.stop() : c.axis.slow_down(c.now); };
-      case 12: return [=](AxisCourse& c) { c.here.set_steady(signal, on); };
+      case 12: return [=](AxisCourse& c) { c.environment.set_steady(signal, on); };
       case 13: return [=](AxisCourse& c) { c.axis.set_comparator(number, comparator); };
       case 14: return [=](AxisCourse& c) { c.axis.set_encoder(distance); };
       case 15: return [=](AxisCourse& c) { c.axis.switch_servo(number != 0); };

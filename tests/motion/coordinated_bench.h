@@ -15,7 +15,7 @@ struct Bench {
   static constexpr std::size_t kAxes = 4;
 
   std::array<Axis, kAxes> axes{};
-  std::array<Surroundings, kAxes> here{};
+  std::array<Environment, kAxes> environment{};
   std::array<std::int64_t, kAxes> pulses{};  // of the last tick
   std::array<std::int64_t, kAxes> sent{};    // all so far, as they came out
   std::array<Events, kAxes> events{};        // all so far
@@ -36,9 +36,9 @@ struct Bench {
     pulses = {};
     std::array<bool, kAxes> taken{};
     for (std::size_t i = 0; i < kAxes; ++i) taken[i] = group.takes(i);
-    group.step(tick, axes, here, pulses, stays_engaged);
+    group.step(tick, axes, environment, pulses, stays_engaged);
     for (std::size_t i = 0; i < kAxes; ++i) {
-      if (!taken[i]) pulses[i] = axes[i].step(tick, here[i]);
+      if (!taken[i]) pulses[i] = axes[i].step(tick, environment[i]);
       sent[i] += pulses[i];
       events[i] = static_cast<Events>(events[i] | axes[i].events);
     }

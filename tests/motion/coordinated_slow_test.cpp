@@ -12,7 +12,7 @@ namespace coordinated_slow_test {
 
 struct Group {
   std::vector<Axis> axes{2};
-  std::vector<Surroundings> here{2};
+  std::vector<Environment> environment{2};
   std::vector<std::int64_t> pulses = {0, 0};
   Coordinated group;
   Tick now = 0;
@@ -30,7 +30,7 @@ struct Group {
   }
   void step() {
     ++now;
-    group.step(now, axes, here, pulses);
+    group.step(now, axes, environment, pulses);
   }
   void to_the_end() {
     for (int i = 0; i < 5000 && group.engaged; ++i) step();
@@ -42,7 +42,7 @@ TEST(CoordinatedSlow, ALimitThatSlowsDownSlowsThePathAndKeepsItsShape) {
   AxisSettings settings;
   settings.at_limit_plus = Reaction::slow_down;
   Group group(settings);
-  group.here[0].add(Signal::limit_plus, 12'000, 90'000);  // X: the path is at 20,000
+  group.environment[0].add(Signal::limit_plus, 12'000, 90'000);  // X: the path is at 20,000
   ASSERT_EQ(group.group.begin(Point::Zero(), group.axes, group.now), Cause::none);
   while (group.group.engaged && group.now < 2000) {
     group.step();
@@ -69,7 +69,7 @@ TEST(CoordinatedSlow, WhatLiesAtTheTurnOfAnArcIsMetWithinATick) {
       group.group.run.append(arc_by_centre(Point::Zero(), Point(1000, 0, 0, 0), Point::Zero(),
                                            Turn::clockwise, {.plane = {0, 1}}),
                              {}, 0);
-      group.here[1].add(Signal::limit_plus, 1000, 5000);
+      group.environment[1].add(Signal::limit_plus, 1000, 5000);
       ASSERT_EQ(group.group.begin(Point::Zero(), group.axes, group.now), Cause::none);
       group.to_the_end();
       EXPECT_EQ(group.group.cause, Cause::limit_plus) << speed_u_s;
@@ -98,10 +98,10 @@ TEST(CoordinatedSlow, EndsOnlyWhenItsAxesAreInPosition) {
   for (int i = 0; i < 1000; ++i) group.step();
   EXPECT_TRUE(group.group.engaged);
   EXPECT_EQ(group.axes[1].travel_pulses, 40'000);
-  group.here[0].set_steady(Signal::in_position, true);
+  group.environment[0].set_steady(Signal::in_position, true);
   group.step();
   EXPECT_TRUE(group.group.engaged);
-  group.here[1].set_steady(Signal::in_position, true);
+  group.environment[1].set_steady(Signal::in_position, true);
   group.step();
   EXPECT_FALSE(group.group.engaged);
   EXPECT_EQ(group.group.cause, Cause::arrived);
@@ -109,8 +109,8 @@ TEST(CoordinatedSlow, EndsOnlyWhenItsAxesAreInPosition) {
 
 TEST(CoordinatedSlow, WhatIsForbiddenIsRefusedBeforeAnythingBegins) {
   Group group(AxisSettings{});
-  group.here[1].set_steady(Signal::alarm, true);
-  group.axes[1].step(0, group.here[1]);
+  group.environment[1].set_steady(Signal::alarm, true);
+  group.axes[1].step(0, group.environment[1]);
   EXPECT_EQ(group.group.begin(Point::Zero(), group.axes, group.now), Cause::alarm);
   EXPECT_FALSE(group.group.engaged);
   EXPECT_FALSE(group.axes[0].moving());

@@ -72,9 +72,9 @@ TEST(CoordinatedStopPulse, TheOthersStandWhereThePathWas) {
       course.lay(bench);
       const int direction = course.limit < 0 ? -1 : +1;
       if (direction > 0) {
-        bench.here[0].add(Signal::limit_plus, course.limit, 1'000'000);
+        bench.environment[0].add(Signal::limit_plus, course.limit, 1'000'000);
       } else {
-        bench.here[0].add(Signal::limit_minus, -1'000'000, course.limit);
+        bench.environment[0].add(Signal::limit_minus, -1'000'000, course.limit);
       }
       ASSERT_EQ(bench.begin(), Cause::none);
       ASSERT_GT(bench.to_the_end(), 0);
@@ -94,8 +94,8 @@ TEST(CoordinatedStopPulse, TheFirstOfTwoDecides) {
   for (const bool y_first : {false, true}) {
     Bench bench(by_slope(4'000'000, 1e12));
     bench.add(line(place_of(0, 0), place_of(30'000, 15'000)));
-    bench.here[0].add(Signal::limit_plus, y_first ? 1101 : 1000, 1'000'000);
-    bench.here[1].add(Signal::limit_plus, y_first ? 500 : 551, 1'000'000);
+    bench.environment[0].add(Signal::limit_plus, y_first ? 1101 : 1000, 1'000'000);
+    bench.environment[1].add(Signal::limit_plus, y_first ? 500 : 551, 1'000'000);
     ASSERT_EQ(bench.begin(), Cause::none);
     ASSERT_GT(bench.to_the_end(), 0);
     EXPECT_EQ(bench.axes[0].travel_pulses, y_first ? 999 : 1000) << y_first;
@@ -110,7 +110,7 @@ TEST(CoordinatedStopPulse, AnAlarmStopsAllBeforeAnyPulseOfTheTick) {
   ASSERT_EQ(bench.begin(), Cause::none);
   bench.steps(5);
   const Travels before = bench.travels();
-  bench.here[1].set_steady(Signal::alarm, true);
+  bench.environment[1].set_steady(Signal::alarm, true);
   bench.step();
   EXPECT_EQ(bench.travels(), before);
   EXPECT_EQ(bench.group.cause, Cause::alarm);
@@ -123,7 +123,7 @@ TEST(CoordinatedStopPulse, AnEdgeOfTheMarkStopsAllWhereAsked) {
     AxisSettings settings;
     (at_its_end ? settings.at_mark_off : settings.at_mark_on) = Reaction::stop_at_once;
     bench.axes[0].set(settings);
-    bench.here[0].add(Signal::mark, 6001, 7000);
+    bench.environment[0].add(Signal::mark, 6001, 7000);
     ASSERT_EQ(bench.begin(), Cause::none);
     ASSERT_GT(bench.to_the_end(), 0);
     EXPECT_EQ(bench.axes[0].travel_pulses, at_its_end ? 7001 : 6001);
@@ -138,7 +138,7 @@ TEST(CoordinatedStopPulse, ASingleAxisStopsAtTheMarksEdge) {
     AxisSettings settings;
     settings.at_mark_on = Reaction::stop_at_once;
     bench.axes[0].set(settings);
-    bench.here[0].add(Signal::mark, 23, 60);
+    bench.environment[0].add(Signal::mark, 23, 60);
     ASSERT_EQ(bench.axes[0].run(+1, by_slope(speed, 1e12), bench.tick), Cause::none);
     for (int i = 0; i < 3000 && bench.axes[0].moving(); ++i) bench.step();
     EXPECT_EQ(bench.axes[0].travel_pulses, 23) << speed;

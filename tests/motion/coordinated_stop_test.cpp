@@ -33,15 +33,15 @@ TEST(CoordinatedStop, AnAxisThatMeetsSomethingStopsThemAllAtItsPulse) {
     bench.axes[axis].set(changed);
   };
   const StopCase kCases[]{
-      {"limit + of X", [](Bench& b) { b.here[0].add(Signal::limit_plus, 5003, 9000); }, 1, Cause::limit_plus,
-       0, 5003},
-      {"limit + of Y", [](Bench& b) { b.here[1].add(Signal::limit_plus, 2501, 9000); }, 1, Cause::limit_plus,
-       1, 2501},
-      {"limit - of X", [](Bench& b) { b.here[0].add(Signal::limit_minus, -9000, -77); }, -1,
+      {"limit + of X", [](Bench& b) { b.environment[0].add(Signal::limit_plus, 5003, 9000); }, 1,
+       Cause::limit_plus, 0, 5003},
+      {"limit + of Y", [](Bench& b) { b.environment[1].add(Signal::limit_plus, 2501, 9000); }, 1,
+       Cause::limit_plus, 1, 2501},
+      {"limit - of X", [](Bench& b) { b.environment[0].add(Signal::limit_minus, -9000, -77); }, -1,
        Cause::limit_minus, 0, -77},
       {"limit that slows down",
        [&](Bench& b) {
-         b.here[0].add(Signal::limit_plus, 5003, 9000);
+         b.environment[0].add(Signal::limit_plus, 5003, 9000);
          settings(b, 0, [](AxisSettings& s) { s.at_limit_plus = Reaction::slow_down; });
        },
        1, Cause::limit_plus, 0, 5003},  // the path slows down, and needs a quarter of a unit
@@ -54,9 +54,9 @@ TEST(CoordinatedStop, AnAxisThatMeetsSomethingStopsThemAllAtItsPulse) {
       {"soft limit - of Y",
        [&](Bench& b) { settings(b, 1, [](AxisSettings& s) { s.soft_limit_minus = -1234; }); }, -1,
        Cause::soft_limit_minus, 1, -1235},
-      {"alarm of Y at a place", [](Bench& b) { b.here[1].add(Signal::alarm, 3000, 3001); }, 1, Cause::alarm,
-       1, 3000},
-      {"emergency of X at a place", [](Bench& b) { b.here[0].add(Signal::emergency, 70, 71); }, 1,
+      {"alarm of Y at a place", [](Bench& b) { b.environment[1].add(Signal::alarm, 3000, 3001); }, 1,
+       Cause::alarm, 1, 3000},
+      {"emergency of X at a place", [](Bench& b) { b.environment[0].add(Signal::emergency, 70, 71); }, 1,
        Cause::emergency, 0, 70},
       {"comparator of X",
        [](Bench& b) {
@@ -94,7 +94,7 @@ TEST(CoordinatedStop, SignalsThatAreNoneOfItsPlacesStopItToo) {
     Bench bench = two_to_one();
     bench.begin();
     bench.steps(100);
-    bench.here[2].set_steady(signal, true);
+    bench.environment[2].set_steady(signal, true);
     bench.step();
     EXPECT_FALSE(bench.group.engaged);
     EXPECT_EQ(bench.group.cause, cause);
@@ -179,7 +179,7 @@ TEST(CoordinatedStop, AnAxisOnALimitMayLeaveItAndMayStandOnItButNotGoOn) {
   for (const Row& row : {Row{"leaves it", -500, 100, true}, Row{"stands on it", 0, 100, true},
                          Row{"goes on", 500, 100, false}}) {
     Bench bench(by_slope(1000, 1e5));
-    bench.here[0].add(Signal::limit_plus, 1000, 5000);
+    bench.environment[0].add(Signal::limit_plus, 1000, 5000);
     bench.axes[0].move(3000, by_slope(10'000, 1e6), 0);
     bench.steps(1000);
     ASSERT_EQ(bench.axes[0].travel_pulses, 1000);
@@ -198,10 +198,10 @@ TEST(CoordinatedStop, AnAxisOnALimitMayLeaveItAndMayStandOnItButNotGoOn) {
 
 TEST(CoordinatedStop, TheNextRunBeginsWhereTheyWereStopped) {
   Bench bench = two_to_one();
-  bench.here[0].add(Signal::alarm, 4000, 4020);
+  bench.environment[0].add(Signal::alarm, 4000, 4020);
   bench.begin();
   bench.to_the_end();
-  bench.here[0] = Surroundings{.version = bench.here[0].version + 1};
+  bench.environment[0] = Environment{.version = bench.environment[0].version + 1};
   bench.steps(5);
   const Travels at = bench.travels();
   const Point from = place_of(static_cast<double>(at[0]), static_cast<double>(at[1]));

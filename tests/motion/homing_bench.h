@@ -60,25 +60,25 @@ inline Cause mirrored(Cause cause) {
   }
 }
 
-inline Surroundings mirrored(Surroundings here) {
-  for (std::size_t i = 0; i < here.zone_count; ++i) {
-    Surroundings::Zone& zone = here.zones[i];
+inline Environment mirrored(Environment environment) {
+  for (std::size_t i = 0; i < environment.zone_count; ++i) {
+    Environment::Zone& zone = environment.zones[i];
     zone = {.signal = mirrored(zone.signal), .from = -zone.to, .to = -zone.from};
   }
-  here.index_at = -here.index_at - (here.index_width - 1);
-  return here;
+  environment.index_at = -environment.index_at - (environment.index_width - 1);
+  return environment;
 }
 
 struct HomingBench {
   Axis axis;
-  Surroundings here;
+  Environment environment;
   Tick now = 0;
   std::int64_t pulses_out = 0;
   Events seen = 0;
   Trace trace;
 
   /// At `start`, having looked round once.
-  HomingBench(const Surroundings& surroundings, std::int64_t start) : here(surroundings) {
+  HomingBench(const Environment& machine, std::int64_t start) : environment(machine) {
     axis.travel_pulses = axis.base_pulses = start;
     axis.servo_on = true;
     step();
@@ -92,7 +92,7 @@ struct HomingBench {
 
   void step() {
     const std::int64_t drop_before = axis.backlash_sent + axis.travel_pulses;
-    const std::int64_t out = axis.step(++now, here);
+    const std::int64_t out = axis.step(++now, environment);
     ASSERT_EQ(out, axis.backlash_sent + axis.travel_pulses - drop_before);
     pulses_out += out;
     seen |= axis.events;

@@ -90,16 +90,18 @@ TEST(HomingFailure, WhateverIsToStopTheAxisEndsItInEveryRow) {
       {"stop command", Cause::stopped, [](HomingBench& b) { b.axis.stop(); }},
       {"slowing stop command", Cause::stopped, [](HomingBench& b) { b.axis.slow_down(b.now); }, false},
       {"servo off", Cause::servo_off, [](HomingBench& b) { b.axis.switch_servo(false); }},
-      {"alarm", Cause::alarm, [](HomingBench& b) { b.here.set_steady(Signal::alarm, true); }},
-      {"emergency", Cause::emergency, [](HomingBench& b) { b.here.set_steady(Signal::emergency, true); }},
+      {"alarm", Cause::alarm, [](HomingBench& b) { b.environment.set_steady(Signal::alarm, true); }},
+      {"emergency", Cause::emergency,
+       [](HomingBench& b) { b.environment.set_steady(Signal::emergency, true); }},
   };
   const std::vector<Interruption> slowly = {
-      {"slowing alarm", Cause::alarm, [](HomingBench& b) { b.here.set_steady(Signal::alarm, true); }, false},
+      {"slowing alarm", Cause::alarm, [](HomingBench& b) { b.environment.set_steady(Signal::alarm, true); },
+       false},
       {"short slowing alarm", Cause::alarm,
        [](HomingBench& b) {
-         b.here.set_steady(Signal::alarm, true);
+         b.environment.set_steady(Signal::alarm, true);
          b.step();
-         b.here.set_steady(Signal::alarm, false);
+         b.environment.set_steady(Signal::alarm, false);
        },
        false},
   };
@@ -165,10 +167,10 @@ TEST(HomingFailure, ADogPassedWhileBrakingFailsIfItMustBeFoundAgain) {
   for (const Row& row : table) {
     for (const bool turned : {false, true}) {
       SCOPED_TRACE("mode " + std::to_string(row.mode) + (turned ? ", mirrored" : ""));
-      Surroundings here = super40nc_machine();
-      move_zone(here, kDogZone, 50'000, 50'799);
+      Environment environment = super40nc_machine();
+      move_zone(environment, kDogZone, 50'000, 50'799);
       const Super40ncHoming how = super40nc_factory(row.mode);
-      HomingBench bench(turned ? mirrored(here) : here, 0);
+      HomingBench bench(turned ? mirrored(environment) : environment, 0);
       ASSERT_EQ(bench.home(super40nc_homing(turned ? mirrored(how) : how)), Cause::none);
       ASSERT_TRUE(bench.run());
       EXPECT_EQ(bench.trace, turned ? mirrored(row.trace) : row.trace);
@@ -179,9 +181,9 @@ TEST(HomingFailure, ADogPassedWhileBrakingFailsIfItMustBeFoundAgain) {
 
 TEST(HomingFailure, ALimitThatIsPassedWhileBrakingFails) {
   for (const int mode : {6, 7, 8, 12}) {
-    Surroundings here = super40nc_machine();
-    move_zone(here, kLimitZone, 81'000, 81'500);
-    HomingBench bench(here, 0);
+    Environment environment = super40nc_machine();
+    move_zone(environment, kLimitZone, 81'000, 81'500);
+    HomingBench bench(environment, 0);
     ASSERT_EQ(bench.home(super40nc_homing(super40nc_factory(mode))), Cause::none);
     ASSERT_TRUE(bench.run());
     EXPECT_EQ(bench.trace, (Trace{{0, +1, 81'833}}));
@@ -208,16 +210,16 @@ TEST(HomingFailure, ALimitAheadEndsADogModeInEveryRowItCanBeMetIn) {
   };
   for (const Row& row : table) {
     SCOPED_TRACE(row.name);
-    Surroundings here = super40nc_machine();
+    Environment environment = super40nc_machine();
     const bool plus = row.limit == Signal::limit_plus;
     Super40ncHoming how = super40nc_factory(row.mode);
     how.leave_pulses = 999;
     how.offset_pulses = -7000;
-    HomingBench bench(here, row.start);
+    HomingBench bench(environment, row.start);
     ASSERT_EQ(bench.home(super40nc_homing(how)), Cause::none);
     ASSERT_TRUE(bench.run_until_row(row.in_row));
-    if (plus) move_zone(bench.here, kLimitZone, row.edge, kFar);
-    if (!plus) move_zone(bench.here, 0, -kFar, row.edge);
+    if (plus) move_zone(bench.environment, kLimitZone, row.edge, kFar);
+    if (!plus) move_zone(bench.environment, 0, -kFar, row.edge);
     ASSERT_TRUE(bench.run());
     EXPECT_EQ(bench.axis.travel_pulses, row.edge);
     expect_ended(bench, {.by = plus ? Cause::limit_plus : Cause::limit_minus, .in_row = row.in_row});
@@ -225,9 +227,9 @@ TEST(HomingFailure, ALimitAheadEndsADogModeInEveryRowItCanBeMetIn) {
 }
 
 TEST(HomingFailure, WithoutALimitMode6RunsUntilStopped) {
-  Surroundings here = super40nc_machine();
-  move_zone(here, kLimitZone, 1, 0);
-  HomingBench bench(here, 0);
+  Environment environment = super40nc_machine();
+  move_zone(environment, kLimitZone, 1, 0);
+  HomingBench bench(environment, 0);
   ASSERT_EQ(bench.home(super40nc_homing(super40nc_factory(6))), Cause::none);
   EXPECT_FALSE(bench.run(60'000));
   EXPECT_GT(bench.axis.travel_pulses, 1'900'000);
@@ -245,11 +247,11 @@ TEST(HomingFailure, MayTurnRoundAtTheLimitAndPassTheDog) {
       Super40ncHoming how = super40nc_factory(mode);
       how.offset_pulses = 700;
       how.turns_at_limit = true;
-      const Surroundings here = super40nc_machine();
+      const Environment environment = super40nc_machine();
       std::int64_t ends[2];
       for (const bool is_behind : {false, true}) {
         const std::int64_t start = is_behind ? 70'000 : 0;
-        HomingBench bench(turned ? mirrored(here) : here, turned ? -start : start);
+        HomingBench bench(turned ? mirrored(environment) : environment, turned ? -start : start);
         ASSERT_EQ(bench.home(super40nc_homing(turned ? mirrored(how) : how)), Cause::none);
         ASSERT_TRUE(bench.run());
         expect_ended(bench, {});
@@ -257,7 +259,7 @@ TEST(HomingFailure, MayTurnRoundAtTheLimitAndPassTheDog) {
       }
       EXPECT_EQ(ends[0], ends[1]);
       how.turns_at_limit = false;
-      HomingBench fails(turned ? mirrored(here) : here, turned ? -70'000 : 70'000);
+      HomingBench fails(turned ? mirrored(environment) : environment, turned ? -70'000 : 70'000);
       ASSERT_EQ(fails.home(super40nc_homing(turned ? mirrored(how) : how)), Cause::none);
       ASSERT_TRUE(fails.run());
       EXPECT_NE(fails.axis.homing.ended_by, Cause::arrived);
@@ -266,9 +268,9 @@ TEST(HomingFailure, MayTurnRoundAtTheLimitAndPassTheDog) {
 }
 
 TEST(HomingFailure, ADogThatNeverEndsIsLeftStepByStepUntilTheLimit) {
-  Surroundings here = super40nc_machine();
-  here.set_steady(Signal::home, true);
-  HomingBench bench(here, 0);
+  Environment environment = super40nc_machine();
+  environment.set_steady(Signal::home, true);
+  HomingBench bench(environment, 0);
   ASSERT_EQ(bench.home(super40nc_homing(super40nc_factory(1))), Cause::none);
   ASSERT_TRUE(bench.run());
   EXPECT_EQ(bench.axis.travel_pulses, -20'000);
@@ -283,8 +285,9 @@ TEST(HomingFailure, IsRefusedAsAnyMotionIsAndThenChangesNothing) {
   };
   const std::vector<Row> table = {
       {"servo off", [](HomingBench& b) { b.axis.switch_servo(false); }, Cause::servo_off},
-      {"alarm", [](HomingBench& b) { b.here.set_steady(Signal::alarm, true); }, Cause::alarm},
-      {"emergency", [](HomingBench& b) { b.here.set_steady(Signal::emergency, true); }, Cause::emergency},
+      {"alarm", [](HomingBench& b) { b.environment.set_steady(Signal::alarm, true); }, Cause::alarm},
+      {"emergency", [](HomingBench& b) { b.environment.set_steady(Signal::emergency, true); },
+       Cause::emergency},
       {"soft limit", [](HomingBench& b) { b.axis.set({.soft_limit_plus = 0}); }, Cause::soft_limit_plus},
   };
   for (const Row& row : table) {
@@ -348,7 +351,7 @@ TEST(HomingFailure, TablesThatCannotBeRunAreRefused) {
   for (const auto& [name, row] : rows) {
     HomingProgram program{.speeds = {law}};
     program.add(row);
-    HomingBench bench(Surroundings{}, 0);
+    HomingBench bench(Environment{}, 0);
     const Axis before = bench.axis;
     EXPECT_THROW(bench.home(program), BadMotion) << name;
     EXPECT_EQ(bench.axis, before) << name;
@@ -361,7 +364,7 @@ TEST(HomingFailure, TablesThatCannotBeRunAreRefused) {
 TEST(HomingFailure, ATableThatGoesRoundWithoutMovingFails) {
   HomingProgram program{.speeds = {slope_law(kFastPps, kSlope)}};
   program.add({.until_on = false, .next = 0});
-  HomingBench bench(Surroundings{}, 0);
+  HomingBench bench(Environment{}, 0);
   EXPECT_EQ(bench.home(program), Cause::homing_failed);
   EXPECT_FALSE(bench.axis.moving());
 }

@@ -17,10 +17,10 @@ Super40ncMark mark(std::int64_t distance, std::int64_t search) {
           .creep = slope_law(kCreepPps, kSlope, start)};
 }
 
-Surroundings eye_at(std::int64_t from, std::int64_t to, Signal signal = Signal::limit_plus) {
-  Surroundings here;
-  here.add(signal, from, to);
-  return here;
+Environment eye_at(std::int64_t from, std::int64_t to, Signal signal = Signal::limit_plus) {
+  Environment environment;
+  environment.add(signal, from, to);
+  return environment;
 }
 
 TEST(HomingMark, APassingMoveIsAtItsTargetAtTheCreepSpeed) {
@@ -77,7 +77,7 @@ TEST(HomingMark, RunsThroughItsTargetAndStopsOnTheMark) {
 
 TEST(HomingMark, WithoutAMarkItEndsExactlyAtTheEndOfItsSearch) {
   for (const std::int64_t search : {1, 2, 499, 500}) {
-    HomingBench bench(Surroundings{}, -700);
+    HomingBench bench(Environment{}, -700);
     bench.home(super40nc_mark(mark(5'000, search)));
     ASSERT_TRUE(bench.run());
     expect_ended(bench, {});
@@ -159,7 +159,7 @@ TEST(HomingMark, FromEveryPlaceEndsOnTheSamePulse) {
     bench.home(super40nc_mark(how));
     ASSERT_TRUE(bench.run(4'000'000));
     std::int64_t wanted = start + distance;
-    while (wanted != start + distance + direction * search && (bench.here.at(wanted) & bit(eye)) == 0)
+    while (wanted != start + distance + direction * search && (bench.environment.at(wanted) & bit(eye)) == 0)
       wanted += direction;
     ASSERT_EQ(bench.axis.travel_pulses, wanted) << "seed " << seed() << " case " << i;
   }

@@ -1,6 +1,6 @@
 #include "tests/motion/homing_super40nc_bench.h"
 
-// Switches that move while the axis looks for them: the plant changes its surroundings between ticks.
+// Switches that move while the axis looks for them: the plant changes its environment between ticks.
 namespace understudy::motion {
 namespace homing_moving_edges_test {
 
@@ -45,14 +45,14 @@ TEST(HomingMovingEdges, TheEdgeCountsWhereItIsWhenItIsMet) {
   for (const Change& row : table) {
     for (const bool turned : {false, true}) {
       SCOPED_TRACE(std::string(row.name) + (turned ? ", mirrored" : ""));
-      const Surroundings here = super40nc_machine();
+      const Environment environment = super40nc_machine();
       const Super40ncHoming how = super40nc_factory(row.mode);
-      HomingBench bench(turned ? mirrored(here) : here, 0);
+      HomingBench bench(turned ? mirrored(environment) : environment, 0);
       ASSERT_EQ(bench.home(super40nc_homing(turned ? mirrored(how) : how)), Cause::none);
       ASSERT_TRUE(bench.run_until_row(row.row));
       bench.run_ticks(row.after);
       ASSERT_EQ(bench.axis.homing.phase, row.row);
-      move_zone(bench.here, row.zone, turned ? -row.to : row.from, turned ? -row.from : row.to);
+      move_zone(bench.environment, row.zone, turned ? -row.to : row.from, turned ? -row.from : row.to);
       ASSERT_TRUE(bench.run());
       EXPECT_EQ(bench.trace, turned ? mirrored(row.trace) : row.trace);
       expect_ended(bench, {.by = row.by});
@@ -66,13 +66,13 @@ TEST(HomingMovingEdges, APlateThatFallsOnTheAxisIsMetWhereTheAxisIs) {
   HomingBench bench(super40nc_machine(), 0);
   ASSERT_EQ(bench.home(super40nc_homing(super40nc_factory(9))), Cause::none);
   bench.run_ticks(801);
-  const auto here = static_cast<std::int64_t>(travelled);
-  ASSERT_EQ(bench.axis.travel_pulses, here);
-  move_zone(bench.here, kDogZone, 0, 100'000);
+  const auto position = static_cast<std::int64_t>(travelled);
+  ASSERT_EQ(bench.axis.travel_pulses, position);
+  move_zone(bench.environment, kDogZone, 0, 100'000);
   ASSERT_TRUE(bench.run());
   const auto stood = static_cast<std::int64_t>(travelled + brake_pulses(kFastPps, kSlope) + 1e-6);
-  EXPECT_EQ(bench.trace, (Trace{{1, +1, stood}, {2, -1, here}}));
-  EXPECT_EQ(bench.axis.homing.reference_pulses, here);
+  EXPECT_EQ(bench.trace, (Trace{{1, +1, stood}, {2, -1, position}}));
+  EXPECT_EQ(bench.axis.homing.reference_pulses, position);
 }
 
 TEST(HomingMovingEdges, AVanishingPlateStopsACreepingAxisAtTheTicksStart) {
@@ -80,24 +80,24 @@ TEST(HomingMovingEdges, AVanishingPlateStopsACreepingAxisAtTheTicksStart) {
   ASSERT_EQ(bench.home(super40nc_homing(super40nc_factory(1))), Cause::none);
   ASSERT_TRUE(bench.run_until_row(2));
   bench.run_ticks(200);
-  const std::int64_t here = bench.axis.travel_pulses;
-  EXPECT_GT(here, 50'500);
-  move_zone(bench.here, kDogZone, 70'000, 71'000);
+  const std::int64_t position = bench.axis.travel_pulses;
+  EXPECT_GT(position, 50'500);
+  move_zone(bench.environment, kDogZone, 70'000, 71'000);
   ASSERT_TRUE(bench.run());
-  EXPECT_EQ(bench.trace, (Trace{{1, +1, 50'833}, {2, -1, here}, {3, +1, 70'000}}));
+  EXPECT_EQ(bench.trace, (Trace{{1, +1, 50'833}, {2, -1, position}, {3, +1, 70'000}}));
 }
 
 TEST(HomingMovingEdges, ABouncingSwitchIsMetOnce) {
   // On at 50000, off again for a while after 10 pulses, on again: still one DOG, and it stops behind it.
-  Surroundings here = super40nc_machine();
-  move_zone(here, kDogZone, 50'000, 50'010);
-  here.add(Signal::home, 50'020, 60'000);
+  Environment environment = super40nc_machine();
+  move_zone(environment, kDogZone, 50'000, 50'010);
+  environment.add(Signal::home, 50'020, 60'000);
   for (const auto& [mode, trace] : std::vector<std::pair<int, Trace>>{
            {0, {{1, +1, 50'833}}},
            {1, {{1, +1, 50'833}, {2, -1, 50'019}, {3, +1, 50'020}}},
            {3, {{1, +1, kRunsOn}, {2, +1, 52'833}}},
        }) {
-    HomingBench bench(here, 0);
+    HomingBench bench(environment, 0);
     ASSERT_EQ(bench.home(super40nc_homing(super40nc_factory(mode))), Cause::none);
     ASSERT_TRUE(bench.run());
     EXPECT_EQ(bench.trace, trace) << mode;
@@ -107,7 +107,7 @@ TEST(HomingMovingEdges, ABouncingSwitchIsMetOnce) {
 TEST(HomingMovingEdges, ASwitchThatComesOnBeforeTheFirstPulseIsMetThere) {
   HomingBench bench(super40nc_machine(), 0);
   ASSERT_EQ(bench.home(super40nc_homing(super40nc_factory(0))), Cause::none);
-  bench.here.set_steady(Signal::home, true);
+  bench.environment.set_steady(Signal::home, true);
   ASSERT_TRUE(bench.run());
   EXPECT_EQ(bench.axis.travel_pulses, 0);
   expect_ended(bench, {.by = Cause::arrived, .in_row = 2});

@@ -25,14 +25,14 @@ Rsm8194hHoming mirrored(Rsm8194hHoming how) {
   return how;
 }
 
-Surroundings machine() {
-  Surroundings here;
-  here.add(Signal::limit_minus, -kFar, -20'000);
-  here.add(Signal::near_home, 30'000, 45'000);
-  here.add(Signal::home, 50'000, 51'000);
-  here.add(Signal::limit_plus, 80'000, kFar);
-  here.index_period = 4000;
-  return here;
+Environment machine() {
+  Environment environment;
+  environment.add(Signal::limit_minus, -kFar, -20'000);
+  environment.add(Signal::near_home, 30'000, 45'000);
+  environment.add(Signal::home, 50'000, 51'000);
+  environment.add(Signal::limit_plus, 80'000, kFar);
+  environment.index_period = 4000;
+  return environment;
 }
 
 struct Case {
@@ -45,10 +45,11 @@ struct Case {
   Cause refused = Cause::none;
 };
 
-void expect(const Case& wanted, const Surroundings& here) {
+void expect(const Case& wanted, const Environment& environment) {
   for (const bool turned : {false, true}) {
     SCOPED_TRACE(std::string(wanted.name) + (turned ? ", mirrored" : ""));
-    HomingBench bench(turned ? motion::mirrored(here) : here, turned ? -wanted.start : wanted.start);
+    HomingBench bench(turned ? motion::mirrored(environment) : environment,
+                      turned ? -wanted.start : wanted.start);
     const Cause refused = bench.home(rsm8194h_homing(turned ? mirrored(wanted.how) : wanted.how));
     ASSERT_EQ(refused, turned ? motion::mirrored(wanted.refused) : wanted.refused);
     if (refused != Cause::none) {
@@ -110,30 +111,31 @@ TEST(HomingRsm8194h, EveryStepFromEveryPlace) {
 }
 
 TEST(HomingRsm8194h, HomeThatIsNowhereEndsOnTheSecondLimit) {
-  Surroundings here;
-  here.add(Signal::limit_minus, -kFar, -20'000);
-  here.add(Signal::limit_plus, 80'000, kFar);
+  Environment environment;
+  environment.add(Signal::limit_minus, -kFar, -20'000);
+  environment.add(Signal::limit_plus, 80'000, kFar);
   expect({"no HOME",
           steps({0, +1, 0, 0}),
           0,
           {{0, +1, 80'000}, {2, -1, -20'000}},
           {.by = Cause::limit_minus, .in_row = 2}},
-         here);
-  expect({"no Z", steps({0, 0, +1, 0}), 0, {{0, +1, 80'000}}, {.by = Cause::limit_plus, .in_row = 0}}, here);
+         environment);
+  expect({"no Z", steps({0, 0, +1, 0}), 0, {{0, +1, 80'000}}, {.by = Cause::limit_plus, .in_row = 0}},
+         environment);
   expect({"the offset leads into the limit",
           steps({0, 0, 0, +1}, 90'000),
           0,
           {{0, +1, 80'000}},
           {.by = Cause::limit_plus, .in_row = 0}},
-         here);
+         environment);
 }
 
 TEST(HomingRsm8194h, ZOnTheEdgeOfHomeIsOnWhenStep3BeginsAndFails) {
-  Surroundings here = machine();
-  here.index_at = 2000;  // 50000 is one
+  Environment environment = machine();
+  environment.index_at = 2000;  // 50000 is one
   expect(
       {"Z at HOME", steps({0, +1, +1, 0}), 0, {{0, +1, 50'000}}, {.by = Cause::homing_failed, .in_row = 3}},
-      here);
+      environment);
 }
 
 TEST(HomingRsm8194h, ALimitThatSlowsDownIsTurnedRoundBehind) {
@@ -146,17 +148,17 @@ TEST(HomingRsm8194h, ALimitThatSlowsDownIsTurnedRoundBehind) {
 }
 
 TEST(HomingRsm8194h, ALimitInBrakingDistanceOfNearHomeStillEndsStep1) {
-  Surroundings here;
-  here.add(Signal::near_home, 30'000, 40'000);
-  here.add(Signal::home, 10'000, 11'000);
-  here.add(Signal::limit_plus, 30'400, kFar);
+  Environment environment;
+  environment.add(Signal::near_home, 30'000, 40'000);
+  environment.add(Signal::home, 10'000, 11'000);
+  environment.add(Signal::limit_plus, 30'400, kFar);
   expect({"limit 400 behind NHOME",
           steps({+1, -1, 0, 0}),
           20'000,
           {{0, +1, 30'400}, {1, -1, 11'000}},
           {},
           11'000},
-         here);
+         environment);
 }
 
 TEST(HomingRsm8194h, ShowsTheManualsStatesMeanwhile) {

@@ -16,12 +16,12 @@ SpeedLaw by_times() {
   return {.top_speed_u_s = kPps, .up = RampLaw::by_time(kRampS), .down = RampLaw::by_time(kRampS)};
 }
 
-Surroundings machine() {
-  Surroundings here;
-  here.add(Signal::limit_minus, -kFar, -80'000);
-  here.add(Signal::home, 50'000, 50'200);
-  here.add(Signal::limit_plus, 80'000, kFar);
-  return here;
+Environment machine() {
+  Environment environment;
+  environment.add(Signal::limit_minus, -kFar, -80'000);
+  environment.add(Signal::home, 50'000, 50'200);
+  environment.add(Signal::limit_plus, 80'000, kFar);
+  return environment;
 }
 
 struct Case {
@@ -32,10 +32,10 @@ struct Case {
   std::int64_t reference = 50'000;
 };
 
-void expect(const Case& wanted, const Surroundings& here) {
+void expect(const Case& wanted, const Environment& environment) {
   for (const bool turned : {false, true}) {
     SCOPED_TRACE(std::string(wanted.name) + (turned ? ", mirrored" : ""));
-    HomingBench bench(turned ? mirrored(here) : here, turned ? -wanted.start : wanted.start);
+    HomingBench bench(turned ? mirrored(environment) : environment, turned ? -wanted.start : wanted.start);
     ASSERT_EQ(bench.home(simple2_homing({.direction = turned ? -1 : +1, .speed = by_times()})), Cause::none);
     ASSERT_TRUE(bench.run());
     EXPECT_EQ(bench.trace, turned ? mirrored(wanted.trace) : wanted.trace);
@@ -66,30 +66,30 @@ TEST(HomingSimple2, EndsOnTheSameEdgeFromEveryPlace) {
 }
 
 TEST(HomingSimple2, GivesUpOnTheSecondLimit) {
-  Surroundings here = machine();
-  here.zones[1].to = here.zones[1].from - 1;  // no switch
+  Environment environment = machine();
+  environment.zones[1].to = environment.zones[1].from - 1;  // no switch
   expect({"no switch", 0, {{0, +1, 80'000}, {2, -1, -80'000}}, {.by = Cause::limit_minus, .in_row = 2}},
-         here);
+         environment);
 }
 
 TEST(HomingSimple2, ALimitJustBehindTheEdgeDoesNoHarm) {
-  Surroundings here = machine();
-  here.zones[1] = {.signal = Signal::home, .from = 79'800, .to = kFar};
-  expect({"limit 200 behind", 0, {{0, +1, 80'000}, {5, -1, 79'800}}, {}, 79'800}, here);
+  Environment environment = machine();
+  environment.zones[1] = {.signal = Signal::home, .from = 79'800, .to = kFar};
+  expect({"limit 200 behind", 0, {{0, +1, 80'000}, {5, -1, 79'800}}, {}, 79'800}, environment);
 }
 
 TEST(HomingSimple2, ASwitchThatReachesBackToTheLimitCannotBeLeft) {
-  Surroundings here = machine();
-  here.zones[1] = {.signal = Signal::home, .from = -kFar, .to = 50'200};
-  expect({"on without end", 0, {{1, -1, -80'000}}, {.by = Cause::limit_minus, .in_row = 1}}, here);
+  Environment environment = machine();
+  environment.zones[1] = {.signal = Signal::home, .from = -kFar, .to = 50'200};
+  expect({"on without end", 0, {{1, -1, -80'000}}, {.by = Cause::limit_minus, .in_row = 1}}, environment);
 }
 
 TEST(HomingSimple2, ReturnsToTheEdgeAsItWasWhenNoted) {
   HomingBench bench(machine(), 0);
   ASSERT_EQ(bench.home(simple2_homing({.direction = +1, .speed = by_times()})), Cause::none);
   while (!bench.axis.homing.met) bench.step();
-  bench.here.zones[1].from = 50'150;
-  ++bench.here.version;
+  bench.environment.zones[1].from = 50'150;
+  ++bench.environment.version;
   ASSERT_TRUE(bench.run());
   EXPECT_EQ(bench.axis.travel_pulses, 50'000);
 }
@@ -127,8 +127,8 @@ TEST(HomingSlim, RunsUntilHorgAndSlowsDownThere) {
     Trace trace;
     std::int64_t reference;
   };
-  Surroundings here;
-  here.add(Signal::home, -6000, -5000);
+  Environment environment;
+  environment.add(Signal::home, -6000, -5000);
   const auto behind = static_cast<std::int64_t>(brake_pulses(kJogPps, kJogSlope));
   ASSERT_EQ(behind, 2777);
   // From -4000 it has run up over 1000 pulses only, and needs as many to stop.
@@ -141,7 +141,7 @@ TEST(HomingSlim, RunsUntilHorgAndSlowsDownThere) {
   for (const Row& row : table) {
     for (const bool turned : {false, true}) {
       SCOPED_TRACE(std::string(row.name) + (turned ? ", mirrored" : ""));
-      HomingBench bench(turned ? mirrored(here) : here, turned ? -row.start : row.start);
+      HomingBench bench(turned ? mirrored(environment) : environment, turned ? -row.start : row.start);
       const int direction = turned ? -row.direction : row.direction;
       ASSERT_EQ(bench.home(slim_homing({.direction = direction, .jog = slope_law(kJogPps, kJogSlope)})),
                 Cause::none);
@@ -155,7 +155,7 @@ TEST(HomingSlim, RunsUntilHorgAndSlowsDownThere) {
 }
 
 TEST(HomingSlim, WithoutHorgItRunsUntilStopped) {
-  HomingBench bench(Surroundings{}, 0);
+  HomingBench bench(Environment{}, 0);
   ASSERT_EQ(bench.home(slim_homing({.direction = -1, .jog = slope_law(kJogPps, kJogSlope)})), Cause::none);
   EXPECT_FALSE(bench.run(10'000));
   bench.axis.slow_down(bench.now);

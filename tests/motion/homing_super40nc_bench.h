@@ -18,23 +18,23 @@ inline Super40ncHoming super40nc_factory(int mode) {
   return {.mode = mode, .fast = slope_law(kFastPps, kSlope), .creep = slope_law(kCreepPps, kSlope)};
 }
 
-inline Surroundings super40nc_machine() {
-  Surroundings here;
-  here.add(Signal::limit_minus, -kFar, -20'000);
-  here.add(Signal::home, 50'000, 60'000);
-  here.add(Signal::limit_plus, 81'000, kFar);
-  here.index_period = 4000;
-  return here;
+inline Environment super40nc_machine() {
+  Environment environment;
+  environment.add(Signal::limit_minus, -kFar, -20'000);
+  environment.add(Signal::home, 50'000, 60'000);
+  environment.add(Signal::limit_plus, 81'000, kFar);
+  environment.index_period = 4000;
+  return environment;
 }
 
 /// Zones of super40nc_machine(), to be moved.
 inline constexpr std::size_t kDogZone = 1;
 inline constexpr std::size_t kLimitZone = 2;
 
-inline void move_zone(Surroundings& here, std::size_t number, std::int64_t from, std::int64_t to) {
-  here.zones[number].from = from;
-  here.zones[number].to = to;
-  ++here.version;
+inline void move_zone(Environment& environment, std::size_t number, std::int64_t from, std::int64_t to) {
+  environment.zones[number].from = from;
+  environment.zones[number].to = to;
+  ++environment.version;
 }
 
 inline Super40ncHoming mirrored(Super40ncHoming how) {

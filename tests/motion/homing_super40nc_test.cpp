@@ -87,14 +87,14 @@ TEST(HomingSuper40nc, EveryModeFromEveryPlaceInBothDirections) {
         how.index_count = 3;
         how.leave_pulses = 999;
         how.offset_pulses = -7000;
-        const Surroundings here = super40nc_machine();
+        const Environment environment = super40nc_machine();
         Expected wanted = expected(mode, place);
         if (turned) {
           how = mirrored(how);
           wanted.trace = mirrored(wanted.trace);
           wanted.ending.by = mirrored(wanted.ending.by);
         }
-        HomingBench bench(turned ? mirrored(here) : here, turned ? -place.start : place.start);
+        HomingBench bench(turned ? mirrored(environment) : environment, turned ? -place.start : place.start);
         const Cause refused = bench.home(super40nc_homing(how));
         if (wanted.refused) {
           EXPECT_EQ(refused, turned ? Cause::limit_minus : Cause::limit_plus);
@@ -119,10 +119,10 @@ TEST(HomingSuper40nc, TheFirstExampleEnds200000BehindTheThirdIndex) {
   Super40ncHoming how = super40nc_factory(4);
   how.index_count = 2 + 1;  // X31 = 2
   how.offset_pulses = -200'000;
-  Surroundings here;
-  here.add(Signal::home, 50'000, 52'000);
-  here.index_period = 4000;
-  HomingBench bench(here, 0);
+  Environment environment;
+  environment.add(Signal::home, 50'000, 52'000);
+  environment.index_period = 4000;
+  HomingBench bench(environment, 0);
   ASSERT_EQ(bench.home(super40nc_homing(how)), Cause::none);
   ASSERT_TRUE(bench.run());
   EXPECT_EQ(bench.trace, (Trace{{1, +1, 50'833}, {2, -1, 40'000}, {3, -1, -160'000}}));
@@ -134,9 +134,9 @@ TEST(HomingSuper40nc, TheFirstExampleEnds200000BehindTheThirdIndex) {
 TEST(HomingSuper40nc, TheManualsSecondExampleEndsOnTheEdge) {
   Super40ncHoming how = super40nc_factory(1);
   how.direction = -1;
-  Surroundings here;
-  here.add(Signal::home, -10'000, -5000);
-  HomingBench bench(here, 0);
+  Environment environment;
+  environment.add(Signal::home, -10'000, -5000);
+  HomingBench bench(environment, 0);
   ASSERT_EQ(bench.home(super40nc_homing(how)), Cause::none);
   ASSERT_TRUE(bench.run());
   EXPECT_EQ(bench.trace, (Trace{{1, -1, -5833}, {2, +1, -4999}, {3, -1, -5000}}));
@@ -209,33 +209,33 @@ TEST(HomingSuper40nc, ALimitThatStopsDoesNotDisturbModesThatSeekIt) {
 
 TEST(HomingSuper40nc, AnIndexAtTheReversalOrOnTheDogsEdgeIsNotCounted) {
   // Mode 2, DOG and EZ at the same pulse: the next EZ is the first.
-  Surroundings here;
-  here.add(Signal::home, 48'000, 60'000);
-  here.index_period = 4000;
-  HomingBench on_edge(here, 0);
+  Environment environment;
+  environment.add(Signal::home, 48'000, 60'000);
+  environment.index_period = 4000;
+  HomingBench on_edge(environment, 0);
   ASSERT_EQ(on_edge.home(super40nc_homing(super40nc_factory(2))), Cause::none);
   ASSERT_TRUE(on_edge.run());
   EXPECT_EQ(on_edge.trace, (Trace{{1, +1, kRunsOn}, {2, +1, 52'000}}));
 
   // Mode 4, standing on EZ when it turns round: 833 behind the edge.
-  here = Surroundings{};
-  here.add(Signal::home, 50'000, 60'000);
-  here.index_period = 4000;
-  here.index_at = 50'833;
-  HomingBench at_reversal(here, 0);
+  environment = Environment{};
+  environment.add(Signal::home, 50'000, 60'000);
+  environment.index_period = 4000;
+  environment.index_at = 50'833;
+  HomingBench at_reversal(environment, 0);
   ASSERT_EQ(at_reversal.home(super40nc_homing(super40nc_factory(4))), Cause::none);
   ASSERT_TRUE(at_reversal.run());
   EXPECT_EQ(at_reversal.trace, (Trace{{1, +1, 50'833}, {2, -1, 46'833}}));
 }
 
 TEST(HomingSuper40nc, AWideIndexIsMetAtItsEdgeOnEitherSide) {
-  Surroundings here = super40nc_machine();
-  here.index_width = 10;
-  HomingBench up(here, 0);
+  Environment environment = super40nc_machine();
+  environment.index_width = 10;
+  HomingBench up(environment, 0);
   ASSERT_EQ(up.home(super40nc_homing(super40nc_factory(2))), Cause::none);
   ASSERT_TRUE(up.run());
   EXPECT_EQ(up.axis.travel_pulses, 52'000);
-  HomingBench down(here, 0);
+  HomingBench down(environment, 0);
   ASSERT_EQ(down.home(super40nc_homing(super40nc_factory(4))), Cause::none);
   ASSERT_TRUE(down.run());
   EXPECT_EQ(down.axis.travel_pulses, 48'009);

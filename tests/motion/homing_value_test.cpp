@@ -88,11 +88,11 @@ TEST(HomingValue, BacklashThatTakesNoTimeLeavesTheMotionAsItIs) {
   // Turns round at edges, within ticks, at 20 pulses a tick from the start: a tick lost would show.
   const SpeedLaw law = slope_law(20'000, kSlope, 20'000);
   const HomingProgram program = rsm8194h_homing({.ways = {0, +1, -1, 0}, .drive = law, .home = law});
-  Surroundings here = super40nc_machine();
-  move_zone(here, kDogZone, 50'013, 60'000);
-  here.index_at = 7;
-  HomingBench plain(here, 55'007);
-  HomingBench slack(here, 55'007);
+  Environment environment = super40nc_machine();
+  move_zone(environment, kDogZone, 50'013, 60'000);
+  environment.index_at = 7;
+  HomingBench plain(environment, 55'007);
+  HomingBench slack(environment, 55'007);
   slack.axis.set({.backlash_pulses = 40, .backlash_speed_pps = 1e9});
   ASSERT_EQ(plain.home(program), Cause::none);
   ASSERT_EQ(slack.home(program), Cause::none);
@@ -162,7 +162,7 @@ TEST(HomingValue, MovesOfATableWaitForInPosition) {
   ASSERT_EQ(bench.home(super40nc_homing(thorough(0))), Cause::none);
   EXPECT_FALSE(bench.run(10'000));
   EXPECT_EQ(bench.axis.travel_pulses, 43'833);
-  bench.here.set_steady(Signal::in_position, true);
+  bench.environment.set_steady(Signal::in_position, true);
   ASSERT_TRUE(bench.run(10'002));
   expect_ended(bench, {.by = Cause::arrived, .in_row = 2});
 }
@@ -192,21 +192,21 @@ TEST(HomingValue, StartsInTheMidstOfAnotherMotion) {
 }
 
 /// A machine with anything anywhere.
-Surroundings random_machine(std::mt19937_64& random) {
+Environment random_machine(std::mt19937_64& random) {
   const auto between = [&](std::int64_t low, std::int64_t high) {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random);
   };
-  Surroundings here;
-  here.add(Signal::limit_minus, -kFar, between(-3000, 0));
-  here.add(Signal::limit_plus, between(0, 3000), kFar);
+  Environment environment;
+  environment.add(Signal::limit_minus, -kFar, between(-3000, 0));
+  environment.add(Signal::limit_plus, between(0, 3000), kFar);
   for (const Signal signal : {Signal::home, Signal::near_home, Signal::home, Signal::limit_plus}) {
     const std::int64_t from = between(-2500, 2500);
-    here.add(signal, from, from + between(-1, 500));
+    environment.add(signal, from, from + between(-1, 500));
   }
-  here.index_period = between(0, 3) == 0 ? 0 : between(1, 700);
-  here.index_width = between(1, 20);
-  here.index_at = between(-700, 700);
-  return here;
+  environment.index_period = between(0, 3) == 0 ? 0 : between(1, 700);
+  environment.index_width = between(1, 20);
+  environment.index_at = between(-700, 700);
+  return environment;
 }
 
 HomingProgram random_program(std::mt19937_64& random) {
@@ -257,12 +257,12 @@ TEST(HomingValue, RandomMachinesNeverHangItNorLoseAPulse) {
       ++failed;
       continue;
     }
-    // The surroundings may change at any time; each step checks that no pulse is lost.
+    // The environment may change at any time; each step checks that no pulse is lost.
     while (bench.axis.homing.active() && bench.now < 40'000) {
       bench.step();
       if (between(0, 4000) == 0) {
-        bench.here = random_machine(random);
-        bench.here.version = static_cast<std::uint32_t>(bench.now);
+        bench.environment = random_machine(random);
+        bench.environment.version = static_cast<std::uint32_t>(bench.now);
       }
     }
     ASSERT_FALSE(HasFatalFailure());

@@ -19,10 +19,10 @@ namespace understudy::motion {
 using Output = std::vector<double>;
 
 inline Output go_on(Axis& axis, Tick tick) {
-  Surroundings here;
-  here.add(Signal::home, 100, 120);
-  here.index_period = 400;
-  const std::int64_t pulses = axis.step(tick, here);
+  Environment environment;
+  environment.add(Signal::home, 100, 120);
+  environment.index_period = 400;
+  const std::int64_t pulses = axis.step(tick, environment);
   return {static_cast<double>(pulses), static_cast<double>(axis.events), axis.sample(tick).speed_u_s};
 }
 
@@ -44,9 +44,9 @@ inline Output go_on(Coordinated& group, Tick tick) {
     axis.take_part();
     axis.step(tick - 1, {});
   }
-  std::array<Surroundings, 4> here{};
+  std::array<Environment, 4> environment{};
   std::array<std::int64_t, 4> pulses{};
-  group.step(tick, axes, here, pulses);
+  group.step(tick, axes, environment, pulses);
   Output all;
   for (const std::int64_t one : pulses) all.push_back(static_cast<double>(one));
   all.push_back(group.engaged ? 1 : 0);
@@ -74,9 +74,9 @@ inline Output go_on(PulseDrive& drive, Tick tick) {
   return {static_cast<double>(pulses), drive.sample({.tick = tick}).speed_u_s};
 }
 
-inline Output go_on(Surroundings& here, Tick tick) {
-  const auto next = here.steps_until_change(tick * 7 - 1000, tick % 2 == 0 ? 1 : -1);
-  return {static_cast<double>(here.at(tick * 7 - 1000)), static_cast<double>(next.value_or(-1))};
+inline Output go_on(Environment& environment, Tick tick) {
+  const auto next = environment.steps_until_change(tick * 7 - 1000, tick % 2 == 0 ? 1 : -1);
+  return {static_cast<double>(environment.at(tick * 7 - 1000)), static_cast<double>(next.value_or(-1))};
 }
 
 /// Adds up what the actions of a tick leave to their owner.
@@ -94,14 +94,14 @@ struct ActingOwner final : EdgeOwner {
 
 inline Output go_on(SyncTable& table, Tick tick) {
   std::array<Axis, 4> axes;
-  std::array<Surroundings, 4> here;
+  std::array<Environment, 4> environment;
   std::array<std::int64_t, 4> pulses{};
   for (std::size_t i = 0; i < axes.size(); ++i) {
     axes[i].switch_servo(true);
     axes[i].run(i % 2 == 0 ? 1 : -1, by_slope(1000, 1e6), tick - 1);
   }
   ActingOwner owner(table);
-  step_together({tick, axes, here, pulses}, 0b1111, nullptr, &owner);
+  step_together({tick, axes, environment, pulses}, 0b1111, nullptr, &owner);
   Output all{static_cast<double>(owner.outputs), static_cast<double>(owner.interrupts)};
   for (const Axis& axis : axes) all.push_back(axis.moving() ? axis.sample(tick + 1).speed_u_s : -1);
   return all;
@@ -129,28 +129,28 @@ inline PulseDrive sample_of<PulseDrive>() {
 }
 
 template <>
-inline Surroundings sample_of<Surroundings>() {
-  Surroundings here;
-  here.add(Signal::limit_plus, 5000, 9000);
-  here.add(Signal::home, -50, 50);
-  here.add(Signal::near_home, -500, 500);
-  here.set_steady(Signal::in_position, true);
-  here.index_period = 4000;
-  here.index_at = 17;
-  here.index_width = 3;
-  here.encoder = {.counts = 10'000,
-                  .pulses = 3600,
-                  .origin = -17,
-                  .first = -90'000,
-                  .last = 90'000,
-                  .mirrored = true,
-                  .reversed = true,
-                  .surplus = 5,
-                  .factor = 4,
-                  .zero = 33,
-                  .divider = 2,
-                  .turned = true};
-  return here;
+inline Environment sample_of<Environment>() {
+  Environment environment;
+  environment.add(Signal::limit_plus, 5000, 9000);
+  environment.add(Signal::home, -50, 50);
+  environment.add(Signal::near_home, -500, 500);
+  environment.set_steady(Signal::in_position, true);
+  environment.index_period = 4000;
+  environment.index_at = 17;
+  environment.index_width = 3;
+  environment.encoder = {.counts = 10'000,
+                         .pulses = 3600,
+                         .origin = -17,
+                         .first = -90'000,
+                         .last = 90'000,
+                         .mirrored = true,
+                         .reversed = true,
+                         .surplus = 5,
+                         .factor = 4,
+                         .zero = 33,
+                         .divider = 2,
+                         .turned = true};
+  return environment;
 }
 
 template <>

@@ -15,7 +15,7 @@ template <class T>
 class State : public testing::Test {};
 
 using Saved = testing::Types<Axis, Coordinated, ExternalDrive, Follower, PathRun, Profile, PulseDrive,
-                             Surroundings, SyncTable>;
+                             Environment, SyncTable>;
 TYPED_TEST_SUITE(State, Saved);
 
 /// Whether bytes are refused as they should be: by name, and without a trace.
@@ -213,9 +213,9 @@ TEST(StateRefusal, WhatATypeCannotHoldIsRefusedByName) {
     profile.segment_count = count;
     EXPECT_TRUE(refuses(Profile{}, save(profile))) << count;
   }
-  Surroundings here;
-  here.zone_count = Surroundings::kMaxZones + 1;
-  EXPECT_TRUE(refuses(Surroundings{}, save(here)));
+  Environment environment;
+  environment.zone_count = Environment::kMaxZones + 1;
+  EXPECT_TRUE(refuses(Environment{}, save(environment)));
   Follower follower;
   follower.denominator = 0;
   EXPECT_TRUE(refuses(Follower{}, save(follower)));

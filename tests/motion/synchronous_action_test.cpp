@@ -22,7 +22,7 @@ SpeedLaw at_speed(double pps) {
 
 struct SyncBench final : EdgeOwner {
   std::array<Axis, 4> axes{};
-  std::array<Surroundings, 4> here{};
+  std::array<Environment, 4> environment{};
   SyncTable table;
   struct Last {
     std::array<Events, 4> fired{};
@@ -56,8 +56,8 @@ struct SyncBench final : EdgeOwner {
     ++tick;
     last = {};
     std::array<std::int64_t, 4> pulses{};
-    step_together({tick, std::span(axes).first(axes_there), here, pulses}, (1U << axes_there) - 1, nullptr,
-                  this);
+    step_together({tick, std::span(axes).first(axes_there), environment, pulses}, (1U << axes_there) - 1,
+                  nullptr, this);
   }
   void steps(int count) {
     for (; count > 0; --count) step();
@@ -91,12 +91,12 @@ TEST(SyncFactor, EachEventActivatesInTheTickItHappensAndNoneBut) {
          moving(b, +1);
          b.axes[0].stop();
        }},
-      {"IN3 on", Event::mark_on, [](SyncBench& b) { b.here[0].set_steady(Signal::mark, true); }},
+      {"IN3 on", Event::mark_on, [](SyncBench& b) { b.environment[0].set_steady(Signal::mark, true); }},
       {"IN3 off", Event::mark_off,
        [](SyncBench& b) {
-         b.here[0].set_steady(Signal::mark, true);
+         b.environment[0].set_steady(Signal::mark, true);
          b.step();
-         b.here[0].set_steady(Signal::mark, false);
+         b.environment[0].set_steady(Signal::mark, false);
        }},
   };
   for (const FactorCase& factor : kCases) {
@@ -126,14 +126,14 @@ TEST(SyncFactor, SeveralInOneMaskFireByWhicheverComesAndTogether) {
   EXPECT_EQ(bench.last.interrupts, 0b0100);
   bench.step();
   EXPECT_EQ(bench.last, SyncBench::Last{});
-  bench.here[0].set_steady(Signal::mark, true);
+  bench.environment[0].set_steady(Signal::mark, true);
   bench.step();
   EXPECT_EQ(bench.last.fired[0], bit(Event::mark_on));
   bench.axes[0].run(+1, at_speed(1000), bench.tick);
-  bench.here[0].set_steady(Signal::mark, false);
+  bench.environment[0].set_steady(Signal::mark, false);
   bench.step();
   bench.axes[0].run(-1, at_speed(1000), bench.tick);
-  bench.here[0].set_steady(Signal::mark, true);
+  bench.environment[0].set_steady(Signal::mark, true);
   bench.step();
   EXPECT_EQ(bench.last.fired[0], bit(Event::started) | bit(Event::mark_on));
 }
@@ -190,7 +190,7 @@ TEST(SyncDrive, EachDriveOnAnAxisThatStandsAndOnOneThatRuns) {
       }
       bench.on(0, bit(Event::mark_on), 0b0010);
       bench.table.actions[1].drive = drive.drive;
-      bench.here[0].set_steady(Signal::mark, true);
+      bench.environment[0].set_steady(Signal::mark, true);
       // It fires at the beginning of this tick.
       bench.steps(200);
       EXPECT_NEAR(static_cast<double>(bench.axes[1].travel_pulses),
@@ -206,7 +206,7 @@ TEST(SyncDrive, WhatAnAxisRefusesIsNotDone) {
   bench.on(0, bit(Event::mark_on), 0b0110);
   bench.table.actions[1].drive = Do::endless_plus;
   bench.table.actions[2].drive = Do::endless_plus;
-  bench.here[0].set_steady(Signal::mark, true);
+  bench.environment[0].set_steady(Signal::mark, true);
   bench.steps(3);
   EXPECT_FALSE(bench.axes[1].moving());
   EXPECT_TRUE(bench.axes[2].moving());
@@ -216,8 +216,8 @@ TEST(SyncOrder, AnAxisActivatedTwiceInATickBeginsOnce) {
   SyncBench bench;
   for (const std::size_t trigger : {0U, 1U}) bench.on(trigger, bit(Event::mark_on), 0b0100);
   bench.table.actions[2].drive = Do::fixed_plus;
-  bench.here[0].set_steady(Signal::mark, true);
-  bench.here[1].set_steady(Signal::mark, true);
+  bench.environment[0].set_steady(Signal::mark, true);
+  bench.environment[1].set_steady(Signal::mark, true);
   bench.step();
   EXPECT_EQ(bench.last.fired[0], bit(Event::mark_on));
   EXPECT_EQ(bench.last.fired[1], bit(Event::mark_on));
@@ -269,7 +269,7 @@ TEST(SyncOrder, AxesThatAreNotThereAreLeftOut) {
   bench.on(0, bit(Event::mark_on), 0b1111);
   bench.on(3, bit(Event::mark_on), 0b1111);
   for (SyncAction& action : bench.table.actions) action = {.drive = Do::fixed_plus, .output = true};
-  for (Surroundings& here : bench.here) here.set_steady(Signal::mark, true);
+  for (Environment& environment : bench.environment) environment.set_steady(Signal::mark, true);
   bench.axes_there = 2;
   bench.step();
   EXPECT_EQ(bench.last.outputs, 0b0011);
@@ -284,7 +284,7 @@ TEST(SyncPreset, PresetsAreTakenBeforeTheDriveOfTheSameAction) {
       .drive = Do::fixed_minus, .preset = SyncAction::Preset::distance, .preset_value = 7};
   bench.table.actions[2] = {
       .drive = Do::fixed_plus, .preset = SyncAction::Preset::speed, .preset_value = 10'000};
-  bench.here[0].set_steady(Signal::mark, true);
+  bench.environment[0].set_steady(Signal::mark, true);
   bench.steps(1 + 1 + 6);
   EXPECT_EQ(bench.axes[2].travel_pulses, 50);  // at ten a tick, within six ticks
   bench.steps(10);
@@ -299,7 +299,7 @@ TEST(SyncPreset, CountsAreTheOwnersAndASpeedBelowOneIsNone) {
   bench.table.actions[0] = {.preset = SyncAction::Preset::command, .preset_value = 5};
   bench.table.actions[1] = {.preset = SyncAction::Preset::encoder, .preset_value = 6};
   bench.table.actions[2] = {.preset = SyncAction::Preset::speed, .preset_value = 0};
-  bench.here[0].set_steady(Signal::mark, true);
+  bench.environment[0].set_steady(Signal::mark, true);
   const SyncTable before = bench.table;
   bench.step();
   EXPECT_EQ(bench.last.presets_command, 0b0001);
@@ -312,7 +312,7 @@ TEST(SyncPreset, AnEndlessRunGoesByTheSpeedThereWas) {
   bench.on(0, bit(Event::mark_on), 0b0010);
   bench.table.actions[1] = {
       .drive = Do::endless_plus, .preset = SyncAction::Preset::speed, .preset_value = 10'000};
-  bench.here[0].set_steady(Signal::mark, true);
+  bench.environment[0].set_steady(Signal::mark, true);
   bench.steps(12);
   EXPECT_EQ(bench.axes[1].travel_pulses, 10);
 }

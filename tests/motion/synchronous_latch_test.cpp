@@ -17,8 +17,8 @@ SpeedLaw at_speed(std::int64_t pps) {
 
 struct LatchBench final : EdgeOwner {
   std::array<Axis, 3> axes{};
-  Surroundings nowhere;
-  std::array<Surroundings, 3> here{};
+  Environment nowhere;
+  std::array<Environment, 3> environment{};
   SyncTable table;
   Tick tick = 0;
   std::array<bool, 3> has_fired{};
@@ -36,7 +36,7 @@ struct LatchBench final : EdgeOwner {
       ++tick;
       has_fired = {};
       std::array<std::int64_t, 3> pulses{};
-      step_together({tick, axes, here, pulses}, 0b111, nullptr, this);
+      step_together({tick, axes, environment, pulses}, 0b111, nullptr, this);
       if (has_fired[trigger]) return true;
     }
     return false;
@@ -107,7 +107,7 @@ TEST(SyncLatch, DuringARampTheOtherAxisIsLatchedByTheRampsTime) {
 TEST(SyncLatch, AtAMarksPlaceItIsThePulseOfTheMark) {
   for (const std::int64_t place : {1, 7, 1000, 4001}) {
     LatchBench bench;
-    bench.here[0].add(Signal::mark, place, place + 10);
+    bench.environment[0].add(Signal::mark, place, place + 10);
     bench.table.triggers[0] = {.factors = static_cast<std::uint8_t>(bit(Event::mark_on)), .activates = 0b11};
     bench.axes[0].run(+1, at_speed(123'457), 0);
     bench.axes[1].run(-1, at_speed(1'000'000), 0);

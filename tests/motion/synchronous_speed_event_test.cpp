@@ -15,7 +15,7 @@ constexpr Events kConstant = bit(Event::constant_started) | bit(Event::constant_
 /// An axis, and where it was at its events.
 struct EventBench {
   std::array<Axis, 1> axes{};
-  Surroundings here;
+  Environment environment;
   Tick now = 0;
   struct Seen {
     Event event;
@@ -35,7 +35,7 @@ struct EventBench {
     ++now;
     const std::int64_t base = axis().base_pulses;
     if (with_care) axis().attentive = true;
-    axis().step(now, here);
+    axis().step(now, environment);
     for (const Event event : {Event::constant_ended, Event::constant_started}) {
       if ((axis().events & bit(event)) == 0) continue;
       const bool runs = axis().drive.moving();
@@ -173,7 +173,7 @@ TEST(SyncSpeedEvent, APulseIsOncePerTickInWhichThereIsOne) {
   int ticks_with_pulses = 0;
   while (bench.axis().moving()) {
     ++bench.now;
-    const std::int64_t pulses = bench.axis().step(bench.now, bench.here);
+    const std::int64_t pulses = bench.axis().step(bench.now, bench.environment);
     ASSERT_EQ((bench.axis().events & bit(Event::pulse)) != 0, pulses != 0) << bench.now;
     ticks_with_pulses += pulses != 0;
   }
@@ -184,7 +184,7 @@ TEST(SyncSpeedEvent, HomingHasPulsesButNoConstantSpeed) {
   EventBench bench(kConstant | bit(Event::pulse));
   HomingProgram program{.speeds = {constant(10'000)}};
   program.add({.until = Signal::home, .then = HomingPhase::Then::stop_at_once});
-  bench.here.add(Signal::home, 500, 600);
+  bench.environment.add(Signal::home, 500, 600);
   bench.axis().home(program, 0);
   Events seen = 0;
   while (bench.axis().moving()) {

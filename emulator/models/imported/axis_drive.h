@@ -13,13 +13,13 @@
 #include "emulator/models/imported/description.h"
 #include "motion/axis.h"
 #include "motion/counter.h"
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 
 namespace understudy::emulator::models::imported {
 
 struct AxisState {
   motion::Axis motor{};
-  motion::Surroundings here{};
+  motion::Environment environment{};
   motion::Counter counter{};     // the position, in pulses
   std::int64_t sent_pulses = 0;  // pulses of the last tick, in the motor's direction
   std::int64_t encoder_counts = 0;

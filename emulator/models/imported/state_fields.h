@@ -13,7 +13,7 @@ template <>
 struct StateOf<emulator::models::imported::AxisState> {
   using Value = emulator::models::imported::AxisState;
   static constexpr auto fields = FieldList{field("motor", &Value::motor),
-                                           field("here", &Value::here),
+                                           field("here", &Value::environment),
                                            field("counter", &Value::counter),
                                            field("sent_pulses", &Value::sent_pulses),
                                            field("encoder_counts", &Value::encoder_counts),

@@ -20,7 +20,7 @@
 #include "emulator/models/imported/description.h"
 #include "emulator/models/imported/follower.h"
 #include "emulator/models/imported/model.h"
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 #include "motion/tick.h"
 
 namespace understudy::emulator::models::imported {
@@ -32,7 +32,7 @@ void ImportedDevice::look_round(std::size_t axis_number) {
                                                      {binding.lower_limit_input, Signal::limit_minus},
                                                      {binding.home_input, Signal::home},
                                                      {binding.alarm_input, Signal::alarm}}};
-  motion::Surroundings now;
+  motion::Environment now;
   for (const auto& [terminal, signal] : wired) {
     if (terminal < 0) continue;
     if (const MachineEdges::Span* const span = edges_[axis_number].span_of(terminal)) {
@@ -42,11 +42,11 @@ void ImportedDevice::look_round(std::size_t axis_number) {
       now.set_steady(signal, input(terminal) != 0);
     }
   }
-  motion::Surroundings& here = state_.axes[axis_number].here;
-  now.version = here.version;
-  if (now == here) return;
+  motion::Environment& environment = state_.axes[axis_number].environment;
+  now.version = environment.version;
+  if (now == environment) return;
   ++now.version;
-  here = now;
+  environment = now;
 }
 
 void ImportedDevice::set_edges(int axis, const MachineEdges& edges) {
@@ -76,7 +76,7 @@ void ImportedDevice::step_motion(Tick tick) {
   }
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     AxisState& axis = state_.axes[i];
-    finish_step(i, axis.motor.step(tick, axis.here));
+    finish_step(i, axis.motor.step(tick, axis.environment));
   }
 }
 
@@ -116,7 +116,7 @@ void ImportedDevice::update_outputs(Tick tick) {
 bool ImportedDevice::is_quiet(const AxisState& axis) const {
   const motion::Axis& motor = axis.motor;
   return !motor.moving() && !motor.attentive && motor.events == 0 && motor.events_between == 0 &&
-         axis.sent_pulses == 0 && axis.here.version == motor.seen_version;
+         axis.sent_pulses == 0 && axis.environment.version == motor.seen_version;
 }
 
 /// Without what moves: when a value is renewed next that is not where it goes, or may not stay there.
@@ -145,7 +145,7 @@ Tick ImportedDevice::next_event_tick(Tick done, Tick most, const MachineAhead& a
     const motion::Axis& motor = state_.axes[i].motor;
     const PulseRoom room = ahead.room(static_cast<int>(i));
     last =
-        motor.quiet_until(done + 1, last, state_.axes[i].here,
+        motor.quiet_until(done + 1, last, state_.axes[i].environment,
                           {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
   }
   return last + 1;
@@ -155,7 +155,7 @@ void ImportedDevice::cross_to(Tick, Tick tick, const MachineAhead& ahead, std::s
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     AxisState& axis = state_.axes[i];
     pulses[i] += axis.motor.cross_to(tick - 1);
-    finish_step(i, axis.motor.step(tick, axis.here));
+    finish_step(i, axis.motor.step(tick, axis.environment));
     pulses[i] += axis.sent_pulses;
     const int number = static_cast<int>(i);
     if (ahead.has_encoder(number)) axis.encoder_counts = ahead.encoder_counts(number, pulses[i]);

@@ -16,9 +16,9 @@
 #include "motion/axis.h"
 #include "motion/counter.h"
 #include "motion/encoder_line.h"
+#include "motion/environment.h"
 #include "motion/external_drive.h"
 #include "motion/state_fields.h"
-#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -154,7 +154,7 @@ bool RsM8194h::rests() const {
     const motion::Axis& motor = state_.motors[a];
     const AxisUnit& unit = state_.units[a];
     if (motor.moving() || motor.attentive || motor.events != 0 || motor.events_between != 0) return false;
-    if (unit.sent_pulses != 0 || state_.here[a].version != motor.seen_version) return false;
+    if (unit.sent_pulses != 0 || state_.environment[a].version != motor.seen_version) return false;
     if (is_filtering(unit)) return false;
     if (unit.held_drive.what != Drive::What::none && !unit.held) return false;
     if (state_.scans[a].running) return false;
@@ -176,7 +176,7 @@ void RsM8194h::prefetch(Tick tick) const {
   Device::prefetch(tick);
   for (std::size_t a = 0; a < kAxes; ++a) {
     understudy::prefetch(&state_.motors[a], 2 * kCacheLine);  // all that the middle of a move needs
-    prefetch_line(&state_.here[a]);
+    prefetch_line(&state_.environment[a]);
     prefetch_line(&state_.units[a].sent_pulses);
   }
   prefetch_line(&state_.sync);

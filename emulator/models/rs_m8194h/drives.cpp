@@ -12,9 +12,9 @@
 #include "emulator/models/rs_m8194h/paths.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "motion/axis.h"
+#include "motion/environment.h"
 #include "motion/homing.h"
 #include "motion/homing_tables.h"
-#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -82,7 +82,7 @@ AxisMask RsM8194h::driving() const {
 }
 
 bool RsM8194h::is_active(std::size_t axis, motion::Signal signal) const {
-  return (state_.here[axis].at(state_.motors[axis].travel_pulses, state_.motors[axis].signals) &
+  return (state_.environment[axis].at(state_.motors[axis].travel_pulses, state_.motors[axis].signals) &
           motion::bit(signal)) != 0;
 }
 
@@ -245,7 +245,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   take_off(axis, WayOut::other_drive);
   unit.began_pulses = motor.travel_pulses;
   // What a command finds at its pins is what they are now.
-  motor.signals = state_.here[axis].at(motor.travel_pulses, motor.signals);
+  motor.signals = state_.environment[axis].at(motor.travel_pulses, motor.signals);
   std::int64_t distance = what.value;
   if (what.what == Drive::What::absolute) distance -= absolute_count(unit, motor);
   if (what.what != Drive::What::home && distance == 0) return;

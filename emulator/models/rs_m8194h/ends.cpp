@@ -12,8 +12,8 @@
 #include "emulator/models/rs_m8194h/state.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
+#include "motion/environment.h"
 #include "motion/homing.h"
-#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -19,9 +19,9 @@
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "motion/axis.h"
 #include "motion/encoder_line.h"
+#include "motion/environment.h"
 #include "motion/external_drive.h"
 #include "motion/move.h"
-#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -118,7 +118,7 @@ void RsM8194h::pass_pins(Tick tick) {
 void RsM8194h::look_round(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
   const MachineEdges& edges = edges_[axis];
-  motion::Surroundings found;
+  motion::Environment found;
   for (const PinFunction& function : kFunctions) {
     const auto active = active_while_on(unit.basic, function.pin, machine_);
     if (!active) continue;
@@ -144,11 +144,11 @@ void RsM8194h::look_round(std::size_t axis) {
   auto machine = edges.encoder.as<motion::EncoderLine>();
   machine.factor = machine_.edges_per_encoder_count;
   if (machine.is_known()) found.encoder = encoder_line(unit, machine);
-  motion::Surroundings& here = state_.here[axis];
-  found.version = here.version;
-  if (found == here) return;
+  motion::Environment& environment = state_.environment[axis];
+  found.version = environment.version;
+  if (found == environment) return;
   ++found.version;
-  here = found;
+  environment = found;
 }
 
 void RsM8194h::look_again(std::size_t axis) {

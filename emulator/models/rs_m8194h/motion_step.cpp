@@ -42,8 +42,9 @@ void RsM8194h::step_axes(Tick tick) {
     if (!together.takes(a)) singles |= mask_of(a);
   }
   const bool was_engaged = together.engaged;
-  motion::step_together({.tick = tick, .axes = state_.motors, .here = state_.here, .pulses = pulses}, singles,
-                        &together, this);
+  motion::step_together(
+      {.tick = tick, .axes = state_.motors, .environment = state_.environment, .pulses = pulses}, singles,
+      &together, this);
   if (was_engaged && !state_.loaded.empty()) {
     const auto done = std::min(state_.loaded.size(), static_cast<std::size_t>(together.run.completed()));
     state_.loaded.erase(state_.loaded.begin(), state_.loaded.begin() + static_cast<std::ptrdiff_t>(done));
@@ -171,7 +172,7 @@ void RsM8194h::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
 std::int64_t RsM8194h::scan_travel(std::size_t axis) const {
   const motion::Axis& motor = state_.motors[axis];
   if (state_.scans[axis].type < 2) return motor.travel_pulses;
-  const motion::EncoderLine& encoder = state_.here[axis].encoder;
+  const motion::EncoderLine& encoder = state_.environment[axis].encoder;
   return encoder.is_known() ? encoder.at(motor.travel_pulses) : encoder_travel(state_.units[axis], motor);
 }
 
@@ -226,8 +227,8 @@ void RsM8194h::step_scans(Tick tick) {
     }
     // An encoder that does not go along tells of the last pulses a tick later.
     const AxisUnit& unit = state_.units[a];
-    const bool lags =
-        scan.type >= 2 && unit.has_encoder && !state_.here[a].encoder.is_known() && unit.sent_pulses != 0;
+    const bool lags = scan.type >= 2 && unit.has_encoder && !state_.environment[a].encoder.is_known() &&
+                      unit.sent_pulses != 0;
     if (!is_driving(a) && !lags) end_scan(a);
     runs = runs || scan.running;
   }
@@ -256,7 +257,7 @@ Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) 
     const motion::Axis& motor = state_.motors[a];
     const PulseRoom room = ahead.room(static_cast<int>(a));
     last =
-        motor.quiet_until(done + 1, last, state_.here[a],
+        motor.quiet_until(done + 1, last, state_.environment[a],
                           {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
   }
   // What waits in the FIFO waits for an axis to stand.
@@ -269,7 +270,7 @@ void RsM8194h::cross_to(Tick, Tick tick, const MachineAhead& ahead, std::span<st
   for (std::size_t a = 0; a < kAxes; ++a) {
     motion::Axis& motor = state_.motors[a];
     pulses[a] += motor.cross_to(tick - 1);
-    state_.units[a].sent_pulses = motor.step(tick, state_.here[a]);
+    state_.units[a].sent_pulses = motor.step(tick, state_.environment[a]);
     pulses[a] += state_.units[a].sent_pulses;
     const auto axis = static_cast<int>(a);
     if (ahead.has_encoder(axis)) set_encoder(axis, ahead.encoder_counts(axis, pulses[a]));

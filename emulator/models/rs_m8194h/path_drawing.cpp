@@ -213,7 +213,7 @@ void RsM8194h::draw(const HeldPath& path, bool joins) {
     for (const std::int8_t a : made.axis_of) {
       if (a < 0) continue;
       motion::Axis& motor = state_.motors[static_cast<std::size_t>(a)];
-      motor.signals = state_.here[static_cast<std::size_t>(a)].at(motor.travel_pulses, motor.signals);
+      motor.signals = state_.environment[static_cast<std::size_t>(a)].at(motor.travel_pulses, motor.signals);
     }
     heed_path_end(false);  // of one that was stopped since the last tick
     if (keeps_path_off(codes, drawing.run.path().direction_at(0)) ||

@@ -129,7 +129,7 @@ void RsM8194h::power_up() {
     look_again(a);
     motion::Axis& motor = state_.motors[a];
     // What is there at power-up is not an edge.
-    motor.signals = state_.here[a].at(motor.travel_pulses);
+    motor.signals = state_.environment[a].at(motor.travel_pulses);
   }
 }
 

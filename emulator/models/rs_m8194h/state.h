@@ -21,7 +21,7 @@
 #include "interpreter/rs_m8194h/triggers.h"
 #include "interpreter/rs_m8194h/window.h"
 #include "motion/axis.h"
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 #include "motion/synchronous.h"
 
 namespace understudy::emulator::models::rs_m8194h {
@@ -120,7 +120,7 @@ using MacroReport = std::array<std::uint16_t, 5>;
 
 struct State {
   std::array<motion::Axis, kAxes> motors{};
-  std::array<motion::Surroundings, kAxes> here{};
+  std::array<motion::Environment, kAxes> environment{};
   std::array<AxisUnit, kAxes> units{};
   motion::SyncTable sync{};
   Paths paths{};

@@ -74,7 +74,7 @@ template <>
 struct StateOf<emulator::models::rs_m8194h::State> {
   using Value = emulator::models::rs_m8194h::State;
   static constexpr auto fields = FieldList{field("motors", &Value::motors),
-                                           field("here", &Value::here),
+                                           field("here", &Value::environment),
                                            field("units", &Value::units),
                                            field("sync", &Value::sync),
                                            field("paths", &Value::paths),

@@ -14,8 +14,8 @@
 #include "emulator/models/rs_m8194h/paths.h"
 #include "interpreter/rs_m8194h/verbs.h"
 #include "motion/axis.h"
+#include "motion/environment.h"
 #include "motion/move.h"
-#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

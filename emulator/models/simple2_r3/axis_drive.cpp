@@ -8,10 +8,10 @@
 #include "base/simulated_time.h"
 #include "emulator/models/simple2_r3/reactions.h"
 #include "motion/axis.h"
+#include "motion/environment.h"
 #include "motion/following.h"
 #include "motion/homing.h"
 #include "motion/homing_tables.h"
-#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

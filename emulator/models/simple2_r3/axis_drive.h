@@ -43,7 +43,7 @@ struct alignas(64) AxisState {
   // For ENCx_RPM: when the counts last changed.
   static constexpr Tick kSpeedWindow = 100;
   Tick encoder_changed = -kSpeedWindow;
-  motion::Surroundings signals;  // inputs that affect the motor, by their functions
+  motion::Environment signals;  // inputs that affect the motor, by their functions
 
   // The targets of velocity and PWM mode. A target waits while a limit or an alarm forbids it; a target that
   // does not wait is set to 0 (reactions.h).

@@ -24,7 +24,7 @@
 #include "emulator/models/simple2_r3/registers.h"
 #include "interpreter/simple2/execution/execution.h"
 #include "motion/axis.h"
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

@@ -25,7 +25,7 @@
 #include "interpreter/simple2/listing.h"
 #include "interpreter/simple2/program.h"
 #include "motion/axis.h"
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

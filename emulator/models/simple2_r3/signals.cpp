@@ -7,7 +7,7 @@
 #include "emulator/models/simple2_r3/options.h"
 #include "emulator/models/simple2_r3/reactions.h"
 #include "motion/axis.h"
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

@@ -147,9 +147,9 @@ class Chain {
 
   void set_horg(int module, bool on);
   void set_analog(int module, int value);  // clamped to 0 .. kFullAnalog
-  /// Returns the surroundings, for zones along the travel, whose edges are handled at their pulse. Raise the
+  /// Returns the environment, for zones along the travel, whose edges are handled at their pulse. Raise the
   /// version after a change.
-  motion::Surroundings& surroundings(int module) { return surroundings_[at(module)]; }
+  motion::Environment& environment(int module) { return environment_[at(module)]; }
 
   // ---- State
 
@@ -169,7 +169,7 @@ class Chain {
   bool paused() const { return paused_; }
   bool queues_paused() const { return queues_paused_; }
   bool horg(int module) const {
-    return (surroundings_[at(module)].steady & motion::bit(motion::Signal::home)) != 0;
+    return (environment_[at(module)].steady & motion::bit(motion::Signal::home)) != 0;
   }
   int analog(int module) const { return modules_[at(module)].analog; }
   bool analog_speed(int module) const { return modules_[at(module)].analog_speed; }
@@ -319,7 +319,7 @@ class Chain {
   ChainOptions options_;
   std::array<Module, kModules> modules_{};
   std::array<motion::Axis, kModules> axes_{};
-  std::array<motion::Surroundings, kModules> surroundings_{};
+  std::array<motion::Environment, kModules> environment_{};
   std::array<Group, kMappable / 2> groups_{};
   std::array<std::int8_t, kLetters> map_{kNoModule, kNoModule, kNoModule, kNoModule};
   ContinuousPath continuous_ = ContinuousPath::off;

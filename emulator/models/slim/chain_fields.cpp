@@ -136,7 +136,7 @@ void StateOf<Module>::check(const Module& module) {
 }
 
 void StateOf<Chain>::check(const Chain& chain) {
-  const auto& [options, modules, axes, here, groups, map, continuous, paused, pz, number, now] = chain;
+  const auto& [options, modules, axes, environment, groups, map, continuous, paused, pz, number, now] = chain;
   for (const std::int8_t module : map) require_within(module, kNoModule, kMappable - 1);
   require_reach(now);
   for (int module = 0; module < kModules; ++module) {

@@ -166,7 +166,7 @@ struct StateOf<emulator::models::slim::Chain> {
   using Value = emulator::models::slim::Chain;
   static constexpr auto fields = FieldList{field("modules", &Value::modules_),
                                            field("axes", &Value::axes_),
-                                           field("surroundings", &Value::surroundings_),
+                                           field("surroundings", &Value::environment_),
                                            field("groups", &Value::groups_),
                                            field("map", &Value::map_),
                                            field("continuous", &Value::continuous_),
@@ -177,7 +177,7 @@ struct StateOf<emulator::models::slim::Chain> {
   static constexpr std::size_t members = 11;
   static constexpr std::size_t apart = 1;  // the options, which belong to the bench
   static void name_all(Value& all) {       // does not compile if there are others
-    [[maybe_unused]] auto& [options, modules, axes, surroundings, groups, map, continuous, paused,
+    [[maybe_unused]] auto& [options, modules, axes, environment, groups, map, continuous, paused,
                             queues_paused, last_number, now] = all;
   }
   static void check(const Value& chain);

@@ -115,7 +115,7 @@ bool Chain::start_home(int module, Tick begin_at) {
   if (law.top_speed_u_s == 0 && mine.settings.jog_speed != 0) return false;  // as for a move
   mine.homed = false;
   // The inputs may have changed since the axis looked last.
-  axis.signals = surroundings_[at(module)].at(axis.travel_pulses);
+  axis.signals = environment_[at(module)].at(axis.travel_pulses);
   const bool forwards =
       options_.chose(option("homing", "at_vj_forwards_to_horg_then_0")) != (mine.settings.jog_speed < 0);
   const motion::Cause refused =

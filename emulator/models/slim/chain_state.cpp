@@ -13,7 +13,7 @@
 #include "emulator/models/slim/parameters.h"
 #include "motion/axis.h"
 #include "motion/bad_motion.h"
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -139,9 +139,9 @@ void Chain::set_options(const ChainOptions& options) { options_ = options; }
 // ---- Inputs
 
 void Chain::set_horg(int module, bool on) {
-  motion::Surroundings& here = surroundings_[at(module)];
-  if (((here.steady & motion::bit(motion::Signal::home)) != 0) == on) return;
-  here.set_steady(motion::Signal::home, on);
+  motion::Environment& environment = environment_[at(module)];
+  if (((environment.steady & motion::bit(motion::Signal::home)) != 0) == on) return;
+  environment.set_steady(motion::Signal::home, on);
 }
 
 void Chain::set_analog(int module, int value) {

@@ -43,8 +43,8 @@ void Chain::step_motion(std::uint32_t singles, motion::Coordinated* path, std::s
     Chain& chain_;
   };
   Owner owner(*this);
-  motion::step_together({.tick = now_, .axes = axes_, .here = surroundings_, .pulses = pulses}, singles, path,
-                        &owner);
+  motion::step_together({.tick = now_, .axes = axes_, .environment = environment_, .pulses = pulses}, singles,
+                        path, &owner);
 }
 
 void Chain::step_groups() {
@@ -70,7 +70,7 @@ void Chain::step_groups() {
 /// The axis met nothing in the last tick, and nothing has changed for it since.
 bool Chain::undisturbed(int module) const {
   const motion::Axis& axis = axes_[at(module)];
-  return axis.events == 0 && !axis.attentive && surroundings_[at(module)].version == axis.seen_version;
+  return axis.events == 0 && !axis.attentive && environment_[at(module)].version == axis.seen_version;
 }
 
 void Chain::step_axes(Tick tick) {
@@ -177,7 +177,7 @@ Tick Chain::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) con
       if (!waits(module) && !axis.moving()) return done + 1;
       const PulseRoom room = ahead.room(module);
       const std::int64_t at_pulses = axis.travel_pulses;
-      last = axis.quiet_until(done + 1, last, surroundings_[at(module)],
+      last = axis.quiet_until(done + 1, last, environment_[at(module)],
                               {.low = at_pulses + room.least, .high = at_pulses + room.most});
     }
     for (const Output& output : mine.outputs) last = std::min(last, output.next_change(done) - 1);
@@ -192,7 +192,7 @@ void Chain::cross_to(Tick tick, std::span<std::int64_t> pulses) {
     if (mine.activity == Activity::group) continue;
     motion::Axis& axis = axes_[at(module)];
     pulses[at(module)] += axis.cross_to(tick - 1);
-    mine.sent_pulses = axis.step(tick, surroundings_[at(module)]);
+    mine.sent_pulses = axis.step(tick, environment_[at(module)]);
     pulses[at(module)] += mine.sent_pulses;
     if (mine.starved && !axis.moving()) mine.place_units = coordinate(module);
   }

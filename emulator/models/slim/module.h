@@ -1,5 +1,5 @@
 // One module of the chain: a motor with its own units, speeds, outputs and FIFO. The axis itself and its
-// surroundings are kept with those of the other modules (chain.h), because coordinated motion takes arrays.
+// environment are kept with those of the other modules (chain.h), because coordinated motion takes arrays.
 #pragma once
 
 #include <array>

@@ -20,9 +20,9 @@
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/events.h"
 #include "motion/axis.h"
+#include "motion/environment.h"
 #include "motion/homing.h"
 #include "motion/ramp.h"
-#include "motion/surroundings.h"
 #include "motion/unit_scale.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -203,7 +203,7 @@ void Super40nc::prepare(int axis_number, bool homes) {
   // Signals that have come in this tick count; the DOG's edge is left for the latch.
   motion::Axis& motor = chip(axis_number);
   const motion::Signals mark = motion::bit(motion::Signal::mark);
-  const motion::Signals seen = here(axis_number).at(motor.travel_pulses, motor.signals);
+  const motion::Signals seen = environment(axis_number).at(motor.travel_pulses, motor.signals);
   motor.signals = static_cast<motion::Signals>((seen & ~mark) | (motor.signals & mark));
   // A host may have written the high half alone, as the manual's wrong example does: the low half counts.
   const bool is_whole = chose(option("motor_direction", "whole_value"));

@@ -91,7 +91,7 @@ bool Super40nc::is_quiet(int axis_number) const {
   const AxisState& state = axis(axis_number);
   return !motor.moving() && !motor.attentive && motor.events == 0 && motor.events_between == 0 &&
          !counts_a_clock(axis_number) && state.sent_pulses == 0 && state.followed_pulses == 0 &&
-         here(axis_number).version == motor.seen_version;
+         environment(axis_number).version == motor.seen_version;
 }
 
 Tick Super40nc::next_active_tick(Tick done) const {
@@ -125,7 +125,7 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead)
     PulseRoom room = ahead.room(number);
     if (motor.inverted) room = {.least = -room.most, .most = -room.least};
     last =
-        motor.quiet_until(done + 1, last, here(number),
+        motor.quiet_until(done + 1, last, environment(number),
                           {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
   }
   return last + 1;
@@ -147,7 +147,7 @@ void Super40nc::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::s
     const std::int64_t travel_before = motor.travel_pulses;
     const std::int64_t before_last = tick - 1 > done ? motor.cross_to(tick - 1) : 0;
     const std::int64_t travel_at_last = motor.travel_pulses;
-    state.sent_pulses = motor.step(tick, here(number));
+    state.sent_pulses = motor.step(tick, environment(number));
     state.followed_pulses = motor.travel_pulses - travel_at_last;
     count(number, travel_before, 0);
     pulses[n] += before_last + state.sent_pulses;

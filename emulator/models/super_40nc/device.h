@@ -38,8 +38,8 @@
 #include "interpreter/super_40nc/step_programs.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
+#include "motion/environment.h"
 #include "motion/shared_tick.h"
-#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -117,8 +117,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   const AxisState& axis(int number) const { return state_.axes[static_cast<std::size_t>(number)]; }
   motion::Axis& chip(int number) { return state_.chips[static_cast<std::size_t>(number)]; }
   const motion::Axis& chip(int number) const { return state_.chips[static_cast<std::size_t>(number)]; }
-  const motion::Surroundings& here(int number) const { return state_.here[static_cast<std::size_t>(number)]; }
-  motion::Surroundings& here(int number) { return state_.here[static_cast<std::size_t>(number)]; }
+  const auto& environment(int axis) const { return state_.environment[static_cast<std::size_t>(axis)]; }
+  auto& environment(int axis) { return state_.environment[static_cast<std::size_t>(axis)]; }
   /// Returns COUNTER1.
   std::int64_t machine_pulses(int number) const {
     return axis(number).command.at(chip(number).travel_pulses);

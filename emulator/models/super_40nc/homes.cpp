@@ -8,10 +8,10 @@
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/settings.h"
 #include "motion/axis.h"
+#include "motion/environment.h"
 #include "motion/homing.h"
 #include "motion/homing_tables.h"
 #include "motion/move.h"
-#include "motion/surroundings.h"
 #include "motion/unit_scale.h"
 
 namespace understudy::emulator::models::super_40nc {

@@ -256,8 +256,9 @@ void Super40nc::step_axes(Tick tick, std::int32_t wheel_counts, std::array<std::
     counted_[n] = {.travel = state_.chips[n].travel_pulses};
     if (!is_on_path(number)) singles |= 1U << n;
   }
-  motion::step_together({.tick = tick, .axes = state_.chips, .here = state_.here, .pulses = sent}, singles,
-                        &state_.path, this);
+  motion::step_together(
+      {.tick = tick, .axes = state_.chips, .environment = state_.environment, .pulses = sent}, singles,
+      &state_.path, this);
   if (!has_path) return;
   if (chose(option("backlash_scope", "also_where_an_arc_turns_round"))) step_arc_backlash(ways, sent);
   if (!state_.path.engaged || !state_.path_is_held || !state_.path.run.at_rest(tick)) return;

@@ -16,7 +16,7 @@
 #include "emulator/models/super_40nc/terminals.h"
 #include "motion/axis.h"
 #include "motion/encoder_line.h"
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -59,7 +59,7 @@ void Super40nc::look_round(int axis_number) {
       {pin_of(axis_number, kInPositionPin), motion::Signal::in_position, true}};
   const MachineEdges& told = edges_[static_cast<std::size_t>(axis_number)];
   const MachineEdges edges = chip(axis_number).inverted ? told.reversed() : told;
-  motion::Surroundings seen;
+  motion::Environment seen;
   for (const Function& function : functions) {
     if (!function.active_level) continue;
     if (const MachineEdges::Span* const span = edges.span_of(function.input)) {
@@ -80,17 +80,17 @@ void Super40nc::look_round(int axis_number) {
   }
   seen.encoder = edges.encoder.as<motion::EncoderLine>();
   seen.encoder.turned = its.is_on(kept_x(13), axis_number);
-  seen.version = here(axis_number).version;
-  if (seen == here(axis_number)) return;
+  seen.version = environment(axis_number).version;
+  if (seen == environment(axis_number)) return;
   ++seen.version;
-  here(axis_number) = seen;
+  environment(axis_number) = seen;
 }
 
 /// A signal that is ON at power-up is not an edge of the contact that shows it.
 void Super40nc::see_first_signals() {
   if (state_.has_ticked) return;
   for (int number = 0; number < kAxisCount; ++number) {
-    chip(number).signals = here(number).at(chip(number).travel_pulses, chip(number).signals);
+    chip(number).signals = environment(number).at(chip(number).travel_pulses, chip(number).signals);
   }
 }
 

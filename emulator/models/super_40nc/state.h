@@ -19,7 +19,7 @@
 #include "interpreter/super_40nc/step_programs.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -64,7 +64,7 @@ struct State {
   std::array<std::int32_t, 3> analog{};
   std::int32_t wheel_edges = 0;  // MPG, as sampled
   std::array<motion::Axis, kAxisCount> chips{};
-  std::array<motion::Surroundings, kAxisCount> here{};
+  std::array<motion::Environment, kAxisCount> environment{};
   std::array<AxisState, kAxisCount> axes{};
   motion::Coordinated path;  // LIN and arcs of C
   bool path_is_held = false;

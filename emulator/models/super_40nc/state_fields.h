@@ -143,7 +143,7 @@ struct StateOf<emulator::models::super_40nc::State> {
   static constexpr auto fields =
       FieldList{field("image", &Value::image, emulator::models::super_40nc::register_at_slot),
                 field("chips", &Value::chips),
-                field("here", &Value::here),
+                field("here", &Value::environment),
                 field("axes", &Value::axes),
                 field("path", &Value::path),
                 field("path_is_held", &Value::path_is_held),

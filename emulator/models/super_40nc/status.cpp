@@ -17,9 +17,9 @@
 #include "emulator/models/super_40nc/terminals.h"
 #include "motion/axis.h"
 #include "motion/encoder_line.h"
+#include "motion/environment.h"
 #include "motion/profile.h"
 #include "motion/shared_tick.h"
-#include "motion/surroundings.h"
 #include "motion/tick.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -245,7 +245,7 @@ void Super40nc::count_until(const motion::SharedTick& tick, int axis_number) {
   const auto wheel = static_cast<std::int64_t>(part * static_cast<double>(wheel_of_tick_));
   count(axis_number, so_far.travel, wheel - so_far.wheel, 0);
   so_far = {.travel = motor.travel_pulses, .wheel = wheel};
-  const motion::EncoderLine& encoder = here(axis_number).encoder;
+  const motion::EncoderLine& encoder = environment(axis_number).encoder;
   if (!encoder.is_known()) return;
   const std::int64_t counts = encoder.at(motor.travel_pulses);
   count_encoder(axis_number, encoder.turned ? -counts : counts);

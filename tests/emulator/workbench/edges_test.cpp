@@ -60,7 +60,9 @@ struct Rig {
   }
   Workbench& device() { return static_cast<Workbench&>(world.device(0)); }
   motion::Axis& axis(std::size_t motor) { return device().state.motors.motors[motor].axis; }
-  const motion::Surroundings& here(std::size_t motor) { return device().state.motors.motors[motor].here; }
+  const motion::Environment& environment(std::size_t motor) {
+    return device().state.motors.motors[motor].environment;
+  }
   std::int64_t place(std::size_t motor) { return world.plant(0, static_cast<int>(motor)).position_pulses(); }
   void advance(Tick ticks) { world.advance_to(world.now() + ticks * kTickLength); }
   void inject(const std::string& kind, const std::string& place,
@@ -153,14 +155,14 @@ TEST(Edges, HomingByModesEndsOnThePulse) {
 
 TEST(Edges, AreToldOnlyWhenTheMachineChanges) {
   Rig rig({.position = 2000});
-  const std::uint32_t told = rig.here(0).version;
+  const std::uint32_t told = rig.environment(0).version;
   rig.axis(0).move(-800, law(1000), rig.device().now());
   rig.advance(3000);
   EXPECT_EQ(rig.place(0), 1200);
-  EXPECT_EQ(rig.here(0).version, told);
+  EXPECT_EQ(rig.environment(0).version, told);
   rig.inject("slip", "it.A", {{"pulses", "300"}});
   rig.advance(2);
-  EXPECT_NE(rig.here(0).version, told);
+  EXPECT_NE(rig.environment(0).version, told);
   ASSERT_EQ(rig.home(0, four_steps(0, 4e6)), motion::Cause::arrived);
   EXPECT_EQ(rig.place(0), kIndex);
 }
@@ -168,8 +170,8 @@ TEST(Edges, AreToldOnlyWhenTheMachineChanges) {
 TEST(Edges, OfInputsThatAreHeldOrStuckAreLevels) {
   Rig rig({.position = 2000});
   const auto has_zone = [&](Signal signal) {
-    const auto& here = rig.here(0);
-    return std::any_of(here.zones.begin(), here.zones.begin() + here.zone_count,
+    const auto& environment = rig.environment(0);
+    return std::any_of(environment.zones.begin(), environment.zones.begin() + environment.zone_count,
                        [&](const auto& zone) { return zone.signal == signal; });
   };
   EXPECT_TRUE(has_zone(Signal::home));
@@ -177,7 +179,7 @@ TEST(Edges, OfInputsThatAreHeldOrStuckAreLevels) {
   EXPECT_FALSE(has_zone(Signal::home));
   EXPECT_TRUE(has_zone(Signal::near_home));
   rig.advance(1);
-  EXPECT_TRUE(rig.here(0).steady & motion::bit(Signal::home));
+  EXPECT_TRUE(rig.environment(0).steady & motion::bit(Signal::home));
   rig.world.set_external_input(0, motor_input(0, kHome), 0);
   EXPECT_TRUE(has_zone(Signal::home));
   rig.inject("stuck", "it.HOME_A", {{"level", "off"}});
@@ -197,19 +199,19 @@ TEST(Edges, AreLevelsWhilePulsesAreLost) {
     Rig rig({.position = 200});
     rig.axis(0).run(-1, law(20'000), rig.device().now());
     rig.advance(5);
-    EXPECT_TRUE(rig.here(0).depends_on_place());
+    EXPECT_TRUE(rig.environment(0).depends_on_place());
     if (stalls) {
       rig.inject("stall", "it.A");
     } else {
       rig.inject("lost_steps", "it.A", {{"one_in", "2"}});
     }
     rig.advance(1);
-    EXPECT_FALSE(rig.here(0).depends_on_place());
+    EXPECT_FALSE(rig.environment(0).depends_on_place());
     rig.axis(0).stop();
     rig.advance(10);
     rig.world.clear_faults();
     rig.advance(2);
-    EXPECT_TRUE(rig.here(0).depends_on_place());
+    EXPECT_TRUE(rig.environment(0).depends_on_place());
     ASSERT_EQ(rig.home(0, four_steps(0, 4e6)), motion::Cause::arrived);
     EXPECT_EQ(rig.place(0), kIndex) << "pulses have been lost since power-up";
   }
@@ -232,10 +234,10 @@ TEST(Edges, AtAHardStopLoseTheirPlaceAndFindIt) {
 
 /// From where they stand, everything is as far away for the one as for the other.
 void expect_as_far_away(Rig& rig, Rig& other, std::size_t motor) {
-  ASSERT_EQ(rig.here(motor).zone_count, other.here(motor).zone_count);
-  for (std::size_t i = 0; i < rig.here(motor).zone_count; ++i) {
-    EXPECT_EQ(rig.here(motor).zones[i].from - rig.axis(motor).travel_pulses,
-              other.here(motor).zones[i].from - other.axis(motor).travel_pulses);
+  ASSERT_EQ(rig.environment(motor).zone_count, other.environment(motor).zone_count);
+  for (std::size_t i = 0; i < rig.environment(motor).zone_count; ++i) {
+    EXPECT_EQ(rig.environment(motor).zones[i].from - rig.axis(motor).travel_pulses,
+              other.environment(motor).zones[i].from - other.axis(motor).travel_pulses);
   }
 }
 

@@ -18,7 +18,7 @@ namespace understudy::emulator::workbench {
 
 struct Motor {
   motion::Axis axis{};
-  motion::Surroundings here{};
+  motion::Environment environment{};
   std::int64_t sent_pulses = 0;  // in the last tick
 
   bool operator==(const Motor&) const = default;
@@ -61,7 +61,7 @@ class Motors {
                                               {kMark, Signal::mark, Signal::mark},
                                               {kIndex, Signal::index, Signal::index}};
     const MachineEdges& edges = edges_[number];
-    motion::Surroundings now;
+    motion::Environment now;
     for (const Function& function : kFunctions) {
       const int input = motor_input(number, function.input);
       const bool active_level = (state.low_active >> function.input & 1) == 0;
@@ -80,11 +80,11 @@ class Motors {
         now.set_steady(signal, (device.input(input) != 0) == active_level);
       }
     }
-    motion::Surroundings& here = state.motors[number].here;
-    now.version = here.version;
-    if (now == here) return;
+    motion::Environment& environment = state.motors[number].environment;
+    now.version = environment.version;
+    if (now == environment) return;
     ++now.version;
-    here = now;
+    environment = now;
   }
 
   void look_at_inputs(const Device& device) {
@@ -108,7 +108,7 @@ class Motors {
 
   void step(Tick tick) {
     const std::int64_t before = state.motors[0].axis.travel_pulses;
-    for (Motor& motor : state.motors) motor.sent_pulses = motor.axis.step(tick, motor.here);
+    for (Motor& motor : state.motors) motor.sent_pulses = motor.axis.step(tick, motor.environment);
     compare(before);
   }
 
@@ -116,7 +116,7 @@ class Motors {
     return std::all_of(state.motors.begin(), state.motors.end(), [](const Motor& motor) {
       const motion::Axis& axis = motor.axis;
       return !axis.moving() && !axis.attentive && axis.events == 0 && axis.events_between == 0 &&
-             motor.sent_pulses == 0 && motor.here.version == axis.seen_version;
+             motor.sent_pulses == 0 && motor.environment.version == axis.seen_version;
     });
   }
 
@@ -127,7 +127,7 @@ class Motors {
       PulseRoom room = ahead.room(static_cast<int>(i));
       if (i == kReversed) room = {.least = -room.most, .most = -room.least};
       last =
-          axis.quiet_until(done + 1, last, state.motors[i].here,
+          axis.quiet_until(done + 1, last, state.motors[i].environment,
                            {.low = axis.travel_pulses + room.least, .high = axis.travel_pulses + room.most});
     }
     return last + 1;
@@ -138,7 +138,7 @@ class Motors {
     for (std::size_t i = 0; i < kMotorCount; ++i) {
       Motor& motor = state.motors[i];
       pulses[i] += motor.axis.cross_to(tick - 1);
-      motor.sent_pulses = motor.axis.step(tick, motor.here);
+      motor.sent_pulses = motor.axis.step(tick, motor.environment);
       pulses[i] += motor.sent_pulses;
     }
     compare(before);
@@ -168,7 +168,7 @@ namespace understudy {
 template <>
 struct StateOf<emulator::workbench::Motor> {
   using Value = emulator::workbench::Motor;
-  static constexpr auto fields = FieldList{field("axis", &Value::axis), field("here", &Value::here),
+  static constexpr auto fields = FieldList{field("axis", &Value::axis), field("here", &Value::environment),
                                            field("sent_pulses", &Value::sent_pulses)};
 };
 

@@ -114,7 +114,7 @@ TEST(SlimServo, AtPowerUpByChoice) {
 
 TEST(SlimHome, GoesAtMinusVjUntilHorgAndIsZeroWhereItStops) {
   OneChain bench = jogging();
-  bench.chain.surroundings(0).add(motion::Signal::home, -5000, -2000);
+  bench.chain.environment(0).add(motion::Signal::home, -5000, -2000);
   bench.chain.set_coordinate(0, 777);
   ASSERT_EQ(bench.chain.home(0), Error::none);
   bench.chain.move(0, true, 100);
@@ -155,7 +155,7 @@ TEST(SlimHome, ByAnInputAndWithANegativeVjTheOtherWay) {
 
 TEST(SlimHome, PausedItBeginsAnew) {
   OneChain bench = jogging();
-  bench.chain.surroundings(0).add(motion::Signal::home, -5000, -2000);
+  bench.chain.environment(0).add(motion::Signal::home, -5000, -2000);
   bench.chain.home(0);
   bench.steps(501);
   bench.chain.pause();

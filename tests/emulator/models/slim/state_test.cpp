@@ -126,7 +126,7 @@ std::vector<std::string> lived(DialogueScript& script, const Moment& moment) {
   return all;
 }
 
-/// The levels from outside are its surroundings', not its own.
+/// The levels from outside are of its environment, not its own.
 void put_inputs(DialogueScript& from, DialogueScript& to) {
   const world::World& world = from.world();
   for (int i = 0; i < static_cast<int>(model().terminals.size()); ++i) {

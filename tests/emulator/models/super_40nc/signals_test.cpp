@@ -4,14 +4,14 @@
 
 #include "emulator/device/machine_edges.h"
 #include "emulator/models/super_40nc/terminals.h"
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
 
 namespace understudy::emulator::models::super_40nc {
 namespace signals_test {
 
 bool index_is_on(OneSuper40nc& one, std::int64_t travel) {
-  return (one.it().here(0).at(travel) & motion::bit(motion::Signal::index)) != 0;
+  return (one.it().environment(0).at(travel) & motion::bit(motion::Signal::index)) != 0;
 }
 
 /// The input changes at 100 to 102 and every 1000 pulses from there.

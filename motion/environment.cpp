@@ -1,4 +1,4 @@
-#include "motion/surroundings.h"
+#include "motion/environment.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,9 +13,9 @@ namespace {
 
 /// Returns 0 .. index_period - 1. Both remainders lie between -period and period, so their difference is
 /// corrected without a third division.
-std::int64_t index_phase(const Surroundings& here, std::int64_t travel) {
-  const std::int64_t period = here.index_period;
-  const std::int64_t phase = travel % period - here.index_at % period;
+std::int64_t index_phase(const Environment& environment, std::int64_t travel) {
+  const std::int64_t period = environment.index_period;
+  const std::int64_t phase = travel % period - environment.index_at % period;
   if (phase < 0) return phase < -period ? phase + period + period : phase + period;
   return phase < period ? phase : phase - period;
 }
@@ -29,25 +29,25 @@ std::int64_t bounded_difference(std::int64_t a, std::int64_t b) {
 
 }  // namespace
 
-void Surroundings::add(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack) {
+void Environment::add(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack) {
   if (zone_count == kMaxZones) throw BadMotion(Refusal::no_room, "surroundings", "at most 12 zones an axis");
   zones[zone_count++] = {.signal = signal, .from = from, .to = to, .slack = slack};
   ++version;
 }
 
-void Surroundings::add_outside(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack) {
+void Environment::add_outside(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack) {
   const std::int64_t below = bounded_difference(from, slack);
   const std::int64_t above = bounded_difference(to, -slack);
   if (below > INT64_MIN) add(signal, INT64_MIN, below - 1, slack);
   if (above < INT64_MAX) add(signal, above + 1, INT64_MAX, slack);
 }
 
-void Surroundings::set_steady(Signal signal, bool on) {
+void Environment::set_steady(Signal signal, bool on) {
   steady = static_cast<Signals>(on ? steady | bit(signal) : steady & ~bit(signal));
   ++version;
 }
 
-Signals Surroundings::at(std::int64_t travel, Signals before) const {
+Signals Environment::at(std::int64_t travel, Signals before) const {
   Signals on = steady;
   for (std::size_t i = 0; i < zone_count; ++i) {
     const Zone& zone = zones[i];
@@ -65,7 +65,7 @@ Signals Surroundings::at(std::int64_t travel, Signals before) const {
   return on;
 }
 
-std::optional<std::int64_t> Surroundings::steps_until_change(std::int64_t travel, int direction) const {
+std::optional<std::int64_t> Environment::steps_until_change(std::int64_t travel, int direction) const {
   std::optional<std::int64_t> nearest;
   const auto consider = [&](std::int64_t steps) {
     if (steps > 0 && steps < INT64_MAX) nearest = nearest ? std::min(*nearest, steps) : steps;

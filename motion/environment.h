@@ -30,7 +30,7 @@ inline constexpr int kSignals = 9;
 using Signals = std::uint16_t;
 constexpr Signals bit(Signal signal) { return static_cast<Signals>(1U << static_cast<unsigned>(signal)); }
 
-struct Surroundings {
+struct Environment {
   /// `signal` is on from `from` to `to`, both included, in pulses of the axis's travel.
   struct Zone {
     Signal signal = Signal::home;
@@ -56,7 +56,7 @@ struct Surroundings {
   std::int64_t index_to = INT64_MAX;
   EncoderLine encoder{};  // what the axis's encoder counts along the travel
 
-  bool operator==(const Surroundings&) const = default;
+  bool operator==(const Environment&) const = default;
 
   /// Throws BadMotion(no_room) beyond kMaxZones. Raises the version.
   void add(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack = 0);
