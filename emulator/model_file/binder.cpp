@@ -74,20 +74,20 @@ Spot Binder::spot(const YamlFields& field, const std::string& name) const {
 Spot Binder::shown(const YamlFields& field, const std::string& name, bool is_flag, const std::string& what,
                    bool may_be_written) {
   const Spot where = spot(field, name);
-  const ListedRegister& its = listed(where);
+  const ListedRegister& row = listed(where);
   if (is_flag && !where.is_whole() && where.width != 1)
     field.fail(understudy::quoted(name) + " is several bits; expected one bit, or a register");
-  if (is_flag && where.is_whole() && its.type == Type::f32)
+  if (is_flag && where.is_whole() && row.type == Type::f32)
     field.fail(understudy::quoted(name) + " is a real number; expected one bit, or a whole number");
   if (!is_flag && !where.is_whole()) field.fail(understudy::quoted(name) + " is a bit; expected a register");
-  if (!is_flag && its.type == Type::bit)
+  if (!is_flag && row.type == Type::bit)
     field.fail(understudy::quoted(name) + " is a bit; expected a register");
-  if (its.access == Access::write)
+  if (row.access == Access::write)
     field.fail(understudy::quoted(name) + " can only be written; expected a register that hosts read");
-  if (its.access == Access::read_write && !may_be_written && where.is_whole())
+  if (row.access == Access::read_write && !may_be_written && where.is_whole())
     field.fail(understudy::quoted(name) +
                " is written by hosts; expected a register that they only read (R)");
-  if (where.is_whole() && its.persistent)
+  if (where.is_whole() && row.persistent)
     field.fail(understudy::quoted(name) + " is persistent in the list; expected 0 there, since it shows " +
                what);
   auto& taken = taken_[where.number];
@@ -112,13 +112,13 @@ Condition Binder::condition(const YamlFields& field) const {
   made.value = parse_integer(number);
   if (!made.value)
     field.fail(understudy::quoted(number) + " is not a number; expected one, as in COMMAND == 2");
-  const ListedRegister& its = listed(made.spot);
-  TypeLimits limits = limits_of(its.type);
+  const ListedRegister& row = listed(made.spot);
+  TypeLimits limits = limits_of(row.type);
   // What is shown may be beyond the list's range, and so may what is stored as it comes.
   const bool is_kept_in_range =
-      its.ranged && its.access != Access::read && map_.policy().out_of_range != MapPolicy::OutOfRange::stored;
+      row.ranged && row.access != Access::read && map_.policy().out_of_range != MapPolicy::OutOfRange::stored;
   if (is_kept_in_range)
-    limits = {.lowest = std::min(its.least, its.factory), .highest = std::max(its.most, its.factory)};
+    limits = {.lowest = std::min(row.least, row.factory), .highest = std::max(row.most, row.factory)};
   if (!made.spot.is_whole()) limits = {0, static_cast<Value>(mask_of(made.spot) >> made.spot.bit)};
   if (*made.value < limits.lowest || *made.value > limits.highest) {
     field.fail(understudy::quoted(number) + " never occurs; expected " + std::to_string(limits.lowest) +

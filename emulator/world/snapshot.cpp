@@ -187,18 +187,18 @@ PlantStates read_machines(const World& world, StateReader& reader) {
 }
 
 void read_hearing(const WorldLine& line, StateReader& reader) {
-  Hearing its;
-  reader.read(its.is_strict);
-  reader.read(its.enforces_settings);
+  Hearing hearing;
+  reader.read(hearing.is_strict);
+  reader.read(hearing.enforces_settings);
   const Hearing ours = hearing_of(line);
-  if (its.is_strict != ours.is_strict) {
-    throw StateError(its.is_strict
+  if (hearing.is_strict != ours.is_strict) {
+    throw StateError(hearing.is_strict
                          ? "was saved with strict framing; expected a bench that has it too"
                          : "was saved with tolerant framing; expected a bench without strict framing");
   }
-  if (its.enforces_settings != ours.enforces_settings) {
+  if (hearing.enforces_settings != ours.enforces_settings) {
     throw StateError(
-        its.enforces_settings
+        hearing.enforces_settings
             ? "was saved by a bench that ignores hosts of another speed; expected a bench that ignores them "
               "too"
             : "was saved by a bench that accepts hosts of any speed; expected a bench that accepts them too");

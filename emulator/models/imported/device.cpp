@@ -57,23 +57,23 @@ ImportedDevice::ImportedDevice(const ImportedModel& model, const DeviceSettings&
       model_(model),
       edges_(model.description().axes.size()),
       is_restored_(edges_.size()) {
-  for (std::size_t i = 0; i < its().terminals.size(); ++i) {
-    const Terminal& terminal = its().terminals[i];
+  for (std::size_t i = 0; i < description().terminals.size(); ++i) {
+    const Terminal& terminal = description().terminals[i];
     if (terminal.is_input && terminal.spot) set_input(static_cast<int>(i), level_at_rest(*terminal.spot));
   }
   state_.eeprom = factory_memory(map());
   state_ = state_at_power_up();
-  for (const Following& following : its().followings) {
+  for (const Following& following : description().followings) {
     const double period_s = static_cast<double>(following.every) / motion::kTicksPerSecond;
     shares_.push_back(share_of_way(period_s, following.time_constant_s));
   }
 }
 
-const Description& ImportedDevice::its() const { return model_.description(); }
+const Description& ImportedDevice::description() const { return model_.description(); }
 
 /// What shows an input begins with the register's default, and so has the input to.
 std::int32_t ImportedDevice::level_at_rest(const Spot& spot) const {
-  const Value whole = its().registers[spot.number].factory;
+  const Value whole = description().registers[spot.number].factory;
   if (!spot.is_whole()) return static_cast<std::int32_t>((whole >> spot.bit) & 1);
   return static_cast<std::int32_t>(std::clamp<Value>(whole, INT32_MIN, INT32_MAX));
 }
@@ -98,7 +98,7 @@ std::uint32_t mask_of(const Spot& spot) {
 
 Value ImportedDevice::value_of_view(std::size_t axis_number, View view, Type type) const {
   const AxisState& axis = state_.axes[axis_number];
-  const AxisBinding& binding = its().axes[axis_number];
+  const AxisBinding& binding = description().axes[axis_number];
   const auto input_is_on = [&](int terminal) { return terminal >= 0 && input(terminal) != 0; };
   switch (view) {
     case View::position: {
@@ -130,7 +130,7 @@ Value ImportedDevice::value_of_view(std::size_t axis_number, View view, Type typ
 
 std::optional<bool> ImportedDevice::servo_on(int axis) const {
   const auto number = static_cast<std::size_t>(axis);
-  if (!its().axes[number].command(Command::enable)) return std::nullopt;
+  if (!description().axes[number].command(Command::enable)) return std::nullopt;
   return powered() && state_.axes[number].motor.servo_on;
 }
 
@@ -139,7 +139,7 @@ Value ImportedDevice::value_of_part(const ShownPart& part, Type type) const {
     case ShownPart::What::axis: return value_of_view(part.number, part.view, type);
     case ShownPart::What::input: return value_for(input(static_cast<int>(part.number)), type);
     case ShownPart::What::following: return value_for(state_.followed[part.number], type);
-    case ShownPart::What::comparison: return holds(its().comparisons[part.number]) ? 1 : 0;
+    case ShownPart::What::comparison: return holds(description().comparisons[part.number]) ? 1 : 0;
   }
   return 0;
 }
@@ -200,7 +200,7 @@ void ImportedDevice::write_view(std::size_t number, Value value) {
   const double counts =
       model_.type_of(number) == Type::f32 ? double{real_of(value)} : static_cast<double>(value);
   if (!std::isfinite(counts)) return;
-  set_position(state_.axes[part.number], its().axes[part.number],
+  set_position(state_.axes[part.number], description().axes[part.number],
                static_cast<Value>(std::round(std::clamp(counts, -4e18, 4e18))));
 }
 
@@ -229,13 +229,13 @@ void ImportedDevice::attempt(std::size_t axis, Act act) {
   try {
     act();
   } catch (const motion::BadMotion& error) {
-    Device::mention_unmodelled(its().axes[axis].name, error.what());
+    Device::mention_unmodelled(description().axes[axis].name, error.what());
   }
 }
 
 void ImportedDevice::look_at_commands() {
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
-    const AxisBinding& binding = its().axes[i];
+    const AxisBinding& binding = description().axes[i];
     AxisState& axis = state_.axes[i];
     const AxisNumbers numbers(binding, counts_of_);
     bool is_stopped = false;
@@ -253,12 +253,12 @@ void ImportedDevice::look_at_commands() {
     }
   }
   steer_axes(now());
-  for (const std::size_t number : its().momentary) {
+  for (const std::size_t number : description().momentary) {
     const auto slot = static_cast<std::size_t>(model_.slot_of(number));
     if (std::find(written_.begin(), written_.end(), slot) == written_.end()) continue;
     state_.image[slot] = 0;
     for (std::size_t i = 0; i < state_.held.size(); ++i) {
-      const auto& condition = its().axes[i / kCommands].commands[i % kCommands];
+      const auto& condition = description().axes[i / kCommands].commands[i % kCommands];
       if (condition && condition->spot.number == number) state_.held[i] = holds_now(*condition) ? 1 : 0;
     }
   }
@@ -266,7 +266,7 @@ void ImportedDevice::look_at_commands() {
 
 void ImportedDevice::steer_axes(Tick done) {
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
-    const AxisBinding& binding = its().axes[i];
+    const AxisBinding& binding = description().axes[i];
     const auto holds = [&](Command command) {
       const auto& condition = binding.command(command);
       return condition && holds_now(*condition) ? 1 : 0;
@@ -293,9 +293,9 @@ std::optional<std::uint16_t> written_word(const RegisterRequest& request, const 
 DeviceAnswer ImportedDevice::admits(const RegisterRequest& request, Checked checked) const {
   if (!request.is_write() || checked != Checked::everything) return Refusal::none;
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
-    const AxisBinding& binding = its().axes[i];
+    const AxisBinding& binding = description().axes[i];
     const auto held_after = [&](const Condition& condition) {
-      const ListedRegister& listed = its().registers[condition.spot.number];
+      const ListedRegister& listed = description().registers[condition.spot.number];
       const auto word = written_word(request, listed);
       if (!word) return holds_now(condition);
       const Value whole = value_of(*word, listed.type);
@@ -305,7 +305,7 @@ DeviceAnswer ImportedDevice::admits(const RegisterRequest& request, Checked chec
     };
     for (const Command command : {Command::home, Command::start, Command::start_relative}) {
       const auto& condition = binding.command(command);
-      if (!condition || !written_word(request, its().registers[condition->spot.number])) continue;
+      if (!condition || !written_word(request, description().registers[condition->spot.number])) continue;
       const bool was_held = state_.held[i * kCommands + static_cast<std::size_t>(command)] != 0;
       if (!held_after(*condition) || (was_held && !condition->spot.is_whole())) continue;
       const auto& enabling = binding.command(Command::enable);
@@ -321,17 +321,17 @@ DeviceAnswer ImportedDevice::admits(const RegisterRequest& request, Checked chec
 
 Addressing ImportedDevice::addressing(std::uint8_t address) const {
   if (address == station_number()) return Addressing::obey_and_reply;
-  return address == 0 && its().line.obeys_broadcasts ? Addressing::obey_silently : Addressing::ignore;
+  return address == 0 && description().line.obeys_broadcasts ? Addressing::obey_silently : Addressing::ignore;
 }
 
 pty::SimTime ImportedDevice::end_silence(pty::SimTime usual) const {
-  return its().line.silence ? usual : standard_silence(line_settings(0));
+  return description().line.silence ? usual : standard_silence(line_settings(0));
 }
 
 // --- terminals ------------------------------------------------------------
 
 bool ImportedDevice::output(int terminal) const {
-  const auto& spot = its().terminals[static_cast<std::size_t>(terminal)].spot;
+  const auto& spot = description().terminals[static_cast<std::size_t>(terminal)].spot;
   return powered() && spot && value_at(*spot) != 0;
 }
 

@@ -101,7 +101,7 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   void read_memory(const NvImage& image) override;
 
  private:
-  const Description& its() const;
+  const Description& description() const;
   std::int32_t level_at_rest(const Spot& spot) const;
   AxisState& at(int axis) { return state_.axes[static_cast<std::size_t>(axis)]; }
   const AxisState& at(int axis) const { return state_.axes[static_cast<std::size_t>(axis)]; }

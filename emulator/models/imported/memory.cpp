@@ -73,17 +73,17 @@ State ImportedDevice::state_at_power_up() const {
     made.image.push_back(row.persistent ? made.eeprom.kept()[slot] : static_cast<std::uint32_t>(row.factory));
     ++slot;
   }
-  made.held.assign(its().axes.size() * kCommands, 0);
-  made.axes.resize(its().axes.size());
+  made.held.assign(description().axes.size() * kCommands, 0);
+  made.axes.resize(description().axes.size());
   for (std::size_t i = 0; i < made.axes.size(); ++i) {
     motion::Axis& motor = made.axes[i].motor;
-    motor.settings.needs_servo = its().axes[i].command(Command::enable).has_value();
+    motor.settings.needs_servo = description().axes[i].command(Command::enable).has_value();
     motor.servo_on = !motor.settings.needs_servo;
     if (i < state_.axes.size())
       made.axes[i].encoder_counts = state_.axes[i].encoder_counts;  // of the machine
   }
-  for (const Following& following : its().followings) {
-    const ListedRegister& listed = its().registers[following.spot.number];
+  for (const Following& following : description().followings) {
+    const ListedRegister& listed = description().registers[following.spot.number];
     made.followed.push_back(listed.type == Type::f32 ? double{real_of(listed.factory)}
                                                      : static_cast<double>(listed.factory));
   }

@@ -27,7 +27,7 @@ namespace understudy::emulator::models::imported {
 
 void ImportedDevice::look_round(std::size_t axis_number) {
   using motion::Signal;
-  const AxisBinding& binding = its().axes[axis_number];
+  const AxisBinding& binding = description().axes[axis_number];
   const std::array<std::pair<int, Signal>, 4> wired{{{binding.upper_limit_input, Signal::limit_plus},
                                                      {binding.lower_limit_input, Signal::limit_minus},
                                                      {binding.home_input, Signal::home},
@@ -66,7 +66,7 @@ void ImportedDevice::sample_inputs(Tick) {
 void ImportedDevice::finish_step(std::size_t axis_number, std::int64_t pulses) {
   AxisState& axis = state_.axes[axis_number];
   axis.sent_pulses = pulses;
-  if (note_events(axis, its().axes[axis_number])) state_.touched = true;
+  if (note_events(axis, description().axes[axis_number])) state_.touched = true;
 }
 
 void ImportedDevice::step_motion(Tick tick) {
@@ -87,7 +87,7 @@ double ImportedDevice::goal_of(const Following& following) const {
 
 void ImportedDevice::renew_followed(Tick tick) {
   for (std::size_t i = 0; i < state_.followed.size(); ++i) {
-    const Following& following = its().followings[i];
+    const Following& following = description().followings[i];
     if (tick % following.every != 0) continue;
     const double most = following.most_per_s * static_cast<double>(following.every) / motion::kTicksPerSecond;
     const double before = state_.followed[i];
@@ -124,7 +124,7 @@ Tick ImportedDevice::next_tick_of_values(Tick done) const {
   const bool are_moving = any_moves();
   Tick next = state_.eeprom.next_active_tick();
   for (std::size_t i = 0; i < state_.followed.size(); ++i) {
-    const Following& following = its().followings[i];
+    const Following& following = description().followings[i];
     if (!are_moving && state_.followed[i] == goal_of(following)) continue;
     next = std::min(next, done + following.every - done % following.every);
   }

@@ -363,14 +363,14 @@ std::int64_t Simple2R3::pulses_this_tick(int axis) const {
 }
 
 std::uint32_t Simple2R3::resolution_in_velocity(int axis) const {
-  const AxisState& its = state_.axes[static_cast<std::size_t>(axis)];
-  return velocity_settings_latched_ ? its.velocity_resolution : resolution_of(state_, axis);
+  const AxisState& state = state_.axes[static_cast<std::size_t>(axis)];
+  return velocity_settings_latched_ ? state.velocity_resolution : resolution_of(state_, axis);
 }
 
 double Simple2R3::speed_pps(int axis) const {
   const auto number = static_cast<std::size_t>(axis);
-  const AxisState& its = state_.axes[number];
-  const double speed = simple2_r3::speed_pps(its, now(), resolution_in_velocity(axis));
+  const AxisState& state = state_.axes[number];
+  const double speed = simple2_r3::speed_pps(state, now(), resolution_in_velocity(axis));
   const bool reversed = state_.image[kAxisSlots[number].direction_polarity] != 0;
   return (reversed ? -speed : speed) + 0.0;  // 0 has no sign
 }

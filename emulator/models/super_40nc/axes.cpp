@@ -61,35 +61,35 @@ Code code_of(motion::Cause why) {
 // ---- numbers
 
 std::int64_t Super40nc::work_lu(int axis_number) const {
-  const AxisState& its = axis(axis_number);
-  return registers().scale(axis_number).to_units(machine_pulses(axis_number)).value_or(0) + its.offset_lu;
+  const AxisState& state = axis(axis_number);
+  return registers().scale(axis_number).to_units(machine_pulses(axis_number)).value_or(0) + state.offset_lu;
 }
 
 void Super40nc::set_work_lu(int axis_number, std::int64_t position) {
-  AxisState& its = axis(axis_number);
-  if (its.moves() && chose(option("pset_moving", "void"))) {
+  AxisState& state = axis(axis_number);
+  if (state.moves() && chose(option("pset_moving", "void"))) {
     report(Code::axis_taken);
     return;
   }
-  its.offset_lu += position - work_lu(axis_number);
-  its.stands_on_target = false;
+  state.offset_lu += position - work_lu(axis_number);
+  state.stands_on_target = false;
 }
 
 std::int32_t Super40nc::counter(int axis_number, int number) const {
-  const AxisState& its = axis(axis_number);
+  const AxisState& state = axis(axis_number);
   if (number == 0) return static_cast<std::int32_t>(machine_pulses(axis_number));
-  return its.counts[static_cast<std::size_t>(number - 1)];
+  return state.counts[static_cast<std::size_t>(number - 1)];
 }
 
 void Super40nc::set_counter(int axis_number, int number, std::int32_t pulses) {
-  AxisState& its = axis(axis_number);
+  AxisState& state = axis(axis_number);
   if (number > 0) {
-    its.counts[static_cast<std::size_t>(number - 1)] = pulses;
+    state.counts[static_cast<std::size_t>(number - 1)] = pulses;
     set_comparators(axis_number);
     return;
   }
-  its.command.set(pulses, chip(axis_number).travel_pulses);
-  its.stands_on_target = false;
+  state.command.set(pulses, chip(axis_number).travel_pulses);
+  state.stands_on_target = false;
   heed_axis(axis_number, 0);
 }
 
@@ -145,9 +145,9 @@ motion::Cause Super40nc::blocked_both_ways(int axis) const {
 }
 
 motion::AxisSettings Super40nc::motor_settings(int axis, bool homes) const {
-  const Settings its = registers();
+  const Settings settings = registers();
   const auto reaction = [&](Kept kept) {
-    return its.is_on(kept, axis) ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
+    return settings.is_on(kept, axis) ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
   };
   motion::AxisSettings made = chip(axis).settings;
   made.needs_servo = false;
@@ -166,11 +166,11 @@ motion::AxisSettings Super40nc::motor_settings(int axis, bool homes) const {
       {kept_x(31), kept_x(32), kept_x(33), kept_d(8144), &motion::AxisSettings::soft_limit_plus},
       {kept_x(35), kept_x(36), kept_x(37), kept_d(8145), &motion::AxisSettings::soft_limit_minus}};
   for (const Side& side : kSides) {
-    const Value action = its.of(side.action, axis);
-    const bool is_limit = its.of(side.method, axis) == kSoftLimit && its.of(side.source, axis) == 0 &&
-                          (action == 1 || action == kRamp);
+    const Value action = settings.of(side.action, axis);
+    const bool is_limit = settings.of(side.method, axis) == kSoftLimit &&
+                          settings.of(side.source, axis) == 0 && (action == 1 || action == kRamp);
     if (!is_limit) continue;
-    made.*side.limit = its.raw(side.value, axis) - counter_lead;
+    made.*side.limit = settings.raw(side.value, axis) - counter_lead;
     const motion::Reaction at_limit =
         action == kRamp ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
     if (side.limit == &motion::AxisSettings::soft_limit_plus) {
@@ -184,22 +184,23 @@ motion::AxisSettings Super40nc::motor_settings(int axis, bool homes) const {
 
 /// Takes from the parameters what a motion needs when it starts.
 void Super40nc::prepare(int axis_number, bool homes) {
-  const Settings its = registers();
+  const Settings parameters = registers();
   AxisState& state = axis(axis_number);
   motion::AxisSettings settings = motor_settings(axis_number, homes);
   constexpr Value kSlip = 2;
-  const Value correction = its.of(kept_x(57), axis_number);
-  settings.backlash_pulses = correction != 0 ? its.of(kept_x(56), axis_number) : 0;
+  const Value correction = parameters.of(kept_x(57), axis_number);
+  settings.backlash_pulses = correction != 0 ? parameters.of(kept_x(56), axis_number) : 0;
   settings.slips = correction == kSlip;
   const bool is_first = chip(axis_number).last_direction == 0;
   if (is_first && chose(option("backlash_first_move", "as_behind_a_positive_one"))) {
     chip(axis_number).last_direction = +1;
   }
   settings.waits_for_in_position = chose(option("inp_wait", "single_axes_wait"));
-  const auto creep_rpm = static_cast<double>(its.of(kept_x(80), axis_number));
-  settings.backlash_speed_pps = std::min(its.pps(axis_number, creep_rpm), its.top_pps(axis_number));
+  const auto creep_rpm = static_cast<double>(parameters.of(kept_x(80), axis_number));
+  settings.backlash_speed_pps =
+      std::min(parameters.pps(axis_number, creep_rpm), parameters.top_pps(axis_number));
   chip(axis_number).set(settings);
-  state.masked = its.is_on(kept_x(17), axis_number);
+  state.masked = parameters.is_on(kept_x(17), axis_number);
   // Signals that have come in this tick count; the DOG's edge is left for the latch.
   motion::Axis& motor = chip(axis_number);
   const motion::Signals mark = motion::bit(motion::Signal::mark);
@@ -207,7 +208,7 @@ void Super40nc::prepare(int axis_number, bool homes) {
   motor.signals = static_cast<motion::Signals>((seen & ~mark) | (motor.signals & mark));
   // A host may have written the high half alone, as the manual's wrong example does: the low half counts.
   const bool is_whole = chose(option("motor_direction", "whole_value"));
-  const std::int32_t direction = its.raw(kept_x(0), axis_number) & (is_whole ? -1 : 0xFFFF);
+  const std::int32_t direction = parameters.raw(kept_x(0), axis_number) & (is_whole ? -1 : 0xFFFF);
   const bool inverted = direction == 3 || direction == 6;
   if (inverted != chip(axis_number).inverted) {
     chip(axis_number).inverted = inverted;
@@ -237,11 +238,11 @@ void Super40nc::begun(int axis_number, motion::Cause why_not, Holder holder) {
 }
 
 motion::SpeedLaw Super40nc::jog_law(int axis) const {
-  const Settings its = registers();
+  const Settings settings = registers();
   const std::array<Kept, 3> speeds{kept_x(94), kept_x(95), kept_x(96)};
   const bool is_medium = chose(option("jog_selector", "always_medium"));
-  const Kept chosen = is_medium ? speeds[1] : speeds[static_cast<std::size_t>(its.of(kept_d(8022)))];
-  return its.law(axis, static_cast<double>(its.of(chosen, axis)));
+  const Kept chosen = is_medium ? speeds[1] : speeds[static_cast<std::size_t>(settings.of(kept_d(8022)))];
+  return settings.law(axis, static_cast<double>(settings.of(chosen, axis)));
 }
 
 void Super40nc::change_jog_speed() {
@@ -350,10 +351,10 @@ void Super40nc::ended(int axis_number) {
 
 void Super40nc::mirror_start(int axis_number, int mode, std::int64_t distance_pulses,
                              const motion::SpeedLaw& law) {
-  const Settings its = registers();
+  const Settings settings = registers();
   AxisState& state = axis(axis_number);
   const double top = std::max(law.top_speed_u_s, 1.0);
-  const double step = its.multiplier(axis_number, top);
+  const double step = settings.multiplier(axis_number, top);
   state.step_pps = step;
   if (chose(option("chip_mirror", "plain_registers"))) return;
   const auto rate = [&](const motion::RampLaw& ramp) {
@@ -361,7 +362,8 @@ void Super40nc::mirror_start(int axis_number, int mode, std::int64_t distance_pu
     if (!(ramp.acceleration_u_s2 > 0)) return 0;
     return in_32_bits(std::clamp(std::round(step * kClock / (4 * ramp.acceleration_u_s2)) - 1, 1.0, 65535.0));
   };
-  const double creep_pps = its.pps(axis_number, static_cast<double>(its.of(kept_x(80), axis_number)));
+  const double creep_pps =
+      settings.pps(axis_number, static_cast<double>(settings.of(kept_x(80), axis_number)));
   struct Shown {
     int offset;  // from PRCMD
     std::int32_t value;
@@ -376,8 +378,8 @@ void Super40nc::mirror_start(int axis_number, int mode, std::int64_t distance_pu
                          {7, 0},
                          {8, mode},
                          {9, 0},
-                         {10, its.raw(kept_x(68), axis_number)},
-                         {11, its.raw(kept_x(69), axis_number)}};
+                         {10, settings.raw(kept_x(68), axis_number)},
+                         {11, settings.raw(kept_x(69), axis_number)}};
   static constexpr Kept kFirst = kept_d(8120);
   static constexpr Kept kFirstWorking = kept_d(8151);  // RMV; the other registers follow
   const auto show = [&](Kept first, int offset, std::int32_t value) {
@@ -390,7 +392,7 @@ void Super40nc::mirror_start(int axis_number, int mode, std::int64_t distance_pu
   }
   show(kept_d(8132), 0, in_32_bits(creep_pps / step));
   show(kept_d(8150), 0, 0);
-  show(kept_d(8162), 0, its.raw(kept_d(8148), axis_number));
+  show(kept_d(8162), 0, settings.raw(kept_d(8148), axis_number));
   show(kept_d(8163), 0, 0);
 }
 

@@ -72,23 +72,24 @@ bool Super40nc::is_held_in_reset(int axis) const {
 bool Super40nc::is_inhibited(int axis) const { return is_held_in_reset(axis) || is_on(8004); }
 
 std::optional<ManualMotion> Super40nc::manual_motion(int axis_number) const {
-  const AxisState& its = axis(axis_number);
-  const bool is_by_order = its.order != 0;
-  const bool is_behind_end = its.mover < Mover::plc && !its.awaited;
-  if (its.mover < Mover::plc && its.awaited) return std::nullopt;
-  switch (its.holder) {
+  const AxisState& state = axis(axis_number);
+  const bool is_by_order = state.order != 0;
+  const bool is_behind_end = state.mover < Mover::plc && !state.awaited;
+  if (state.mover < Mover::plc && state.awaited) return std::nullopt;
+  switch (state.holder) {
     case Holder::nobody:
     case Holder::rest: return std::nullopt;
-    case Holder::jog: return its.asked_by_plc ? ManualMotion::plc_jog : ManualMotion::jog;
+    case Holder::jog: return state.asked_by_plc ? ManualMotion::plc_jog : ManualMotion::jog;
     case Holder::home: return is_by_order ? ManualMotion::home_by_order : ManualMotion::home;
     case Holder::zero: return is_by_order ? ManualMotion::zero_by_order : ManualMotion::zero;
     case Holder::move:
     case Holder::vdrv:
     case Holder::wheel: break;
   }
-  if (is_behind_end) return its.mover == Mover::c ? ManualMotion::behind_end_of_c : ManualMotion::behind_end;
-  if (its.holder != Holder::wheel) return ManualMotion::plc_drive;
-  return its.wheel == WheelSource::selector ? ManualMotion::selected_wheel : ManualMotion::wheel;
+  if (is_behind_end)
+    return state.mover == Mover::c ? ManualMotion::behind_end_of_c : ManualMotion::behind_end;
+  if (state.holder != Holder::wheel) return ManualMotion::plc_drive;
+  return state.wheel == WheelSource::selector ? ManualMotion::selected_wheel : ManualMotion::wheel;
 }
 
 void Super40nc::meet(int axis, ManualEvent event, Code code) {

@@ -74,11 +74,11 @@ std::int64_t Super40nc::compared_number(int axis, std::size_t which) const {
 }
 
 bool Super40nc::comparator_holds(int axis, int number) const {
-  const ComparatorRow& its = kComparatorRows[static_cast<std::size_t>(number)];
+  const ComparatorRow& row = kComparatorRows[static_cast<std::size_t>(number)];
   const Settings settings = registers();
-  const Value method = settings.of(its.method, axis);
+  const Value method = settings.of(row.method, axis);
   if (method == 0) return false;
-  const std::int32_t value = settings.raw(its.value, axis);
+  const std::int32_t value = settings.raw(row.value, axis);
   const std::int64_t present = compared_number(axis, static_cast<std::size_t>(number));
   const int direction = chip(axis).last_direction;
   switch (method) {
@@ -95,13 +95,13 @@ bool Super40nc::comparator_holds(int axis, int number) const {
 /// Returns the comparator as the chip compares within a tick, or nothing if it is checked at the end of a
 /// tick.
 std::optional<motion::Comparator> Super40nc::comparator_of(int axis_number, std::size_t which) const {
-  const Settings its = registers();
+  const Settings settings = registers();
   const ComparatorRow& row = kComparatorRows[which];
-  const Value method = its.of(row.method, axis_number);
+  const Value method = settings.of(row.method, axis_number);
   motion::Comparator made{.relation = relation_of(method),
-                          .value = its.raw(row.value, axis_number) + (method == kSetBelow ? 1 : 0)};
+                          .value = settings.raw(row.value, axis_number) + (method == kSetBelow ? 1 : 0)};
   if (made.relation == motion::Comparator::Relation::off) return std::nullopt;
-  const Value source = its.of(row.source, axis_number);
+  const Value source = settings.of(row.source, axis_number);
   const AxisState& state = axis(axis_number);
   if (source == 0) {
     made.counter = state.command;
@@ -109,12 +109,12 @@ std::optional<motion::Comparator> Super40nc::comparator_of(int axis_number, std:
   }
   constexpr Value kCounter2 = 1;
   constexpr Value kCounter4 = 3;
-  const bool is_stopped = (its.raw(kept_x(30), axis_number) >> source & 1) != 0;
+  const bool is_stopped = (settings.raw(kept_x(30), axis_number) >> source & 1) != 0;
   if (is_stopped || (source != kCounter2 && source != kCounter4)) return std::nullopt;
   // The source of COUNTER2 is D9x23, that of COUNTER4 D9x25: the pulses, the encoder, or something else.
-  const Value from = its.of(source == kCounter2 ? kept_x(23) : kept_x(25), axis_number);
+  const Value from = settings.of(source == kCounter2 ? kept_x(23) : kept_x(25), axis_number);
   const bool by_pulses = from == (source == kCounter2 ? 1 : 0);
-  const bool by_encoder = from == (source == kCounter2 ? 0 : 1) && !its.is_on(kept_x(19), axis_number);
+  const bool by_encoder = from == (source == kCounter2 ? 0 : 1) && !settings.is_on(kept_x(19), axis_number);
   if (!by_pulses && !by_encoder) return std::nullopt;
   const motion::Axis& motor = chip(axis_number);
   made.count = by_encoder ? motion::Count::encoder : motion::Count::command;
@@ -125,7 +125,7 @@ std::optional<motion::Comparator> Super40nc::comparator_of(int axis_number, std:
 }
 
 void Super40nc::set_comparators(int axis_number) {
-  const Settings its = registers();
+  const Settings settings = registers();
   motion::Axis& motor = chip(axis_number);
   AxisState& state = axis(axis_number);
   std::size_t next = 0;
@@ -133,12 +133,13 @@ void Super40nc::set_comparators(int axis_number) {
   state.latching = 0;
   for (std::size_t which = 0; which < kComparators; ++which) {
     const ComparatorRow& row = kComparatorRows[which];
-    const Value method = its.of(row.method, axis_number);
-    const Value action = its.of(row.action, axis_number);
+    const Value method = settings.of(row.method, axis_number);
+    const Value action = settings.of(row.action, axis_number);
     // D9x50: 2 and 3 are the comparators 4 and 5.
-    const bool latches = which >= 3 && its.of(kept_x(50), axis_number) == static_cast<Value>(which) - 1;
+    const bool latches = which >= 3 && settings.of(kept_x(50), axis_number) == static_cast<Value>(which) - 1;
     if ((!stops(action) && !latches) || method == 0) continue;
-    if (its.of(row.source, axis_number) == 0 && method == kSoftLimit) continue;  // the axis's own soft limit
+    if (settings.of(row.source, axis_number) == 0 && method == kSoftLimit)
+      continue;  // the axis's own soft limit
     std::optional<motion::Comparator> made = comparator_of(axis_number, which);
     if (!made || next == motor.comparators.size()) {
       if (stops(action))
@@ -175,7 +176,7 @@ void Super40nc::see_counters(int axis_number) {
 void Super40nc::compare_counters(int axis_number) {
   AxisState& state = axis(axis_number);
   if (state.compares_by_tick == 0) return;
-  const Settings its = registers();
+  const Settings settings = registers();
   for (std::size_t which = 0; which < kComparators; ++which) {
     if ((state.compares_by_tick >> which & 1U) == 0) continue;
     const ComparatorRow& row = kComparatorRows[which];
@@ -183,8 +184,8 @@ void Super40nc::compare_counters(int axis_number) {
     const std::int64_t present = compared_number(axis_number, which);
     state.compared[which] = present;
     if (!chip(axis_number).moving()) continue;
-    const bool by_ramp = its.of(row.action, axis_number) == kByRamp;
-    const Value method = its.of(row.method, axis_number);
+    const bool by_ramp = settings.of(row.action, axis_number) == kByRamp;
+    const Value method = settings.of(row.method, axis_number);
     if (method == kSoftLimit) {
       const int direction = which == 0 ? +1 : -1;
       if (which > 1 || chip(axis_number).last_direction != direction ||
@@ -193,7 +194,7 @@ void Super40nc::compare_counters(int axis_number) {
       const motion::Cause why =
           direction > 0 ? motion::Cause::soft_limit_plus : motion::Cause::soft_limit_minus;
       stop_by_comparator(axis_number, by_ramp, why);
-    } else if (is_met(method, before, present, its.raw(row.value, axis_number))) {
+    } else if (is_met(method, before, present, settings.raw(row.value, axis_number))) {
       stop_by_comparator(axis_number, by_ramp, motion::Cause::comparator);
     }
   }

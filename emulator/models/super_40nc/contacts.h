@@ -18,22 +18,22 @@ struct Contacts {
 
   /// Records a write by a host, or by a key of the panel.
   void write(int contact, bool on) {
-    std::uint8_t& its = flags[place(contact)];
-    if (on) its |= (its & kLevel) == 0 ? kLevel | kWasOn | kRose : kWasOn;
-    if (!on) its = static_cast<std::uint8_t>(its & ~kLevel);
+    std::uint8_t& flag = flags[place(contact)];
+    if (on) flag |= (flag & kLevel) == 0 ? kLevel | kWasOn | kRose : kWasOn;
+    if (!on) flag = static_cast<std::uint8_t>(flag & ~kLevel);
   }
   /// Records a press of a command key: an edge, even if the contact is ON already.
   void press(int contact) { flags[place(contact)] |= kLevel | kWasOn | kRose; }
   /// Records a write by a program: only the level counts when the scan comes to the contacts.
   void overwrite(int contact) {
-    std::uint8_t& its = flags[place(contact)];
-    its = static_cast<std::uint8_t>(its & ~kWasOn);
+    std::uint8_t& flag = flags[place(contact)];
+    flag = static_cast<std::uint8_t>(flag & ~kWasOn);
   }
   /// Returns whether the contact is ON for this scan. `level` is its stored value.
   bool on(int contact, bool level) const { return level || (flags[place(contact)] & kWasOn) != 0; }
   bool rose(int contact, bool level) const {
-    const std::uint8_t its = flags[place(contact)];
-    return (its & kRose) != 0 || (level && (its & kSeen) == 0);
+    const std::uint8_t flag = flags[place(contact)];
+    return (flag & kRose) != 0 || (level && (flag & kSeen) == 0);
   }
   bool was_seen_on(int contact) const { return (flags[place(contact)] & kSeen) != 0; }
   /// Ends a scan: remembers the level that it has seen.

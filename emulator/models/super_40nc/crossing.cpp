@@ -28,7 +28,7 @@ namespace understudy::emulator::models::super_40nc {
 namespace {
 
 /// Returns true if COUNTER4 or the comparators 4 and 5 latch at the end of a tick: such ticks are run.
-bool latches_by_comparator(const Settings& its, int axis) { return its.of(kept_x(50), axis) >= 2; }
+bool latches_by_comparator(const Settings& settings, int axis) { return settings.of(kept_x(50), axis) >= 2; }
 
 }  // namespace
 

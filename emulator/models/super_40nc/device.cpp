@@ -249,9 +249,9 @@ void Super40nc::step_motion(Tick tick) {
 }
 
 void Super40nc::show_finished(std::size_t signal) {
-  const FinishSignal& its = kSignals[signal];
+  const FinishSignal& finish = kSignals[signal];
   if (now() < state_.signal_until[signal] && chose(option("fsh_restart", "time_goes_on"))) return;
-  state_.signal_until[signal] = now() + 1 + registers().of(its.time, its.axis);
+  state_.signal_until[signal] = now() + 1 + registers().of(finish.time, finish.axis);
 }
 
 void Super40nc::update_outputs(Tick tick) {
@@ -317,8 +317,8 @@ std::int32_t Super40nc::analog_level(int terminal) const {
 std::int64_t Super40nc::pulses_this_tick(int axis_number) const { return axis(axis_number).sent_pulses; }
 
 double Super40nc::speed_pps(int axis_number) const {
-  const AxisState& its = axis(axis_number);
-  if (its.masked) return 0;
+  const AxisState& state = axis(axis_number);
+  if (state.masked) return 0;
   const double speed = commanded_pps(axis_number);
   return (chip(axis_number).inverted ? -speed : speed) + 0.0;  // 0 has no sign
 }

@@ -31,11 +31,11 @@ std::int64_t home_pulses(const motion::UnitScale& scale, std::int64_t lu) {
 
 void Super40nc::start_home(int axis_number, int order) {
   if (ask(axis_number, Request::home_or_zero) != Grant::starts) return;
-  const Settings its = registers();
+  const Settings settings = registers();
   AxisState& state = axis(axis_number);
-  const auto rpm = [&](Kept kept) { return static_cast<double>(its.of(kept, axis_number)); };
-  const int mode = static_cast<int>(its.of(kept_x(21), axis_number));
-  const int direction = its.is_on(kept_x(81), axis_number) ? -1 : +1;
+  const auto rpm = [&](Kept kept) { return static_cast<double>(settings.of(kept, axis_number)); };
+  const int mode = static_cast<int>(settings.of(kept_x(21), axis_number));
+  const int direction = settings.is_on(kept_x(81), axis_number) ? -1 : +1;
   state.homed = false;
   state.order = static_cast<std::int8_t>(order);
   const bool is_by_limit = motion::super40nc_homes_by_limit(mode);
@@ -48,8 +48,8 @@ void Super40nc::start_home(int axis_number, int order) {
   }
   prepare(axis_number, true);
   // X25 = 0 never leads away from a DOG that is ON.
-  if (!is_by_limit && has_signal(axis_number, motion::Signal::home) && its.of(kept_x(93), axis_number) == 0 &&
-      chose(option("home_leave_0", "the_search_fails"))) {
+  if (!is_by_limit && has_signal(axis_number, motion::Signal::home) &&
+      settings.of(kept_x(93), axis_number) == 0 && chose(option("home_leave_0", "the_search_fails"))) {
     home_ended(axis_number, false, Code::home_failed);
     let_go(axis_number);
     return;
@@ -61,16 +61,16 @@ void Super40nc::start_home(int axis_number, int order) {
     return;
   }
   const bool limit_stops_at_once =
-      chose(option("home_el_stop", "by_d9x01")) && !its.is_on(kept_x(1), axis_number);
-  const motion::SpeedLaw fast = its.law(axis_number, rpm(kept_x(79)));
+      chose(option("home_el_stop", "by_d9x01")) && !settings.is_on(kept_x(1), axis_number);
+  const motion::SpeedLaw fast = settings.law(axis_number, rpm(kept_x(79)));
   const motion::HomingProgram program = motion::super40nc_homing(
       {.mode = mode,
        .direction = direction,
        .fast = fast,
-       .creep = its.law(axis_number, rpm(kept_x(80))),
-       .index_count = static_cast<std::int32_t>(its.of(kept_x(22), axis_number) + 1),
-       .leave_pulses = its.of(kept_x(93), axis_number),
-       .offset_pulses = home_pulses(its.scale(axis_number), its.of(kept_x(83), axis_number)),
+       .creep = settings.law(axis_number, rpm(kept_x(80))),
+       .index_count = static_cast<std::int32_t>(settings.of(kept_x(22), axis_number) + 1),
+       .leave_pulses = settings.of(kept_x(93), axis_number),
+       .offset_pulses = home_pulses(settings.scale(axis_number), settings.of(kept_x(83), axis_number)),
        .limit_stops_at_once = limit_stops_at_once,
        .leaves_fast = chose(option("home_leave_speed", "home_speed")),
        .offset_creeps = chose(option("home_offset_speed", "creep")),
@@ -87,13 +87,14 @@ void Super40nc::start_home(int axis_number, int order) {
 
 void Super40nc::start_zero(int axis_number, int order) {
   if (ask(axis_number, Request::home_or_zero) != Grant::starts) return;
-  const Settings its = registers();
+  const Settings settings = registers();
   AxisState& state = axis(axis_number);
   state.zeroed = false;
   prepare(axis_number);
   const std::int64_t distance =
-      home_pulses(its.scale(axis_number), -state.offset_lu) - machine_pulses(axis_number);
-  const motion::SpeedLaw law = its.law(axis_number, static_cast<double>(its.of(kept_x(77), axis_number)));
+      home_pulses(settings.scale(axis_number), -state.offset_lu) - machine_pulses(axis_number);
+  const motion::SpeedLaw law =
+      settings.law(axis_number, static_cast<double>(settings.of(kept_x(77), axis_number)));
   begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Holder::zero);
   if (state.holder != Holder::zero) {
     state_.zeroing_by_key.has_failed = state_.zeroing_by_key.has_failed || order != 0;
@@ -120,7 +121,7 @@ void Super40nc::set_zero(int axis_number) {
 /// `code` says why it has failed; none: it was abandoned.
 void Super40nc::home_ended(int axis_number, bool found, Code code) {
   AxisState& state = axis(axis_number);
-  const Settings its = registers();
+  const Settings settings = registers();
   const bool ends_contact = chose(option("edge_contacts_fall", "m8x05_behind_its_search"));
   if (ends_contact) set_contact(8105 + 100 * axis_number, false);
   if (!found) {
@@ -129,10 +130,10 @@ void Super40nc::home_ended(int axis_number, bool found, Code code) {
     return;
   }
   state.homed = true;
-  if (its.is_on(kept_x(5), axis_number)) give_erc(axis_number);
-  const std::int32_t cleared = its.raw(kept_x(28), axis_number);
-  const std::int64_t home_lu = its.of(kept_x(82), axis_number);
-  const motion::UnitScale scale = its.scale(axis_number);
+  if (settings.is_on(kept_x(5), axis_number)) give_erc(axis_number);
+  const std::int32_t cleared = settings.raw(kept_x(28), axis_number);
+  const std::int64_t home_lu = settings.of(kept_x(82), axis_number);
+  const motion::UnitScale scale = settings.scale(axis_number);
   if ((cleared & 1) != 0) {
     set_counter(axis_number, 0, static_cast<std::int32_t>(home_pulses(scale, home_lu)));
     state.offset_lu = 0;

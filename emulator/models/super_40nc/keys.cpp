@@ -46,9 +46,9 @@ bool Super40nc::is_wheel_locked(int axis) const {
 
 bool Super40nc::is_locked(const Key& key) const {
   if (chose(option("lock_scope", "nothing"))) return false;
-  const Settings its = registers();
-  return key.axis < 0 ? has_digit(its.raw(kept_d(9025)), kMainLockDigits, key.lock)
-                      : has_digit(its.raw(kept_x(98), key.axis), kAxisLockDigits, key.lock);
+  const Settings settings = registers();
+  return key.axis < 0 ? has_digit(settings.raw(kept_d(9025)), kMainLockDigits, key.lock)
+                      : has_digit(settings.raw(kept_x(98), key.axis), kAxisLockDigits, key.lock);
 }
 
 /// A jog key writes its contact in each scan while it is pressed, and clears it when it is released. Its lock
@@ -124,7 +124,9 @@ bool Super40nc::is_pressed(KeyDoes what, int axis) const {
 /// Starts the axes of one order together, and the next order when all of them have finished.
 void Super40nc::follow_order(OrderKey& key, Holder holder, Kept order_of_axis,
                              void (Super40nc::*start)(int, int)) {
-  const auto is_under_way = [&](const AxisState& its) { return its.holder == holder && its.order != 0; };
+  const auto is_under_way = [&](const AxisState& state) {
+    return state.holder == holder && state.order != 0;
+  };
   while (key.runs && std::none_of(state_.axes.begin(), state_.axes.end(), is_under_way)) {
     const bool is_given_up = key.has_failed && !chose(option("order_after_failure", "next_number_starts"));
     if (is_given_up || key.order == kOrders) {
@@ -143,7 +145,7 @@ void Super40nc::follow_order(OrderKey& key, Holder holder, Kept order_of_axis,
 /// Drops the orders: axes that are still stopping do not belong to a key pressed meanwhile.
 void Super40nc::give_up_orders() {
   state_.homing_by_key = state_.zeroing_by_key = {};
-  for (AxisState& its : state_.axes) take_off(its, MarkEvent::orders_given_up);
+  for (AxisState& state : state_.axes) take_off(state, MarkEvent::orders_given_up);
 }
 
 void Super40nc::obey_order_keys() {

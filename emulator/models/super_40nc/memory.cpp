@@ -99,11 +99,11 @@ void Super40nc::take_parameters() {
 
 /// Puts X14 and C0 into force as they are at power-up.
 void Super40nc::take_power_up_parameters() {
-  const Settings its = registers();
-  state_.logo_ms = static_cast<std::int32_t>(its.of(kept_d(9007)));
+  const Settings settings = registers();
+  state_.logo_ms = static_cast<std::int32_t>(settings.of(kept_d(9007)));
   for (int number = 0; number < kAxisCount; ++number) {
     state_.rpm_at_power_up[static_cast<std::size_t>(number)] =
-        static_cast<std::int32_t>(its.of(kept_x(78), number));
+        static_cast<std::int32_t>(settings.of(kept_x(78), number));
   }
 }
 
@@ -155,14 +155,14 @@ void Super40nc::power_up() {
     state_.image[slot] = keeps(row) ? state_.eeprom.kept()[slot] : static_cast<std::uint32_t>(row.factory);
   });
   take_parameters();
-  const Settings its = registers();
-  put(kept_d(8006), its.raw(kept_d(9004)));
-  put(kept_d(8007), its.raw(kept_d(9016)));
-  state_.station = its.raw(kept_d(9000));
+  const Settings settings = registers();
+  put(kept_d(8006), settings.raw(kept_d(9004)));
+  put(kept_d(8007), settings.raw(kept_d(9016)));
+  state_.station = settings.raw(kept_d(9000));
   if (chose(option("version_number", "0"))) put(kept_d(8099), 0);
   if (chose(option("override_at_power_up", "0"))) put(kept_d(8005), 0);
-  state_.file = its.raw(kept_d(9001));
-  state_.recipe = its.raw(kept_d(9002));
+  state_.file = settings.raw(kept_d(9001));
+  state_.recipe = settings.raw(kept_d(9002));
   state_.wheel_edges = input(kWheelTerminal);
   take_power_up_parameters();
   if (chose(option("power_up_files", "read_from_file_and_recipe_again"))) read_files_again();

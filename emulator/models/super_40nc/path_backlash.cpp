@@ -43,7 +43,7 @@ std::int64_t come_by(std::int64_t pulses, double speed_pps, Tick ticks) {
 
 bool Super40nc::awaits_path() const {
   return std::any_of(state_.axes.begin(), state_.axes.end(),
-                     [](const AxisState& its) { return its.path_backlash != 0; });
+                     [](const AxisState& state) { return state.path_backlash != 0; });
 }
 
 void Super40nc::begin_path_backlash(const motion::Path& path) {
@@ -100,7 +100,7 @@ void Super40nc::step_path_backlash(Tick tick, std::array<std::int64_t, kAxisCoun
 /// before the end, it goes back what has come so far.
 void Super40nc::step_arc_backlash(const std::array<std::int8_t, kAxisCount>& ways_before,
                                   std::array<std::int64_t, kAxisCount>& sent) {
-  const Settings its = registers();
+  const Settings settings = registers();
   constexpr Value kBacklash = 1;
   for (int number = 0; number < kAxisCount; ++number) {
     const auto n = static_cast<std::size_t>(number);
@@ -108,8 +108,8 @@ void Super40nc::step_arc_backlash(const std::array<std::int8_t, kAxisCount>& way
     motion::Axis& motor = chip(number);
     const std::int8_t direction = motor.last_direction;
     const bool turns = is_on_path(number) && ways_before[n] != 0 && direction != ways_before[n];
-    if (turns && its.of(kept_x(57), number) == kBacklash) {
-      state.arc_backlash = direction * (its.of(kept_x(56), number) - std::abs(state.arc_backlash));
+    if (turns && settings.of(kept_x(57), number) == kBacklash) {
+      state.arc_backlash = direction * (settings.of(kept_x(56), number) - std::abs(state.arc_backlash));
       state.arc_backlash_part = 0;
     }
     if (state.arc_backlash == 0) continue;

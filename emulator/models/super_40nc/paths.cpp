@@ -29,7 +29,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-double pulses_per_lu(const Settings& its, int axis) { return its.scale(axis).pulses_per_unit(); }
+double pulses_per_lu(const Settings& settings, int axis) { return settings.scale(axis).pulses_per_unit(); }
 
 }  // namespace
 
@@ -79,9 +79,9 @@ motion::Cause Super40nc::blocked_on_path(int axis_number, const motion::Path& pa
 }
 
 bool Super40nc::begin_path(const PathPlan& plan) {
-  const Settings its = registers();
+  const Settings settings = registers();
   const bool takes_default = plan.feed_lu_per_s <= 0 && chose(option("feed_not_positive", "default_feed"));
-  state_.path_feed_lu_s = takes_default ? its.raw(kept_d(9004)) : plan.feed_lu_per_s;
+  state_.path_feed_lu_s = takes_default ? settings.raw(kept_d(9004)) : plan.feed_lu_per_s;
   motion::Coordinated path;
   state_.path_feed_scale = feed_scale(plan.path);
   // The limit of each axis along its own direction, in LU a second, and its acceleration.
@@ -97,13 +97,13 @@ bool Super40nc::begin_path(const PathPlan& plan) {
     const auto n = static_cast<std::size_t>(number);
     if (!plan.takes[n]) continue;
     prepare(number);
-    const double ppu = pulses_per_lu(its, number);
+    const double ppu = pulses_per_lu(settings, number);
     path.axis_of[n] = static_cast<std::int8_t>(number);
-    path.scale[n] = its.scale(number);
-    most[number] = its.top_pps(number) / ppu;
+    path.scale[n] = settings.scale(number);
+    most[number] = settings.top_pps(number) / ppu;
     const double share = direction[number];
     if (share <= 0) continue;
-    const double slope_lu_s = its.pps(number, static_cast<double>(its.of(kept_d(9011)))) / ppu;
+    const double slope_lu_s = settings.pps(number, static_cast<double>(settings.of(kept_d(9011)))) / ppu;
     if (!goes_by_longest) target_lu_s = std::min(target_lu_s, slope_lu_s);
     if (goes_by_longest && share * ppu > longest) target_lu_s = slope_lu_s;
     longest = std::max(longest, share * ppu);
@@ -116,10 +116,10 @@ bool Super40nc::begin_path(const PathPlan& plan) {
   state_.path_limit_lu_s = motion::speed_within(plan.path, most);
   const double top = std::max(std::min(path_feed(), state_.path_limit_lu_s), 1e-3);
   const double step_lu_s = multiplier_of(std::max(fastest_pps, 1.0)) / fastest_ppu;
-  const auto number_of = [&](Kept kept) { return static_cast<double>(its.of(kept)); };
+  const auto number_of = [&](Kept kept) { return static_cast<double>(settings.of(kept)); };
   const motion::SpeedLaw law =
       law_by(0, top, target_lu_s, number_of(kept_d(9014)),
-             its.down_ms(number_of(kept_d(9015)), number_of(kept_d(9014))),
+             settings.down_ms(number_of(kept_d(9015)), number_of(kept_d(9014))),
              number_of(kept_d(9012)) * step_lu_s, number_of(kept_d(9013)) * step_lu_s);
   path.run.append(plan.path, {}, before_motion());
   path.run.set_speed(law, before_motion());
@@ -145,7 +145,7 @@ bool Super40nc::begin_path(const PathPlan& plan) {
     const std::int64_t end = path.travel_at(n, plan.path.end[number]);
     state.rest = {.kind = RestKind::path, .travel = end};
     motion::SpeedLaw its_law = law;
-    const double share = std::max(direction[number], 1e-9) * pulses_per_lu(its, number);
+    const double share = std::max(direction[number], 1e-9) * pulses_per_lu(settings, number);
     its_law.top_speed_u_s *= share;
     its_law.up.acceleration_u_s2 *= share;
     its_law.down.acceleration_u_s2 *= share;
@@ -172,14 +172,14 @@ bool Super40nc::has_room_on_path(const std::array<bool, kAxisCount>& takes) cons
 
 /// Appends a path without slowing down, whatever the corner; its own feed applies from now on.
 void Super40nc::join_path(const PathPlan& plan) {
-  const Settings its = registers();
+  const Settings settings = registers();
   motion::Point most;
   most.setConstant(std::numeric_limits<double>::infinity());
   state_.path.run.append(plan.path, {.rule = motion::Joint::Rule::join}, now());
   for (int number = 0; number < kAxisCount; ++number) {
     const auto n = static_cast<std::size_t>(number);
     if (!plan.takes[n]) continue;
-    most[number] = its.top_pps(number) / pulses_per_lu(its, number);
+    most[number] = settings.top_pps(number) / pulses_per_lu(settings, number);
     AxisState& state = axis(number);
     state.target_lu = plan.target_lu[n];
     state.rest.travel = state_.path.travel_at(n, plan.path.end[number]);
@@ -198,9 +198,9 @@ std::int64_t Super40nc::path_base_lu(int axis_number) const {
 void Super40nc::heed_override() {
   if (chose(option("override_scope", "drv_as_well"))) {
     for (int number = 0; number < kAxisCount; ++number) {
-      const AxisState& its = axis(number);
-      const bool drives = its.holder == Holder::move && its.rest.kind == RestKind::move && !its.is_held;
-      if (drives) chip(number).change_speed(drive_law(number, its.rest.rpm, its.mover), now());
+      const AxisState& state = axis(number);
+      const bool drives = state.holder == Holder::move && state.rest.kind == RestKind::move && !state.is_held;
+      if (drives) chip(number).change_speed(drive_law(number, state.rest.rpm, state.mover), now());
     }
   }
   if (!state_.path.engaged) return;
@@ -235,7 +235,7 @@ void Super40nc::stop_path() {
   state_.path.stop(state_.chips, motion::Cause::stopped);
   state_.path = {};
   state_.path_is_held = false;
-  for (AxisState& its : state_.axes) take_off(its, MarkEvent::path_ends);
+  for (AxisState& state : state_.axes) take_off(state, MarkEvent::path_ends);
   for (int number = 0; number < kAxisCount; ++number) {
     if (!took[static_cast<std::size_t>(number)]) continue;
     forget_end(number);

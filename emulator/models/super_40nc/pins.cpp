@@ -83,11 +83,12 @@ void Super40nc::give_erc(int axis) {
 
 /// Gives ERC, which clears the drive's deviation counter, after a stop without a ramp.
 void Super40nc::give_erc_behind(int axis, Code code) {
-  const Settings its = registers();
+  const Settings settings = registers();
   const bool is_limit = code == Code::limit_positive || code == Code::limit_negative;
-  const bool at_once = (is_limit && !its.is_on(kept_x(1), axis)) ||
-                       (code == Code::alarm && !its.is_on(kept_x(3), axis)) || code == Code::emergency_input;
-  if (at_once && its.is_on(kept_x(4), axis)) give_erc(axis);
+  const bool at_once = (is_limit && !settings.is_on(kept_x(1), axis)) ||
+                       (code == Code::alarm && !settings.is_on(kept_x(3), axis)) ||
+                       code == Code::emergency_input;
+  if (at_once && settings.is_on(kept_x(4), axis)) give_erc(axis);
 }
 
 /// If D8x17 is a counter of its own, another CMX or CDV leaves it unchanged.

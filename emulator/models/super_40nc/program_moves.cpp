@@ -43,8 +43,8 @@ std::int64_t Super40nc::distance_to(int axis_number, std::int64_t target_lu) con
 /// Returns the law of a line: by the axis's own times, whichever program it is in.
 motion::SpeedLaw Super40nc::line_law(int axis, double rpm, Mover mover) const {
   const bool is_by_times_of_c = mover == Mover::c && chose(option("drv_of_c", "c11_to_c14"));
-  const Settings its = registers();
-  return is_by_times_of_c ? its.law_of_c(axis, rpm) : its.law(axis, rpm);
+  const Settings settings = registers();
+  return is_by_times_of_c ? settings.law_of_c(axis, rpm) : settings.law(axis, rpm);
 }
 
 /// Returns the law of DRV, which the feed override does not scale unless that is chosen.
@@ -98,7 +98,7 @@ bool Super40nc::begin_blind_mark(int axis_number, std::int64_t target_lu, std::i
 bool Super40nc::begin_mark(int axis_number, std::int64_t distance, std::int64_t search, std::int32_t rpm,
                            Mover mover) {
   AxisState& state = axis(axis_number);
-  const Settings its = registers();
+  const Settings settings = registers();
   state.rest = {.kind = RestKind::mark, .marks_positive = search > 0, .rpm = rpm};
   state.mover = mover;
   look_round(axis_number);
@@ -108,7 +108,7 @@ bool Super40nc::begin_mark(int axis_number, std::int64_t distance, std::int64_t 
       {.distance_pulses = distance,
        .search_pulses = search,
        .fast = fast,
-       .creep = line_law(axis_number, static_cast<double>(its.of(kept_x(80), axis_number)), mover),
+       .creep = line_law(axis_number, static_cast<double>(settings.of(kept_x(80), axis_number)), mover),
        .slows_behind = chose(option("mrk_course", "slows_behind_the_target")),
        .looks_all_the_way = chose(option("mrk_course", "signal_before_it_counts")),
        .mark_slows = chose(option("mrk_course", "stops_by_a_ramp")),
@@ -277,10 +277,10 @@ void Super40nc::cannot_go_on(int axis_number, const Rest& rest, Mover mover, boo
 
 /// Returns X16, for MRK.
 std::int64_t Super40nc::search_pulses(int axis) const {
-  const Settings its = registers();
-  const Value distance = its.of(kept_x(90), axis);
+  const Settings settings = registers();
+  const Value distance = settings.of(kept_x(90), axis);
   const bool is_in_pulses = chose(option("mark_distance_unit", "pulses"));
-  return is_in_pulses ? distance : its.scale(axis).to_pulses(distance).value_or(0);
+  return is_in_pulses ? distance : settings.scale(axis).to_pulses(distance).value_or(0);
 }
 
 /// Drops an end between ticks that has been handled.

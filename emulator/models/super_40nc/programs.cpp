@@ -218,10 +218,10 @@ int Super40nc::shown_base(std::size_t program) const {
 }
 
 std::int32_t Super40nc::shown_step(std::size_t program) const {
-  const language::StepState& its = state_.steps.programs[program];
-  const bool moves = its.phase == language::Phase::moving || its.phase == language::Phase::homing;
+  const language::StepState& steps = state_.steps.programs[program];
+  const bool moves = steps.phase == language::Phase::moving || steps.phase == language::Phase::homing;
   const bool shows_next = moves && chose(option("step_shown", "the_next_ones"));
-  return shown_base(program) + (shows_next ? its.next_step : its.step);
+  return shown_base(program) + (shows_next ? steps.next_step : steps.step);
 }
 
 void Super40nc::set_pointer(int program, std::int32_t step) {

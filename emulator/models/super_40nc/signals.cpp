@@ -26,7 +26,7 @@ Value Super40nc::limit_logic(int axis, int direction) const {
 }
 
 void Super40nc::look_round(int axis_number) {
-  const Settings its = registers();
+  const Settings settings = registers();
   const auto limit_level = [&](int direction) -> std::optional<bool> {  // of an active limit, if it is in use
     const Value how = limit_logic(axis_number, direction);
     return how == 0 ? std::nullopt : std::optional(how == 1);
@@ -46,7 +46,7 @@ void Super40nc::look_round(int axis_number) {
     const bool is_mark = rest.kind == RestKind::mark && rest.marks_positive == (direction > 0);
     return is_mark ? std::optional(true) : limit_of_line(direction);
   };
-  const bool dog_level = !its.is_on(kept_x(2), axis_number);
+  const bool dog_level = !settings.is_on(kept_x(2), axis_number);
   const int dog =
       chose(option("dog_inputs", "x0_x3_x6_x9")) ? dog_input(axis_number) : kFirstDogTerminal + axis_number;
   const Function functions[] = {
@@ -79,7 +79,7 @@ void Super40nc::look_round(int axis_number) {
     }
   }
   seen.encoder = edges.encoder.as<motion::EncoderLine>();
-  seen.encoder.turned = its.is_on(kept_x(13), axis_number);
+  seen.encoder.turned = settings.is_on(kept_x(13), axis_number);
   seen.version = environment(axis_number).version;
   if (seen == environment(axis_number)) return;
   ++seen.version;
@@ -106,10 +106,11 @@ std::int64_t Super40nc::place_pulses(int axis) const {
 }
 
 void Super40nc::heed_axis(int axis_number, int number) {
-  const Settings its = registers();
+  const Settings settings = registers();
   const auto limit_pulses = [&](Kept kept) {
     constexpr std::int64_t kRange = std::int64_t{1} << 28;  // the chip's numbers wrap
-    const std::int64_t pulses = its.scale(axis_number).to_pulses(its.of(kept, axis_number)).value_or(0);
+    const std::int64_t pulses =
+        settings.scale(axis_number).to_pulses(settings.of(kept, axis_number)).value_or(0);
     const std::int64_t wrapped = ((pulses + kRange / 2) % kRange + kRange) % kRange - kRange / 2;
     return static_cast<std::int32_t>(wrapped);
   };
@@ -118,14 +119,14 @@ void Super40nc::heed_axis(int axis_number, int number) {
       // It counts in the other direction from here on, and has met nothing.
       motion::Axis& motor = chip(axis_number);
       const std::int64_t counts = axis(axis_number).encoder_counts;
-      motor.encoder_pulses = motor.encoder_seen = its.is_on(kept_x(13), axis_number) ? -counts : counts;
+      motor.encoder_pulses = motor.encoder_seen = settings.is_on(kept_x(13), axis_number) ? -counts : counts;
       break;
     }
     case 63:
-      if (has_limit_copies()) put(kept_d(8118), its.raw(kept_x(63), axis_number), axis_number);
+      if (has_limit_copies()) put(kept_d(8118), settings.raw(kept_x(63), axis_number), axis_number);
       break;
     case 64:
-      if (has_limit_copies()) put(kept_d(8119), its.raw(kept_x(64), axis_number), axis_number);
+      if (has_limit_copies()) put(kept_d(8119), settings.raw(kept_x(64), axis_number), axis_number);
       break;
     case 71:
     case 72:

@@ -57,18 +57,18 @@ std::int32_t wrapped(std::int64_t number) {
 }  // namespace
 
 bool Super40nc::status(int axis_number, AxisStatus what) const {
-  const AxisState& its = axis(axis_number);
+  const AxisState& state = axis(axis_number);
   const motion::Axis& motor = chip(axis_number);
   switch (what) {
-    case SSCM: return its.holder != Holder::nobody;
+    case SSCM: return state.holder != Holder::nobody;
     case SRUN: {
       const std::int32_t operation = operation_of(axis_number);
-      return operation == kByWheel ? its.followed_pulses != 0 : operation != kStopped;
+      return operation == kByWheel ? state.followed_pulses != 0 : operation != kStopped;
     }
     case SENI:
-      return !chose(option("seni_flag", "always_0")) && its.has_ended && its.holder == Holder::nobody;
-    case SEND: return its.holder == Holder::nobody;
-    case SERR: return its.has_error;
+      return !chose(option("seni_flag", "always_0")) && state.has_ended && state.holder == Holder::nobody;
+    case SEND: return state.holder == Holder::nobody;
+    case SERR: return state.has_error;
     case SCP1: return comparator_holds(axis_number, 0);
     case SCP2: return comparator_holds(axis_number, 1);
     case SCP3: return comparator_holds(axis_number, 2);
@@ -92,13 +92,14 @@ bool Super40nc::status(int axis_number, AxisStatus what) const {
     case SEZ: return has_signal(axis_number, motion::Signal::index);
     case SINP: return input(pin_of(axis_number, kInPositionPin)) != 0;
     case SRDY: return input(pin_of(axis_number, kReadyPin)) != 0;
-    case HOME_DONE: return its.homed;
-    case ZERO_DONE: return its.zeroed;
-    case HOME_RUNS: return its.holder == Holder::home && shows_running(its.mover == Mover::hand);
-    case ZERO_RUNS: return its.holder == Holder::zero;
+    case HOME_DONE: return state.homed;
+    case ZERO_DONE: return state.zeroed;
+    case HOME_RUNS: return state.holder == Holder::home && shows_running(state.mover == Mover::hand);
+    case ZERO_RUNS: return state.holder == Holder::zero;
     case WHEEL_RUNS: {
-      const bool is_by_contact = its.wheel >= WheelSource::contact_1 && its.wheel <= WheelSource::contact_100;
-      return its.holder == Holder::wheel && shows_running(is_by_contact);
+      const bool is_by_contact =
+          state.wheel >= WheelSource::contact_1 && state.wheel <= WheelSource::contact_100;
+      return state.holder == Holder::wheel && shows_running(is_by_contact);
     }
   }
   return false;
@@ -109,11 +110,11 @@ bool Super40nc::shows_running(bool is_by_contact) const {
 }
 
 std::int32_t Super40nc::operation_of(int axis_number) const {
-  const AxisState& its = axis(axis_number);
+  const AxisState& state = axis(axis_number);
   const motion::Axis& motor = chip(axis_number);
-  if (!motor.moving() || !its.moves()) return kStopped;
+  if (!motor.moving() || !state.moves()) return kStopped;
   if (motor.task == motion::Task::following) return kByWheel;
-  if (motor.in_backlash || its.path_backlash != 0) return kBacklash;
+  if (motor.in_backlash || state.path_backlash != 0) return kBacklash;
   const motion::Sample sample = is_on_path(axis_number) ? state_.path.run.sample(now()) : motor.sample(now());
   if (!(sample.speed_u_s > 0)) return kStopped;
   if (sample.acceleration_u_s2 > 0) return kSpeedingUp;
@@ -124,9 +125,9 @@ std::int32_t Super40nc::operation_of(int axis_number) const {
 }
 
 std::int64_t Super40nc::remaining_pulses(int axis_number) const {
-  const AxisState& its = axis(axis_number);
-  const bool has_target = its.rest.kind == RestKind::path || its.holder == Holder::rest;
-  return has_target ? std::abs(its.rest.travel - chip(axis_number).travel_pulses)
+  const AxisState& state = axis(axis_number);
+  const bool has_target = state.rest.kind == RestKind::path || state.holder == Holder::rest;
+  return has_target ? std::abs(state.rest.travel - chip(axis_number).travel_pulses)
                     : chip(axis_number).remaining_pulses();
 }
 
@@ -147,8 +148,8 @@ void Super40nc::add_to_counter(int axis_number, int which, std::int64_t counts) 
 
 /// Returns true if COUNTER4 counts now; it may count only while the axis moves.
 bool Super40nc::counts_now(int axis_number) const {
-  const AxisState& its = axis(axis_number);
-  return !registers().is_on(kept_x(26), axis_number) || its.moves() || its.followed_pulses != 0;
+  const AxisState& state = axis(axis_number);
+  return !registers().is_on(kept_x(26), axis_number) || state.moves() || state.followed_pulses != 0;
 }
 
 bool Super40nc::counts_a_clock(int axis) const {
@@ -163,16 +164,16 @@ void Super40nc::set_encoder(int axis_number, std::int64_t counts) {
 
 void Super40nc::count_encoder(int axis_number, std::int64_t counts) {
   AxisState& state = axis(axis_number);
-  const Settings its = registers();
+  const Settings settings = registers();
   const std::int64_t turned = counts - state.encoder_counts;
   state.encoder_counts = counts;
-  if (turned == 0 || !powered() || its.is_on(kept_x(19), axis_number)) return;
-  const std::int64_t counted = its.is_on(kept_x(13), axis_number) ? -turned : turned;
-  if (its.of(kept_x(23), axis_number) == 0) add_to_counter(axis_number, 1, counted);
-  const Value deviation = its.of(kept_x(24), axis_number);
+  if (turned == 0 || !powered() || settings.is_on(kept_x(19), axis_number)) return;
+  const std::int64_t counted = settings.is_on(kept_x(13), axis_number) ? -turned : turned;
+  if (settings.of(kept_x(23), axis_number) == 0) add_to_counter(axis_number, 1, counted);
+  const Value deviation = settings.of(kept_x(24), axis_number);
   if (deviation == 0) add_to_counter(axis_number, 2, -counted);
   if (deviation == 2) add_to_counter(axis_number, 2, counted);
-  if (its.of(kept_x(25), axis_number) == 1 && counts_now(axis_number))
+  if (settings.of(kept_x(25), axis_number) == 1 && counts_now(axis_number))
     add_to_counter(axis_number, 3, counted);
 }
 
@@ -188,12 +189,12 @@ void Super40nc::clear_counters(int axis_number) {
 void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts,
                       Tick clock_ticks) {
   AxisState& state = axis(axis_number);
-  const Settings its = registers();
+  const Settings settings = registers();
   const std::int64_t extra = chip(axis_number).backlash_sent - state.backlash_seen;
   state.backlash_seen = chip(axis_number).backlash_sent;
   const CountedThisTick now_counted{
       .pulses = chip(axis_number).travel_pulses - travel_before, .backlash = extra, .wheel = wheel_counts};
-  const std::int32_t with_backlash = its.raw(kept_x(29), axis_number);
+  const std::int32_t with_backlash = settings.raw(kept_x(29), axis_number);
   if (extra != 0 && is_bit(with_backlash, 0)) {
     state.command.set(machine_pulses(axis_number) + extra, chip(axis_number).travel_pulses);
     heed_axis(axis_number, 0);
@@ -203,18 +204,18 @@ void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t 
     return now_counted.pulses + (is_bit(with_backlash, counter) ? now_counted.backlash : 0);
   };
   const auto add = [&](int counter, std::int64_t counts) { add_to_counter(axis_number, counter, counts); };
-  switch (its.of(kept_x(23), axis_number)) {
+  switch (settings.of(kept_x(23), axis_number)) {
     case 0: break;
     case 1: add(1, pulses_for(1)); break;
     default: add(1, now_counted.wheel); break;
   }
-  switch (its.of(kept_x(24), axis_number)) {
+  switch (settings.of(kept_x(24), axis_number)) {
     case 0: add(2, pulses_for(2)); break;
     case 1: add(2, pulses_for(2) - now_counted.wheel); break;
     default: add(2, -now_counted.wheel); break;
   }
   if (counts_now(axis_number)) {
-    switch (its.of(kept_x(25), axis_number)) {
+    switch (settings.of(kept_x(25), axis_number)) {
       case 0: add(3, pulses_for(3)); break;
       case 2: add(3, now_counted.wheel); break;
       case 3:
@@ -275,14 +276,14 @@ void Super40nc::latch_by_comparator(int axis_number) {
 
 void Super40nc::take_latch(int axis_number, std::int64_t travel) {
   AxisState& state = axis(axis_number);
-  const Settings its = registers();
-  if (its.is_on(kept_x(52), axis_number)) return;
+  const Settings settings = registers();
+  if (settings.is_on(kept_x(52), axis_number)) return;
   state.latched[0] = wrapped(state.command.at(travel));
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
     state.latched[static_cast<std::size_t>(which)] = counter(axis_number, which);
   }
-  if (its.is_on(kept_x(51), axis_number)) state.latched[2] = chip_speed(axis_number);
-  const std::int32_t cleared = its.raw(kept_x(55), axis_number);
+  if (settings.is_on(kept_x(51), axis_number)) state.latched[2] = chip_speed(axis_number);
+  const std::int32_t cleared = settings.raw(kept_x(55), axis_number);
   if (is_bit(cleared, 0)) {
     state.command.set(0, travel);
     heed_axis(axis_number, 0);

@@ -130,9 +130,9 @@ void Super40nc::take_user_command(std::int32_t number) {
                   .words = std::move(words)};
   put_table_in_place();
   const language::StepState before = state_.steps.programs[0];
-  const Settings its = registers();
-  const std::int32_t feed = its.raw(kept_d(8006));
-  const std::int32_t plane = its.raw(kept_d(8007));
+  const Settings settings = registers();
+  const std::int32_t feed = settings.raw(kept_d(8006));
+  const std::int32_t plane = settings.raw(kept_d(8007));
   tell(language::Event::start, language::Area::c);
   if (!is_table && before.has_modes) {  // F and RPM apply to later commands
     language::StepState& program = state_.steps.programs[0];

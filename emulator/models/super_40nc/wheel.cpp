@@ -20,20 +20,20 @@
 namespace understudy::emulator::models::super_40nc {
 
 std::int64_t Super40nc::wheel_lu_per_count(int axis_number) const {
-  const Settings its = registers();
-  if (its.is_on(kept_x(20), axis_number)) return 0;
+  const Settings settings = registers();
+  if (settings.is_on(kept_x(20), axis_number)) return 0;
   switch (axis(axis_number).wheel) {
     case WheelSource::none: return 0;
     case WheelSource::mpg_line: return axis(axis_number).wheel_lu;
-    case WheelSource::contact_1: return its.of(kept_x(87), axis_number);
-    case WheelSource::contact_10: return its.of(kept_x(88), axis_number);
-    case WheelSource::contact_100: return its.of(kept_x(89), axis_number);
+    case WheelSource::contact_1: return settings.of(kept_x(87), axis_number);
+    case WheelSource::contact_10: return settings.of(kept_x(88), axis_number);
+    case WheelSource::contact_100: return settings.of(kept_x(89), axis_number);
     case WheelSource::selector: break;
   }
-  switch (its.raw(kept_d(8021))) {
-    case 0: return its.of(kept_x(87), axis_number);
-    case 1: return its.of(kept_x(88), axis_number);
-    case 2: return its.of(kept_x(89), axis_number);
+  switch (settings.raw(kept_d(8021))) {
+    case 0: return settings.of(kept_x(87), axis_number);
+    case 1: return settings.of(kept_x(88), axis_number);
+    case 2: return settings.of(kept_x(89), axis_number);
     default: return 0;
   }
 }
@@ -41,9 +41,9 @@ std::int64_t Super40nc::wheel_lu_per_count(int axis_number) const {
 /// Sets the ratio by the present parameters; the remainder of a division stays.
 void Super40nc::follow_ratio(int axis) {
   motion::Follower& follower = chip(axis).follower;
-  const Settings its = registers();
-  const motion::UnitScale scale = its.scale(axis);
-  const int sense = its.is_on(kept_x(16), axis) ? -1 : +1;
+  const Settings settings = registers();
+  const motion::UnitScale scale = settings.scale(axis);
+  const int sense = settings.is_on(kept_x(16), axis) ? -1 : +1;
   constexpr std::int64_t kMax = INT32_MAX;
   follower.numerator =
       std::clamp<std::int64_t>(wheel_lu_per_count(axis) * scale.multiplier, -kMax, kMax) * sense;
@@ -54,7 +54,7 @@ void Super40nc::follow_ratio(int axis) {
     follower.denominator = 1;
   }
   follower.catches_up = chose(option("wheel_speed", "caught_up"));
-  follower.top_speed_pps = std::max<std::int64_t>(1, std::llround(std::min(its.top_pps(axis), 2e9)));
+  follower.top_speed_pps = std::max<std::int64_t>(1, std::llround(std::min(settings.top_pps(axis), 2e9)));
 }
 
 void Super40nc::start_wheel(int axis_number, WheelSource source) {

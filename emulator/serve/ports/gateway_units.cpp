@@ -34,8 +34,8 @@ bool is_answered(const world::WorldLine& line, std::uint8_t number) {
 
 std::optional<std::uint8_t> number_of(const world::LineStation& station) {
   for (int number = 0; number <= kLastStation; ++number) {
-    const auto its = static_cast<std::uint8_t>(number);
-    if (does(station, its, Addressing::obey_and_reply)) return its;
+    const auto unit = static_cast<std::uint8_t>(number);
+    if (does(station, unit, Addressing::obey_and_reply)) return unit;
   }
   return std::nullopt;
 }

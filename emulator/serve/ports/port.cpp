@@ -296,9 +296,9 @@ bool Port::is_waited_for() {
 }
 
 std::optional<SimTime> Port::time_until_full() const {
-  const world::WorldLine& its = world_.line(line_number_);
-  if (!host_present() || (!its.speech.may_be_unasked() && !its.line.due())) return std::nullopt;
-  return its.line.options().settings.duration_of(pty::Line::kOutputCapacity);
+  const world::WorldLine& line = world_.line(line_number_);
+  if (!host_present() || (!line.speech.may_be_unasked() && !line.line.due())) return std::nullopt;
+  return line.line.options().settings.duration_of(pty::Line::kOutputCapacity);
 }
 
 void Port::flush() {

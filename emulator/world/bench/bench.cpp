@@ -34,9 +34,9 @@ KnownDevices known_devices_of(const Bench& bench) {
 WireEnds ends_of(const WireSetup& wire, const KnownDevices& known) {
   const auto name = [&](std::size_t device, int axis, int terminal, std::string_view word) {
     const Model& model = *known[device].model;
-    const std::string its = known[device].name + ".";
-    if (axis < 0) return its + std::string(model.terminals[static_cast<std::size_t>(terminal)].name);
-    return its + std::string(model.axes[static_cast<std::size_t>(axis)].name) + "." + std::string(word);
+    const std::string prefix = known[device].name + ".";
+    if (axis < 0) return prefix + std::string(model.terminals[static_cast<std::size_t>(terminal)].name);
+    return prefix + std::string(model.axes[static_cast<std::size_t>(axis)].name) + "." + std::string(word);
   };
   return {.from = name(wire.from_device, wire.from_axis, wire.from_terminal,
                        kContactNames[static_cast<std::size_t>(wire.from_contact)]),

@@ -158,11 +158,11 @@ SwitchSetup read_switch(const YamlFields& fields, const Model& model, Complaints
 }
 
 void read_home(const YamlFields& home, const Model& model, PlantSetup& setup, Complaints& complaints) {
-  const SwitchSetup its = read_switch(home, model, complaints);
-  setup.home = its.on;
-  setup.home_hysteresis_pulses = its.hysteresis_pulses;
-  setup.home_opens = its.opens;
-  setup.home_input = its.input;
+  const SwitchSetup switch_setup = read_switch(home, model, complaints);
+  setup.home = switch_setup.on;
+  setup.home_hysteresis_pulses = switch_setup.hysteresis_pulses;
+  setup.home_opens = switch_setup.opens;
+  setup.home_input = switch_setup.input;
 }
 
 void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup, Complaints& complaints) {

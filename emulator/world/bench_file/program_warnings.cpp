@@ -25,8 +25,8 @@ std::vector<FileError::Complaint> program_warnings(const DeviceSetup& device, co
 std::vector<FileError::Complaint> program_warnings(const Bench& bench) {
   std::vector<FileError::Complaint> all;
   for (const DeviceSetup& device : bench.devices) {
-    const auto its = program_warnings(device, device.settings.program, device.settings.program_name);
-    all.insert(all.end(), its.begin(), its.end());
+    const auto warnings = program_warnings(device, device.settings.program, device.settings.program_name);
+    all.insert(all.end(), warnings.begin(), warnings.end());
   }
   return all;
 }

@@ -20,8 +20,8 @@ PulseSpan wider(PulseSpan span, std::int64_t pulses) { return {span.first - puls
 bool holds(PulseSpan span, std::int64_t at) { return at >= span.first && at <= span.last; }
 
 /// Where a switch is on as it stands now.
-PulseSpan span_of(const SwitchSetup& its, bool is_on) {
-  return wider(its.on, is_on ? its.hysteresis_pulses : 0);
+PulseSpan span_of(const SwitchSetup& setup, bool is_on) {
+  return wider(setup.on, is_on ? setup.hysteresis_pulses : 0);
 }
 
 /// How far it has come since the index began last.
@@ -247,9 +247,9 @@ void PlantAxis::move_switches(std::int64_t from) {
   // The way that counts: all of it, or its end.
   const PulseSpan way =
       looks_between_ ? PulseSpan{std::min(from, at), std::max(from, at)} : PulseSpan{at, at};
-  const auto move = [&](const SwitchSetup& its, bool& is_on) {
-    is_on = is_on || (way.first <= its.on.last && way.last >= its.on.first);
-    is_on = holds(span_of(its, is_on), at);
+  const auto move = [&](const SwitchSetup& setup, bool& is_on) {
+    is_on = is_on || (way.first <= setup.on.last && way.last >= setup.on.first);
+    is_on = holds(span_of(setup, is_on), at);
   };
   if (setup_.home) move(home_switch(), state_.at_home);
   if (setup_.near_home) move(*setup_.near_home, state_.at_near_home);

@@ -69,21 +69,21 @@ const std::vector<Controller>& controllers() {
 
 TEST(DriveWires, ThereIsAControllerOfEveryModel) {
   for (const Model* model : models::all_models()) {
-    EXPECT_TRUE(std::ranges::any_of(controllers(), [&](const Controller& its) {
-      return std::string_view(its.model) == model->name;
+    EXPECT_TRUE(std::ranges::any_of(controllers(), [&](const Controller& controller) {
+      return std::string_view(controller.model) == model->name;
     })) << model->name;
   }
 }
 
 TEST(DriveWires, ClearAnAlarmOnEveryModel) {
-  for (const Controller& its : controllers()) {
-    const std::string axis = std::string("d.") + its.axis;
+  for (const Controller& controller : controllers()) {
+    const std::string axis = std::string("d.") + controller.axis;
     expect_passes(text_of(
-        its.model, its.axis, "enabled_by: on",
+        controller.model, controller.axis, "enabled_by: on",
         "h.DOUT_4 -> " + axis + ".servo, h.DOUT_5 -> " + axis + ".alarm_clear",
-        its.off + "  - advance: 5ms\n  - assert: " + axis + ".ready == 0\n  - write: { h.DOUT_ALL: 0x10 }\n" +
-            "  - advance: 12ms\n  - assert: " + axis + ".ready == 1\n" + an_alarm(its.axis) +
-            "  - assert: " + axis + ".ready == 0\n" +
+        controller.off + "  - advance: 5ms\n  - assert: " + axis +
+            ".ready == 0\n  - write: { h.DOUT_ALL: 0x10 }\n" + "  - advance: 12ms\n  - assert: " + axis +
+            ".ready == 1\n" + an_alarm(controller.axis) + "  - assert: " + axis + ".ready == 0\n" +
             // Disabling it is not enough where a wire leads to the input.
             "  - write: { h.DOUT_ALL: 0 }\n  - advance: 50ms\n  - assert: " + axis +
             ".alarm == 1\n  - write: { h.DOUT_ALL: 0x20 }\n  - advance: 2ms\n  - assert: " + axis +
@@ -93,19 +93,19 @@ TEST(DriveWires, ClearAnAlarmOnEveryModel) {
 }
 
 TEST(DriveWires, AreNotNeededWhereDisablingClearsIt) {
-  for (const Controller& its : controllers()) {
-    if (its.model == std::string_view("simple2-r3")) continue;  // it has ACLR
-    const std::string axis = std::string("d.") + its.axis;
-    expect_passes(
-        text_of(its.model, its.axis, "enabled_by: on", "h.DOUT_4 -> " + axis + ".servo",
-                its.off + "  - write: { h.DOUT_ALL: 0x10 }\n  - advance: 12ms\n" + an_alarm(its.axis) +
-                    "  - write: { h.DOUT_ALL: 0 }\n  - advance: 2ms\n  - assert: " + axis + ".alarm == 0\n"));
-    if (its.on.empty()) continue;
-    expect_passes(text_of(its.model, its.axis, "enabled_by: on", "",
-                          its.on + "  - advance: 15ms\n  - assert: " + axis + ".ready == 1\n" +
-                              an_alarm(its.axis) + its.off + "  - advance: 3ms\n  - assert: " + axis +
-                              ".alarm == 0\n" + its.on + "  - advance: 15ms\n  - assert: " + axis +
-                              ".ready == 1\n"));
+  for (const Controller& controller : controllers()) {
+    if (controller.model == std::string_view("simple2-r3")) continue;  // it has ACLR
+    const std::string axis = std::string("d.") + controller.axis;
+    expect_passes(text_of(
+        controller.model, controller.axis, "enabled_by: on", "h.DOUT_4 -> " + axis + ".servo",
+        controller.off + "  - write: { h.DOUT_ALL: 0x10 }\n  - advance: 12ms\n" + an_alarm(controller.axis) +
+            "  - write: { h.DOUT_ALL: 0 }\n  - advance: 2ms\n  - assert: " + axis + ".alarm == 0\n"));
+    if (controller.on.empty()) continue;
+    expect_passes(text_of(controller.model, controller.axis, "enabled_by: on", "",
+                          controller.on + "  - advance: 15ms\n  - assert: " + axis + ".ready == 1\n" +
+                              an_alarm(controller.axis) + controller.off +
+                              "  - advance: 3ms\n  - assert: " + axis + ".alarm == 0\n" + controller.on +
+                              "  - advance: 15ms\n  - assert: " + axis + ".ready == 1\n"));
   }
 }
 
