@@ -29,7 +29,7 @@ enum class Begun : std::uint8_t {
   done,     // nothing had to move; its signal has come
   runs,     // runs until is_running() returns false
   taken,    // an axis is taken: nothing has changed, and the program tries again at the next tick
-  void_,    // has no effect; the machine has reported why, if there is a code for it
+  ignored,  // has no effect; the machine has reported why, if there is a code for it
   refused,  // a limit or an alarm, which is reported and resets the program
 };
 

@@ -106,7 +106,7 @@ StepPrograms::Slice StepPrograms::begin_motion(Area area, const Instruction& lin
       program.phase = Phase::moving;
       take(Event::broken, area);
       return Slice::is_over;
-    case Begun::void_: return advance(area, line);
+    case Begun::ignored: return advance(area, line);
     case Begun::runs:
       if (!waits || goes_on_by_path(area, line)) break;
       program.next_step = program.step + steps_of(line);

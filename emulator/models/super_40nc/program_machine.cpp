@@ -133,7 +133,7 @@ Begun ProgramMachine::begin_each(Area by, const language::AxisValues& values, Re
     has_begun = true;
   }
   if (device_.is_awaited_by(mover_of(by))) return Begun::runs;
-  return has_begun ? Begun::done : Begun::void_;
+  return has_begun ? Begun::done : Begun::ignored;
 }
 
 Begun ProgramMachine::begin(Area by, const language::Drive& drive) {

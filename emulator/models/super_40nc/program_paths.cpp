@@ -41,7 +41,7 @@ Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
   if (joins && !device_.has_room_on_path(takes)) return Begun::taken;
   switch (joins ? Grant::starts : device_.ask_for_path(takes)) {
     case Grant::waits: return Begun::taken;
-    case Grant::refused: return Begun::void_;
+    case Grant::refused: return Begun::ignored;
     case Grant::nothing:
     case Grant::starts:
     case Grant::same_or_no:
@@ -140,7 +140,7 @@ Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mo
           [](const motion::Point& from, const motion::Point& to) { return motion::line(from, to); });
     }
     if (reports) device_.report(Code::arc_impossible, Mover::c);
-    return Begun::void_;
+    return Begun::ignored;
   }
 }
 

@@ -340,7 +340,7 @@ TEST(Super40ncStep, WaitsForAnAxisThatIsTaken) {
 
 TEST(Super40ncStep, GoesOnBehindAVoidMotionAndEndsAtARefusedOne) {
   Running running = started("DRV K1;SET Y0;LIN K1;SET Y1");
-  running.machine.answers = {{"DRV", Begun::void_}, {"LIN", Begun::refused}};
+  running.machine.answers = {{"DRV", Begun::ignored}, {"LIN", Begun::refused}};
   running.tick(3);
   EXPECT_TRUE(running.machine.contact(y(0)));
   EXPECT_FALSE(running.machine.contact(y(1)));
