@@ -258,7 +258,7 @@ void Super40nc::start_jog(int axis_number, int direction, bool AxisState::*asked
   AxisState& state = axis(axis_number);
   const Grant given = ask(axis_number, Request::jog);
   const motion::SpeedLaw law = jog_law(axis_number);
-  if (given == Grant::same_or_no) {
+  if (given == Grant::continues_if_same_kind) {
     if (chip(axis_number).last_direction != direction) {
       report(Code::axis_taken);
       return;

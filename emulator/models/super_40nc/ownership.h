@@ -39,7 +39,7 @@ enum class Grant : std::uint8_t {
   nothing,  // nothing to do
   starts,
   // if of the same kind (a jog in the same direction, the same wheel source), it continues; else as refused
-  same_or_no,
+  continues_if_same_kind,
   refused,  // has no effect, and D8094 shows it
   waits,
   new_speed,  // changes the speed of a turning axis
@@ -54,13 +54,13 @@ inline constexpr std::array<OwnershipRow, kHolders> kOwnership = [] {
   return std::array<OwnershipRow, kHolders>{{
       // jog        home, zero wheel       line     MPG line    PLC DRV  VDRV       VDRV 0   STP, M8x02, M8002
       {starts,     starts,    starts,     starts,  starts,     starts,  starts,    nothing, nothing},  // nobody
-      {same_or_no, refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // jog
+      {continues_if_same_kind, refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // jog
       {refused,    refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // home
       {refused,    refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // zero
       {refused,    refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // move
       {refused,    refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // rest
       {refused,    refused,   refused,    refused, refused,    refused, new_speed, stops,   stops},    // VDRV
-      {refused,    refused,   same_or_no, refused, same_or_no, refused, refused,   stops,   stops},    // wheel
+      {refused,    refused,   continues_if_same_kind, refused, continues_if_same_kind, refused, refused,   stops,   stops},    // wheel
   }};
 }();
 // clang-format on

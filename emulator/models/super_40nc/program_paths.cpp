@@ -44,7 +44,7 @@ Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
     case Grant::refused: return Begun::ignored;
     case Grant::nothing:
     case Grant::starts:
-    case Grant::same_or_no:
+    case Grant::continues_if_same_kind:
     case Grant::new_speed:
     case Grant::stops: break;
   }

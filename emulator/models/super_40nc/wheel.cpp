@@ -60,7 +60,7 @@ void Super40nc::follow_ratio(int axis) {
 void Super40nc::start_wheel(int axis_number, WheelSource source) {
   AxisState& state = axis(axis_number);
   const Grant given = ask(axis_number, Request::wheel);
-  if (given == Grant::same_or_no && state.wheel != source) report(Code::axis_taken);
+  if (given == Grant::continues_if_same_kind && state.wheel != source) report(Code::axis_taken);
   if (given != Grant::starts) return;
   prepare(axis_number);
   motion::AxisSettings without_backlash = chip(axis_number).settings;
