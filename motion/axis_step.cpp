@@ -64,12 +64,12 @@ void Axis::see(Signals now_on, Instant at) {
   }
   if (homing.active() && changed != 0) homing_sees(changed, at);
   const auto is_on = [&](Signal signal) { return (now_on & bit(signal)) != 0 && !homing_takes(signal); };
-  const bool heeds_limits = !settling || !settings.waits_beside_limits;
+  const bool obeys_limits = !settling || !settings.waits_beside_limits;
   if (is_on(Signal::emergency)) react(settings.at_emergency, Cause::emergency, at);
   if (is_on(Signal::alarm)) react(settings.at_alarm, Cause::alarm, at);
-  if (drive.direction > 0 && heeds_limits && is_on(Signal::limit_plus))
+  if (drive.direction > 0 && obeys_limits && is_on(Signal::limit_plus))
     react(settings.at_limit_plus, Cause::limit_plus, at);
-  if (drive.direction < 0 && heeds_limits && is_on(Signal::limit_minus))
+  if (drive.direction < 0 && obeys_limits && is_on(Signal::limit_minus))
     react(settings.at_limit_minus, Cause::limit_minus, at);
   if (settling && (now_on & bit(Signal::in_position)) != 0) end(Cause::arrived, at);
 }

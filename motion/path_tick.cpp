@@ -28,7 +28,7 @@ PathTick::PathTick(Coordinated& path, const Coordinated::Ahead& ahead, Tick tick
       at_{.tick = tick - 1},
       along_u_(std::min(path.run.began_at(ahead.gone, tick), ahead.gone.to_u)),
       ends_in_it_(path.is_over(stays_engaged)) {
-  heed_axes();
+  check_axes();
 }
 
 const Instant& PathTick::next() {
@@ -109,7 +109,7 @@ void PathTick::carry_to(double along_u, Instant at) {
 
 /// Handles what has happened to the axes. An axis that is stopped stops all of them here; an axis that is to
 /// slow down slows the path.
-void PathTick::heed_axes() {
+void PathTick::check_axes() {
   if (!path_.engaged) return;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Axis* const mine = axis(i);
@@ -129,7 +129,7 @@ void PathTick::look() {
   const Instant at = next();
   const auto edge_u = edge_u_;
   carry_to(edge_u.value_or(gone_.to_u), at);
-  heed_axes();
+  check_axes();
   if (edge_u) return;
   is_over_ = true;
   if (path_.engaged && ends_in_it_ && path_.is_over(false)) path_.let_go(axes_, at);
@@ -140,7 +140,7 @@ void PathTick::go_to(Instant at) {
   const double along_u = std::clamp(path_.run.along_at(gone_, at), along_u_, std::max(gone_.to_u, along_u_));
   // A rounding must not carry an axis over the next edge.
   carry_to(edge_u_ ? std::min(along_u, *edge_u_) : along_u, at);
-  heed_axes();
+  check_axes();
 }
 
 void PathTick::slow_down(Cause why, const SpeedLaw& by) {

@@ -36,7 +36,7 @@ class PathTick {
   void slow_down(Cause why, const SpeedLaw& by);
   /// Checks the axes again, after another object has changed them.
   void look_again() {
-    heed_axes();
+    check_axes();
     is_found_ = false;
   }
 
@@ -45,7 +45,7 @@ class PathTick {
   std::optional<double> first_beyond(std::size_t i) const;
   std::optional<double> first_beyond(std::size_t i, double from_u, double to_u) const;
   void carry_to(double along_u, Instant at);
-  void heed_axes();
+  void check_axes();
   Axis* axis(std::size_t i) const {
     return parts_[i] != nullptr ? &axes_[static_cast<std::size_t>(path_.axis_of[i])] : nullptr;
   }

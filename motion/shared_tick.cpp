@@ -100,8 +100,8 @@ void SharedTick::run(bool stays_engaged) {
     if (!member.is_on_path && !member.is_quiet) open(member);
   }
   if (path_ != nullptr && !ahead_->is_quiet) open_path();
-  heed_events();
-  while (look_at_first()) heed_events();
+  handle_events();
+  while (look_at_first()) handle_events();
   finish();
 }
 
@@ -125,7 +125,7 @@ bool SharedTick::look_at_first() {
   return true;
 }
 
-void SharedTick::heed_events() {
+void SharedTick::handle_events() {
   for (int round = 0; round < kMaxAtOnce; ++round) {
     bool has_happened = false;
     for (Member& member : std::span(members_).first(count_)) {
@@ -186,7 +186,7 @@ void SharedTick::finish() {
   now_ = {.tick = all_.tick};
   if (path_ != nullptr && !path_tick_) path_->cross(*ahead_, all_.axes, all_.pulses);
   if (path_ != nullptr) path_->settle(all_.tick, all_.axes);
-  heed_events();
+  handle_events();
   is_closed_ = true;
   std::array<Events, kMax> at_end{};
   for (std::size_t i = 0; i < count_; ++i) {

@@ -85,7 +85,7 @@ class SharedTick {
   void open_path();
   Member* member_of(std::size_t axis);
   bool look_at_first();
-  void heed_events();
+  void handle_events();
   void act(std::size_t axis, Events events);
   void finish();
 

@@ -197,8 +197,8 @@ void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const 
   changed.soft_limit_plus.reset();
   changed.soft_limit_minus.reset();
   const bool by_encoder = axis.basic.soft_limit_source == 1 && axis.has_encoder;
-  const bool is_heeded = options.homing_heeds_soft_limits || !motor.homing.active();
-  if (axis.basic.soft_limits && is_heeded) {
+  const bool applies = options.homing_obeys_soft_limits || !motor.homing.active();
+  if (axis.basic.soft_limits && applies) {
     const Counter& counter = axis.basic.soft_limit_source == 0 ? axis.logic : axis.encoder;
     // What is between count and place now: the offset itself is right up to whole rounds of the counter.
     const std::int64_t place = by_encoder ? motor.encoder_pulses : motor.travel_pulses;

@@ -170,7 +170,7 @@ struct AxisOptions {
   bool in_position_waits_beside_limits = false;
   bool ring_folds = true;
   bool ring_takes_absolute = false;
-  bool homing_heeds_soft_limits = true;
+  bool homing_obeys_soft_limits = true;
   bool comparisons_fire_when_armed = false;
 };
 

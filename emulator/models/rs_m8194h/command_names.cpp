@@ -27,8 +27,8 @@ namespace lang = interpreter::rs_m8194h;
 
 lang::WordOrder order_of(const WindowForm& form) {
   constexpr Option kTablesAlone = option("word_order_scope", "tables");
-  const bool heeds_order = form.choices.empty() || form.choices[kTablesAlone.choice] != kTablesAlone.number;
-  return form.low_word_first && heeds_order ? lang::WordOrder::low_first : lang::WordOrder::high_first;
+  const bool follows_order = form.choices.empty() || form.choices[kTablesAlone.choice] != kTablesAlone.number;
+  return form.low_word_first && follows_order ? lang::WordOrder::low_first : lang::WordOrder::high_first;
 }
 
 /// Of how it is written. Whether the device takes it is its own affair.

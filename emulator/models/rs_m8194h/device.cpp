@@ -109,19 +109,19 @@ void RsM8194h::sample_inputs(Tick tick) {
   if (scans_frnet_at(tick)) {
     const auto before = state_.inputs;
     scan_frnet();
-    if (state_.inputs != before) heed_triggers(before, false);
+    if (state_.inputs != before) check_triggers(before, false);
   }
 }
 
 void RsM8194h::step_motion(Tick tick) {
   const bool was_full = state_.paths.together.engaged && state_.paths.together.run.queued() > 1;
   step_axes(tick);
-  heed_path_speed(tick);
-  heed_path_end(was_full);
+  on_path_speed(tick);
+  on_path_end(was_full);
   for (std::size_t a = 0; a < kAxes; ++a) {
     // Its input stops what it has begun, and nothing else.
     if (!state_.motors[a].moving()) state_.units[a].external.running = 0;
-    if (state_.units[a].paused_drive.what != Drive::What::none) heed_paused(a);
+    if (state_.units[a].paused_drive.what != Drive::What::none) check_paused_drive(a);
   }
   start_waiting_external();
   step_scans(tick);

@@ -251,17 +251,17 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   bool start_external(std::size_t axis, const motion::DriveOrder& order);
   void start_waiting_external();
   void step_axes(Tick tick);
-  void heed_paused(std::size_t axis);
+  void check_paused_drive(std::size_t axis);
   // edges.cpp
   void at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) override;
-  void heed_factors(std::size_t axis, motion::Events events, Tick tick, std::int64_t pulses = 0);
+  void check_factors(std::size_t axis, motion::Events events, Tick tick, std::int64_t pulses = 0);
   void act_together(motion::SharedTick& tick, std::size_t trigger, motion::Events events);
   void act_on_path(motion::SharedTick& tick, motion::SyncAction::Drive drive);
-  motion::Events heed_end(std::size_t axis, motion::Events events);
+  motion::Events on_axis_end(std::size_t axis, motion::Events events);
   motion::SpeedLaw law_to_slow_path() const;
-  void heed_home(std::size_t axis);
-  void heed_path_speed(Tick tick);
-  void heed_path_end(bool was_full);
+  void on_homed(std::size_t axis);
+  void on_path_speed(Tick tick);
+  void on_path_end(bool was_full);
   void note_end_of_path(std::size_t axis);
   bool is_no_cause(motion::Cause cause, bool is_at_its_end) const;
   bool is_path_complete() const;
@@ -300,7 +300,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void report(const lang::ExecutionFault& fault) override;
 
   /// Handles triggers after a scan (triggers.cpp).
-  void heed_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start);
+  void check_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start);
   void fire(int channel, const lang::Trigger& trigger);
   void start_queued_trigger();
   void repeat_levels();

@@ -44,12 +44,12 @@ bool starts_something(motion::SyncAction::Drive drive) {
 }  // namespace
 
 void RsM8194h::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) {
-  const motion::Events heeded = heed_end(axis, events);
-  heed_factors(axis, heeded, tick.tick(), tick.pulses(axis));
-  if ((heeded & state_.sync.triggers[axis].factors) != 0) act_together(tick, axis, heeded);
+  const motion::Events handled = on_axis_end(axis, events);
+  check_factors(axis, handled, tick.tick(), tick.pulses(axis));
+  if ((handled & state_.sync.triggers[axis].factors) != 0) act_together(tick, axis, handled);
 }
 
-void RsM8194h::heed_factors(std::size_t axis, motion::Events events, Tick tick, std::int64_t pulses) {
+void RsM8194h::check_factors(std::size_t axis, motion::Events events, Tick tick, std::int64_t pulses) {
   const AxisUnit& unit = state_.units[axis];
   const bool is_noted_always = chose(option("factors_noted", "enabled_ones"));
   for (std::size_t i = 0; i < kIsrFactors; ++i) {

@@ -68,7 +68,7 @@ std::uint16_t error_of(motion::Cause cause) {
   return 0;
 }
 
-void RsM8194h::heed_home(std::size_t axis) {
+void RsM8194h::on_homed(std::size_t axis) {
   AxisUnit& unit = state_.units[axis];
   note_factor(axis, Factor::homed);
   if (chose(option("home_error_bit", "also_at_home"))) unit.error_code |= bit_of(ErrorBit::home);
@@ -113,7 +113,7 @@ void RsM8194h::note_end_of_path(std::size_t axis) {
 }
 
 /// The rest of a drive that is held by a pause: what would have ended it ends it.
-void RsM8194h::heed_paused(std::size_t axis) {
+void RsM8194h::check_paused_drive(std::size_t axis) {
   AxisUnit& unit = state_.units[axis];
   const motion::Axis& motor = state_.motors[axis];
   const bool is_endless = unit.paused_drive.what == Drive::What::endless;
@@ -126,11 +126,11 @@ void RsM8194h::heed_paused(std::size_t axis) {
 }
 
 /// What ends leaves its cause in the error code. Gives the events that count as such.
-motion::Events RsM8194h::heed_end(std::size_t axis, motion::Events events) {
+motion::Events RsM8194h::on_axis_end(std::size_t axis, motion::Events events) {
   const motion::Axis& motor = state_.motors[axis];
   AxisUnit& unit = state_.units[axis];
   const bool homed = (events & motion::bit(motion::Event::homed)) != 0;
-  if (homed) heed_home(axis);
+  if (homed) on_homed(axis);
   constexpr motion::Events kConstant =
       motion::bit(motion::Event::constant_started) | motion::bit(motion::Event::constant_ended);
   const bool has_ramps = motor.law.start_speed_u_s < motor.law.top_speed_u_s;
@@ -140,7 +140,7 @@ motion::Events RsM8194h::heed_end(std::size_t axis, motion::Events events) {
   if ((events & motion::bit(motion::Event::ended)) == 0) return events;
   motion::Cause cause = motor.cause;
   if (cause != motion::Cause::arrived && cause != motion::Cause::stopped) take_off(axis, WayOut::cause);
-  if (!machine_.axis.homing_heeds_soft_limits) look_again(axis);
+  if (!machine_.axis.homing_obeys_soft_limits) look_again(axis);
   if (!machine_.d_end_after_stops && cause != motion::Cause::arrived && !homed) {
     events &= static_cast<motion::Events>(~motion::bit(motion::Event::ended));
   }

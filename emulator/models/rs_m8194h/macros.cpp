@@ -172,7 +172,7 @@ void RsM8194h::load_program(std::string_view text) {
     state_.blocks.put(kTriggerBlocks, lang::text_of_channel(each.channel),
                       SharedText(lang::text_of(each.channel, each.trigger)));
   }
-  if (!parsed.listing.triggers.empty()) heed_triggers(state_.inputs, true);
+  if (!parsed.listing.triggers.empty()) check_triggers(state_.inputs, true);
 }
 
 std::string RsM8194h::program_text() const {

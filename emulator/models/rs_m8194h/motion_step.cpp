@@ -62,7 +62,7 @@ void RsM8194h::step_axes(Tick tick) {
 }
 
 /// A path that has ended in this tick.
-void RsM8194h::heed_path_end(bool was_full) {
+void RsM8194h::on_path_end(bool was_full) {
   Paths& paths = state_.paths;
   const bool in_stream = paths.together.engaged && paths.runs == Paths::Runs::stream;
   const bool has_room = in_stream && paths.open && paths.together.run.queued() < 2;
@@ -84,7 +84,7 @@ void RsM8194h::heed_path_end(bool was_full) {
 }
 
 /// C-STA and C-END of a path, for its axis1.
-void RsM8194h::heed_path_speed(Tick tick) {
+void RsM8194h::on_path_speed(Tick tick) {
   if (!machine_.paths_have_c_sta) return;
   Paths& paths = state_.paths;
   const motion::Sample along = paths.together.engaged ? paths.together.run.sample(tick) : motion::Sample{};
@@ -92,7 +92,7 @@ void RsM8194h::heed_path_speed(Tick tick) {
   const std::int8_t first = paths.together.axis_of[0];
   if (is_constant == (paths.constant_axis >= 0) || (is_constant && first < 0)) return;
   const auto tell = [&](motion::Event event) {
-    heed_factors(static_cast<std::size_t>(paths.constant_axis), motion::bit(event), tick);
+    check_factors(static_cast<std::size_t>(paths.constant_axis), motion::bit(event), tick);
   };
   if (is_constant) {
     paths.constant_axis = first;

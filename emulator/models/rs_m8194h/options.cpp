@@ -116,7 +116,7 @@ MachineOptions machine_options(const DeviceSettings& settings) {
   options.stops_wait = chose(option("stops_bypass_fifo", "wait_like_others"));
   options.pitch_is_distance = chose(option("scan_positive_pitch", "pitch"));
   options.axis.ring_takes_absolute = chose(option("ring_and_absolute", "turns_round_too"));
-  options.axis.homing_heeds_soft_limits = !chose(option("home_soft_limit", "is_ignored"));
+  options.axis.homing_obeys_soft_limits = !chose(option("home_soft_limit", "is_ignored"));
   options.axis.comparisons_fire_when_armed = chose(option("factor_edges", "fires_at_once"));
   options.speed.rounds_to_nearest = chose(option("speed_quantum", "the_nearest_one"));
   options.speed.mode_3_is_symmetric = chose(option("normal_speed_3", "symmetric"));

@@ -215,7 +215,7 @@ void RsM8194h::draw(const HeldPath& path, bool joins) {
       motion::Axis& motor = state_.motors[static_cast<std::size_t>(a)];
       motor.signals = state_.environment[static_cast<std::size_t>(a)].at(motor.travel_pulses, motor.signals);
     }
-    heed_path_end(false);  // of one that was stopped since the last tick
+    on_path_end(false);  // of one that was stopped since the last tick
     if (keeps_path_off(codes, drawing.run.path().direction_at(0)) ||
         made.begin(Point::Zero(), state_.motors, now_tick) != motion::Cause::none) {
       return refuse_segment(path);

@@ -124,7 +124,7 @@ void RsM8194h::power_up() {
   state_.holds_back = false;
   state_.unscanned = true;
   scan_frnet();
-  heed_triggers(state_.inputs, true);
+  check_triggers(state_.inputs, true);
   for (std::size_t a = 0; a < kAxes; ++a) {
     look_again(a);
     motion::Axis& motor = state_.motors[a];

@@ -48,14 +48,14 @@ bool is_level(lang::TriggerCondition condition) {
 
 void RsM8194h::enable_triggers(bool on) {
   if (on) {
-    heed_triggers(state_.inputs, true);
+    check_triggers(state_.inputs, true);
   } else {
     state_.queued_triggers.clear();
     for (std::size_t a = 0; a < kAxes; ++a) take_off(a, WayOut::triggers_off);
   }
 }
 
-void RsM8194h::heed_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start) {
+void RsM8194h::check_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start) {
   if (state_.image[kEventSlot] == 0 || is_deaf()) return;
   const bool levels_fire = at_start && chose(option("trigger_level_at_start", "fires_once"));
   for (int channel = 0; channel < lang::kTriggerCount; ++channel) {

@@ -219,7 +219,7 @@ void Simple2R3::run_program(Tick tick) {
   if (!state_.execution.running) program_has_ended();
 }
 
-void Simple2R3::heed_servo(int axis_number) {
+void Simple2R3::apply_servo_state(int axis_number) {
   motion::Axis& motor = state_.axes[static_cast<std::size_t>(axis_number)].motor;
   const bool matters = servo_matters(axis_number);
   if (matters == motor.settings.needs_servo) return;
@@ -248,7 +248,7 @@ void Simple2R3::step_motion(Tick tick) {
     if (alarm_latches_) axis.alarm_latched = alarm(number);
     if (alarm_takes_servo_ && axis.motor.servo_on && alarm(number)) switch_servo(number, false);
     if (state_.touched || alarm_latches_) {
-      heed_servo(number);
+      apply_servo_state(number);
       meet(number, signals_of(number));
     }
     const std::int64_t commanded = step_drive(axis, drive_settings(number), tick);

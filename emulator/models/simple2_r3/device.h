@@ -302,7 +302,7 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   void carry_out_kept(int axis);
   void forget_kept(int axis);
   /// Checks again whether SVOFF forbids pulses.
-  void heed_servo(int axis_number);
+  void apply_servo_state(int axis_number);
   /// Sets the axis's limits and alarm, and handles the changes.
   void meet(int axis_number, motion::Signals on);
   void meet_in_sync(int axis_number, Outcome outcome);

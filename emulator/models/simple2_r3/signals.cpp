@@ -118,7 +118,7 @@ bool Simple2R3::ignores(motion::Signal signal) const {
 
 void Simple2R3::refresh_signals(int axis_number) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  heed_servo(axis_number);
+  apply_servo_state(axis_number);
   meet(axis_number, signals_of(axis_number));
   // A homing that goes on has yet to see its edges.
   if (!axis.motor.homing.active()) axis.motor.signals = axis.signals.steady;

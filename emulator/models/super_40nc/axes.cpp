@@ -90,7 +90,7 @@ void Super40nc::set_counter(int axis_number, int number, std::int32_t pulses) {
   }
   state.command.set(pulses, chip(axis_number).travel_pulses);
   state.stands_on_target = false;
-  heed_axis(axis_number, 0);
+  apply_axis_parameters(axis_number, 0);
 }
 
 std::int64_t Super40nc::braking_pulses(int axis) const {

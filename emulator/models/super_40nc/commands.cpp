@@ -192,7 +192,7 @@ void Super40nc::obey_pages() {
     const bool renews_all = chose(option("parameter_moment", "when_m8500_rises"));
     if (renews_all) {
       take_parameters();
-      heed_all();
+      apply_all_axis_parameters();
     }
     if (renews_all || chose(option("page_contacts", "m8500_renews_x14_and_c0"))) take_power_up_parameters();
   }

@@ -148,9 +148,9 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::int64_t braking_pulses(int axis) const;
   std::int64_t remaining_pulses(int axis_number) const;
   /// Applies a written parameter of an axis: `number` of D9x00 + number; 0: a D8x.
-  void heed_axis(int axis_number, int number);
+  void apply_axis_parameters(int axis_number, int number);
   /// Applies the parameters of all axes.
-  void heed_all();
+  void apply_all_axis_parameters();
   /// Changes the path file (D9001) or the recipe (D9002).
   void change_file(std::int32_t number);
   void change_recipe(std::int32_t number);
@@ -259,7 +259,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void go_on_path();
   void slow_path();
   void stop_path();
-  void heed_override();
+  void apply_override();
 
   bool contact(int number) const { return state_.image[relay_slot(number)] != 0; }
   void set_contact(int number, bool on);

@@ -99,7 +99,7 @@ void limit_voltage(Super40nc& device, Cell cell, Value thousandths) {
   device.put(cell.argument == 0 ? kept_d(8003) : kept_d(8004), limited);
 }
 
-void change_override(Super40nc& device, Cell, Value) { device.heed_override(); }
+void change_override(Super40nc& device, Cell, Value) { device.apply_override(); }
 
 void select_wheel(Super40nc& device, Cell, Value) { device.state().wheel_selected = true; }
 
@@ -110,7 +110,9 @@ void select_wheel_or_command(Super40nc& device, Cell, Value number) {
 
 void select_jog_speed(Super40nc& device, Cell, Value) { device.change_jog_speed(); }
 
-void change_axis(Super40nc& device, Cell cell, Value) { device.heed_axis(cell.index, cell.argument); }
+void change_axis(Super40nc& device, Cell cell, Value) {
+  device.apply_axis_parameters(cell.index, cell.argument);
+}
 
 void set_work_position(Super40nc& device, Cell cell, Value position) {
   device.set_work_lu(cell.index, position);

@@ -166,7 +166,7 @@ void Super40nc::power_up() {
   state_.wheel_edges = input(kWheelTerminal);
   take_power_up_parameters();
   if (chose(option("power_up_files", "read_from_file_and_recipe_again"))) read_files_again();
-  heed_all();
+  apply_all_axis_parameters();
   make_programs_ready();
   const bool has_c = state_.blocks.find(kPrograms, "C") != nullptr;
   state_.file_is_left_out = !has_c && is_too_long(kFiles, std::to_string(state_.file));
@@ -185,7 +185,7 @@ void Super40nc::reset_parameters() {
   change_file(0);
   change_recipe(0);
   show_line_counts();
-  heed_all();
+  apply_all_axis_parameters();
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -154,7 +154,7 @@ bool Super40nc::begin_path(const PathPlan& plan) {
   state_.path = path;
   state_.path_is_held = false;
   begin_path_backlash(plan.path);
-  heed_override();
+  apply_override();
   return true;
 }
 
@@ -187,7 +187,7 @@ void Super40nc::join_path(const PathPlan& plan) {
   state_.path_feed_lu_s = std::max<std::int32_t>(plan.feed_lu_per_s, 1);
   state_.path_feed_scale = feed_scale(plan.path);
   state_.path_limit_lu_s = std::min(state_.path_limit_lu_s, motion::speed_within(plan.path, most));
-  heed_override();
+  apply_override();
 }
 
 std::int64_t Super40nc::path_base_lu(int axis_number) const {
@@ -195,7 +195,7 @@ std::int64_t Super40nc::path_base_lu(int axis_number) const {
                                                   : relative_base_lu(axis_number);
 }
 
-void Super40nc::heed_override() {
+void Super40nc::apply_override() {
   if (chose(option("override_scope", "drv_as_well"))) {
     for (int number = 0; number < kAxisCount; ++number) {
       const AxisState& state = axis(number);

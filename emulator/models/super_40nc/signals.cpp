@@ -105,7 +105,7 @@ std::int64_t Super40nc::place_pulses(int axis) const {
   return motor.inverted ? -motor.travel_pulses : motor.travel_pulses;
 }
 
-void Super40nc::heed_axis(int axis_number, int number) {
+void Super40nc::apply_axis_parameters(int axis_number, int number) {
   const Settings settings = registers();
   const auto limit_pulses = [&](Kept kept) {
     constexpr std::int64_t kRange = std::int64_t{1} << 28;  // the chip's numbers wrap
@@ -147,9 +147,9 @@ void Super40nc::heed_axis(int axis_number, int number) {
   look_round(axis_number);
 }
 
-void Super40nc::heed_all() {
+void Super40nc::apply_all_axis_parameters() {
   for (int number = 0; number < kAxisCount; ++number) {
-    for (const int parameter : {63, 64, 71}) heed_axis(number, parameter);
+    for (const int parameter : {63, 64, 71}) apply_axis_parameters(number, parameter);
   }
 }
 

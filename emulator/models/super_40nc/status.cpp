@@ -197,7 +197,7 @@ void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t 
   const std::int32_t with_backlash = settings.raw(kept_x(29), axis_number);
   if (extra != 0 && is_bit(with_backlash, 0)) {
     state.command.set(machine_pulses(axis_number) + extra, chip(axis_number).travel_pulses);
-    heed_axis(axis_number, 0);
+    apply_axis_parameters(axis_number, 0);
   }
   const bool is_beside_travel = extra != 0;
   const auto pulses_for = [&](int counter) {
@@ -286,7 +286,7 @@ void Super40nc::take_latch(int axis_number, std::int64_t travel) {
   const std::int32_t cleared = settings.raw(kept_x(55), axis_number);
   if (is_bit(cleared, 0)) {
     state.command.set(0, travel);
-    heed_axis(axis_number, 0);
+    apply_axis_parameters(axis_number, 0);
   }
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
     if (is_bit(cleared, which)) set_counter(axis_number, which, 0);
