@@ -38,7 +38,7 @@ class AxisTick {
   /// For an axis that only its path moves: goes by `pulses` and handles what is there.
   void go_by(std::int64_t pulses, Instant at);
   /// Makes the axis check everything again where it is. Call it after another object has changed the axis.
-  void look_again() {
+  void rearm() {
     next_ = What::again;
     is_over_ = false;
   }

@@ -35,7 +35,7 @@ class PathTick {
   /// Slows the path down from the present moment on, by the ramps of `by`.
   void slow_down(Cause why, const SpeedLaw& by);
   /// Checks the axes again, after another object has changed them.
-  void look_again() {
+  void rearm() {
     check_axes();
     is_found_ = false;
   }

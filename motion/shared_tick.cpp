@@ -121,7 +121,7 @@ bool SharedTick::look_at_first() {
   if (first == nullptr) return false;
   now_ = first->part->next();
   first->part->look();
-  if (first->is_on_path && path_tick_) path_tick_->look_again();
+  if (first->is_on_path && path_tick_) path_tick_->rearm();
   return true;
 }
 
@@ -151,11 +151,11 @@ void SharedTick::act(std::size_t axis, Events events) {
     bool& attentive = all_.axes[members_[i].axis].attentive;
     if (members_[i].part) {
       members_[i].part->leave_start_to_next_tick();
-      attentive ? members_[i].part->look_again() : members_[i].part->forget_next();
+      attentive ? members_[i].part->rearm() : members_[i].part->forget_next();
     }
     attentive = attentive || was_attentive[i];
   }
-  if (path_tick_) path_tick_->look_again();
+  if (path_tick_) path_tick_->rearm();
 }
 
 void SharedTick::bring(std::size_t axis) {

@@ -140,14 +140,14 @@ void RtuFramer::push(const TimedByte& byte) {
   if (used() == kCapacity) drop_oldest();
   if (std::exchange(state_.is_paused, false)) state_.resumed = used();
   state_.characters.push_back({byte.value, byte.end, byte.number});
-  if (!framing_.strict && used() - state_.candidate >= state_.look_again_at) search();
+  if (!framing_.strict && used() - state_.candidate >= state_.search_again_at) search();
   if (state_.resumed != 0) look_behind_pause();
 }
 
 void RtuFramer::reset() {
   state_.characters.clear();
   state_.ready.clear();
-  state_.undecided = state_.candidate = state_.look_again_at = 0;
+  state_.undecided = state_.candidate = state_.search_again_at = 0;
   state_.is_paused = false;
   state_.resumed = 0;
   state_.oversize = 0;
@@ -164,7 +164,7 @@ void RtuFramer::search() {
   while (candidate < used()) {
     const Verdict verdict = judge(bytes(candidate, used()), candidate > state_.undecided);
     if (verdict.fit == Fit::waiting) {
-      state_.look_again_at = verdict.size;
+      state_.search_again_at = verdict.size;
       // Characters before a candidate are kept in case all of them are one frame of unknown length. Once
       // they are too long for one, they are given up; this bounds the undecided part.
       if (undecided().size > kRtuMaxFrame) give_up_as_overlong(candidate);
@@ -178,7 +178,7 @@ void RtuFramer::search() {
       ++candidate;
     }
   }
-  state_.look_again_at = 0;
+  state_.search_again_at = 0;
   if (undecided().size > kRtuMaxFrame) give_up_as_overlong(used());
 }
 
@@ -217,7 +217,7 @@ void RtuFramer::end_of_silence() {
   state_.oversize = 0;
   if (state_.undecided == used()) return;
   state_.is_paused = true;
-  state_.look_again_at = judge(bytes(state_.undecided, used()), false).size;
+  state_.search_again_at = judge(bytes(state_.undecided, used()), false).size;
 }
 
 /// Returns where a frame begins that may wait for its rest: right behind a silence, a good frame or a pause;
@@ -262,7 +262,7 @@ void RtuFramer::add_ready(Index first, std::uint16_t size) {
 void RtuFramer::decide_up_to(Index index) {
   drop_up_to(index);
   state_.candidate = index;
-  state_.look_again_at = 0;
+  state_.search_again_at = 0;
   state_.is_paused = false;
   if (state_.resumed <= index) state_.resumed = 0;
   forget_served();
@@ -331,7 +331,7 @@ std::size_t RtuFramer::quiet_characters() const {
   if (may_be_due || used() == kCapacity) return 0;
   // Only frames that search() finds are due at once.
   const auto heard = static_cast<std::size_t>(used() - state_.candidate);
-  const std::size_t undecided_still = state_.look_again_at > heard ? state_.look_again_at - heard : 1;
+  const std::size_t undecided_still = state_.search_again_at > heard ? state_.search_again_at - heard : 1;
   return std::min(undecided_still, kCapacity - used());
 }
 

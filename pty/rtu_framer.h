@@ -138,14 +138,14 @@ class RtuFramer {
   };
   /// The characters, from low to high index:  [ready frames, noise between them] [undecided] In the
   /// undecided part no frame begins before `candidate`. A frame that may begin there is judged again when it
-  /// has `look_again_at` bytes. The undecided part never exceeds two frames: noise that may be the beginning
-  /// of a long frame, and a candidate.
+  /// has `search_again_at` bytes. The undecided part never exceeds two frames: noise that may be the
+  /// beginning of a long frame, and a candidate.
   struct State {
     Characters characters;
     Queue<Frame> ready;
     Index undecided = 0;
     Index candidate = 0;
-    std::uint16_t look_again_at = 0;
+    std::uint16_t search_again_at = 0;
     bool is_paused = false;  // there was a pause after the last character, and its frame waits for the rest
     Index resumed = 0;       // the first character behind the last pause; 0: there was no pause
     // The number of characters of this lump that are too many. Strict: those beyond the longest frame, which

@@ -17,7 +17,7 @@ void RtuFramer::check(const State& state) const {
   const std::size_t longest = framing_.strict ? kRtuMaxFrame : 2 * kRtuMaxFrame;
   require(used <= kCapacity && state.characters.marks.size() == used);
   require(state.undecided <= state.candidate && state.candidate <= used);
-  require(used - state.undecided <= longest && state.look_again_at <= kRtuMaxFrame + 1);
+  require(used - state.undecided <= longest && state.search_again_at <= kRtuMaxFrame + 1);
   require(state.resumed <= used && (!state.is_paused || state.undecided < used));
   std::size_t free_from = 0;
   for (const Frame& frame : state.ready) {

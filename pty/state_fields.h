@@ -149,7 +149,7 @@ struct StateOf<pty::RtuFramer::State> {
                                            field("ready", &Value::ready),
                                            field("undecided", &Value::undecided),
                                            field("candidate", &Value::candidate),
-                                           field("look_again_at", &Value::look_again_at),
+                                           field("look_again_at", &Value::search_again_at),
                                            field("is_paused", &Value::is_paused),
                                            field("resumed", &Value::resumed),
                                            field("oversize", &Value::oversize),

@@ -257,7 +257,7 @@ TEST(FramerState, WhatNoFramerCanHoldIsRefused) {
   refused([](RtuFramer::State& s) { s.undecided = 7; });  // within the frame
   refused([](RtuFramer::State& s) { s.candidate = 7; });
   refused([](RtuFramer::State& s) { s.candidate = 12; });
-  refused([](RtuFramer::State& s) { s.look_again_at = kRtuMaxFrame + 2; });
+  refused([](RtuFramer::State& s) { s.search_again_at = kRtuMaxFrame + 2; });
   refused([](RtuFramer::State& s) { s.ready[0].size = 3; });
   refused([](RtuFramer::State& s) { s.ready[0].first = 1; });
   refused([](RtuFramer::State& s) { s.ready.push_back(s.ready[0]); });

@@ -119,7 +119,7 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   void steer_axes(Tick done);
   template <typename Act>
   void attempt(std::size_t axis, Act act);
-  void look_round(std::size_t axis_number);
+  void update_environment(std::size_t axis_number);
   void finish_step(std::size_t axis_number, std::int64_t pulses);
   bool is_quiet(const AxisState& axis) const;
   bool any_moves() const;

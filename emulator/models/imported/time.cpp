@@ -25,7 +25,7 @@
 
 namespace understudy::emulator::models::imported {
 
-void ImportedDevice::look_round(std::size_t axis_number) {
+void ImportedDevice::update_environment(std::size_t axis_number) {
   using motion::Signal;
   const AxisBinding& binding = description().axes[axis_number];
   const std::array<std::pair<int, Signal>, 4> wired{{{binding.upper_limit_input, Signal::limit_plus},
@@ -53,13 +53,13 @@ void ImportedDevice::set_edges(int axis, const MachineEdges& edges) {
   const auto number = static_cast<std::size_t>(axis);
   edges_[number] = edges;
   // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
-  if (is_restored_[number] == 0) look_round(number);
+  if (is_restored_[number] == 0) update_environment(number);
   is_restored_[number] = 0;
 }
 
 void ImportedDevice::sample_inputs(Tick) {
   if (!take_inputs_changed()) return;
-  for (std::size_t i = 0; i < state_.axes.size(); ++i) look_round(i);
+  for (std::size_t i = 0; i < state_.axes.size(); ++i) update_environment(i);
   state_.touched = true;
 }
 

@@ -102,7 +102,7 @@ void RsM8194h::sample_inputs(Tick tick) {
   if (changed || state_.holds_back) {
     pass_pins(tick);
     for (std::size_t a = 0; a < kAxes; ++a) {
-      look_round(a);
+      update_environment(a);
       watch_external(a, tick);
     }
   }
@@ -254,7 +254,7 @@ void RsM8194h::set_encoder(int axis, std::int64_t counts) {
   const auto a = static_cast<std::size_t>(axis);
   const bool is_first = !state_.units[a].has_encoder;
   tell_encoder(state_.units[a], state_.motors[a], counts * machine_.edges_per_encoder_count);
-  if (is_first) look_again(a);
+  if (is_first) rearm(a);
 }
 
 std::int64_t RsM8194h::place_pulses(int axis) const {
@@ -263,7 +263,7 @@ std::int64_t RsM8194h::place_pulses(int axis) const {
 
 void RsM8194h::set_edges(int axis, const MachineEdges& edges) {
   edges_[static_cast<std::size_t>(axis)] = edges;
-  look_round(static_cast<std::size_t>(axis));
+  update_environment(static_cast<std::size_t>(axis));
 }
 
 // --- its state as bytes -----------------------------------------------------------------------------------

@@ -192,7 +192,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void pass_state(std::uint8_t finished);
 
   /// Updates what the motor watches and meets. Call it after a setting or a counter has changed.
-  void look_again(std::size_t axis);
+  void rearm(std::size_t axis);
   bool is_active(std::size_t axis, motion::Signal signal) const;
   /// Records an event of an axis for the factors.
   void note_factor(std::size_t axis, Factor factor);
@@ -234,7 +234,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void blank();
   void blank_module();
   bool is_obstructed(std::size_t axis, Obstacle obstacle, bool on_path) const;
-  void look_round(std::size_t axis);
+  void update_environment(std::size_t axis);
   void pass_pins(Tick tick);
   /// Returns true while a filter holds back the level of an input.
   bool is_filtering(const AxisUnit& unit) const;

@@ -280,7 +280,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
     return;
   }
   forget_errors(axis);
-  if (motor.homing.active() && !machine_.axis.homing_obeys_soft_limits) look_again(axis);
+  if (motor.homing.active() && !machine_.axis.homing_obeys_soft_limits) rearm(axis);
   if (what.what == Drive::What::scan) begin_scans(mask_of(axis));
   if (LineScan& scan = state_.scans[axis]; what.what == Drive::What::scan && scan.set) {
     scan.running = true;

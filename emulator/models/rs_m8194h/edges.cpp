@@ -118,7 +118,7 @@ void RsM8194h::act_together(motion::SharedTick& tick, std::size_t trigger, motio
       note_factor(shows_trigger ? trigger : a, Factor::synchronous);
       if (state_.interrupts) mark_isr(a, IsrMark::kSynchronous, tick.tick());
     }
-    look_again(a);
+    rearm(a);
   }
 }
 

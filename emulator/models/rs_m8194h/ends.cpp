@@ -76,7 +76,7 @@ void RsM8194h::on_homed(std::size_t axis) {
     set_logic_position(unit, state_.motors[axis], 0, true);
     set_encoder_position(unit, state_.motors[axis], 0, true);
     set_absolute_position(unit, state_.motors[axis], 0, true);
-    look_again(axis);
+    rearm(axis);
   }
 }
 
@@ -140,7 +140,7 @@ motion::Events RsM8194h::on_axis_end(std::size_t axis, motion::Events events) {
   if ((events & motion::bit(motion::Event::ended)) == 0) return events;
   motion::Cause cause = motor.cause;
   if (cause != motion::Cause::arrived && cause != motion::Cause::stopped) take_off(axis, WayOut::cause);
-  if (!machine_.axis.homing_obeys_soft_limits) look_again(axis);
+  if (!machine_.axis.homing_obeys_soft_limits) rearm(axis);
   if (!machine_.d_end_after_stops && cause != motion::Cause::arrived && !homed) {
     events &= static_cast<motion::Events>(~motion::bit(motion::Event::ended));
   }

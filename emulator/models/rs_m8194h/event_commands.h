@@ -20,7 +20,7 @@ inline void set_actions(RsM8194h& it, AxisMask axes, const Command& command, std
               .interrupt = command.values[first + 4] == 1};
     it.state().units[a].action_isr = byte_at(command, first + 5 + a);
     it.note_enabled(a, IsrMark::kSynchronous, action.interrupt);
-    it.look_again(a);
+    it.rearm(a);
   });
 }
 inline void set_factors(RsM8194h& it, AxisMask triggers, std::uint32_t factors) {
@@ -28,13 +28,13 @@ inline void set_factors(RsM8194h& it, AxisMask triggers, std::uint32_t factors) 
     it.state().sync.triggers[a].factors = static_cast<motion::Events>(factors & 0xFFU);
     it.state().factor_axes[static_cast<std::size_t>(Factor::synchronous)] &=
         static_cast<AxisMask>(~mask_of(a));
-    it.look_again(a);
+    it.rearm(a);
   });
 }
 inline void set_activated(RsM8194h& it, AxisMask triggers, AxisMask activated) {
   for_each_axis(triggers, [&](std::size_t a) {
     it.state().sync.triggers[a].activates = activated;
-    it.look_again(a);
+    it.rearm(a);
   });
 }
 
@@ -58,7 +58,7 @@ inline Took clear_sync_action(RsM8194h& it, const Command& command) {
     });
     trigger = {.activates = keeps_axes ? trigger.activates : AxisMask{0}};
   });
-  for (std::size_t a = 0; a < kAxes; ++a) it.look_again(a);
+  for (std::size_t a = 0; a < kAxes; ++a) it.rearm(a);
   return Took::done;
 }
 inline Took activation_factors(RsM8194h& it, const Command& command) {
@@ -79,7 +79,7 @@ inline Took set_compare(RsM8194h& it, const Command& command) {
     AxisUnit& unit = it.state().units[a];
     unit.compare[command.values[1] & 1U] = {.value = command.signed_value(3), .source = byte_at(command, 2)};
     unit.basic.soft_limits = false;
-    it.look_again(a);
+    it.rearm(a);
   });
   return Took::done;
 }
@@ -116,7 +116,7 @@ inline Took enable_factor(RsM8194h& it, const Command& command) {
     unit.isr_of[factor] = byte_at(command, 2);
     it.note_enabled(a, static_cast<std::uint8_t>(factor), true);
     forget_factor(it, a, factor);
-    it.look_again(a);
+    it.rearm(a);
   });
   return Took::done;
 }
@@ -130,7 +130,7 @@ inline Took disable_factor(RsM8194h& it, const Command& command) {
       it.note_enabled(a, static_cast<std::uint8_t>(factor), false);
       forget_factor(it, a, factor);
     }
-    it.look_again(a);
+    it.rearm(a);
   });
   return Took::done;
 }

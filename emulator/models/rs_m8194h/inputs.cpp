@@ -115,7 +115,7 @@ void RsM8194h::pass_pins(Tick tick) {
 }
 
 /// What the motor meets: where an input changes with the place, zones; else its level.
-void RsM8194h::look_round(std::size_t axis) {
+void RsM8194h::update_environment(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
   const MachineEdges& edges = edges_[axis];
   motion::Environment found;
@@ -151,7 +151,7 @@ void RsM8194h::look_round(std::size_t axis) {
   environment = found;
 }
 
-void RsM8194h::look_again(std::size_t axis) {
+void RsM8194h::rearm(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
   motion::Events asked = state_.sync.triggers[axis].factors;
   constexpr motion::Event kEvents[kIsrFactors] = {motion::Event::pulse,
@@ -172,7 +172,7 @@ void RsM8194h::look_again(std::size_t axis) {
       motion::bit(motion::Event::comparator_0) | motion::bit(motion::Event::comparator_1);
   if (scan.set) asked &= static_cast<motion::Events>(~kOfPlus);
   arm(unit, state_.motors[axis], asked, machine_.axis);
-  look_round(axis);
+  update_environment(axis);
 }
 
 /// More edges in a tick than the chip counts (4 MHz) are the last of them.

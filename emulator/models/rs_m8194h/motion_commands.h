@@ -16,7 +16,7 @@ Took set_counter(RsM8194h& it, const Command& command) {
       set_logic_position(it.state().units[a], it.state().motors[a], command.signed_value(1), ring_folds);
       set_absolute_position(it.state().units[a], it.state().motors[a], command.signed_value(1), ring_folds);
     }
-    it.look_again(a);
+    it.rearm(a);
   });
   return Took::done;
 }
@@ -170,7 +170,7 @@ inline Took line_scan(RsM8194h& it, const Command& command) {
     unit.out.level = static_cast<std::uint8_t>(byte_at(command, 2) ^ (is_turned ? 1U : 0U));
     unit.out.width_code = byte_at(command, 3);
     unit.basic.soft_limits = false;
-    it.look_again(a);
+    it.rearm(a);
   });
   return Took::done;
 }

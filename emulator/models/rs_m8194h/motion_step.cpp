@@ -53,7 +53,7 @@ void RsM8194h::step_axes(Tick tick) {
     state_.units[a].sent_pulses = pulses[a];
     if (!machine_.axis.ring_folds && is_beyond_ring(state_.units[a])) {
       enter_ring(state_.units[a], state_.motors[a]);
-      if (!is_beyond_ring(state_.units[a])) look_again(a);
+      if (!is_beyond_ring(state_.units[a])) rearm(a);
     }
     // It may be back before the path stands.
     if (state_.motors[a].slowing && together.takes(a))
@@ -203,7 +203,7 @@ void RsM8194h::end_scan(std::size_t axis) {
                           .level_before = scan.level_before,
                           .width_before = scan.width_before}
                : LineScan{};
-  look_again(axis);
+  rearm(axis);
 }
 
 void RsM8194h::begin_scans(AxisMask axes) {

@@ -74,7 +74,7 @@ void RsM8194h::blank_module() {
   state_.paused_by = 0;
   state_.queued_triggers.clear();
   state_.trigger_holds = {};
-  for (std::size_t a = 0; a < kAxes; ++a) look_again(a);
+  for (std::size_t a = 0; a < kAxes; ++a) rearm(a);
 }
 
 void RsM8194h::blank() {
@@ -126,7 +126,7 @@ void RsM8194h::power_up() {
   scan_frnet();
   check_triggers(state_.inputs, true);
   for (std::size_t a = 0; a < kAxes; ++a) {
-    look_again(a);
+    rearm(a);
     motion::Axis& motor = state_.motors[a];
     // What is there at power-up is not an edge.
     motor.signals = state_.environment[a].at(motor.travel_pulses);
@@ -192,7 +192,7 @@ void RsM8194h::reset_card() {
     state_.interrupts = interrupts;
     state_.enabled = enabled;
   }
-  for (std::size_t a = 0; a < kAxes; ++a) look_again(a);
+  for (std::size_t a = 0; a < kAxes; ++a) rearm(a);
   constexpr Tick kBooting = 100;
   if (chose(option("reset_card_time", "100ms"))) state_.resetting_until = now() + kBooting;
   const auto clear = [&](std::size_t first, std::size_t count) {
@@ -216,7 +216,7 @@ void RsM8194h::load_initial() {
   for (std::size_t a = 0; a < kAxes; ++a) {
     apply_basic(state_.units[a], state_.motors[a], state_.initial_table[a], machine_.axis);
     set_external(a, motion::ExternalDrive::Mode::off, 0);
-    look_again(a);
+    rearm(a);
   }
 }
 

@@ -70,7 +70,7 @@ inline Took set_basic(RsM8194h& it, const Command& command) {
     // the encoder counts differently from here on
     if (scan.running) scan.begin += it.scan_travel(a) - counted;
     if (command.verb() == Verb::set_slmt) take_comparators(it, it.state().units[a]);
-    it.look_again(a);
+    it.rearm(a);
   });
   if (is_initial) keep_initial_table(it.state().blocks, it.state().initial_table, it.factory_settings());
   return Took::done;

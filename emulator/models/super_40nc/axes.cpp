@@ -212,7 +212,7 @@ void Super40nc::prepare(int axis_number, bool homes) {
   const bool inverted = direction == 3 || direction == 6;
   if (inverted != chip(axis_number).inverted) {
     chip(axis_number).inverted = inverted;
-    look_round(axis_number);
+    update_environment(axis_number);
   }
 }
 
@@ -289,7 +289,7 @@ void Super40nc::let_go(int axis_number) {
   AxisState& state = axis(axis_number);
   const bool looked_for_mark = state.rest.kind == RestKind::mark || state.rest.limits_count;
   take_off(state, MarkEvent::motion_ends);
-  if (looked_for_mark) look_round(axis_number);
+  if (looked_for_mark) update_environment(axis_number);
 }
 
 void Super40nc::stop_axis(int axis_number, Code code) {

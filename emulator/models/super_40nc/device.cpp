@@ -139,7 +139,7 @@ void Super40nc::look_at_inputs() {
     state_.analog[static_cast<std::size_t>(i)] = analog_counts(i);
   }
   state_.emergency = input(kEmergencyTerminal) != 0;
-  for (int number = 0; number < kAxisCount; ++number) look_round(number);
+  for (int number = 0; number < kAxisCount; ++number) update_environment(number);
   see_pins();
   see_first_signals();
   const bool runs = input(kRunSwitch) != 0;

@@ -407,7 +407,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // --- signals.cpp: inputs, limits and what the axes encounter
   void look_at_inputs();
   void see_first_signals();
-  void look_round(int axis_number);
+  void update_environment(int axis_number);
   /// Returns X33 or X34: 0 not in use, 1 NO, 2 NC.
   Value limit_logic(int axis, int direction) const;
   /// Returns true if D8x18 and D8x19 are what acts of X33 and X34.

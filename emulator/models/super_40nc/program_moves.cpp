@@ -84,13 +84,13 @@ bool Super40nc::begin_blind_mark(int axis_number, std::int64_t target_lu, std::i
     return begin_drive(axis_number, target_lu, rpm, mover);
   }
   state.rest.limits_count = true;
-  look_round(axis_number);
+  update_environment(axis_number);
   const bool begins = begin_drive(axis_number, target_lu, rpm, mover);
   if (state.holder == Holder::move) {
     state.rest.limits_count = true;
   } else {
     state.rest = {};
-    look_round(axis_number);
+    update_environment(axis_number);
   }
   return begins;
 }
@@ -101,7 +101,7 @@ bool Super40nc::begin_mark(int axis_number, std::int64_t distance, std::int64_t 
   const Settings settings = registers();
   state.rest = {.kind = RestKind::mark, .marks_positive = search > 0, .rpm = rpm};
   state.mover = mover;
-  look_round(axis_number);
+  update_environment(axis_number);
   prepare(axis_number);
   const motion::SpeedLaw fast = line_law(axis_number, rpm, mover);
   const motion::HomingProgram program = motion::super40nc_mark(

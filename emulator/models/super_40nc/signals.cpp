@@ -25,7 +25,7 @@ Value Super40nc::limit_logic(int axis, int direction) const {
   return registers().of(direction > 0 ? kept_d(8118) : kept_d(8119), axis);
 }
 
-void Super40nc::look_round(int axis_number) {
+void Super40nc::update_environment(int axis_number) {
   const Settings settings = registers();
   const auto limit_level = [&](int direction) -> std::optional<bool> {  // of an active limit, if it is in use
     const Value how = limit_logic(axis_number, direction);
@@ -97,7 +97,7 @@ void Super40nc::see_first_signals() {
 void Super40nc::set_edges(int axis, const MachineEdges& edges) {
   edges_[static_cast<std::size_t>(axis)] = edges;
   // A restored state has seen these already, but not yet the inputs that have changed since the last tick.
-  if (!std::exchange(is_restored_[static_cast<std::size_t>(axis)], false)) look_round(axis);
+  if (!std::exchange(is_restored_[static_cast<std::size_t>(axis)], false)) update_environment(axis);
 }
 
 std::int64_t Super40nc::place_pulses(int axis) const {
@@ -144,7 +144,7 @@ void Super40nc::apply_axis_parameters(int axis_number, int number) {
   const motion::AxisSettings wanted = motor_settings(axis_number);
   if (wanted != chip(axis_number).settings) chip(axis_number).set(wanted);
   set_comparators(axis_number);
-  look_round(axis_number);
+  update_environment(axis_number);
 }
 
 void Super40nc::apply_all_axis_parameters() {

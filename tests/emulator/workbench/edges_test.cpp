@@ -54,7 +54,7 @@ struct Rig {
   explicit Rig(const Setup& setup = {}) : world(bench_of(setup), {}, {}) {
     if (setup.opens) {
       device().state.motors.low_active = 1 << kUpper | 1 << workbench::kLower | 1 << kHome | 1 << kNear;
-      for (std::size_t i = 0; i < kMotorCount; ++i) device().motors().look_round(device(), i);
+      for (std::size_t i = 0; i < kMotorCount; ++i) device().motors().update_environment(device(), i);
     }
     advance(2);
   }

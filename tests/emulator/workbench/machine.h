@@ -47,7 +47,7 @@ class Motors {
   }
 
   /// What a motor meets now: where an input changes with the place, zones; else its level.
-  void look_round(const Device& device, std::size_t number) {
+  void update_environment(const Device& device, std::size_t number) {
     struct Function {
       MotorInput input;
       motion::Signal signal;
@@ -88,7 +88,7 @@ class Motors {
   }
 
   void look_at_inputs(const Device& device) {
-    for (std::size_t i = 0; i < kMotorCount; ++i) look_round(device, i);
+    for (std::size_t i = 0; i < kMotorCount; ++i) update_environment(device, i);
     const std::int32_t turned = difference(device.input(kHandWheel), state.wheel_seen);
     state.wheel_seen = device.input(kHandWheel);
     motion::Axis& axis = state.motors[0].axis;
@@ -99,7 +99,7 @@ class Motors {
 
   void set_edges(const Device& device, std::size_t number, const MachineEdges& edges) {
     edges_[number] = number == kReversed ? edges.reversed() : edges;
-    look_round(device, number);
+    update_environment(device, number);
   }
   std::int64_t place_pulses(std::size_t number) const {
     const std::int64_t travel = state.motors[number].axis.travel_pulses;
