@@ -395,7 +395,7 @@ struct alignas(64) Axis {
 
   // Inside a tick.
   // `direction`: direction in which the axis came here; 0: it has not moved
-  void meet(const Environment& environment, Instant at, int direction);
+  void update_signals(const Environment& environment, Instant at, int direction);
   void see(Signals now_on, Instant at);
   void compare(Count count, std::int64_t value, Instant at, int direction);
   void watch(const Environment& environment);

@@ -38,7 +38,7 @@ bool Axis::follow_quietly(const Environment& environment, QuietTick& quiet) {
 }
 
 /// Handles everything that depends on the position, at the position that the axis has reached.
-void Axis::meet(const Environment& environment, Instant at, int direction) {
+void Axis::update_signals(const Environment& environment, Instant at, int direction) {
   know_encoder(environment);
   compare(Count::command, travel_pulses, at, direction);
   follow_encoder_count(at);

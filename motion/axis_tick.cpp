@@ -46,7 +46,7 @@ AxisTick::AxisTick(Axis& axis, const Environment& environment, Tick tick, std::o
   }
   axis_.seen_version = environment.version;
   axis_.attentive = false;
-  axis_.meet(environment, at_, 0);
+  axis_.update_signals(environment, at_, 0);
   const bool is_carried = axis_.task == Task::following || (carried && axis_.task == Task::coordinated);
   if (!is_carried) return;
   carried_by_ = axis_.task;
@@ -156,7 +156,7 @@ void AxisTick::look() {
   next_ = What::unknown;
   switch (what) {
     case What::unknown: break;
-    case What::again: axis_.meet(here_, at_, 0); break;
+    case What::again: axis_.update_signals(here_, at_, 0); break;
     case What::edge: go_to_edge(); break;
     case What::backlash_ends: end_backlash(); break;
     case What::drive_ends: end_drive(); break;
@@ -196,7 +196,7 @@ void AxisTick::go_to_edge() {
   axis_.travel_pulses = edge;
   axis_.look_at_speed(sent_before, at_, moment_);
   at_ = moment_;
-  axis_.meet(here_, at_, static_cast<int>(drive.direction));
+  axis_.update_signals(here_, at_, static_cast<int>(drive.direction));
 }
 
 /// Sends the last of the backlash, and begins the motion itself, at that moment.
@@ -273,7 +273,7 @@ bool AxisTick::sets_out(int direction, Instant at) {
 void AxisTick::go_on_carried(std::int64_t pulses, Instant at) {
   axis_.travel_pulses += pulses;
   axis_.base_pulses = axis_.travel_pulses;
-  axis_.meet(here_, at, pulses < 0 ? -1 : +1);
+  axis_.update_signals(here_, at, pulses < 0 ? -1 : +1);
 }
 
 void AxisTick::go_by(std::int64_t pulses, Instant at) {

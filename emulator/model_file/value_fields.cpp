@@ -176,14 +176,14 @@ class BindingCheck {
     return std::find(made_.momentary.begin(), made_.momentary.end(), spot.number) != made_.momentary.end();
   }
 
-  static bool meet(const Spot& a, const Spot& b) {
+  static bool overlap(const Spot& a, const Spot& b) {
     return a.is_whole() || b.is_whole() || (a.bit < b.bit + b.width && b.bit < a.bit + a.width);
   }
 
   void check_output(const YamlFields& field, const Spot& spot) const {
     if (made_.registers[spot.number].access != Access::read) return;
     for (const ShownPart& part : shown_[spot.number]) {
-      if (meet(spot, part.spot)) return;
+      if (overlap(spot, part.spot)) return;
     }
     field.fail(understudy::quoted(field.text()) +
                " never changes; expected a register that hosts write, or that shows a value");
@@ -194,7 +194,7 @@ class BindingCheck {
     const std::string& name = made_.registers[spot.number].name;
     for (const ShownPart& part : shown_[spot.number]) {
       if (is_level(command) && part.what == ShownPart::What::input) continue;
-      if (!meet(spot, part.spot)) continue;
+      if (!overlap(spot, part.spot)) continue;
       field.fail(understudy::quoted(name) + " shows a value there; expected a register that hosts write" +
                  (is_level(command) ? ", or an input" : ""));
     }

@@ -32,7 +32,7 @@ std::vector<std::vector<ShownPart>> shown_parts(const Description& description) 
 
 namespace {
 
-bool meet(const Spot& a, const Spot& b) {
+bool overlap(const Spot& a, const Spot& b) {
   return a.is_whole() || b.is_whole() || (a.bit < b.bit + b.width && b.bit < a.bit + a.width);
 }
 
@@ -44,7 +44,7 @@ bool moves(const Description& description, const std::vector<std::vector<ShownPa
     return side.spot && moves(description, shown, *side.spot);
   };
   return std::any_of(shown[spot.number].begin(), shown[spot.number].end(), [&](const ShownPart& part) {
-    if (!meet(part.spot, spot)) return false;
+    if (!overlap(part.spot, spot)) return false;
     switch (part.what) {
       case ShownPart::What::axis: return changes_of(part.view) == Varies::while_moving;
       case ShownPart::What::input: return false;      // a tick is run for it

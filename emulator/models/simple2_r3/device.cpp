@@ -249,7 +249,7 @@ void Simple2R3::step_motion(Tick tick) {
     if (alarm_takes_servo_ && axis.motor.servo_on && alarm(number)) switch_servo(number, false);
     if (state_.touched || alarm_latches_) {
       apply_servo_state(number);
-      meet(number, signals_of(number));
+      apply_signals(number, signals_of(number));
     }
     const std::int64_t commanded = step_drive(axis, drive_settings(number), tick);
     const bool reversed = state_.image[slots.direction_polarity] != 0;

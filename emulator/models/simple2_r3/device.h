@@ -304,8 +304,8 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   /// Checks again whether SVOFF forbids pulses.
   void apply_servo_state(int axis_number);
   /// Sets the axis's limits and alarm, and handles the changes.
-  void meet(int axis_number, motion::Signals on);
-  void meet_in_sync(int axis_number, Outcome outcome);
+  void apply_signals(int axis_number, motion::Signals on);
+  void handle_in_sync(int axis_number, Outcome outcome);
   bool ignores(motion::Signal signal) const;
   void begin_following(int axis_number);
   motion::Follower sync_follower(int axis_number) const;

@@ -63,7 +63,7 @@ Outcome Simple2R3::reaction(int axis_number, Event event) const {
   return row->outcome;
 }
 
-void Simple2R3::meet(int axis_number, motion::Signals on) {
+void Simple2R3::apply_signals(int axis_number, motion::Signals on) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   if (on == axis.signals.steady) return;
   const auto changed = static_cast<motion::Signals>(on ^ axis.signals.steady);
@@ -80,7 +80,7 @@ void Simple2R3::meet(int axis_number, motion::Signals on) {
       case Mode::position: break;
       case Mode::velocity: meet_in_velocity(axis, outcome); break;
       case Mode::pwm: meet_in_pwm(axis, outcome); break;
-      case Mode::sync: meet_in_sync(axis_number, outcome); break;
+      case Mode::sync: handle_in_sync(axis_number, outcome); break;
     }
   }
   axis.motor.signals = on;
@@ -89,7 +89,7 @@ void Simple2R3::meet(int axis_number, motion::Signals on) {
   if (axis.motor.drive.direction != heading(axis)) axis.motor.drive.direction = 0;
 }
 
-void Simple2R3::meet_in_sync(int axis_number, Outcome outcome) {
+void Simple2R3::handle_in_sync(int axis_number, Outcome outcome) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   switch (outcome) {
     case Outcome::blocked: return keep_following(axis);
@@ -119,7 +119,7 @@ bool Simple2R3::ignores(motion::Signal signal) const {
 void Simple2R3::refresh_signals(int axis_number) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   apply_servo_state(axis_number);
-  meet(axis_number, signals_of(axis_number));
+  apply_signals(axis_number, signals_of(axis_number));
   // A homing that goes on has yet to see its edges.
   if (!axis.motor.homing.active()) axis.motor.signals = axis.signals.steady;
 }

@@ -92,13 +92,13 @@ std::optional<ManualMotion> Super40nc::manual_motion(int axis_number) const {
   return state.wheel == WheelSource::selector ? ManualMotion::selected_wheel : ManualMotion::wheel;
 }
 
-void Super40nc::meet(int axis, ManualEvent event, Code code) {
+void Super40nc::handle(int axis, ManualEvent event, Code code) {
   const std::optional<ManualMotion> motion = manual_motion(axis);
-  if (motion) meet(axis, *motion, event, code);
+  if (motion) handle(axis, *motion, event, code);
 }
 
 /// Applies the table of manual_motions.h.
-void Super40nc::meet(int axis, ManualMotion motion, ManualEvent event, Code code) {
+void Super40nc::handle(int axis, ManualMotion motion, ManualEvent event, Code code) {
   switch (answer_of(motion, event)) {
     case ManualAnswer::goes_on: break;
     case ManualAnswer::slows:
@@ -143,7 +143,7 @@ void Super40nc::obey_stops() {
     if (is_new) report(code);
     for (int number = 0; number < kAxisCount; ++number) {
       if (axis(number).holder == Holder::nobody) continue;
-      manual_motion(number) ? meet(number, ManualEvent::emergency, code) : stop_axis(number, code);
+      manual_motion(number) ? handle(number, ManualEvent::emergency, code) : stop_axis(number, code);
       if (code == Code::emergency_input) axis(number).has_error = true;
       give_erc_behind(number, code);
     }
@@ -162,7 +162,7 @@ void Super40nc::obey_stops() {
     set_contact(of_axis(number, kRun), false);  // also cancels a start in the same scan
   }
   if (is_pressed(KeyDoes::stop_c, -1)) {
-    for (int number = 0; number < kAxisCount; ++number) meet(number, ManualEvent::main_stop);
+    for (int number = 0; number < kAxisCount; ++number) handle(number, ManualEvent::main_stop);
     give_up_orders();
     tell(Event::stop, Area::c);
     set_contact(8000, false);
@@ -218,7 +218,7 @@ void Super40nc::obey_jogs(int axis) {
     if (asks && !is_inhibited(axis)) start_jog(axis, direction, &AxisState::asked_by_contact);
   }
   const int contact = of_axis(axis, chip(axis).last_direction > 0 ? kJogPlus : kJogMinus);
-  if (!is_on(contact)) meet(axis, ManualMotion::jog, ManualEvent::contact_off);
+  if (!is_on(contact)) handle(axis, ManualMotion::jog, ManualEvent::contact_off);
 }
 
 void Super40nc::obey_wheel() {
@@ -227,7 +227,7 @@ void Super40nc::obey_wheel() {
       const int contact = of_axis(number, kWheelContacts[i]);
       const bool asks = rises(contact) || is_level_again(number, contact);
       if (asks && !is_inhibited(number)) start_wheel(number, kWheelSources[i]);
-      if (axis(number).wheel == kWheelSources[i] && !is_on(contact)) meet(number, ManualEvent::contact_off);
+      if (axis(number).wheel == kWheelSources[i] && !is_on(contact)) handle(number, ManualEvent::contact_off);
     }
   }
   if (!state_.wheel_selected) return;
@@ -235,7 +235,7 @@ void Super40nc::obey_wheel() {
   const std::int32_t selected = registers().raw(kept_d(8020)) - 1;
   for (int number = 0; number < kAxisCount; ++number) {
     const bool is_left = number != selected && axis(number).wheel == WheelSource::selector;
-    if (is_left) meet(number, ManualEvent::contact_off);
+    if (is_left) handle(number, ManualEvent::contact_off);
   }
   if (selected >= 0 && selected < kAxisCount && !is_inhibited(selected) && !is_wheel_locked(selected)) {
     start_wheel(selected, WheelSource::selector);

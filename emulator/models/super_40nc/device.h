@@ -195,8 +195,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// Returns the motion by hand, or nothing if a program's line waits for the axis.
   std::optional<ManualMotion> manual_motion(int axis_number) const;
   /// Handles an event by the table in manual_motions.h.
-  void meet(int axis, ManualEvent event, Code code = Code::none);
-  void meet(int axis, ManualMotion motion, ManualEvent event, Code code = Code::none);
+  void handle(int axis, ManualEvent event, Code code = Code::none);
+  void handle(int axis, ManualMotion motion, ManualEvent event, Code code = Code::none);
   Grant ask(int axis_number, Request request);
   /// Looks up the table of ownership.h, under the chosen option.
   Grant granted(Holder holder, Request request) const { return grant(holder, request, lines_wait_); }

@@ -72,7 +72,7 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
     const int of_both = stops_both ? 0 : running;
     const int direction = positive && negative ? of_both : positive ? +1 : negative ? -1 : 0;
     if (running != 0 && running != direction) {
-      device_.meet(axis, ManualMotion::plc_jog, ManualEvent::contact_off);
+      device_.handle(axis, ManualMotion::plc_jog, ManualEvent::contact_off);
     }
     const bool is_new =
         direction != 0 && (direction != state.plc_jog_direction || device_.acts_behind_reset(axis));

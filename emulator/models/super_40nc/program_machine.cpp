@@ -278,7 +278,7 @@ language::Areas ProgramMachine::stop(Area area) {
   language::Areas lost = 0;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     if (device_.manual_motion(axis) && (area == Area::c || language::axis_of(area) == axis)) {
-      device_.meet(axis, area == Area::c ? ManualEvent::stop_of_c : ManualEvent::stop);
+      device_.handle(axis, area == Area::c ? ManualEvent::stop_of_c : ManualEvent::stop);
       continue;
     }
     const AxisState& state = device_.axis(axis);

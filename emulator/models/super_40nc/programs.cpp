@@ -247,7 +247,7 @@ void Super40nc::plc_to_run() {
 void Super40nc::plc_to_stop() {
   ProgramMachine machine(*this);
   language::stop(state_.plc, machine);
-  for (int number = 0; number < kAxisCount; ++number) meet(number, ManualEvent::plc_stop);
+  for (int number = 0; number < kAxisCount; ++number) handle(number, ManualEvent::plc_stop);
   if (chose(option("plc_stop_timers", "are_cleared"))) clear_timers();
   if (!chose(option("plc_stop_outputs", "off"))) return;
   const std::span outputs = std::span(state_.image).subspan(kept_y(0).slot, kOutputCount);
