@@ -39,16 +39,16 @@ constexpr std::array<std::array<Answer, kDoings>, kCommands> kAnswers{{
 
 }  // namespace
 
-Doing doing_of(const AxisState& axis) {
+Activity activity_of(const AxisState& axis) {
   const motion::Axis& motor = axis.motor;
-  if (motor.homing.active()) return Doing::homes;
-  if (motor.task == motion::Task::none) return Doing::rests;
-  if (motor.slowing && !motor.comes_back) return Doing::stops;
-  return motor.task == motion::Task::endless ? Doing::runs : Doing::moves;
+  if (motor.homing.active()) return Activity::homes;
+  if (motor.task == motion::Task::none) return Activity::rests;
+  if (motor.slowing && !motor.comes_back) return Activity::stops;
+  return motor.task == motion::Task::endless ? Activity::runs : Activity::moves;
 }
 
-Answer answer_to(Command command, Doing doing, WhileBusy while_busy) {
-  const Answer answer = kAnswers[static_cast<std::size_t>(command)][static_cast<std::size_t>(doing)];
+Answer answer_to(Command command, Activity activity, WhileBusy while_busy) {
+  const Answer answer = kAnswers[static_cast<std::size_t>(command)][static_cast<std::size_t>(activity)];
   return answer == join && while_busy != WhileBusy::replace ? nothing : answer;
 }
 
@@ -122,7 +122,7 @@ void go_home(AxisState& axis, const AxisBinding& binding, const AxisNumbers& num
 
 void obey(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers,
           Tick now) {
-  const Answer answer = answer_to(command, doing_of(axis), binding.while_busy);
+  const Answer answer = answer_to(command, activity_of(axis), binding.while_busy);
   const bool is_stop = command == Command::stop || command == Command::stop_at_once;
   if (is_stop) axis.direction_is_spent = true;
   switch (answer) {
@@ -151,8 +151,8 @@ void steer(AxisState& axis, int direction, const AxisNumbers& numbers, Tick now)
   const double top = std::abs(speed);
   int wanted = axis.direction_is_spent || top == 0 ? 0 : direction;
   if (speed < 0) wanted = -wanted;
-  const Doing doing = doing_of(axis);
-  if (doing == Doing::rests) {
+  const Activity activity = activity_of(axis);
+  if (activity == Activity::rests) {
     if (wanted == 0) return;
     axis.arrived = false;
     axis.run_pps = top;
@@ -160,9 +160,9 @@ void steer(AxisState& axis, int direction, const AxisNumbers& numbers, Tick now)
     axis.direction_is_spent = axis.motor.run(wanted, numbers.law(top), now) != motion::Cause::none;
     return;
   }
-  if (axis.motor.task != motion::Task::endless || doing == Doing::homes) return;
+  if (axis.motor.task != motion::Task::endless || activity == Activity::homes) return;
   if (wanted != axis.motor.drive.direction) return axis.motor.slow_down(now);  // and then the other way
-  if (doing == Doing::stops) {
+  if (activity == Activity::stops) {
     if (axis.motor.resume(numbers.law(top), now)) axis.run_pps = top;
   } else if (top != axis.run_pps) {
     axis.motor.change_speed(numbers.law(top), now);

@@ -32,7 +32,7 @@ struct AxisState {
   bool operator==(const AxisState&) const = default;
 };
 
-enum class Doing : std::uint8_t { rests, moves, runs, homes, stops };
+enum class Activity : std::uint8_t { rests, moves, runs, homes, stops };
 inline constexpr std::size_t kDoings = 5;
 enum class Answer : std::uint8_t {
   nothing,
@@ -41,9 +41,9 @@ enum class Answer : std::uint8_t {
   slow_down,
   halt,  // stops at once
 };
-Doing doing_of(const AxisState& axis);
+Activity activity_of(const AxisState& axis);
 /// Returns the answer to a command that acts at one moment, and to the loss of `enable`.
-Answer answer_to(Command command, Doing doing, WhileBusy while_busy);
+Answer answer_to(Command command, Activity activity, WhileBusy while_busy);
 
 /// Returns the present number of a quantity, in counts.
 using CountsOf = std::function<double(const Quantity& quantity)>;

@@ -137,7 +137,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   /// Executes a command now, or returns that it has to wait.
   Took carry_out(const lang::Command& command) override;
 
-  Going going(std::size_t axis) const;
+  Activity activity(std::size_t axis) const;
   bool is_driving(std::size_t axis) const;
   std::uint16_t error_code(std::size_t axis) const;
   AxisMask driving() const;

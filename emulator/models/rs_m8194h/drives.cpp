@@ -49,14 +49,14 @@ motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules, c
 
 }  // namespace
 
-Going RsM8194h::going(std::size_t axis) const {
+Activity RsM8194h::activity(std::size_t axis) const {
   const motion::Axis& motor = state_.motors[axis];
-  if (motor.homing.active()) return Going::homing;
-  if (state_.paths.together.takes(axis)) return Going::path;
-  return motor.moving() ? Going::single : Going::idle;
+  if (motor.homing.active()) return Activity::homing;
+  if (state_.paths.together.takes(axis)) return Activity::path;
+  return motor.moving() ? Activity::single : Activity::idle;
 }
 
-bool RsM8194h::is_driving(std::size_t axis) const { return going(axis) != Going::idle; }
+bool RsM8194h::is_driving(std::size_t axis) const { return activity(axis) != Activity::idle; }
 
 /// ERROR_CODE as it is read.
 std::uint16_t RsM8194h::error_code(std::size_t axis) const {
@@ -114,11 +114,11 @@ Start RsM8194h::may_start(std::size_t axis, Starter who, bool on_path) const {
       chose(option("exd_and_drives", "are_void"))) {
     return Start::is_void;
   }
-  const Going going_now = going(axis);
-  const GoingRow& row = kGoingRows[static_cast<std::size_t>(going_now)];
+  const Activity activity_now = activity(axis);
+  const ActivityRow& row = kActivityRows[static_cast<std::size_t>(activity_now)];
   const Start outcome = by_command ? row.command : row.external;
   if (outcome != Start::waits) return outcome == Start::starts ? held : outcome;
-  const bool in_stream = going_now == Going::path && state_.paths.runs == Paths::Runs::stream;
+  const bool in_stream = activity_now == Activity::path && state_.paths.runs == Paths::Runs::stream;
   const bool is_void = (in_stream && chose(option("drive_in_open_stream", "is_void"))) ||
                        (!in_stream && chose(option("drive_of_moving_axis", "is_void")));
   return is_void ? Start::is_void : Start::waits;
@@ -169,7 +169,7 @@ bool RsM8194h::holds_a_drive(AxisMask axes) const {
 /// By choice, CONTINUE_MOVE goes on at another speed, or, the other way, behind a stop. Whether it does.
 bool RsM8194h::takes_place_of_endless(std::size_t axis, const Drive& what) {
   motion::Axis& motor = state_.motors[axis];
-  const bool is_again = what.what == Drive::What::endless && going(axis) == Going::single &&
+  const bool is_again = what.what == Drive::What::endless && activity(axis) == Activity::single &&
                         motor.task == motion::Task::endless;
   if (!is_again || !chose(option("continue_move_again", "takes_its_place"))) return false;
   const bool is_same_direction =

@@ -228,7 +228,7 @@ void RsM8194h::watch_external(std::size_t axis, Tick tick) {
 bool RsM8194h::is_free_for_external(std::size_t axis, std::int64_t at_ns) const {
   const AxisUnit& unit = state_.units[axis];
   const motion::Axis& motor = state_.motors[axis];
-  const bool is_its = unit.external_free_ns != 0 && going(axis) == Going::single;
+  const bool is_its = unit.external_free_ns != 0 && activity(axis) == Activity::single;
   return is_its && !motor.slowing && !motor.settling && at_ns >= unit.external_free_ns;
 }
 
@@ -237,7 +237,7 @@ void RsM8194h::obey_external(std::size_t axis, const motion::DriveOrder& order, 
   AxisUnit& unit = state_.units[axis];
   if (order.what == What::nothing) return;
   if (order.what == What::slow_down) {
-    if (going(axis) == Going::single) state_.motors[axis].slow_down(now());
+    if (activity(axis) == Activity::single) state_.motors[axis].slow_down(now());
     return;
   }
   const bool waits = order.what == What::move && is_free_for_external(axis, at_ns);
@@ -270,7 +270,7 @@ bool RsM8194h::start_external(std::size_t axis, const motion::DriveOrder& order)
          .value = is_run ? order.direction * speed : static_cast<std::int32_t>(order.pulses)},
         chose(option("exd_speed", "v_without_ramps")));
   unit.speed.drive_pps = drive_pps;
-  const bool has_begun = going(axis) == Going::single;
+  const bool has_begun = activity(axis) == Activity::single;
   if (is_run && has_begun) unit.external.running = order.direction;
   return has_begun;
 }
@@ -307,7 +307,7 @@ void RsM8194h::set_external(std::size_t axis, motion::ExternalDrive::Mode mode, 
     return;
   }
   unit.external.running = 0;
-  const bool ends = going(axis) == Going::single && chose(option("exd_disable", "slows_down"));
+  const bool ends = activity(axis) == Activity::single && chose(option("exd_disable", "slows_down"));
   if (ends) motor.slow_down(now());
 }
 

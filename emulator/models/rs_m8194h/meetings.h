@@ -14,8 +14,8 @@ namespace understudy::emulator::models::rs_m8194h {
 namespace lang = interpreter::rs_m8194h;
 
 /// The activity of an axis.
-enum class Going : std::uint8_t { idle, single, path, homing };
-inline constexpr std::size_t kGoings = 4;
+enum class Activity : std::uint8_t { idle, single, path, homing };
+inline constexpr std::size_t kActivities = 4;
 
 // --- starting: the rows are checked in order, and the first that applies decides ---------------------------
 
@@ -57,16 +57,16 @@ inline constexpr std::array<ObstacleRow, kObstacles> kObstacleRows{{
 }};
 
 /// What a start does without obstacles.
-struct GoingRow {
-  Going going;
+struct ActivityRow {
+  Activity activity;
   Start command;
   Start external;
 };
-inline constexpr std::array<GoingRow, kGoings> kGoingRows{{
-    {Going::idle, Start::starts, Start::starts},
-    {Going::single, Start::waits, Start::is_void},
-    {Going::path, Start::waits, Start::is_void},
-    {Going::homing, Start::waits, Start::is_void},
+inline constexpr std::array<ActivityRow, kActivities> kActivityRows{{
+    {Activity::idle, Start::starts, Start::starts},
+    {Activity::single, Start::waits, Start::is_void},
+    {Activity::path, Start::waits, Start::is_void},
+    {Activity::homing, Start::waits, Start::is_void},
 }};
 
 // --- stopping ----------------------------------------------------------------------------------------------
@@ -75,10 +75,10 @@ enum class Halt : std::uint8_t { goes_on, slows, stops };
 
 struct StopRow {
   lang::Verb verb;
-  std::uint8_t type;                // stopType of EMERGENCY_STOP, else 0
-  std::array<Halt, kGoings> halts;  // by Going; a path slows or stops with all its axes
-  bool locks;                       // sets lock L
-  bool locks_path;                  // sets lock V
+  std::uint8_t type;                    // stopType of EMERGENCY_STOP, else 0
+  std::array<Halt, kActivities> halts;  // by Going; a path slows or stops with all its axes
+  bool locks;                           // sets lock L
+  bool locks_path;                      // sets lock V
   bool drops_held_drive;
   bool drops_hold;
   ErrorBit error;

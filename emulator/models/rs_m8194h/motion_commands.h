@@ -112,7 +112,7 @@ Took drive(RsM8194h& it, const Command& command) {
 inline Took set_pulse(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     motion::Axis& motor = it.state().motors[a];
-    if (it.going(a) != Going::single || motor.task != motion::Task::move) {
+    if (it.activity(a) != Activity::single || motor.task != motion::Task::move) {
       if (it.chose(option("set_pulse_at_rest", "raises_rint_bit_7"))) it.module_error();
       return;
     }

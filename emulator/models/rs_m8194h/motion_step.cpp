@@ -143,7 +143,7 @@ void RsM8194h::change_speed(std::size_t axis, motion::Instant at) {
   const AxisUnit& unit = state_.units[axis];
   const bool keeps_its_own =
       kNormalShapes[unit.speed.mode].s_curve && chose(option("speed_change_in_s", "the_next_drive"));
-  if (going(axis) != Going::single || keeps_its_own) return;
+  if (activity(axis) != Activity::single || keeps_its_own) return;
   motion::Axis& motor = state_.motors[axis];
   // The ramps are those of the drive.
   motion::SpeedLaw law = motor.law;

@@ -98,11 +98,11 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
     if (!has(axes, a)) continue;
     AxisUnit& unit = state_.units[a];
     motion::Axis& motor = state_.motors[a];
-    const Going going_now = going(a);
-    const Halt halt = row.halts[static_cast<std::size_t>(going_now)];
-    if (halt != Halt::goes_on && going_now == Going::path && leaves_others) {
+    const Activity activity_now = activity(a);
+    const Halt halt = row.halts[static_cast<std::size_t>(activity_now)];
+    if (halt != Halt::goes_on && activity_now == Activity::path && leaves_others) {
       leave_path(a, halt);
-    } else if (halt != Halt::goes_on && going_now == Going::path) {
+    } else if (halt != Halt::goes_on && activity_now == Activity::path) {
       if (halt == Halt::slows) {
         slow_path(now());
       } else {
@@ -116,10 +116,10 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
     }
     if (paths.open && !paths.together.engaged && has(paths.axes, a)) break_off_stream();
     take_off(a, way);
-    if (row.locks && halt != Halt::goes_on && going_now == Going::path && locks_whole_path) {
+    if (row.locks && halt != Halt::goes_on && activity_now == Activity::path && locks_whole_path) {
       locked_with_it |= paths.axes;
     }
-    const bool stands = going_now == Going::idle && unit.held_drive.what == Drive::What::none;
+    const bool stands = activity_now == Activity::idle && unit.held_drive.what == Drive::What::none;
     if (row.locks && stands && chose(option("stop_of_idle_axis", "nothing"))) continue;
     unit.locked = unit.locked || row.locks;
     unit.path_locked = unit.path_locked || row.locks_path;

@@ -146,7 +146,7 @@ void RsM8194h::pause_motion() {
   for (std::size_t a = 0; a < kAxes; ++a) {
     motion::Axis& motor = state_.motors[a];
     AxisUnit& unit = state_.units[a];
-    if (going(a) != Going::single || motor.slowing) continue;
+    if (activity(a) != Activity::single || motor.slowing) continue;
     const bool is_endless = motor.task == motion::Task::endless;
     const double speed_pps = motor.law.top_speed_u_s * static_cast<double>(motor.drive.direction);
     unit.paused_drive = {.what = is_endless ? Drive::What::endless : Drive::What::fixed,

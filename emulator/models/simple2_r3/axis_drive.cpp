@@ -113,14 +113,14 @@ void prefetch(const AxisState& axis, Tick tick) {
   prefetch_line(&axis.encoder_history[ring_place(tick)]);
 }
 
-Doing doing(const AxisState& axis) {
+Activity activity(const AxisState& axis) {
   switch (axis.mode) {
-    case Mode::position: return axis.command == Command::homing ? Doing::homing : Doing::position;
-    case Mode::velocity: return Doing::velocity;
-    case Mode::pwm: return Doing::pwm;
-    case Mode::sync: return Doing::sync;
+    case Mode::position: return axis.command == Command::homing ? Activity::homing : Activity::position;
+    case Mode::velocity: return Activity::velocity;
+    case Mode::pwm: return Activity::pwm;
+    case Mode::sync: return Activity::sync;
   }
-  return Doing::position;
+  return Activity::position;
 }
 
 int heading(const AxisState& axis) {

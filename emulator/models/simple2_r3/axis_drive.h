@@ -89,7 +89,7 @@ inline std::size_t ring_place(Tick tick) {
 void prefetch(const AxisState& axis, Tick tick);
 
 /// Return what the axis does, in which direction (0: none) and in which phase. The caller checks servo_off.
-Doing doing(const AxisState& axis);
+Activity activity(const AxisState& axis);
 int heading(const AxisState& axis);
 Phase phase_of(const AxisState& axis, Tick now);
 

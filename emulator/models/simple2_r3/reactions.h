@@ -14,8 +14,8 @@
 namespace understudy::emulator::models::simple2_r3 {
 
 /// The modes of Axis_Mode; homing is separate from the other motions of position mode.
-enum class Doing : std::uint8_t { position, homing, velocity, pwm, sync };
-inline constexpr int kDoings = 5;
+enum class Activity : std::uint8_t { position, homing, velocity, pwm, sync };
+inline constexpr int kActivities = 5;
 
 enum class Phase : std::uint8_t {
   standing,   // no pulses; PWM: 0 percent
@@ -90,7 +90,7 @@ constexpr bool has(Set set, T member) {
 }
 
 struct ReactionRow {
-  Set doings, phases, events;
+  Set activities, phases, events;
   Outcome outcome;
   /// The manual's section, or the choice, on which the cell is based.
   std::string_view source;
@@ -103,12 +103,12 @@ using enum Phase;
 using enum Outcome;
 using E = Event;
 
-inline constexpr Set kPositioning = set_of(Doing::position, Doing::homing);
-inline constexpr Set kVelocity = set_of(Doing::velocity);
-inline constexpr Set kPwm = set_of(Doing::pwm);
-inline constexpr Set kSync = set_of(Doing::sync);
-inline constexpr Set kPosition = set_of(Doing::position);
-inline constexpr Set kHoming = set_of(Doing::homing);
+inline constexpr Set kPositioning = set_of(Activity::position, Activity::homing);
+inline constexpr Set kVelocity = set_of(Activity::velocity);
+inline constexpr Set kPwm = set_of(Activity::pwm);
+inline constexpr Set kSync = set_of(Activity::sync);
+inline constexpr Set kPosition = set_of(Activity::position);
+inline constexpr Set kHoming = set_of(Activity::homing);
 inline constexpr Set kOthers = kVelocity | kPwm | kSync;
 inline constexpr Set kAny = kPositioning | kOthers;
 
@@ -258,14 +258,14 @@ inline constexpr ReactionRow kRows[] = {
 }  // namespace reactions
 
 /// Returns true if a mode has this phase.
-constexpr bool is_phase_of(Doing doing, Phase phase) {
+constexpr bool is_phase_of(Activity activity, Phase phase) {
   using enum Phase;
-  switch (doing) {
-    case Doing::position: return phase != turning;
-    case Doing::homing: return has(set_of(moving, slowing, leaving), phase);
-    case Doing::velocity: return true;
-    case Doing::pwm: return has(set_of(standing, moving, at_limit, in_alarm, servo_off), phase);
-    case Doing::sync: return has(set_of(standing, moving, slowing, leaving, at_limit, in_alarm), phase);
+  switch (activity) {
+    case Activity::position: return phase != turning;
+    case Activity::homing: return has(set_of(moving, slowing, leaving), phase);
+    case Activity::velocity: return true;
+    case Activity::pwm: return has(set_of(standing, moving, at_limit, in_alarm, servo_off), phase);
+    case Activity::sync: return has(set_of(standing, moving, slowing, leaving, at_limit, in_alarm), phase);
   }
   return false;
 }
@@ -300,16 +300,16 @@ inline constexpr std::uint8_t kNoRow = 255;
 
 /// The row of each cell; kNoRow if it has none, 254 if it has several.
 inline constexpr auto kReactionOfCell = [] {
-  std::array<std::array<std::array<std::uint8_t, kEvents>, kPhases>, kDoings> cells{};
+  std::array<std::array<std::array<std::uint8_t, kEvents>, kPhases>, kActivities> cells{};
   for (auto& phases : cells) {
     for (auto& events : phases) events.fill(kNoRow);
   }
   for (std::size_t i = 0; i < std::size(reactions::kRows); ++i) {
-    for (std::size_t d = 0; d < kDoings; ++d) {
+    for (std::size_t d = 0; d < kActivities; ++d) {
       for (std::size_t p = 0; p < kPhases; ++p) {
         for (std::size_t e = 0; e < kEvents; ++e) {
           const ReactionRow& row = reactions::kRows[i];
-          if (!has(row.doings, d) || !has(row.phases, p) || !has(row.events, e)) continue;
+          if (!has(row.activities, d) || !has(row.phases, p) || !has(row.events, e)) continue;
           std::uint8_t& cell = cells[d][p][e];
           cell = cell == kNoRow ? static_cast<std::uint8_t>(i) : std::uint8_t{254};
         }
@@ -321,10 +321,10 @@ inline constexpr auto kReactionOfCell = [] {
 
 static_assert(
     [] {
-      for (int d = 0; d < kDoings; ++d) {
+      for (int d = 0; d < kActivities; ++d) {
         for (int p = 0; p < kPhases; ++p) {
           for (int e = 0; e < kEvents; ++e) {
-            const bool there = is_phase_of(Doing(d), Phase(p)) && can_come(Phase(p), Event(e));
+            const bool there = is_phase_of(Activity(d), Phase(p)) && can_come(Phase(p), Event(e));
             if (there && kReactionOfCell[d][p][e] >= 254) return false;
           }
         }
@@ -333,9 +333,9 @@ static_assert(
     }(),
     "each cell that there is has one row");
 
-constexpr const ReactionRow* reaction_row(Doing doing, Phase phase, Event event) {
-  const std::uint8_t row = kReactionOfCell[static_cast<std::size_t>(doing)][static_cast<std::size_t>(phase)]
-                                          [static_cast<std::size_t>(event)];
+constexpr const ReactionRow* reaction_row(Activity activity, Phase phase, Event event) {
+  const std::uint8_t row = kReactionOfCell[static_cast<std::size_t>(activity)]
+                                          [static_cast<std::size_t>(phase)][static_cast<std::size_t>(event)];
   return row == kNoRow ? nullptr : &reactions::kRows[row];
 }
 

@@ -55,7 +55,7 @@ Outcome Simple2R3::reaction(int axis_number, Event event) const {
                            !(has(reactions::kDuties, event) && chose(reactions::kPwmNeedsNoServo));
   const bool is_held = needs_servo && lacks_servo(axis_number);
   const ReactionRow* row =
-      reaction_row(doing(axis), is_held ? Phase::servo_off : phase_of(axis, now()), event);
+      reaction_row(activity(axis), is_held ? Phase::servo_off : phase_of(axis, now()), event);
   if (row == nullptr) return Outcome::goes_on;
   for (const OtherOutcome& other : {row->other, row->another}) {
     if (other.is_there && chose(other.chosen)) return other.outcome;

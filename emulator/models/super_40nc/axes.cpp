@@ -216,9 +216,9 @@ void Super40nc::prepare(int axis_number, bool homes) {
   }
 }
 
-void Super40nc::begun(int axis_number, motion::Cause why_not, Holder holder) {
+void Super40nc::begun(int axis_number, motion::Cause why_not, Activity holder) {
   AxisState& state = axis(axis_number);
-  if (why_not == motion::Cause::none && holder != Holder::home) {
+  if (why_not == motion::Cause::none && holder != Activity::home) {
     why_not = blocked_both_ways(axis_number);
     if (why_not != motion::Cause::none) {
       chip(axis_number).stop(why_not);
@@ -250,7 +250,7 @@ void Super40nc::change_jog_speed() {
   for (int number = 0; number < kAxisCount; ++number) {
     const AxisState& state = axis(number);
     const bool is_asked = state.asked_by_contact || state.asked_by_plc;
-    if (state.holder == Holder::jog && is_asked) chip(number).change_speed(jog_law(number), now());
+    if (state.holder == Activity::jog && is_asked) chip(number).change_speed(jog_law(number), now());
   }
 }
 
@@ -269,8 +269,8 @@ void Super40nc::start_jog(int axis_number, int direction, bool AxisState::*asked
   }
   if (given != Grant::starts) return;
   prepare(axis_number);
-  begun(axis_number, chip(axis_number).run(direction, law, before_motion()), Holder::jog);
-  if (state.holder != Holder::jog) return;
+  begun(axis_number, chip(axis_number).run(direction, law, before_motion()), Activity::jog);
+  if (state.holder != Activity::jog) return;
   state.*asked_by = true;
   mirror_start(axis_number, kModeContinuous + (direction < 0 ? kModeNegative : 0), 0, law);
 }
@@ -278,7 +278,7 @@ void Super40nc::start_jog(int axis_number, int direction, bool AxisState::*asked
 /// Stops a jog by its ramp when no request is left.
 void Super40nc::release_jog(int axis_number, bool AxisState::*asked_by) {
   AxisState& state = axis(axis_number);
-  if (state.holder != Holder::jog || !(state.*asked_by)) return;
+  if (state.holder != Activity::jog || !(state.*asked_by)) return;
   state.*asked_by = false;
   if (!state.asked_by_contact && !state.asked_by_plc) chip(axis_number).slow_down(now());
 }
@@ -294,16 +294,16 @@ void Super40nc::let_go(int axis_number) {
 
 void Super40nc::stop_axis(int axis_number, Code code) {
   AxisState& state = axis(axis_number);
-  if (state.holder == Holder::nobody) return;
+  if (state.holder == Activity::nobody) return;
   if (is_on_path(axis_number)) return stop_path();
-  const Holder held = state.holder;
+  const Activity held = state.holder;
   chip(axis_number).stop();
   chip(axis_number).homing.phase = -1;
   forget_end(axis_number);
   state.has_ended = true;
-  if (held == Holder::home) {
+  if (held == Activity::home) {
     home_ended(axis_number, false, code);
-  } else if (held == Holder::zero && state.order != 0) {
+  } else if (held == Activity::zero && state.order != 0) {
     state_.zeroing_by_key.has_failed = true;
   }
   let_go(axis_number);
@@ -313,36 +313,36 @@ void Super40nc::stop_axis(int axis_number, Code code) {
 void Super40nc::ended(int axis_number) {
   AxisState& state = axis(axis_number);
   const motion::Axis& motor = chip(axis_number);
-  const Holder held = state.holder;
+  const Activity held = state.holder;
   const motion::Cause why = motor.cause;
   state.has_ended = true;
-  if (held == Holder::nobody || held == Holder::rest) return;
+  if (held == Activity::nobody || held == Activity::rest) return;
   const bool has_found = (motor.events & motion::bit(motion::Event::homed)) != 0;
   // The result of the last search or mark counts, however it ended; it stays until the next one.
   const bool is_stopped = why == motion::Cause::stopped;
   if (state.is_held && is_stopped && !has_found) return rest_axis(axis_number);
-  if (held == Holder::wheel) return wheel_ended(axis_number);
+  if (held == Activity::wheel) return wheel_ended(axis_number);
 
   const Mover mover = state.mover;
   const bool is_awaited = state.awaited;
   Code code = code_of(why);
-  if (held == Holder::home) {
+  if (held == Activity::home) {
     if (!has_found && !is_stopped) code = Code::home_failed;
     home_ended(axis_number, has_found, code);
   } else if (code != Code::none) {
     fail(axis_number, code);
   }
-  if (held == Holder::zero) {
+  if (held == Activity::zero) {
     state.zeroed = why == motion::Cause::arrived;
     if (!state.zeroed && state.order != 0) state_.zeroing_by_key.has_failed = true;
   }
-  const bool has_arrived = held == Holder::move && code == Code::none && (has_found || !is_stopped);
+  const bool has_arrived = held == Activity::move && code == Code::none && (has_found || !is_stopped);
   const bool is_at_target = has_arrived && state.rest.kind == RestKind::move;
   const bool shows_finish = has_arrived && state.shows_finish;
   let_go(axis_number);
   state.stands_on_target = is_at_target && distance_to(axis_number, state.target_lu) == 0;
   if (shows_finish) show_finished(static_cast<std::size_t>(axis_number));
-  const bool goes_on = held == Holder::home && chose(option("home_failure", "the_program_goes_on"));
+  const bool goes_on = held == Activity::home && chose(option("home_failure", "the_program_goes_on"));
   if (code != Code::none && mover < Mover::plc && !goes_on)
     program_broken(mover, axis_number, is_awaited, why);
 }

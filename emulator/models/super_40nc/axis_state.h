@@ -57,7 +57,7 @@ struct AxisState {
   std::int64_t arc_backlash = 0;   // backlash still to be sent on its path, after a reversal
   double arc_backlash_part = 0;    // fraction of a pulse left from earlier ticks
 
-  Holder holder = Holder::nobody;
+  Activity holder = Activity::nobody;
   bool asked_by_contact = false;  // the jog was requested by M8x03 or M8x04
   Mover mover = Mover::hand;
   bool awaited = false;                 // the mover's line waits for the end of the motion
@@ -86,7 +86,7 @@ struct AxisState {
 
   bool operator==(const AxisState&) const = default;
 
-  bool moves() const { return holder != Holder::nobody && holder != Holder::rest; }
+  bool moves() const { return holder != Activity::nobody && holder != Activity::rest; }
 };
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -77,18 +77,18 @@ std::optional<ManualMotion> Super40nc::manual_motion(int axis_number) const {
   const bool is_behind_end = state.mover < Mover::plc && !state.awaited;
   if (state.mover < Mover::plc && state.awaited) return std::nullopt;
   switch (state.holder) {
-    case Holder::nobody:
-    case Holder::rest: return std::nullopt;
-    case Holder::jog: return state.asked_by_plc ? ManualMotion::plc_jog : ManualMotion::jog;
-    case Holder::home: return is_by_order ? ManualMotion::home_by_order : ManualMotion::home;
-    case Holder::zero: return is_by_order ? ManualMotion::zero_by_order : ManualMotion::zero;
-    case Holder::move:
-    case Holder::vdrv:
-    case Holder::wheel: break;
+    case Activity::nobody:
+    case Activity::rest: return std::nullopt;
+    case Activity::jog: return state.asked_by_plc ? ManualMotion::plc_jog : ManualMotion::jog;
+    case Activity::home: return is_by_order ? ManualMotion::home_by_order : ManualMotion::home;
+    case Activity::zero: return is_by_order ? ManualMotion::zero_by_order : ManualMotion::zero;
+    case Activity::move:
+    case Activity::vdrv:
+    case Activity::wheel: break;
   }
   if (is_behind_end)
     return state.mover == Mover::c ? ManualMotion::behind_end_of_c : ManualMotion::behind_end;
-  if (state.holder != Holder::wheel) return ManualMotion::plc_drive;
+  if (state.holder != Activity::wheel) return ManualMotion::plc_drive;
   return state.wheel == WheelSource::selector ? ManualMotion::selected_wheel : ManualMotion::wheel;
 }
 
@@ -142,7 +142,7 @@ void Super40nc::obey_stops() {
     const bool is_new = code == Code::emergency_stop ? rises(8002) : !state_.emergency_obeyed;
     if (is_new) report(code);
     for (int number = 0; number < kAxisCount; ++number) {
-      if (axis(number).holder == Holder::nobody) continue;
+      if (axis(number).holder == Activity::nobody) continue;
       manual_motion(number) ? handle(number, ManualEvent::emergency, code) : stop_axis(number, code);
       if (code == Code::emergency_input) axis(number).has_error = true;
       give_erc_behind(number, code);
@@ -175,8 +175,8 @@ void Super40nc::obey_stops() {
   for (int number = 0; number < kAxisCount; ++number) {
     if (!is_pressed(KeyDoes::pause, number)) continue;
     tell(Event::hold, language::area_of_axis(number));
-    const Holder holder = axis(number).holder;
-    const bool is_manual = holder == Holder::jog || holder == Holder::home || holder == Holder::zero;
+    const Activity holder = axis(number).holder;
+    const bool is_manual = holder == Activity::jog || holder == Activity::home || holder == Activity::zero;
     if (is_manual && chose(option("pause_manual", "ends_it_by_a_ramp"))) slow_by_hand(number);
   }
 }
@@ -280,8 +280,8 @@ void Super40nc::hold_while_inhibited() {
   if (is_inhibited_now) {
     hold_path();
     for (int number = 0; number < kAxisCount; ++number) {
-      const Holder holder = axis(number).holder;
-      if ((holder == Holder::move || holder == Holder::vdrv) && !is_on_path(number)) hold_axis(number);
+      const Activity holder = axis(number).holder;
+      if ((holder == Activity::move || holder == Activity::vdrv) && !is_on_path(number)) hold_axis(number);
     }
     return;
   }

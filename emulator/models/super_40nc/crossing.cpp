@@ -119,7 +119,7 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead)
     const AxisState& state = axis(number);
     if (is_quiet(number)) continue;
     if (counts_a_clock(number) || state.masked || motor.homing.active() || state.compares_by_tick != 0 ||
-        state.holder == Holder::wheel || latches_by_comparator(registers(), number)) {
+        state.holder == Activity::wheel || latches_by_comparator(registers(), number)) {
       return done + 1;
     }
     PulseRoom room = ahead.room(number);

@@ -199,7 +199,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void handle(int axis, ManualMotion motion, ManualEvent event, Code code = Code::none);
   Grant ask(int axis_number, Request request);
   /// Looks up the table of ownership.h, under the chosen option.
-  Grant granted(Holder holder, Request request) const { return grant(holder, request, lines_wait_); }
+  Grant granted(Activity holder, Request request) const { return grant(holder, request, lines_wait_); }
   std::int64_t relative_base_lu(int axis_number) const;
   /// Returns pulses to the target; not 0 if PSET, another D8x40 or CMX moved a target that was reached.
   std::int64_t distance_to(int axis_number, std::int64_t target_lu) const;
@@ -295,7 +295,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool is_pressed(KeyDoes what, int axis) const;
   void give_up_orders();
   void obey_order_keys();
-  void follow_order(OrderKey& key, Holder holder, Kept order_of_axis, void (Super40nc::*start)(int, int));
+  void follow_order(OrderKey& key, Activity holder, Kept order_of_axis, void (Super40nc::*start)(int, int));
   void obey_contacts();
   /// Returns true if axes have errors that fall at the next tick, where that is chosen.
   bool has_errors_for_a_scan() const;
@@ -316,7 +316,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void prepare(int axis_number, bool homes = false);
   /// Returns the tick before this one: a scan's moves start in the scan's own tick.
   Tick before_motion() const { return now() - 1; }
-  void begun(int axis_number, motion::Cause why_not, Holder holder);
+  void begun(int axis_number, motion::Cause why_not, Activity holder);
   void start_zero(int axis_number, int order = 0);
   void set_zero(int axis_number);
   void ended(int axis_number);

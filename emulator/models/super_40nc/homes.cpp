@@ -81,7 +81,7 @@ void Super40nc::start_home(int axis_number, int order) {
     let_go(axis_number);
     return;
   }
-  begun(axis_number, motion::Cause::none, Holder::home);
+  begun(axis_number, motion::Cause::none, Activity::home);
   mirror_start(axis_number, direction < 0 ? kModeGoHomeBack : kModeGoHome, 0, fast);
 }
 
@@ -95,8 +95,8 @@ void Super40nc::start_zero(int axis_number, int order) {
       home_pulses(settings.scale(axis_number), -state.offset_lu) - machine_pulses(axis_number);
   const motion::SpeedLaw law =
       settings.law(axis_number, static_cast<double>(settings.of(kept_x(77), axis_number)));
-  begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Holder::zero);
-  if (state.holder != Holder::zero) {
+  begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Activity::zero);
+  if (state.holder != Activity::zero) {
     state_.zeroing_by_key.has_failed = state_.zeroing_by_key.has_failed || order != 0;
     return;
   }

@@ -122,7 +122,7 @@ bool Super40nc::is_pressed(KeyDoes what, int axis) const {
 }
 
 /// Starts the axes of one order together, and the next order when all of them have finished.
-void Super40nc::follow_order(OrderKey& key, Holder holder, Kept order_of_axis,
+void Super40nc::follow_order(OrderKey& key, Activity holder, Kept order_of_axis,
                              void (Super40nc::*start)(int, int)) {
   const auto is_under_way = [&](const AxisState& state) {
     return state.holder == holder && state.order != 0;
@@ -159,8 +159,8 @@ void Super40nc::obey_order_keys() {
   const Key as_home{.contact = kOriginKey, .does = KeyDoes::home_by_order, .lock = kHomeDigit};
   if (is_home_key && !state_.homing_by_key.runs && !is_locked(as_home)) state_.homing_by_key = {.runs = true};
   press(state_.zeroing_by_key, KeyDoes::zero_by_order);
-  follow_order(state_.homing_by_key, Holder::home, kept_x(99), &Super40nc::start_home);
-  follow_order(state_.zeroing_by_key, Holder::zero, kept_x(84), &Super40nc::start_zero);
+  follow_order(state_.homing_by_key, Activity::home, kept_x(99), &Super40nc::start_home);
+  follow_order(state_.zeroing_by_key, Activity::zero, kept_x(84), &Super40nc::start_zero);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -9,7 +9,7 @@
 namespace understudy::emulator::models::super_40nc {
 
 /// What holds an axis.
-enum class Holder : std::uint8_t {
+enum class Activity : std::uint8_t {
   nobody,
   jog,
   home,   // to the machine zero
@@ -19,7 +19,7 @@ enum class Holder : std::uint8_t {
   vdrv,   // turns at a speed
   wheel,  // follows the hand-wheel
 };
-inline constexpr std::size_t kHolders = 8;
+inline constexpr std::size_t kActivities = 8;
 
 /// What requests an axis.
 enum class Request : std::uint8_t {
@@ -49,9 +49,9 @@ enum class Grant : std::uint8_t {
 using OwnershipRow = std::array<Grant, kRequests>;
 
 // clang-format off
-inline constexpr std::array<OwnershipRow, kHolders> kOwnership = [] {
+inline constexpr std::array<OwnershipRow, kActivities> kOwnership = [] {
   using enum Grant;
-  return std::array<OwnershipRow, kHolders>{{
+  return std::array<OwnershipRow, kActivities>{{
       // jog        home, zero wheel       line     MPG line    PLC DRV  VDRV       VDRV 0   STP, M8x02, M8002
       {starts,     starts,    starts,     starts,  starts,     starts,  starts,    nothing, nothing},  // nobody
       {continues_if_same_kind, refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // jog
@@ -68,16 +68,16 @@ inline constexpr std::array<OwnershipRow, kHolders> kOwnership = [] {
 /// A turning axis and one that follows the wheel do not end without a command, so a line for them is dropped.
 /// Under another choice the line waits for them as well.
 struct OwnershipCell {
-  Holder holder;
+  Activity holder;
   Request request;
   Grant grant;
 };
-inline constexpr OwnershipCell kLinesAlwaysWait[] = {{Holder::vdrv, Request::line, Grant::waits},
-                                                     {Holder::vdrv, Request::mpg_line, Grant::waits},
-                                                     {Holder::wheel, Request::line, Grant::waits},
-                                                     {Holder::wheel, Request::vdrv, Grant::waits}};
+inline constexpr OwnershipCell kLinesAlwaysWait[] = {{Activity::vdrv, Request::line, Grant::waits},
+                                                     {Activity::vdrv, Request::mpg_line, Grant::waits},
+                                                     {Activity::wheel, Request::line, Grant::waits},
+                                                     {Activity::wheel, Request::vdrv, Grant::waits}};
 
-constexpr Grant grant(Holder holder, Request request, bool lines_always_wait = false) {
+constexpr Grant grant(Activity holder, Request request, bool lines_always_wait = false) {
   for (const OwnershipCell& cell : kLinesAlwaysWait) {
     if (lines_always_wait && cell.holder == holder && cell.request == request) return cell.grant;
   }

@@ -139,7 +139,7 @@ bool Super40nc::begin_path(const PathPlan& plan) {
     if (!plan.takes[n]) continue;
     AxisState& state = axis(number);
     state.mover = Mover::c;
-    begun(number, motion::Cause::none, Holder::move);
+    begun(number, motion::Cause::none, Activity::move);
     state.awaited = true;
     state.target_lu = plan.target_lu[n];
     const std::int64_t end = path.travel_at(n, plan.path.end[number]);
@@ -199,7 +199,8 @@ void Super40nc::apply_override() {
   if (chose(option("override_scope", "drv_as_well"))) {
     for (int number = 0; number < kAxisCount; ++number) {
       const AxisState& state = axis(number);
-      const bool drives = state.holder == Holder::move && state.rest.kind == RestKind::move && !state.is_held;
+      const bool drives =
+          state.holder == Activity::move && state.rest.kind == RestKind::move && !state.is_held;
       if (drives) chip(number).change_speed(drive_law(number, state.rest.rpm, state.mover), now());
     }
   }
@@ -219,7 +220,7 @@ void Super40nc::go_on_path() {
   if (!state_.path.engaged || !state_.path_is_held) return;
   state_.path_is_held = false;
   for (int number = 0; number < kAxisCount; ++number) {
-    if (is_on_path(number)) axis(number).holder = Holder::move;
+    if (is_on_path(number)) axis(number).holder = Activity::move;
   }
   if (!awaits_path()) state_.path.run.resume(now());
 }
@@ -263,7 +264,7 @@ void Super40nc::step_axes(Tick tick, std::int32_t wheel_counts, std::array<std::
   if (chose(option("backlash_scope", "also_where_an_arc_turns_round"))) step_arc_backlash(ways, sent);
   if (!state_.path.engaged || !state_.path_is_held || !state_.path.run.at_rest(tick)) return;
   for (int number = 0; number < kAxisCount; ++number) {
-    if (is_on_path(number)) axis(number).holder = Holder::rest;
+    if (is_on_path(number)) axis(number).holder = Activity::rest;
   }
 }
 

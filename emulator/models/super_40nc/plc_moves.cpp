@@ -51,10 +51,10 @@ void ProgramMachine::plc_home(const language::HomeSearch& search, int step) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     if ((search.axes >> axis & 1) == 0 || device_.is_inhibited(axis)) continue;
     AxisState& state = device_.axis(axis);
-    const bool is_free = state.holder == Holder::nobody;
+    const bool is_free = state.holder == Activity::nobody;
     if (is_free) state.mover = Mover::plc;  // if the motion begins
     device_.start_home(axis);
-    if (state.holder != Holder::home) state.mover = is_free ? Mover::hand : state.mover;
+    if (state.holder != Activity::home) state.mover = is_free ? Mover::hand : state.mover;
   }
   device_.set_plc_step(0);
 }
@@ -84,7 +84,7 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
       continue;
     }
     device_.set_plc_step(step);
-    const bool is_free = state.holder == Holder::nobody;
+    const bool is_free = state.holder == Activity::nobody;
     if (is_free) state.mover = Mover::plc;  // if the motion begins
     device_.start_jog(axis, direction, &AxisState::asked_by_plc);
     if (is_free) state.mover = Mover::hand;

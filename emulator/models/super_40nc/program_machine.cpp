@@ -107,7 +107,8 @@ void ProgramMachine::program_starts(Area) { device_.error_is_over(); }
 void ProgramMachine::program_ended(Area area) {
   for (int axis = 0; axis < kAxisCount && device_.chose(option("end_and_vdrv", "ends_by_its_ramp")); ++axis) {
     const AxisState& state = device_.axis(axis);
-    if (state.holder == Holder::vdrv && state.mover == mover_of(area)) device_.end_by_ramp(axis, Mover::hand);
+    if (state.holder == Activity::vdrv && state.mover == mover_of(area))
+      device_.end_by_ramp(axis, Mover::hand);
   }
   device_.show_finished(
       area == Area::c ? kEndOfCSignal : kFirstEndSignal + static_cast<std::size_t>(language::axis_of(area)));
@@ -143,7 +144,7 @@ Begun ProgramMachine::begin(Area by, const language::Drive& drive) {
     const std::int32_t rpm = drive.rpm[static_cast<std::size_t>(axis)];
     if (!device_.begin_drive(axis, base + value, rpm, mover_of(by))) return false;
     AxisState& state = device_.axis(axis);
-    if (state.holder == Holder::move) state.awaited = drive.is_waited_for;
+    if (state.holder == Activity::move) state.awaited = drive.is_waited_for;
     return true;
   });
 }
@@ -162,7 +163,7 @@ Begun ProgramMachine::begin(Area by, const language::MarkSearch& search) {
     }
     const bool begins = beyond == 0 ? device_.begin_blind_mark(axis, base + value, rpm, mover_of(by))
                                     : device_.begin_mark(axis, distance, beyond, rpm, mover_of(by));
-    if (begins && device_.axis(axis).holder == Holder::move) device_.axis(axis).awaited = true;
+    if (begins && device_.axis(axis).holder == Activity::move) device_.axis(axis).awaited = true;
     return begins;
   });
 }
@@ -176,7 +177,7 @@ Begun ProgramMachine::begin(Area by, const language::HomeSearch& search) {
     AxisState& state = device_.axis(axis);
     state.mover = mover_of(by);
     device_.start_home(axis);
-    if (state.holder != Holder::home) return false;
+    if (state.holder != Activity::home) return false;
     state.awaited = true;
     return true;
   });
@@ -185,8 +186,9 @@ Begun ProgramMachine::begin(Area by, const language::HomeSearch& search) {
 Begun ProgramMachine::begin(Area by, const language::Rotation& rotation) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const bool turns = is_set(rotation.rpm, axis) && value_of_axis(rotation.rpm, axis) != 0;
-    const Holder holder = device_.axis(axis).holder;
-    const bool is_others = holder != Holder::nobody && holder != Holder::vdrv && holder != Holder::wheel;
+    const Activity holder = device_.axis(axis).holder;
+    const bool is_others =
+        holder != Activity::nobody && holder != Activity::vdrv && holder != Activity::wheel;
     if (is_set(rotation.rpm, axis) && !turns && is_others &&
         device_.chose(option("vdrv_zero_others", "waits"))) {
       return Begun::taken;
@@ -235,7 +237,7 @@ Begun ProgramMachine::begin(Area by, const language::WheelRatios& ratios) {
       state.mover = mover_of(by);
       device_.start_wheel(axis, WheelSource::mpg_line);
       state.wheel_lu = ratio;
-      if (state.holder != Holder::wheel) {
+      if (state.holder != Activity::wheel) {
         state.mover = Mover::hand;
         return Begun::refused;
       }
@@ -284,7 +286,7 @@ language::Areas ProgramMachine::stop(Area area) {
     const AxisState& state = device_.axis(axis);
     const Mover mover = state.mover;
     const bool is_meant = area == Area::c ? mover == Mover::c : language::axis_of(area) == axis;
-    if (!is_meant || state.holder == Holder::nobody) continue;
+    if (!is_meant || state.holder == Activity::nobody) continue;
     const bool is_others =
         mover < Mover::plc && mover != mover_of(area) && state.awaited &&
         (device_.is_on_path(axis) || !device_.chose(option("axis_stop_in_c", "stops_the_axis_alone")));

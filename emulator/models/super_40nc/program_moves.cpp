@@ -59,8 +59,8 @@ bool Super40nc::begin_drive(int axis_number, std::int64_t target_lu, std::int32_
   state.mover = mover;  // its line is reported in D8095 if the motion cannot begin
   const std::int64_t distance = distance_to(axis_number, target_lu);
   const motion::SpeedLaw law = drive_law(axis_number, rpm, mover);
-  begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Holder::move);
-  if (state.holder != Holder::move) {
+  begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Activity::move);
+  if (state.holder != Activity::move) {
     state.mover = Mover::hand;
     return false;
   }
@@ -86,7 +86,7 @@ bool Super40nc::begin_blind_mark(int axis_number, std::int64_t target_lu, std::i
   state.rest.limits_count = true;
   update_environment(axis_number);
   const bool begins = begin_drive(axis_number, target_lu, rpm, mover);
-  if (state.holder == Holder::move) {
+  if (state.holder == Activity::move) {
     state.rest.limits_count = true;
   } else {
     state.rest = {};
@@ -113,8 +113,8 @@ bool Super40nc::begin_mark(int axis_number, std::int64_t distance, std::int64_t 
        .looks_all_the_way = chose(option("mrk_course", "signal_before_it_counts")),
        .mark_slows = chose(option("mrk_course", "stops_by_a_ramp")),
        .needs_edge = chose(option("mark_edge", "has_to_come_anew"))});
-  begun(axis_number, chip(axis_number).home(program, before_motion()), Holder::move);
-  if (state.holder != Holder::move) {
+  begun(axis_number, chip(axis_number).home(program, before_motion()), Activity::move);
+  if (state.holder != Activity::move) {
     let_go(axis_number);
     return false;
   }
@@ -128,8 +128,8 @@ bool Super40nc::begin_turning(int axis_number, std::int32_t rpm, Mover mover) {
   prepare(axis_number);
   state.mover = mover;
   const motion::SpeedLaw law = line_law(axis_number, std::abs(static_cast<double>(rpm)), mover);
-  begun(axis_number, chip(axis_number).run(way_of(rpm), law, before_motion()), Holder::vdrv);
-  if (state.holder != Holder::vdrv) {
+  begun(axis_number, chip(axis_number).run(way_of(rpm), law, before_motion()), Activity::vdrv);
+  if (state.holder != Activity::vdrv) {
     state.mover = Mover::hand;
     return false;
   }
@@ -150,8 +150,8 @@ void Super40nc::change_turning(int axis_number, std::int32_t rpm, Mover mover) {
 /// VDRV 0. Returns true if the axis has to come to rest first.
 bool Super40nc::end_by_ramp(int axis_number, Mover mover) {
   AxisState& state = axis(axis_number);
-  if (state.holder == Holder::nobody) return false;
-  if (state.holder == Holder::rest || state.holder == Holder::wheel || is_on_path(axis_number)) {
+  if (state.holder == Activity::nobody) return false;
+  if (state.holder == Activity::rest || state.holder == Activity::wheel || is_on_path(axis_number)) {
     if (is_on_path(axis_number)) {
       slow_path();
     } else {
@@ -183,9 +183,9 @@ void Super40nc::stop_by_command(int axis_number) {
 
 void Super40nc::hold_axis(int axis_number) {
   AxisState& state = axis(axis_number);
-  if (state.holder == Holder::wheel || state.holder == Holder::rest) return;
-  if (state.holder == Holder::vdrv && chose(option("pause_scope", "not_vdrv_nor_the_wheel"))) return;
-  if (state.holder == Holder::home && chose(option("pause_home", "the_search_ends_first"))) return;
+  if (state.holder == Activity::wheel || state.holder == Activity::rest) return;
+  if (state.holder == Activity::vdrv && chose(option("pause_scope", "not_vdrv_nor_the_wheel"))) return;
+  if (state.holder == Activity::home && chose(option("pause_home", "the_search_ends_first"))) return;
   motion::Axis& motor = chip(axis_number);
   if (state.rest.kind == RestKind::mark && motor.homing.active()) {
     const motion::HomingPhase& row = motor.homing.row();
@@ -194,7 +194,7 @@ void Super40nc::hold_axis(int axis_number) {
         motor.homing.began_pulses + (searches ? row.direction * row.within_pulses : row.distance_pulses);
     state.rest.searches = searches;
   }
-  if (state.holder == Holder::home) state.rest = {.kind = RestKind::home};
+  if (state.holder == Activity::home) state.rest = {.kind = RestKind::home};
   state.is_held = true;
   motor.slow_down(now());
 }
@@ -208,7 +208,7 @@ void Super40nc::rest_axis(int axis_number) {
     state.rest.distance = state.rest.searches ? 0 : left;
     state.rest.search = state.rest.searches ? left : search;
   }
-  state.holder = Holder::rest;
+  state.holder = Activity::rest;
 }
 
 void Super40nc::go_on_axis(int axis_number) {
@@ -216,11 +216,11 @@ void Super40nc::go_on_axis(int axis_number) {
   motion::Axis& motor = chip(axis_number);
   if (!state.is_held) return;
   state.is_held = false;
-  if (state.holder != Holder::rest && state.rest.kind != RestKind::home &&
+  if (state.holder != Activity::rest && state.rest.kind != RestKind::home &&
       state.rest.kind != RestKind::mark && motor.resume(motor.law, now())) {
     return;
   }
-  if (state.holder != Holder::rest) rest_axis(axis_number);
+  if (state.holder != Activity::rest) rest_axis(axis_number);
   motor.stop();
   forget_end(axis_number);
   const Rest rest = state.rest;
@@ -228,15 +228,15 @@ void Super40nc::go_on_axis(int axis_number) {
   const bool is_awaited = state.awaited;
   const std::int64_t target_lu = state.target_lu;
   const motion::SpeedLaw law = motor.law;
-  state.holder = Holder::nobody;
+  state.holder = Activity::nobody;
   switch (rest.kind) {
     case RestKind::none:
     case RestKind::path: break;
     case RestKind::move: {
       const std::int64_t distance = rest.travel - motor.travel_pulses;
       prepare(axis_number);
-      begun(axis_number, motor.move(distance, law, before_motion()), Holder::move);
-      if (state.holder != Holder::move) break;
+      begun(axis_number, motor.move(distance, law, before_motion()), Activity::move);
+      if (state.holder != Activity::move) break;
       state.rest = rest;
       state.target_lu = target_lu;
       state.shows_finish = true;
@@ -252,7 +252,7 @@ void Super40nc::go_on_axis(int axis_number) {
     case RestKind::turning: begin_turning(axis_number, rest.rpm, mover); break;
     case RestKind::home: start_home(axis_number); break;
   }
-  if (state.holder == Holder::nobody) return cannot_go_on(axis_number, rest, mover, is_awaited);
+  if (state.holder == Activity::nobody) return cannot_go_on(axis_number, rest, mover, is_awaited);
   state.mover = mover;
   state.awaited = is_awaited;
 }
@@ -294,11 +294,11 @@ void Super40nc::forget_end(int axis) {
 void Super40nc::break_program(Mover mover, int but_for) {
   for (int number = 0; number < kAxisCount; ++number) {
     AxisState& state = axis(number);
-    if (number == but_for || state.mover != mover || state.holder == Holder::nobody ||
-        state.holder == Holder::wheel) {
+    if (number == but_for || state.mover != mover || state.holder == Activity::nobody ||
+        state.holder == Activity::wheel) {
       continue;
     }
-    const bool ramp = registers().is_on(kept_x(1), number) && state.holder != Holder::rest;
+    const bool ramp = registers().is_on(kept_x(1), number) && state.holder != Activity::rest;
     state.is_held = state.awaited = state.shows_finish = false;
     if (ramp) {
       chip(number).slow_down(now());

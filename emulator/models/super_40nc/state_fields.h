@@ -18,8 +18,8 @@ std::string register_at_slot(std::size_t slot);
 }  // namespace emulator::models::super_40nc
 
 template <>
-struct StateOf<emulator::models::super_40nc::Holder> {
-  static constexpr auto last = emulator::models::super_40nc::Holder::wheel;
+struct StateOf<emulator::models::super_40nc::Activity> {
+  static constexpr auto last = emulator::models::super_40nc::Activity::wheel;
 };
 
 template <>

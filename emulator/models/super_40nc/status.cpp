@@ -60,14 +60,14 @@ bool Super40nc::status(int axis_number, AxisStatus what) const {
   const AxisState& state = axis(axis_number);
   const motion::Axis& motor = chip(axis_number);
   switch (what) {
-    case SSCM: return state.holder != Holder::nobody;
+    case SSCM: return state.holder != Activity::nobody;
     case SRUN: {
       const std::int32_t operation = operation_of(axis_number);
       return operation == kByWheel ? state.followed_pulses != 0 : operation != kStopped;
     }
     case SENI:
-      return !chose(option("seni_flag", "always_0")) && state.has_ended && state.holder == Holder::nobody;
-    case SEND: return state.holder == Holder::nobody;
+      return !chose(option("seni_flag", "always_0")) && state.has_ended && state.holder == Activity::nobody;
+    case SEND: return state.holder == Activity::nobody;
     case SERR: return state.has_error;
     case SCP1: return comparator_holds(axis_number, 0);
     case SCP2: return comparator_holds(axis_number, 1);
@@ -94,12 +94,12 @@ bool Super40nc::status(int axis_number, AxisStatus what) const {
     case SRDY: return input(pin_of(axis_number, kReadyPin)) != 0;
     case HOME_DONE: return state.homed;
     case ZERO_DONE: return state.zeroed;
-    case HOME_RUNS: return state.holder == Holder::home && shows_running(state.mover == Mover::hand);
-    case ZERO_RUNS: return state.holder == Holder::zero;
+    case HOME_RUNS: return state.holder == Activity::home && shows_running(state.mover == Mover::hand);
+    case ZERO_RUNS: return state.holder == Activity::zero;
     case WHEEL_RUNS: {
       const bool is_by_contact =
           state.wheel >= WheelSource::contact_1 && state.wheel <= WheelSource::contact_100;
-      return state.holder == Holder::wheel && shows_running(is_by_contact);
+      return state.holder == Activity::wheel && shows_running(is_by_contact);
     }
   }
   return false;
@@ -126,7 +126,7 @@ std::int32_t Super40nc::operation_of(int axis_number) const {
 
 std::int64_t Super40nc::remaining_pulses(int axis_number) const {
   const AxisState& state = axis(axis_number);
-  const bool has_target = state.rest.kind == RestKind::path || state.holder == Holder::rest;
+  const bool has_target = state.rest.kind == RestKind::path || state.holder == Activity::rest;
   return has_target ? std::abs(state.rest.travel - chip(axis_number).travel_pulses)
                     : chip(axis_number).remaining_pulses();
 }

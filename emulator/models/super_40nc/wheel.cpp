@@ -66,8 +66,8 @@ void Super40nc::start_wheel(int axis_number, WheelSource source) {
   motion::AxisSettings without_backlash = chip(axis_number).settings;
   without_backlash.backlash_pulses = 0;
   chip(axis_number).set(without_backlash);
-  begun(axis_number, chip(axis_number).follow({}), Holder::wheel);
-  if (state.holder != Holder::wheel) return;
+  begun(axis_number, chip(axis_number).follow({}), Activity::wheel);
+  if (state.holder != Activity::wheel) return;
   state.wheel = source;
   state.wheel_edges = 0;
   follow_ratio(axis_number);
@@ -79,7 +79,7 @@ void Super40nc::start_wheel(int axis_number, WheelSource source) {
 void Super40nc::feed_wheel(std::int32_t edges) {
   for (int number = 0; number < kAxisCount; ++number) {
     AxisState& state = axis(number);
-    if (state.holder != Holder::wheel) continue;
+    if (state.holder != Activity::wheel) continue;
     follow_ratio(number);
     static constexpr std::array<std::int32_t, 4> kEdgesOfACount{4, 2, 1, 1};
     const bool is_decoded = chose(option("wheel_input", "counts"));

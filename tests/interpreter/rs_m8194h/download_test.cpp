@@ -30,15 +30,16 @@ struct Outcome {
 };
 Outcome download(const MacroName& name, const std::vector<Command>& lines,
                  const DownloadOptions& options = {}) {
-  Download going{.name = name};
+  Download activity{.name = name};
   Outcome outcome;
   for (const Command& line : lines) {
-    if (const Fault fault = add(going, line, options); fault != Fault::none) outcome.answers.push_back(fault);
+    if (const Fault fault = add(activity, line, options); fault != Fault::none)
+      outcome.answers.push_back(fault);
   }
-  const Closed closed = close(going, options);
+  const Closed closed = close(activity, options);
   if (closed.fault != Fault::none) outcome.answers.push_back(closed.fault);
   outcome.is_stored = closed.macro.has_value();
-  outcome.status = status_of(going, {.mp = 7, .isr = 3}, options);
+  outcome.status = status_of(activity, {.mp = 7, .isr = 3}, options);
   return outcome;
 }
 Outcome download(const std::vector<std::string>& texts, const DownloadOptions& options = {}) {
@@ -175,11 +176,11 @@ TEST(RsM8194hDownload, WrongOperatorsAndOperandsAreErrorsToo) {
 
 TEST(RsM8194hDownload, UndefinedCommandsSpoilItOthersAreLeftOut) {
   const auto close_behind = [](std::uint16_t code, Fault fault, const DownloadOptions& options) {
-    Download going{.name = {true, 4}};
-    EXPECT_EQ(add(going, line_of("EXIT_MACRO"), options), Fault::none);
-    refuse(going, code, fault, options);
-    const bool is_stored = close(going).macro.has_value();
-    return std::pair(is_stored, status_of(going, {.mp = 9, .isr = 1}, options));
+    Download activity{.name = {true, 4}};
+    EXPECT_EQ(add(activity, line_of("EXIT_MACRO"), options), Fault::none);
+    refuse(activity, code, fault, options);
+    const bool is_stored = close(activity).macro.has_value();
+    return std::pair(is_stored, status_of(activity, {.mp = 9, .isr = 1}, options));
   };
   EXPECT_EQ(close_behind(0x0C22, Fault::undefined_command, {}),
             std::pair(false, (DownloadStatus{9, 4, 0x0A22, 1, 0x0F})));
@@ -243,16 +244,16 @@ TEST(RsM8194hDownload, EveryPrintedMacroFrameIsALine) {
     ++count;
     SCOPED_TRACE(name_of(registers[0]));
     const bool is_of_isr = !find_code(registers[0])->use.in_mp;
-    Download going{.name = is_of_isr ? MacroName{true, 20} : MacroName{false, 156}};
+    Download activity{.name = is_of_isr ? MacroName{true, 20} : MacroName{false, 156}};
     const Decoded decoded = decode(registers, is_of_isr ? State::isr_download : State::mp_download);
     ASSERT_EQ(decoded.fault, Fault::none);
     const Verb verb = decoded.command.verb();
-    if (verb == Verb::else_ || verb == Verb::end_if) add(going, line_of("IF 1 < 2"));
-    if (verb == Verb::next || verb == Verb::exit_for) add(going, line_of("FOR 2"));
-    const std::size_t before = going.lines.size();
+    if (verb == Verb::else_ || verb == Verb::end_if) add(activity, line_of("IF 1 < 2"));
+    if (verb == Verb::next || verb == Verb::exit_for) add(activity, line_of("FOR 2"));
+    const std::size_t before = activity.lines.size();
     if (decoded.command.row().closes()) continue;
-    EXPECT_EQ(add(going, decoded.command), Fault::none);
-    EXPECT_EQ(going.lines.size(), before + 1);
+    EXPECT_EQ(add(activity, decoded.command), Fault::none);
+    EXPECT_EQ(activity.lines.size(), before + 1);
   }
   EXPECT_GT(count, 100);
 }

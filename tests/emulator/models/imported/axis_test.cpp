@@ -231,7 +231,7 @@ std::map<std::string, std::vector<std::string>> printed_answers() {
 /// Puts an axis into each doing, gives it each command, and looks at what comes of it.
 class Answers : public testing::Test {
  protected:
-  static std::string happened(Command command, Doing doing) {
+  static std::string happened(Command command, Activity activity) {
     const bool is_enable = command == Command::enable;
     OneDescribed one(axis_model(", enable: CONTROL.ENABLE"), "home: { at: -9000, width: 20 }");
     one.write("CONTROL", 1);
@@ -242,15 +242,15 @@ class Answers : public testing::Test {
                                          {Command::stop, 3},
                                          {Command::stop_at_once, 4},
                                          {Command::home, 5}};
-    switch (doing) {
-      case Doing::rests: break;
-      case Doing::moves: one.write("COMMAND", 1); break;
-      case Doing::runs: one.write("CONTROL", 3); break;
-      case Doing::homes: one.write("COMMAND", 5); break;
-      case Doing::stops: one.write("COMMAND", 1); break;
+    switch (activity) {
+      case Activity::rests: break;
+      case Activity::moves: one.write("COMMAND", 1); break;
+      case Activity::runs: one.write("CONTROL", 3); break;
+      case Activity::homes: one.write("COMMAND", 5); break;
+      case Activity::stops: one.write("COMMAND", 1); break;
     }
     one.advance(500);
-    if (doing == Doing::stops) {
+    if (activity == Activity::stops) {
       one.write("COMMAND", 3);
       one.advance(50);
     }
@@ -266,15 +266,15 @@ class Answers : public testing::Test {
     const Value after = one.read("NOW");
     if (speed == 0) return "begins";
     const bool is_slower = std::abs(after) < std::abs(speed) - 100;
-    if (is_slower && doing != Doing::stops) return "slows down";
+    if (is_slower && activity != Activity::stops) return "slows down";
     const bool has_end = one.ticks_until_still() >= 0;
     const Value end = one.read("POSITION");
-    switch (doing) {
-      case Doing::rests: break;
-      case Doing::moves: return end == 4000 ? "-" : "goes on";
-      case Doing::runs: return has_end ? "goes on" : "-";
-      case Doing::homes: return one.read("STATUS.HOMED") == 1 && end == 0 ? "-" : "goes on";
-      case Doing::stops: return end < 1000 ? "-" : "goes on";
+    switch (activity) {
+      case Activity::rests: break;
+      case Activity::moves: return end == 4000 ? "-" : "goes on";
+      case Activity::runs: return has_end ? "goes on" : "-";
+      case Activity::homes: return one.read("STATUS.HOMED") == 1 && end == 0 ? "-" : "goes on";
+      case Activity::stops: return end < 1000 ? "-" : "goes on";
     }
     return "?";
   }
@@ -289,9 +289,9 @@ TEST_F(Answers, AreThoseThatThePagePrints) {
   for (const auto& [command, name] : kRows) {
     ASSERT_TRUE(printed.contains(name)) << name;
     ASSERT_EQ(printed.at(name).size(), kDoings) << name;
-    for (std::size_t doing = 0; doing < kDoings; ++doing) {
-      EXPECT_EQ(happened(command, static_cast<Doing>(doing)), printed.at(name)[doing])
-          << name << " while it is in column " << doing;
+    for (std::size_t activity = 0; activity < kDoings; ++activity) {
+      EXPECT_EQ(happened(command, static_cast<Activity>(activity)), printed.at(name)[activity])
+          << name << " while it is in column " << activity;
     }
   }
 }

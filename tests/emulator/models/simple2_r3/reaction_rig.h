@@ -113,16 +113,16 @@ inline void begin_sync(Rig& rig, Phase phase) {
   rig.watch(20);
 }
 
-inline void bring_into(Rig& rig, Doing doing, Phase phase) {
-  switch (doing) {
-    case Doing::position: begin_position(rig, phase); break;
-    case Doing::homing: begin_homing(rig, phase); break;
-    case Doing::velocity: begin_velocity(rig, phase); break;
-    case Doing::pwm:
+inline void bring_into(Rig& rig, Activity activity, Phase phase) {
+  switch (activity) {
+    case Activity::position: begin_position(rig, phase); break;
+    case Activity::homing: begin_homing(rig, phase); break;
+    case Activity::velocity: begin_velocity(rig, phase); break;
+    case Activity::pwm:
       rig.set("Aaxis_DirectPWM", phase == Phase::standing ? 0 : kDuty);
       rig.watch(10);
       break;
-    case Doing::sync: begin_sync(rig, phase); break;
+    case Activity::sync: begin_sync(rig, phase); break;
   }
   if (phase == Phase::at_limit) rig.input(kUpperInput, true);
   if (phase == Phase::in_alarm) rig.input(kAlarmInput, true);

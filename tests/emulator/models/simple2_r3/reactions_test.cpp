@@ -13,19 +13,19 @@ namespace reactions_test {
 
 class Cell {
  public:
-  Cell(Doing doing, Phase phase, Event event, const std::map<std::string, std::string>& choices)
-      : doing_(doing), phase_(phase), event_(event), rig_(given(choices)), twin_(given(choices)) {
+  Cell(Activity activity, Phase phase, Event event, const std::map<std::string, std::string>& choices)
+      : doing_(activity), phase_(phase), event_(event), rig_(given(choices)), twin_(given(choices)) {
     for (Rig* rig : {&rig_, &twin_}) {
-      bring_into(*rig, doing, phase);
+      bring_into(*rig, activity, phase);
       if (phase == Phase::in_alarm && event == Event::limit_gone) {
         rig->input(kUpperInput, true);
         rig->watch(5);
       }
     }
-    EXPECT_EQ(static_cast<int>(simple2_r3::doing(rig_.axis())), static_cast<int>(doing))
+    EXPECT_EQ(static_cast<int>(simple2_r3::activity(rig_.axis())), static_cast<int>(activity))
         << "what the test begins with";
     // The device tells the slope's end from its middle by nothing: it is moving to it, and reacts alike.
-    const bool runs_down = doing == Doing::sync && phase == Phase::slowing;
+    const bool runs_down = activity == Activity::sync && phase == Phase::slowing;
     if (phase != Phase::servo_off) {
       EXPECT_EQ(static_cast<int>(phase_of(rig_.axis(), rig_.now())),
                 static_cast<int>(runs_down ? Phase::moving : phase))
@@ -88,9 +88,9 @@ class Cell {
 
   void expect_output() {
     const std::int64_t pulses = sum(rig_.watch(500));
-    if (doing_ == Doing::pwm) {
+    if (doing_ == Activity::pwm) {
       EXPECT_EQ(pwm_duty(rig_.axis()), event_ == Event::pwm ? kOtherDuty : kDuty);
-    } else if (doing_ == Doing::sync) {
+    } else if (doing_ == Activity::sync) {
       EXPECT_EQ(pulses < 0, rig_.turns < 0);
       EXPECT_EQ(pulses != 0, rig_.turns != 0);
     } else {
@@ -171,7 +171,7 @@ class Cell {
   }
 
   void expect_change() {
-    if (doing_ == Doing::pwm) return expect_beginning();
+    if (doing_ == Activity::pwm) return expect_beginning();
     if (event_ == Event::move_towards || event_ == Event::move_away) return expect_move_on();
     EXPECT_EQ(sum(rig_.watch(5)) * way_ >= 4, way_ != 0) << "from the speed that there was";
     rig_.watch(1500);
@@ -195,7 +195,7 @@ class Cell {
     EXPECT_FALSE(rig_.moving('A'));
   }
 
-  Doing doing_;
+  Activity doing_;
   Phase phase_;
   Event event_;
   Rig rig_;
@@ -209,15 +209,15 @@ std::string option_name(const Option& option) {
 }
 
 template <class Visit>
-int for_each_cell(Doing doing, Visit visit) {
+int for_each_cell(Activity activity, Visit visit) {
   int cells = 0;
   for (int p = 0; p < kPhases; ++p) {
     for (int e = 0; e < kEvents; ++e) {
       const auto phase = static_cast<Phase>(p);
       const auto event = static_cast<Event>(e);
-      if (!is_phase_of(doing, phase) || !can_come(phase, event)) continue;
+      if (!is_phase_of(activity, phase) || !can_come(phase, event)) continue;
       ++cells;
-      SCOPED_TRACE("mode " + std::to_string(static_cast<int>(doing)) + ", phase " + std::to_string(p) +
+      SCOPED_TRACE("mode " + std::to_string(static_cast<int>(activity)) + ", phase " + std::to_string(p) +
                    ", event " + std::to_string(e));
       visit(phase, event);
     }
@@ -225,29 +225,29 @@ int for_each_cell(Doing doing, Visit visit) {
   return cells;
 }
 
-void walk(Doing doing) {
-  const int cells = for_each_cell(doing, [&](Phase phase, Event event) {
-    const ReactionRow& row = *reaction_row(doing, phase, event);
+void walk(Activity activity) {
+  const int cells = for_each_cell(activity, [&](Phase phase, Event event) {
+    const ReactionRow& row = *reaction_row(activity, phase, event);
     std::map<std::string, std::string> choices;
     // Only so there is a servo that is off in these modes.
-    if (phase == Phase::servo_off && doing != Doing::position) choices["mode_after_stop"] = "stays";
-    Cell(doing, phase, event, choices).expect(row.outcome);
+    if (phase == Phase::servo_off && activity != Activity::position) choices["mode_after_stop"] = "stays";
+    Cell(activity, phase, event, choices).expect(row.outcome);
     for (const OtherOutcome& other : {row.other, row.another}) {
       if (!other.is_there) continue;
       auto otherwise = choices;
       otherwise[choice_id(other.chosen)] = option_name(other.chosen);
       SCOPED_TRACE(choice_id(other.chosen) + ": " + option_name(other.chosen));
-      Cell(doing, phase, event, otherwise).expect(other.outcome);
+      Cell(activity, phase, event, otherwise).expect(other.outcome);
     }
   });
   EXPECT_GT(cells, 30);
 }
 
-TEST(Reactions, OfPositionMode) { walk(Doing::position); }
-TEST(Reactions, OfHoming) { walk(Doing::homing); }
-TEST(Reactions, OfVelocityMode) { walk(Doing::velocity); }
-TEST(Reactions, OfPwmMode) { walk(Doing::pwm); }
-TEST(Reactions, OfSyncMode) { walk(Doing::sync); }
+TEST(Reactions, OfPositionMode) { walk(Activity::position); }
+TEST(Reactions, OfHoming) { walk(Activity::homing); }
+TEST(Reactions, OfVelocityMode) { walk(Activity::velocity); }
+TEST(Reactions, OfPwmMode) { walk(Activity::pwm); }
+TEST(Reactions, OfSyncMode) { walk(Activity::sync); }
 
 TEST(Reactions, NameTheirChoicesOrTheManualsSections) {
   for (const ReactionRow& row : reactions::kRows) {

@@ -275,7 +275,7 @@ TEST(Super40ncMarks, EachIsTakenOffByItsEventsAlone) {
     for (int number = 0; number <= static_cast<int>(MarkEvent::plc_run); ++number) {
       const auto event = static_cast<MarkEvent>(number);
       AxisState axis;
-      axis.holder = Holder::move;
+      axis.holder = Activity::move;
       axis.asked_by_contact = axis.asked_by_plc = axis.awaited = axis.shows_finish = axis.is_held = true;
       axis.has_ended = axis.has_error = axis.stands_on_target = true;
       axis.mover = axis.stop_awaited_by = Mover::c;
