@@ -14,7 +14,7 @@
 namespace understudy::emulator {
 
 /// The position of a program at this moment. A device that runs several programs at once has one for each.
-struct ProgramPlace {
+struct ProgramLocation {
   enum class State : std::uint8_t { stopped, running, waiting, failed };
   std::string program;  // "MAIN", "P1"; empty if there is only one
   State state = State::stopped;
@@ -33,7 +33,7 @@ class UserProgram {
   /// Returns the program as text that load_program() accepts.
   virtual std::string program_text() const = 0;
   /// Returns the positions for observers.
-  virtual std::vector<ProgramPlace> places() const { return {}; }
+  virtual std::vector<ProgramLocation> program_locations() const { return {}; }
 
  protected:
   ~UserProgram() = default;

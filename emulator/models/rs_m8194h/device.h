@@ -101,7 +101,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::uint64_t kept_revision() const override;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
-  std::vector<ProgramPlace> places() const override;
+  std::vector<ProgramLocation> program_locations() const override;
   void settle_memory() override { state_.eeprom.settle(state_.image); }
 
   // --- what commands do (commands.h) -------------------------------------------------------------

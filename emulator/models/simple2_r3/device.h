@@ -146,7 +146,7 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   void settle_memory() override { state_.eeprom.settle(state_.image); }
   void load_program(std::string_view listing) override;
   std::string program_text() const override;
-  std::vector<ProgramPlace> places() const override;
+  std::vector<ProgramLocation> program_locations() const override;
 
   Addressing addressing(std::uint8_t address) const override;
   pty::LineSettings line_settings(std::size_t port) const override;

@@ -103,7 +103,7 @@ class Slim final : public DeviceOf<Slim>,
   void settle_memory() override;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
-  std::vector<ProgramPlace> places() const override;
+  std::vector<ProgramLocation> program_locations() const override;
   /// Returns the mistakes in a program text, for a device with these settings.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const { return read_program(text).mistakes; }
 

@@ -85,7 +85,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// Areas that `text` does not name stay as they are. A refused listing shows in D8094 to D8096.
   void load_program(std::string_view text) override;
   std::string program_text() const override;
-  std::vector<ProgramPlace> places() const override;
+  std::vector<ProgramLocation> program_locations() const override;
 
   // --- time ----------------------------------------------------------------------------------------
   void sample_inputs(Tick tick) override;

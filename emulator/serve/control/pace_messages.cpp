@@ -24,12 +24,12 @@ namespace {
 constexpr std::uint64_t kMaxTicks = 3'600'000;  // an hour
 constexpr std::size_t kLongestName = 64;
 
-std::string_view state_word(ProgramPlace::State state) {
+std::string_view state_word(ProgramLocation::State state) {
   switch (state) {
-    case ProgramPlace::State::stopped: return "stopped";
-    case ProgramPlace::State::running: return "running";
-    case ProgramPlace::State::waiting: return "waiting";
-    case ProgramPlace::State::failed: return "failed";
+    case ProgramLocation::State::stopped: return "stopped";
+    case ProgramLocation::State::running: return "running";
+    case ProgramLocation::State::waiting: return "waiting";
+    case ProgramLocation::State::failed: return "failed";
   }
   return {};
 }
@@ -53,7 +53,7 @@ Json where_message(Daemon& daemon, const Json& message) {
   const Device& device = daemon.world().device(require_device(daemon, message));
   Json programs = Json::array();
   if (device.powered() && device.user_program() != nullptr) {
-    for (const ProgramPlace& place : device.user_program()->places()) {
+    for (const ProgramLocation& place : device.user_program()->program_locations()) {
       Json entry{{"state", state_word(place.state)}};
       if (!place.program.empty()) entry["program"] = place.program;
       if (place.line > 0) entry["line"] = place.line;

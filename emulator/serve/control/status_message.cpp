@@ -97,10 +97,10 @@ Json telling_registers(const Device& device) {
 }
 
 bool runs_program(const Device& device) {
-  using State = ProgramPlace::State;
+  using State = ProgramLocation::State;
   if (!device.powered() || device.user_program() == nullptr) return false;
-  const std::vector<ProgramPlace> places = device.user_program()->places();
-  return std::any_of(places.begin(), places.end(), [](const ProgramPlace& place) {
+  const std::vector<ProgramLocation> program_locations = device.user_program()->program_locations();
+  return std::any_of(program_locations.begin(), program_locations.end(), [](const ProgramLocation& place) {
     return place.state == State::running || place.state == State::waiting;
   });
 }

@@ -260,7 +260,7 @@ class Course {
       }
       case 5: wait(); break;
       case 6: told_ += world_.device(0).user_program()->program_text(); break;
-      case 7: told_ += std::to_string(world_.device(0).user_program()->places().size()); break;
+      case 7: told_ += std::to_string(world_.device(0).user_program()->program_locations().size()); break;
       default:
         if (!language_.writes.empty() && (language_.said.empty() || below(2) == 0))
           write();

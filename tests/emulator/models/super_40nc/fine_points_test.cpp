@@ -190,7 +190,7 @@ TEST(Super40ncFinePoints, APlaceIsALineOfTheText) {
     std::istringstream text(one.it().program_text());
     std::vector<std::string> lines;
     for (std::string line; std::getline(text, line);) lines.push_back(line);
-    for (const ProgramPlace& place : one.it().places()) {
+    for (const ProgramLocation& place : one.it().program_locations()) {
       if (place.program != "X") continue;
       ASSERT_GT(place.line, 0) << base;
       EXPECT_NE(lines[static_cast<std::size_t>(place.line) - 1].find("TMR"), std::string::npos) << base;
@@ -200,12 +200,12 @@ TEST(Super40ncFinePoints, APlaceIsALineOfTheText) {
 
 /// Onlookers see why a program stands, or what it has passed over, beside its line.
 TEST(Super40ncFinePoints, AnOnlookerSeesWhatWentWrong) {
-  using enum ProgramPlace::State;
+  using enum ProgramLocation::State;
   struct Case {
     const char* area;
     const char* lines;
     const char* contact;
-    ProgramPlace::State state;
+    ProgramLocation::State state;
     const char* text;
     const char* why;
   };
@@ -224,26 +224,26 @@ TEST(Super40ncFinePoints, AnOnlookerSeesWhatWentWrong) {
         {.set = {{"D9003", 2}, {"D9016", 0}}, .program = std::string("AREA ") + it.area + "\n" + it.lines});
     one.set(it.contact, 1);
     one.run(5);
-    const std::vector<ProgramPlace> places = one.it().places();
-    ASSERT_EQ(places.size(), 1U);
-    EXPECT_EQ(places[0].state, it.state) << it.lines;
-    EXPECT_EQ(places[0].text, it.text) << it.lines;
-    EXPECT_EQ(places[0].why, it.why) << it.lines;
-    EXPECT_EQ(places[0].line > 0, *it.text != 0) << it.lines;
+    const std::vector<ProgramLocation> program_locations = one.it().program_locations();
+    ASSERT_EQ(program_locations.size(), 1U);
+    EXPECT_EQ(program_locations[0].state, it.state) << it.lines;
+    EXPECT_EQ(program_locations[0].text, it.text) << it.lines;
+    EXPECT_EQ(program_locations[0].why, it.why) << it.lines;
+    EXPECT_EQ(program_locations[0].line > 0, *it.text != 0) << it.lines;
   }
 }
 
 /// A limit is told of the program that it stops, not of one that stands, nor a jog's of any; M8002 stops all.
 TEST(Super40ncFinePoints, AnOnlookerSeesWhatStoppedAProgram) {
   OneSuper40nc one({.program = "AREA C\nNOP\nEND\nAREA X\nDRV K90000\nEND\n"});
-  const auto why = [&](std::size_t program) { return one.it().places().at(program).why; };
+  const auto why = [&](std::size_t program) { return one.it().program_locations().at(program).why; };
   one.set("M8100", 1);
   one.run(50);
   one.input("X1", true);
   one.run(5);
   EXPECT_EQ(why(0), "");
   EXPECT_EQ(why(1), "D8094 = 11 at step 1500: the positive limit");
-  EXPECT_EQ(one.it().places().at(1).state, ProgramPlace::State::failed);
+  EXPECT_EQ(one.it().program_locations().at(1).state, ProgramLocation::State::failed);
   one.set("M8103", 1);
   one.run(5);
   EXPECT_EQ(one.get("D8094"), 11);

@@ -47,21 +47,21 @@ std::string why_of(const ErrorReport& error, language::Area area, bool is_idle) 
 
 }  // namespace
 
-std::vector<ProgramPlace> Super40nc::places() const {
-  std::vector<ProgramPlace> all;
+std::vector<ProgramLocation> Super40nc::program_locations() const {
+  std::vector<ProgramLocation> all;
   const std::string text = program_text();
   for (int i = 0; i < language::kStepProgramCount; ++i) {
     const language::AreaRow& row = language::kAreas[static_cast<std::size_t>(i)];
     const language::StepState& step = state_.steps.programs[static_cast<std::size_t>(i)];
     const language::StepCode& code = codes_[static_cast<std::size_t>(i)];
     if (code.is_empty()) continue;
-    ProgramPlace place;
+    ProgramLocation place;
     place.program = row.name;
     const bool is_idle = step.phase == language::Phase::idle;
     place.why = why_of(state_.error, row.area, is_idle);
     const bool is_of_error = is_idle && state_.error.area == row.area;
     if (is_of_error && !place.why.empty() && !language::leaves_program_running(state_.error.code)) {
-      place.state = ProgramPlace::State::failed;
+      place.state = ProgramLocation::State::failed;
     }
     // Show where it is, or what stopped it.
     const int at = is_of_error ? state_.error.step - language::base_of(row.area, options_) : step.step;
@@ -74,14 +74,14 @@ std::vector<ProgramPlace> Super40nc::places() const {
     }
     switch (step.phase) {
       case language::Phase::idle: break;
-      case language::Phase::executing: place.state = ProgramPlace::State::running; break;
+      case language::Phase::executing: place.state = ProgramLocation::State::running; break;
       case language::Phase::moving: place.waits_for = "its motion to end"; break;
       case language::Phase::homing: place.waits_for = "its axes to be home"; break;
       case language::Phase::waiting: place.waits_for = place.text; break;
       case language::Phase::paused: place.waits_for = "its start (paused)"; break;
       case language::Phase::held: place.waits_for = "its start (held)"; break;
     }
-    if (!place.waits_for.empty()) place.state = ProgramPlace::State::waiting;
+    if (!place.waits_for.empty()) place.state = ProgramLocation::State::waiting;
     const bool is_timed = step.phase == language::Phase::waiting && step.left_ms > 0;
     if (is_timed) place.until = time_of(now() + step.left_ms);
     all.push_back(std::move(place));

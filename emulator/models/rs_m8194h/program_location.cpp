@@ -39,8 +39,8 @@ int line_in(std::string_view text, const std::string& head, int number) {
 
 }  // namespace
 
-std::vector<ProgramPlace> RsM8194h::places() const {
-  std::vector<ProgramPlace> all;
+std::vector<ProgramLocation> RsM8194h::program_locations() const {
+  std::vector<ProgramLocation> all;
   std::string text;
   const auto tell = [&](const lang::Run& run) {
     if (!run.is_alive()) return;
@@ -48,10 +48,10 @@ std::vector<ProgramPlace> RsM8194h::places() const {
     const lang::Level& level = run.levels.back();
     // An ISR may call an MP: what is at the bottom says which of them it is.
     const lang::MacroName name{run.is_isr && run.levels.size() == 1, level.number};
-    ProgramPlace place;
+    ProgramLocation place;
     place.program = to_string(name);
     place.state =
-        run.hold == lang::Hold::nothing ? ProgramPlace::State::running : ProgramPlace::State::waiting;
+        run.hold == lang::Hold::nothing ? ProgramLocation::State::running : ProgramLocation::State::waiting;
     place.waits_for = awaited_by(run.hold);
     // A line that began to wait has been left; one that the machine does not take yet has not.
     const bool is_left =

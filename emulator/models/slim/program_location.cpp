@@ -37,9 +37,9 @@ std::string_view word_for_hold(lang::Hold hold) {
 
 }  // namespace
 
-std::vector<ProgramPlace> Slim::places() const {
+std::vector<ProgramLocation> Slim::program_locations() const {
   const lang::Execution& execution = state_.execution;
-  ProgramPlace place;
+  ProgramLocation place;
   const bool has_run = execution.running || execution.ending != lang::Ending::not_started;
   if (has_run && execution.line >= 0 && execution.line < state_.program.size()) {
     place.line = execution.line + 1;
@@ -47,18 +47,18 @@ std::vector<ProgramPlace> Slim::places() const {
   }
   if (!execution.running) {
     const bool has_failed = execution.ending == lang::Ending::failed;
-    place.state = has_failed ? ProgramPlace::State::failed : ProgramPlace::State::stopped;
+    place.state = has_failed ? ProgramLocation::State::failed : ProgramLocation::State::stopped;
     place.why = word_for_ending(execution.ending);
     return {place};
   }
-  place.state =
-      execution.hold == lang::Hold::nothing ? ProgramPlace::State::running : ProgramPlace::State::waiting;
+  place.state = execution.hold == lang::Hold::nothing ? ProgramLocation::State::running
+                                                      : ProgramLocation::State::waiting;
   place.waits_for = word_for_hold(execution.hold);
   if (execution.hold == lang::Hold::timer || execution.hold == lang::Hold::window) {
     place.until = time_of(execution.until_ms);
   }
   if (program_is_held()) {
-    place.state = ProgramPlace::State::waiting;
+    place.state = ProgramLocation::State::waiting;
     place.waits_for = "the pause to end";
   }
   return {place};

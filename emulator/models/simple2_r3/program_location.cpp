@@ -57,18 +57,19 @@ std::pair<int, std::string> listed(const interpreter::simple2::Program& program,
 
 }  // namespace
 
-std::vector<ProgramPlace> Simple2R3::places() const {
+std::vector<ProgramLocation> Simple2R3::program_locations() const {
   const interpreter::simple2::Execution& execution = state_.execution;
-  ProgramPlace place;
+  ProgramLocation place;
   if (execution.running || execution.ending != interpreter::simple2::Ending::not_started) {
     std::tie(place.line, place.text) = listed(state_.program, execution.now_line);
   }
   if (!execution.running) {
-    place.state = is_failure(execution.ending) ? ProgramPlace::State::failed : ProgramPlace::State::stopped;
+    place.state =
+        is_failure(execution.ending) ? ProgramLocation::State::failed : ProgramLocation::State::stopped;
     place.why = why_of(execution.ending);
     return {place};
   }
-  place.state = ProgramPlace::State::waiting;
+  place.state = ProgramLocation::State::waiting;
   if (execution.phase == interpreter::simple2::Phase::delay) {
     place.waits_for = "its delay";
     place.until = time_of(execution.delay_until_ms);
@@ -79,7 +80,7 @@ std::vector<ProgramPlace> Simple2R3::places() const {
   } else if (execution.waits || execution.held.command != 0) {
     place.waits_for = place.text;
   } else {
-    place.state = ProgramPlace::State::running;
+    place.state = ProgramLocation::State::running;
   }
   return {place};
 }
