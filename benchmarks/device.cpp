@@ -66,7 +66,7 @@ class Contestant {
   /// So many of the ticks were run, and not crossed in bulk.
   double share_run() const {
     const auto run = static_cast<double>(world_->ticks_run());
-    return run / (run + static_cast<double>(world_->ticks_crossed()));
+    return run / (run + static_cast<double>(world_->ticks_skipped()));
   }
 
  private:

@@ -349,7 +349,7 @@ struct alignas(64) Axis {
   }
   /// Runs all ticks up to `tick`, one of those, at once. The state and the sum of the pulses are the same as
   /// tick by tick.
-  std::int64_t cross_to(Tick tick);
+  std::int64_t fast_forward_to(Tick tick);
   /// Returns true if carry() only counts while travel stays within watch_low and watch_high.
   bool carries_quietly(const Environment& environment) const {
     return task == Task::coordinated && is_undisturbed(environment);

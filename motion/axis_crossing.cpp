@@ -34,7 +34,7 @@ Tick Axis::quiet_until(Tick next, Tick most, const Environment& environment, Tra
   return inside;
 }
 
-std::int64_t Axis::cross_to(Tick tick) {
+std::int64_t Axis::fast_forward_to(Tick tick) {
   const std::int64_t travel = travel_ahead(tick);
   const std::int64_t pulses = travel - travel_pulses;
   drive.sent_pulses = drive.pulses_of_segment(tick);

@@ -27,12 +27,12 @@ Device::Device(const Model& model, DeviceSettings settings)
       inputs_(model.terminals.size(), 0),
       settings_(std::move(settings)) {}
 
-Tick Device::next_event_tick(Tick done, Tick /*most*/, const MachineAhead& /*ahead*/) const {
+Tick Device::next_event_tick(Tick done, Tick /*most*/, const ClearTravel& /*ahead*/) const {
   return next_active_tick(done);
 }
 
-void Device::cross_to(Tick /*done*/, Tick /*tick*/, const MachineAhead& /*ahead*/,
-                      std::span<std::int64_t> /*pulses*/) {}
+void Device::fast_forward_to(Tick /*done*/, Tick /*tick*/, const ClearTravel& /*ahead*/,
+                             std::span<std::int64_t> /*pulses*/) {}
 
 pty::LineSettings Device::line_settings(std::size_t port) const {
   const PortRow& row = model_.line.ports[port];

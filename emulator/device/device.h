@@ -30,7 +30,7 @@ namespace understudy::emulator {
 
 class Axes;
 class KeptMemory;
-class MachineAhead;
+class ClearTravel;
 class ModbusStation;
 class NamedValues;
 class RegisterBank;
@@ -103,12 +103,13 @@ class Device {
   /// The ticks before it may be skipped: the state is the same as if they had been run.
   virtual Tick next_active_tick(Tick done) const;
   /// Returns the first tick after `done` that must be run in full, at most `most` + 1. In the ticks before
-  /// it only positions change, as far as `ahead` leaves each axis room; cross_to() can make them up in one
-  /// step.
-  virtual Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const;
+  /// it only positions change, as far as `ahead` leaves each axis room; fast_forward_to() can make them up in
+  /// one step.
+  virtual Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const;
   /// Advances the device to the end of `tick`, which is after `done` and before next_event_tick(). The state
   /// is the same as after single ticks. Adds the pulses that each axis sends to `pulses`.
-  virtual void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses);
+  virtual void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
+                               std::span<std::int64_t> pulses);
   /// Prefetches the memory that `tick` will need (base/prefetch.h).
   virtual void prefetch(Tick tick) const;
   /// Returns true if it equals another device of the same model bit for bit.

@@ -157,7 +157,7 @@ struct StateOf<emulator::world::World> {
     [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, driven_axes, contacts,
                             told_edges, input_turns, sent_pulses, inputs, supplies, wires, watchers,
                             stops_here, listener, faults, next_fault, fault_watch, seed, disturbed, now, done,
-                            ticks, bulk_ticks, crossing_tries] = all;
+                            ticks, bulk_ticks, skip_tries] = all;
   }
 
   static auto& plants(auto& world) { return world.plants_; }

@@ -175,11 +175,11 @@ void World::advance_to(SimTime time) {
     const Tick reachable = tick_at(std::min(time, line_time));
     Tick active = bulk_ticks_ ? next_active_tick() : done_ + 1;
     if (active > done_ + 1) active = std::min(active, next_fault_tick());
-    const bool tries = active == done_ + 1 && may_cross(reachable);
-    const Tick crossed = tries ? last_tick_to_cross(reachable) : done_;
+    const bool tries = active == done_ + 1 && may_fast_forward(reachable);
+    const Tick crossed = tries ? last_tick_to_skip(reachable) : done_;
     bool is_rest = false;
     if (crossed > done_) {
-      cross_to(crossed);
+      fast_forward_to(crossed);
     } else if (active > done_ + 1) {
       const Tick alike = last_alike();
       is_rest = is_at_rest && alike > done_;

@@ -50,7 +50,7 @@ class World final : public WorldView {
   /// Returns when something happens next by itself, or nothing if only outside events can change anything.
   std::optional<SimTime> next_due() const;
   std::uint64_t ticks_run() const { return ticks_.run; }          // one by one
-  std::uint64_t ticks_crossed() const { return ticks_.crossed; }  // in bulk
+  std::uint64_t ticks_skipped() const { return ticks_.crossed; }  // in bulk
 
   /// Runs every tick one by one if false. The results are the same (this exists to prove it).
   void set_bulk_ticks(bool on) { bulk_ticks_ = on; }
@@ -183,7 +183,7 @@ class World final : public WorldView {
   };
 
   /// Limits attempts to skip ticks after one has failed. This affects only speed.
-  struct CrossingTries {
+  struct SkipTries {
     static constexpr Tick kMaxApart = 64;
     Tick next = 0;
     Tick apart = 1;
@@ -212,15 +212,14 @@ class World final : public WorldView {
   Tick next_event_tick(Tick most) const;
   bool has_moving_wires() const;
   /// Running fewer ticks one by one is faster than skipping them.
-  static constexpr Tick kWorthCrossing = 4;
-  bool may_cross(Tick most) const {
+  static constexpr Tick kMinSkip = 4;
+  bool may_fast_forward(Tick most) const {
     // The world may have been taken back to a much earlier time.
-    const bool is_too_soon =
-        done_ < crossing_tries_.next && crossing_tries_.next - done_ <= CrossingTries::kMaxApart;
-    return !is_too_soon && most - done_ >= kWorthCrossing && bulk_ticks_ && !disturbed_ && watchers_.empty();
+    const bool is_too_soon = done_ < skip_tries_.next && skip_tries_.next - done_ <= SkipTries::kMaxApart;
+    return !is_too_soon && most - done_ >= kMinSkip && bulk_ticks_ && !disturbed_ && watchers_.empty();
   }
-  Tick last_tick_to_cross(Tick most);
-  void cross_to(Tick tick);
+  Tick last_tick_to_skip(Tick most);
+  void fast_forward_to(Tick tick);
   SimTime next_line_time() const;
   void run_device(std::size_t number);
   void prefetch_device(std::size_t number) const;
@@ -284,7 +283,7 @@ class World final : public WorldView {
   Tick done_ = 0;  // the last tick that is over
   TickCounts ticks_;
   bool bulk_ticks_ = true;
-  CrossingTries crossing_tries_;
+  SkipTries skip_tries_;
 };
 
 }  // namespace understudy::emulator::world

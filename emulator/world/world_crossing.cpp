@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
-#include "emulator/device/machine_ahead.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/device/terminals.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/plant/plant.h"
@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 namespace {
 
 /// The machines of one device.
-class Machines final : public MachineAhead {
+class Machines final : public ClearTravel {
  public:
   explicit Machines(const std::vector<PlantAxis>& plants) : plants_(plants) {}
 
@@ -59,22 +59,22 @@ Tick World::next_event_tick(Tick most) const {
 }
 
 /// The tick to which a crossing brings the world; done_ where it is not worth one.
-Tick World::last_tick_to_cross(Tick most) {
+Tick World::last_tick_to_skip(Tick most) {
   const Tick last = next_event_tick(most) - 1;
-  if (last - done_ >= kWorthCrossing) {
-    crossing_tries_.apart = 1;
+  if (last - done_ >= kMinSkip) {
+    skip_tries_.apart = 1;
     return last;
   }
-  crossing_tries_.next = done_ + crossing_tries_.apart;
-  crossing_tries_.apart = std::min(2 * crossing_tries_.apart, CrossingTries::kMaxApart);
+  skip_tries_.next = done_ + skip_tries_.apart;
+  skip_tries_.apart = std::min(2 * skip_tries_.apart, SkipTries::kMaxApart);
   return done_;
 }
 
-void World::cross_to(Tick tick) {
+void World::fast_forward_to(Tick tick) {
   std::vector<std::int64_t> pulses;
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     pulses.assign(plants_[d].size(), 0);
-    if (devices_[d]->powered()) devices_[d]->cross_to(done_, tick, Machines(plants_[d]), pulses);
+    if (devices_[d]->powered()) devices_[d]->fast_forward_to(done_, tick, Machines(plants_[d]), pulses);
     for (std::size_t a = 0; a < pulses.size(); ++a) {
       count_sent(sent_pulses_[d][a], pulses[a]);
       plants_[d][a].cross(pulses[a]);

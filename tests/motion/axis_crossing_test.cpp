@@ -14,7 +14,7 @@ void go_to(AxisCourse& course, Tick until, AxisScenario& scenario, Tick& crossed
     if (quiet > course.now) {
       crossed += quiet - course.now;
       course.now = quiet;
-      course.note(course.axis.cross_to(quiet));
+      course.note(course.axis.fast_forward_to(quiet));
     } else {
       course.step();
     }
@@ -83,7 +83,7 @@ TEST(AxisCrossing, AnHourIsAFewSteps) {
     const Tick quiet = course.axis.quiet_until(course.now + 1, kNoTick - 1, course.environment, {});
     if (quiet > course.now) {
       course.now = quiet;
-      course.axis.cross_to(quiet);
+      course.axis.fast_forward_to(quiet);
     } else {
       course.step();
     }

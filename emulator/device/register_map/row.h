@@ -79,7 +79,7 @@ struct Cell {
 /// again only in these ticks.
 enum class Varies : std::uint8_t {
   in_ticks,      // in ticks that are run in full, or by outside events
-  while_moving,  // with the pulses of an axis, so also in ticks that Device::cross_to makes up
+  while_moving,  // with the pulses of an axis, so also in ticks that Device::fast_forward_to makes up
   with_time,     // by the clock alone, at the ticks that `changes_at` gives
 };
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
-#include "emulator/device/machine_ahead.h"
 #include "emulator/device/machine_edges.h"
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/models/imported/axis_drive.h"
@@ -138,7 +138,7 @@ Tick ImportedDevice::next_active_tick(Tick done) const {
   return all_rest ? next_tick_of_values(done) : done + 1;
 }
 
-Tick ImportedDevice::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+Tick ImportedDevice::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
   if (state_.touched || inputs_changed()) return done + 1;
   Tick last = std::min(most, next_tick_of_values(done) - 1);
   for (std::size_t i = 0; i < state_.axes.size() && last > done; ++i) {
@@ -151,10 +151,11 @@ Tick ImportedDevice::next_event_tick(Tick done, Tick most, const MachineAhead& a
   return last + 1;
 }
 
-void ImportedDevice::cross_to(Tick, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
+void ImportedDevice::fast_forward_to(Tick, Tick tick, const ClearTravel& ahead,
+                                     std::span<std::int64_t> pulses) {
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     AxisState& axis = state_.axes[i];
-    pulses[i] += axis.motor.cross_to(tick - 1);
+    pulses[i] += axis.motor.fast_forward_to(tick - 1);
     finish_step(i, axis.motor.step(tick, axis.environment));
     pulses[i] += axis.sent_pulses;
     const int number = static_cast<int>(i);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
-#include "emulator/device/machine_ahead.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
@@ -240,7 +240,7 @@ void RsM8194h::step_scans(Tick tick) {
 
 // --- many ticks at once ------------------------------------------------------------------------------------
 
-Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+Tick RsM8194h::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
   const bool is_simple = !inputs_changed() && !state_.touched && state_.marks.empty() &&
                          state_.scanning == 0 && !state_.paths.together.engaged &&
                          state_.steps_left == options_.steps_a_tick;
@@ -266,10 +266,10 @@ Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) 
   return last + 1;
 }
 
-void RsM8194h::cross_to(Tick, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
+void RsM8194h::fast_forward_to(Tick, Tick tick, const ClearTravel& ahead, std::span<std::int64_t> pulses) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     motion::Axis& motor = state_.motors[a];
-    pulses[a] += motor.cross_to(tick - 1);
+    pulses[a] += motor.fast_forward_to(tick - 1);
     state_.units[a].sent_pulses = motor.step(tick, state_.environment[a]);
     pulses[a] += state_.units[a].sent_pulses;
     const auto axis = static_cast<int>(a);

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "base/simulated_time.h"
-#include "emulator/device/machine_ahead.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -90,7 +90,7 @@ std::int64_t counts_ahead(const AxisState& axis, const Crossing& crossing, Tick 
 }
 
 /// As remember_encoder() would have had it in each of the ticks.
-void remember_crossing(AxisState& axis, const Crossing& crossing, Tick tick) {
+void remember_skip(AxisState& axis, const Crossing& crossing, Tick tick) {
   const Tick next = crossing.done + 1;
   const std::int64_t first = counts_ahead(axis, crossing, next);
   const std::int64_t last = counts_ahead(axis, crossing, tick);
@@ -122,7 +122,7 @@ Tick quiet_until(const AxisState& axis, const Crossing& crossing, Tick most) {
 std::int64_t cross(AxisState& axis, const Crossing& crossing, Tick tick) {
   const std::int64_t commanded = pulses_ahead(axis, crossing, tick);
   const std::int64_t of_the_last = commanded - pulses_ahead(axis, crossing, tick - 1);
-  remember_crossing(axis, crossing, tick);
+  remember_skip(axis, crossing, tick);
   if (commanded != 0 && crossing.ahead->has_encoder(crossing.axis)) {
     const std::int64_t pulses = crossing.reversed ? -commanded : commanded;
     count_encoder(axis, crossing.ahead->encoder_counts(crossing.axis, pulses), crossing.encoder_reversed);
@@ -133,7 +133,7 @@ std::int64_t cross(AxisState& axis, const Crossing& crossing, Tick tick) {
     axis.speed_urpm += 2 * (tick - crossing.done) * change_of_speed(axis, crossing.settings);
     axis.motor.carry_across(commanded);
   } else {
-    axis.motor.cross_to(tick);
+    axis.motor.fast_forward_to(tick);
   }
   axis.pulses_this_tick = crossing.reversed ? -of_the_last : of_the_last;
   return commanded;

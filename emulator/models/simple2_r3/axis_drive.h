@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "base/simulated_time.h"
-#include "emulator/device/machine_ahead.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/models/simple2_r3/reactions.h"
 #include "motion/axis.h"
 #include "motion/homing_tables.h"
@@ -171,7 +171,7 @@ struct Crossing {
   bool reversed = false;          // DIR_Polarity
   bool encoder_reversed = false;  // by its polarity
   int axis = 0;
-  const MachineAhead* ahead = nullptr;
+  const ClearTravel* ahead = nullptr;
 };
 
 /// Returns the last tick, up to `most`, through which the axis only counts on, or crossing.done if the next

@@ -9,9 +9,9 @@
 
 #include "base/prefetch.h"
 #include "base/simulated_time.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
 #include "emulator/device/device_of.h"
-#include "emulator/device/machine_ahead.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
@@ -305,7 +305,7 @@ Tick Simple2R3::next_active_tick(Tick done) const {
   return next;
 }
 
-Crossing Simple2R3::crossing(int axis, Tick done, const MachineAhead& ahead) const {
+Crossing Simple2R3::crossing(int axis, Tick done, const ClearTravel& ahead) const {
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
   return {.done = done,
           .settings = drive_settings(axis),
@@ -315,7 +315,7 @@ Crossing Simple2R3::crossing(int axis, Tick done, const MachineAhead& ahead) con
           .ahead = &ahead};
 }
 
-Tick Simple2R3::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+Tick Simple2R3::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
   Tick last = std::min(most, next_tick_without_axes(done) - 1);
   for (int axis = 0; axis < 2 && last > done; ++axis) {
     last = quiet_until(state_.axes[static_cast<std::size_t>(axis)], crossing(axis, done, ahead), last);
@@ -323,7 +323,8 @@ Tick Simple2R3::next_event_tick(Tick done, Tick most, const MachineAhead& ahead)
   return last > done && sees_something_new() ? done + 1 : last + 1;
 }
 
-void Simple2R3::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
+void Simple2R3::fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
+                                std::span<std::int64_t> pulses) {
   for (int number = 0; number < 2; ++number) {
     const auto n = static_cast<std::size_t>(number);
     AxisState& axis = state_.axes[n];

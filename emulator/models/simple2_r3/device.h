@@ -156,8 +156,9 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
-  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
-  void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
+  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override;
+  void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
+                       std::span<std::int64_t> pulses) override;
   void prefetch(Tick tick) const override;
   bool same_state(const Device& other) const override;
 
@@ -261,7 +262,7 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   Tick next_tick_without_axes(Tick done) const;
   Tick next_slot(Tick done) const;
   DriveSettings drive_settings(int number) const;
-  Crossing crossing(int axis, Tick done, const MachineAhead& ahead) const;
+  Crossing crossing(int axis, Tick done, const ClearTravel& ahead) const;
   Eeprom factory_memory() const;
   /// Resets the state, except for the memory and the encoders' counts.
   void blank_state();

@@ -20,7 +20,7 @@
 #include <span>
 
 #include "base/simulated_time.h"
-#include "emulator/device/machine_ahead.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/models/slim/chain_options.h"
 #include "emulator/models/slim/errors.h"
 #include "emulator/models/slim/module.h"
@@ -200,9 +200,9 @@ class Chain {
   Tick next_active_tick(Tick done) const;
   /// Like next_active_tick(), while modules only continue their motion within the free travel of their
   /// machines; at most `most` + 1.
-  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const;
+  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const;
   /// Runs all ticks up to `tick`, before that event, in one step. Adds the pulses of each module.
-  void cross_to(Tick tick, std::span<std::int64_t> pulses);
+  void fast_forward_to(Tick tick, std::span<std::int64_t> pulses);
 
  private:
   template <class T>

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/simulated_time.h"
-#include "emulator/device/machine_ahead.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/models/slim/chain.h"
 #include "emulator/models/slim/errors.h"
 #include "emulator/models/slim/module.h"
@@ -163,7 +163,7 @@ Tick Chain::next_active_tick(Tick done) const {
   return next;
 }
 
-Tick Chain::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+Tick Chain::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
   for (const Group& group : groups_) {
     if (!stands(group, done)) return done + 1;
   }
@@ -185,13 +185,13 @@ Tick Chain::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) con
   return last + 1;
 }
 
-void Chain::cross_to(Tick tick, std::span<std::int64_t> pulses) {
+void Chain::fast_forward_to(Tick tick, std::span<std::int64_t> pulses) {
   now_ = tick;
   for (int module = 0; module < kModules; ++module) {
     Module& mine = modules_[at(module)];
     if (mine.activity == Activity::group) continue;
     motion::Axis& axis = axes_[at(module)];
-    pulses[at(module)] += axis.cross_to(tick - 1);
+    pulses[at(module)] += axis.fast_forward_to(tick - 1);
     mine.sent_pulses = axis.step(tick, environment_[at(module)]);
     pulses[at(module)] += mine.sent_pulses;
     if (mine.starved && !axis.moving()) mine.place_units = coordinate(module);

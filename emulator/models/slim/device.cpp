@@ -14,9 +14,9 @@
 
 #include "base/simulated_time.h"
 #include "base/text/most_mistakes.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
 #include "emulator/device/device_of.h"
-#include "emulator/device/machine_ahead.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
@@ -335,7 +335,7 @@ Tick Slim::next_active_tick(Tick done) const {
                   next_active_ms(state_.execution, done, state_.program, flow_options_, *this));
 }
 
-Tick Slim::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+Tick Slim::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
   // What a program and its events look at moves.
   const bool is_looked_at = state_.execution.running || !flow_options_.events_need_program;
   if (state_.touched || (is_looked_at && !program_is_held())) return done + 1;
@@ -343,8 +343,8 @@ Tick Slim::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) cons
   return next > done + 1 && sees_something_new() ? done + 1 : next;
 }
 
-void Slim::cross_to(Tick, Tick tick, const MachineAhead&, std::span<std::int64_t> pulses) {
-  state_.chain.cross_to(tick, pulses);
+void Slim::fast_forward_to(Tick, Tick tick, const ClearTravel&, std::span<std::int64_t> pulses) {
+  state_.chain.fast_forward_to(tick, pulses);
 }
 
 State Slim::settled() const {

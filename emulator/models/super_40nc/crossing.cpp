@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
-#include "emulator/device/machine_ahead.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
@@ -105,7 +105,7 @@ Tick Super40nc::next_active_tick(Tick done) const {
   return next_timed_tick(done);
 }
 
-Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+Tick Super40nc::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
   if (state_.touched || inputs_changed() || programs_are_busy() || has_errors_for_a_scan() ||
       state_.path.engaged || input(kWheelTerminal) != state_.wheel_edges || has_chip_pins()) {
     return done + 1;
@@ -131,7 +131,8 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead)
   return last + 1;
 }
 
-void Super40nc::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
+void Super40nc::fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
+                                std::span<std::int64_t> pulses) {
   const Tick ticks = tick - done;
   state_.has_ticked = true;
   if (!ladder_->is_empty() && state_.plc.runs) {
@@ -145,7 +146,7 @@ void Super40nc::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::s
     if (is_quiet(number)) continue;
     AxisState& state = axis(number);
     const std::int64_t travel_before = motor.travel_pulses;
-    const std::int64_t before_last = tick - 1 > done ? motor.cross_to(tick - 1) : 0;
+    const std::int64_t before_last = tick - 1 > done ? motor.fast_forward_to(tick - 1) : 0;
     const std::int64_t travel_at_last = motor.travel_pulses;
     state.sent_pulses = motor.step(tick, environment(number));
     state.followed_pulses = motor.travel_pulses - travel_at_last;

@@ -93,8 +93,9 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
-  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
-  void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
+  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override;
+  void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
+                       std::span<std::int64_t> pulses) override;
   bool same_state(const Device& other) const override;
 
   // --- terminals and axes --------------------------------------------------------------------------

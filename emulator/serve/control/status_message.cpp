@@ -183,7 +183,7 @@ void StatusParts::add_head(ReplyText& text) {
                            {"p99_us", microseconds(pacer.lateness().percentile(99))},
                            {"max_us", microseconds(pacer.lateness().greatest())},
                            {"slips", pacer.slips()}});
-  text.member("ticks", {{"stepped", world.ticks_run()}, {"crossed", world.ticks_crossed()}});
+  text.member("ticks", {{"stepped", world.ticks_run()}, {"crossed", world.ticks_skipped()}});
   text.open_list("lines");
   part_ = Part::lines;
 }

@@ -7,8 +7,8 @@
 #include <cstdlib>
 
 #include "base/state/fields.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
-#include "emulator/device/machine_ahead.h"
 #include "emulator/device/machine_edges.h"
 #include "motion/axis.h"
 #include "motion/state_fields.h"
@@ -120,7 +120,7 @@ class Motors {
     });
   }
 
-  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
     Tick last = most;
     for (std::size_t i = 0; i < kMotorCount && last > done; ++i) {
       const motion::Axis& axis = state.motors[i].axis;
@@ -133,11 +133,11 @@ class Motors {
     return last + 1;
   }
 
-  void cross_to(Tick tick, std::span<std::int64_t> pulses) {
+  void fast_forward_to(Tick tick, std::span<std::int64_t> pulses) {
     const std::int64_t before = state.motors[0].axis.travel_pulses;
     for (std::size_t i = 0; i < kMotorCount; ++i) {
       Motor& motor = state.motors[i];
-      pulses[i] += motor.axis.cross_to(tick - 1);
+      pulses[i] += motor.axis.fast_forward_to(tick - 1);
       motor.sent_pulses = motor.axis.step(tick, motor.environment);
       pulses[i] += motor.sent_pulses;
     }

@@ -195,12 +195,12 @@ class Workbench final : public DeviceOf<Workbench>,
     if (take_inputs_changed()) motors_.look_at_inputs(*this);
   }
   void step_motion(Tick tick) override { motors_.step(tick); }
-  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override {
+  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override {
     if (module_moves() || inputs_changed()) return done + 1;
     return std::min(motors_.next_event_tick(done, most, ahead), next_kept_tick(done));
   }
-  void cross_to(Tick, Tick tick, const MachineAhead&, std::span<std::int64_t> pulses) override {
-    motors_.cross_to(tick, pulses);
+  void fast_forward_to(Tick, Tick tick, const ClearTravel&, std::span<std::int64_t> pulses) override {
+    motors_.fast_forward_to(tick, pulses);
   }
 
   /// Positions and commands are of a module that may be absent, and positions wait for room in its FIFO.

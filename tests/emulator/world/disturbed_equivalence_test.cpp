@@ -227,7 +227,7 @@ void compare(std::uint64_t seed_value, const std::string& timing, const Stepping
   };
   ASSERT_NO_FATAL_FAILURE(play_both(plain, twin, random.make(300), stepping,
                                     "seed " + std::to_string(seed_value) + " " + timing, look));
-  sum.crossed += plain.ticks_crossed();
+  sum.crossed += plain.ticks_skipped();
   sum.run += plain.ticks_run();
   sum.lost += plain.plant(0, 0).lost_pulses();
   for (const auto& station : plain.line(0).stations) sum.replies += station->counters().replies;

@@ -29,7 +29,7 @@ using Stepping = std::function<void(World&, SimTime)>;
 inline void by_single_ticks(World& world, SimTime to) {
   world.set_bulk_ticks(false);
   world.advance_to(to);
-  EXPECT_EQ(world.ticks_crossed(), 0u);
+  EXPECT_EQ(world.ticks_skipped(), 0u);
 }
 
 inline Stepping by_odd_steps(std::uint64_t seed) {

@@ -185,7 +185,7 @@ class Pair {
   }
 
   const char* waker() const { return kWakers[static_cast<std::size_t>(waker_)]; }
-  std::uint64_t crossed() const { return plain_.ticks_crossed(); }
+  std::uint64_t crossed() const { return plain_.ticks_skipped(); }
   std::uint64_t run() const { return plain_.ticks_run(); }
   void carry_out(const Act& act) {
     act.carry_out(plain_);

@@ -1,5 +1,6 @@
-// Tells a device about the machines on its axes for making up many ticks in one step (Device::cross_to()):
-// how far each axis can move before anything but positions changes, and what its encoder will count.
+// Tells a device about the machines on its axes for making up many ticks in one step
+// (Device::fast_forward_to()): how far each axis can move before anything but positions changes, and what its
+// encoder will count.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@ struct PulseRoom {
   std::int64_t most = 0;
 };
 
-class MachineAhead {
+class ClearTravel {
  public:
   /// Returns how far an axis can move before anything but its position and its encoder count changes.
   virtual PulseRoom room(int axis) const = 0;
@@ -21,7 +22,7 @@ class MachineAhead {
   virtual std::int64_t encoder_counts(int axis, std::int64_t pulses) const = 0;
 
  protected:
-  ~MachineAhead() = default;
+  ~ClearTravel() = default;
 };
 
 }  // namespace understudy::emulator
