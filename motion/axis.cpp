@@ -117,7 +117,7 @@ Cause Axis::begin(Task what, int direction, std::int64_t distance_pulses, const 
   target_pulses = what == Task::move ? size_of(distance_pulses) : 0;
   cause = Cause::none;
   if (!for_homing) events_between |= bit(Event::started);
-  play_pulses = direction > 0 ? settings.backlash_pulses - play : play;
+  backlash_taken_pulses = direction > 0 ? settings.backlash_pulses - play : play;
   last_direction = static_cast<std::int8_t>(direction);
   base_pulses = travel_pulses;
   if (play > 0) {
@@ -138,7 +138,7 @@ Cause Axis::begin(Task what, int direction, std::int64_t distance_pulses, const 
 std::int64_t Axis::play_before(int direction) const {
   if (settings.slips) return settings.backlash_pulses;
   if (last_direction == 0) return 0;
-  const std::int64_t play = std::clamp<std::int64_t>(play_pulses, 0, settings.backlash_pulses);
+  const std::int64_t play = std::clamp<std::int64_t>(backlash_taken_pulses, 0, settings.backlash_pulses);
   return direction > 0 ? settings.backlash_pulses - play : play;
 }
 
@@ -156,7 +156,7 @@ void Axis::drop(Instant at) {
   in_backlash = slowing = comes_back = settling = false;
   follower.phase = 0;
   base_pulses = travel_pulses;
-  attentive = true;
+  must_recheck = true;
 }
 
 Cause Axis::move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now) {
@@ -204,13 +204,13 @@ Cause Axis::run(int direction, const SpeedLaw& speed, Tick now) {
   return begin(Task::endless, direction < 0 ? -1 : +1, 0, speed, {.tick = now + 1});
 }
 
-Cause Axis::hang(int direction) {
+Cause Axis::move_at_zero_speed(int direction) {
   if (const Cause why_not = forbidden(direction); why_not != Cause::none) return why_not;
   drop();
   homing.phase = -1;
   task = Task::hanging;
   cause = Cause::none;
-  drive.hang(direction);
+  drive.move_at_zero_speed(direction);
   events_between |= bit(Event::started);
   return Cause::none;
 }
@@ -235,7 +235,7 @@ Cause Axis::take_part() {
 void Axis::arrive(Instant at) {
   if (task != Task::coordinated || settling) return;
   if (settings.waits_for_in_position && (signals & bit(Signal::in_position)) == 0) {
-    settling = attentive = true;
+    settling = must_recheck = true;
     return;
   }
   end(Cause::arrived, at);
@@ -279,7 +279,7 @@ void Axis::go_on_by(const SpeedLaw& speed, Instant at) {
     const Profile whole = planned(speed);
     law = speed;
     if (!in_backlash) drive.go_on(whole, drive.beginning());
-    attentive = true;
+    must_recheck = true;
     return;
   }
   const Profile rest = task == Task::endless
@@ -287,7 +287,7 @@ void Axis::go_on_by(const SpeedLaw& speed, Instant at) {
                            : forward_to(forward_sample(drive, at), static_cast<double>(target_pulses), speed);
   law = speed;
   drive.go_on(rest, at);
-  attentive = true;
+  must_recheck = true;
 }
 
 void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Tick now) {
@@ -307,7 +307,7 @@ void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Ti
     const Profile whole = plan(static_cast<double>(distance_pulses), law);
     target_pulses = distance_pulses;
     if (!in_backlash) drive.go_on(whole, drive.beginning());
-    attentive = true;
+    must_recheck = true;
     return;
   }
   if (stop_if_passed && distance_pulses <= drive.sent_pulses) {
@@ -336,7 +336,7 @@ void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Ti
     drive.go_on(forward_to(here, target, law), at);
   }
   target_pulses = distance_pulses;
-  attentive = true;
+  must_recheck = true;
 }
 
 // ---- Stopping
@@ -369,7 +369,7 @@ void Axis::slow(Instant at, Cause why) {
   }
   slowing = true;
   drive.go_on(rest, at);
-  attentive = true;
+  must_recheck = true;
 }
 
 bool Axis::resume(const SpeedLaw& speed, Tick now) {
@@ -426,11 +426,12 @@ void Axis::set(const AxisSettings& changed) {
   check(changed);
   // New backlash is taken up in the last direction as far as the old one was.
   const bool is_positive = last_direction > 0;
-  const std::int64_t before = is_positive ? settings.backlash_pulses - play_pulses : play_pulses;
+  const std::int64_t before =
+      is_positive ? settings.backlash_pulses - backlash_taken_pulses : backlash_taken_pulses;
   settings = changed;
   const std::int64_t left = std::clamp<std::int64_t>(before, 0, settings.backlash_pulses);
-  play_pulses = is_positive ? settings.backlash_pulses - left : left;
-  attentive = true;
+  backlash_taken_pulses = is_positive ? settings.backlash_pulses - left : left;
+  must_recheck = true;
 }
 
 }  // namespace understudy::motion

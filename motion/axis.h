@@ -171,7 +171,7 @@ struct alignas(64) Axis {
   std::int64_t base_pulses = 0;  // travel where the drive's coordinate is 0
   std::uint32_t seen_version = 0;
   Events events = 0;          // events of the last tick
-  bool attentive = true;      // true: check everything in the next tick
+  bool must_recheck = true;   // true: check everything in the next tick
   bool inverted = false;      // true: pulses come out in the opposite direction
   Signals signals = 0;        // signals as last seen
   Events events_between = 0;  // events since the last tick
@@ -184,10 +184,10 @@ struct alignas(64) Axis {
 
   AxisSettings settings;
   std::array<Comparator, 4> comparators{};
-  std::int64_t encoder_pulses = 0;  // set by set_encoder(), or computed within the tick (EncoderLine)
-  std::int64_t encoder_seen = 0;    // the count up to which comparators have been checked
-  std::int64_t backlash_sent = 0;   // all extra pulses so far, signed by direction
-  std::int64_t play_pulses = 0;     // 0 .. backlash_pulses: how much of the backlash is taken up towards plus
+  std::int64_t encoder_pulses = 0;          // set by set_encoder(), or computed within the tick (EncoderLine)
+  std::int64_t encoder_seen = 0;            // the count up to which comparators have been checked
+  std::int64_t backlash_sent = 0;           // all extra pulses so far, signed by direction
+  std::int64_t backlash_taken_pulses = 0;   // 0 .. backlash_pulses: taken up towards plus
   std::array<Instant, kEvents> event_at{};  // when each event with a moment of its own last happened
   double constant_pps = 0;  // constant speed at the last pulse; 0: it was not at constant speed
 
@@ -218,7 +218,7 @@ struct alignas(64) Axis {
   /// Runs without end in `direction` (+1 or -1).
   Cause run(int direction, const SpeedLaw& speed, Tick now);
   /// Begins a move at speed 0: the axis counts as moving, but sends no pulse (Simple2-R3).
-  Cause hang(int direction);
+  Cause move_at_zero_speed(int direction);
   /// Follows the counts from feed() until stopped (motion/following.h).
   Cause follow(const Follower& by);
   void feed(std::int64_t counts);
@@ -288,7 +288,7 @@ struct alignas(64) Axis {
   std::int64_t step(Tick tick, const Environment& environment) {
     QuietTick quiet;
     return step_quietly(tick, environment, quiet) ? quiet.pulses
-                                                  : step_with_care(tick, environment, quiet.followed);
+                                                  : step_slow_path(tick, environment, quiet.followed);
   }
 
   /// The result of a tick in which nothing can happen, and the state before it. Such a tick can be taken back
@@ -304,7 +304,7 @@ struct alignas(64) Axis {
   bool step_quietly(Tick tick, const Environment& environment, QuietTick& quiet) {
     quiet.travel = travel_pulses;
     quiet.sent = drive.sent_pulses;
-    if (tick < drive.next_look && environment.version == seen_version && !attentive) [[likely]] {
+    if (tick < drive.next_look && environment.version == seen_version && !must_recheck) [[likely]] {
       const std::int64_t sent = drive.pulses_of_segment(tick);
       const std::int64_t travel = base_pulses + drive.direction * sent;
       if (travel >= watch_low && travel <= watch_high) [[likely]] {
@@ -331,7 +331,7 @@ struct alignas(64) Axis {
     if (carries_quietly(environment) && travel >= watch_low && travel <= watch_high) [[likely]] {
       return carry_across(pulses);
     }
-    return step_with_care(tick, environment, pulses);
+    return step_slow_path(tick, environment, pulses);
   }
 
   // ---- Many ticks in one step: motion/axis_crossing.cpp
@@ -369,14 +369,14 @@ struct alignas(64) Axis {
   friend class AxisTick;
 
   Cause forbidden(int direction, Signals ignored) const;
-  std::int64_t step_with_care(Tick tick, const Environment& environment,
+  std::int64_t step_slow_path(Tick tick, const Environment& environment,
                               std::optional<std::int64_t> pulses = {});
   bool follow_quietly(const Environment& environment, QuietTick& quiet);
   /// Returns true if nothing has changed since the last tick except the carried pulses, and all pulses sent
   /// are travel.
   bool is_undisturbed(const Environment& environment) const {
-    return environment.version == seen_version && !attentive && settings.backlash_pulses <= 0 &&
-           play_pulses == 0;
+    return environment.version == seen_version && !must_recheck && settings.backlash_pulses <= 0 &&
+           backlash_taken_pulses == 0;
   }
 
   // Starting and ending, at moments within a tick.

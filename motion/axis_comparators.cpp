@@ -67,7 +67,7 @@ void Axis::set_comparator(std::size_t number, const Comparator& comparator) {
   // comparator is set waits for the next time it becomes true.
   mine.was_true =
       same_question ? was_true : mine.holds(mine.count == Count::command ? travel_pulses : encoder_pulses);
-  attentive = true;
+  must_recheck = true;
 }
 
 bool Axis::counts_by_encoder() const {
@@ -82,7 +82,7 @@ void Axis::set_encoder(std::int64_t pulses) {
   encoder_pulses = pulses;
   if (encoder_is_known) return;  // it has been followed within the tick
   if (counts_by_encoder()) {
-    attentive = true;
+    must_recheck = true;
   } else {
     encoder_seen = pulses;  // values in between are not compared
   }

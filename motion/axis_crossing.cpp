@@ -11,7 +11,7 @@ namespace understudy::motion {
 
 Tick Axis::quiet_until(Tick next, Tick most, const Environment& environment, TravelRange range) const {
   const Tick none = next - 1;
-  if (attentive || environment.version != seen_version || task == Task::coordinated) return none;
+  if (must_recheck || environment.version != seen_version || task == Task::coordinated) return none;
   const std::int64_t low = std::max(range.low, watch_low);
   const std::int64_t high = std::min(range.high, watch_high);
   const Tick last = std::min(most, drive.next_look - 1);

@@ -19,7 +19,7 @@ constexpr std::int64_t kNoEdge = std::int64_t{1} << 56;
 
 }  // namespace
 
-std::int64_t Axis::step_with_care(Tick tick, const Environment& environment,
+std::int64_t Axis::step_slow_path(Tick tick, const Environment& environment,
                                   std::optional<std::int64_t> pulses) {
   AxisTick part(*this, environment, tick, pulses);
   while (!part.is_over()) part.look();

@@ -45,7 +45,7 @@ AxisTick::AxisTick(Axis& axis, const Environment& environment, Tick tick, std::o
       axis_.encoder_seen = environment.encoder.at(axis_.travel_pulses);
   }
   axis_.seen_version = environment.version;
-  axis_.attentive = false;
+  axis_.must_recheck = false;
   axis_.update_signals(environment, at_, 0);
   const bool is_carried = axis_.task == Task::following || (carried && axis_.task == Task::coordinated);
   if (!is_carried) return;
@@ -133,7 +133,7 @@ void AxisTick::go_to(Instant at) {
     const std::int64_t come = (due() - drive.sent_pulses) * drive.direction;
     drive.sent_pulses += come * drive.direction;
     axis_.backlash_sent += come;
-    axis_.play_pulses += come;
+    axis_.backlash_taken_pulses += come;
   } else if (come_ != std::abs(carried_) && axis_.task == carried_by_) {
     axis_.watch(here_);
     const std::int64_t room =
@@ -204,7 +204,7 @@ void AxisTick::end_backlash() {
   PulseDrive& drive = axis_.drive;
   const std::int64_t come = (drive.pulses_at(tick_) - drive.sent_pulses) * drive.direction;
   axis_.backlash_sent += come;
-  axis_.play_pulses += come;
+  axis_.backlash_taken_pulses += come;
   const Profile rest = axis_.planned(axis_.law);
   const int direction = static_cast<int>(drive.direction);
   axis_.in_backlash = false;
@@ -264,7 +264,7 @@ bool AxisTick::sets_out(int direction, Instant at) {
   axis_.drive.direction = direction;
   if (!axis_.settings.slips) {
     axis_.backlash_sent += axis_.play_before(direction) * direction;
-    axis_.play_pulses = direction > 0 ? axis_.settings.backlash_pulses : 0;
+    axis_.backlash_taken_pulses = direction > 0 ? axis_.settings.backlash_pulses : 0;
   }
   axis_.last_direction = static_cast<std::int8_t>(direction);
   return true;
@@ -325,8 +325,8 @@ std::int64_t AxisTick::finish() {
       may_turn && (axis_.forbidden(+1) != Cause::none || axis_.forbidden(-1) != Cause::none);
   const std::int64_t pulses = axis_.travel_pulses - travel_before_ + axis_.backlash_sent - backlash_before_;
   if (pulses != 0) axis_.raise(Event::pulse, until_);
-  axis_.attentive = axis_.attentive || axis_.in_backlash || at_a_limit ||
-                    (axis_.settings.raises & bit(Event::pulse)) != 0 || axis_.waits_for_constant_speed();
+  axis_.must_recheck = axis_.must_recheck || axis_.in_backlash || at_a_limit ||
+                       (axis_.settings.raises & bit(Event::pulse)) != 0 || axis_.waits_for_constant_speed();
   if (axis_.task == Task::following)
     axis_.drive.next_look = 0;  // it has no plan, so each of its ticks comes here
   axis_.events = static_cast<Events>(taken_ | at_end_ | axis_.events_between);

@@ -27,7 +27,7 @@ struct HomingPhase {
               // one that runs on is past them at the speed of the next phase, or goes at that from the start
               // where they are too few to slow down to it
     go_back,  // to the travel that a phase before marked
-    hang,     // goes in `direction` at speed 0: no pulse, until a command ends it (Simple2-R3)
+    move_at_zero_speed,  // goes in `direction` at speed 0: no pulse, until a command ends it (Simple2-R3)
   };
   enum class Then : std::uint8_t {
     stop_at_once,

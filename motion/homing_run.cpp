@@ -74,7 +74,7 @@ void check(const HomingProgram& program) {
     require(is_row(row.if_far), "the phase after a search too far must be one of the table");
     require(row.speed >= 0 && static_cast<std::size_t>(row.speed) < HomingProgram::kMaxSpeeds,
             "speed must be one of the table");
-    if (row.does == HomingPhase::Does::hang) continue;
+    if (row.does == HomingPhase::Does::move_at_zero_speed) continue;
     const SpeedLaw& speed = program.speeds[static_cast<std::size_t>(row.speed)];
     check(speed);
     if (row.does == HomingPhase::Does::go) {
@@ -257,13 +257,13 @@ Cause Axis::begin_phase(Instant at) {
       if (homing.runs_on_by() == nullptr) return go(row.distance_pulses);
       return begin(Task::endless, row.distance_pulses < 0 ? -1 : +1, 0, speed, at, true);
     case HomingPhase::Does::go_back: return go(homing.reference_pulses - travel_pulses);
-    case HomingPhase::Does::hang: break;
+    case HomingPhase::Does::move_at_zero_speed: break;
   }
   if (const Cause why_not = forbidden(row.direction); why_not != Cause::none) return why_not;
   drop();
   task = Task::hanging;
   cause = Cause::none;
-  drive.hang(row.direction);
+  drive.move_at_zero_speed(row.direction);
   return Cause::none;
 }
 

@@ -33,7 +33,7 @@ Signal limit_towards(int direction) { return direction < 0 ? Signal::limit_minus
 
 HomingProgram hanging(int direction) {
   HomingProgram program;
-  program.add({.does = Does::hang, .direction = sign(direction)});
+  program.add({.does = Does::move_at_zero_speed, .direction = sign(direction)});
   return program;
 }
 
@@ -254,8 +254,8 @@ HomingProgram simple2_homing(const Simple2Homing& how) {
   if (how.speed.top_speed_u_s == 0) {
     // It would turn back at the limit as well, at the same low speed.
     HomingProgram both_ways;
-    both_ways.add({.does = Does::hang, .direction = sign(how.direction), .if_limit = 1});
-    both_ways.add({.does = Does::hang, .direction = opposite(how.direction)});
+    both_ways.add({.does = Does::move_at_zero_speed, .direction = sign(how.direction), .if_limit = 1});
+    both_ways.add({.does = Does::move_at_zero_speed, .direction = opposite(how.direction)});
     return both_ways;
   }
   // Rows that other rows lead to.

@@ -38,7 +38,7 @@ void PulseDrive::go_on(const Profile& rest, Instant begin) {
   look_up_segment(begin.tick);
 }
 
-void PulseDrive::hang(int move_direction) {
+void PulseDrive::move_at_zero_speed(int move_direction) {
   stop();
   drive = Drive::hanging;
   direction = move_direction < 0 ? -1 : +1;

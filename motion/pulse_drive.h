@@ -59,7 +59,7 @@ struct PulseDrive {
   /// Continues with another profile, of the same coordinate and direction, that begins at `begin`.
   void go_on(const Profile& rest, Instant begin);
   /// Begins a move that never sends a pulse.
-  void hang(int move_direction);
+  void move_at_zero_speed(int move_direction);
   /// Stops the drive: no pulse comes out after this.
   void stop();
 

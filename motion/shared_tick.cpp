@@ -140,20 +140,20 @@ void SharedTick::handle_events() {
 }
 
 void SharedTick::act(std::size_t axis, Events events) {
-  std::array<bool, kMax> was_attentive{};
+  std::array<bool, kMax> had_to_recheck{};
   for (std::size_t i = 0; i < count_; ++i) {
-    bool& attentive = all_.axes[members_[i].axis].attentive;
-    was_attentive[i] = attentive;
-    attentive = false;
+    bool& must_recheck = all_.axes[members_[i].axis].must_recheck;
+    had_to_recheck[i] = must_recheck;
+    must_recheck = false;
   }
   owner_->at_edge(*this, axis, events);
   for (std::size_t i = 0; i < count_; ++i) {
-    bool& attentive = all_.axes[members_[i].axis].attentive;
+    bool& must_recheck = all_.axes[members_[i].axis].must_recheck;
     if (members_[i].part) {
       members_[i].part->leave_start_to_next_tick();
-      attentive ? members_[i].part->rearm() : members_[i].part->forget_next();
+      must_recheck ? members_[i].part->rearm() : members_[i].part->forget_next();
     }
-    attentive = attentive || was_attentive[i];
+    must_recheck = must_recheck || had_to_recheck[i];
   }
   if (path_tick_) path_tick_->rearm();
 }

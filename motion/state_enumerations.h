@@ -68,7 +68,7 @@ struct StateOf<motion::ExternalDrive::Mode> {
 
 template <>
 struct StateOf<motion::HomingPhase::Does> {
-  static constexpr auto last = motion::HomingPhase::Does::hang;
+  static constexpr auto last = motion::HomingPhase::Does::move_at_zero_speed;
 };
 
 template <>

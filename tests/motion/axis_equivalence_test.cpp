@@ -14,14 +14,14 @@ constexpr int kTicks = 1'500;
 
 /// Without what only says how the next tick is to be done.
 Axis state_of(Axis axis) {
-  axis.attentive = false;
+  axis.must_recheck = false;
   axis.watch_low = axis.watch_high = 0;
   return axis;
 }
 
 /// Stepped with care, whatever the axis thinks of it.
-std::int64_t step_with_care(AxisCourse& course, std::int64_t counts) {
-  course.axis.attentive = true;
+std::int64_t step_slow_path(AxisCourse& course, std::int64_t counts) {
+  course.axis.must_recheck = true;
   return step(course, counts);
 }
 
@@ -33,7 +33,7 @@ void expect_alike(AxisScenario scenario) {
     const std::int64_t counts = scenario.counts();
     act(command, quick);
     act(command, careful);
-    ASSERT_EQ(step(quick, counts), step_with_care(careful, counts)) << scenario.code() << " " << quick.now;
+    ASSERT_EQ(step(quick, counts), step_slow_path(careful, counts)) << scenario.code() << " " << quick.now;
     ASSERT_EQ(quick.axis.events, careful.axis.events) << scenario.code() << " " << quick.now;
     ASSERT_EQ(quick.axis.travel_pulses, careful.axis.travel_pulses) << scenario.code() << " " << quick.now;
     ASSERT_EQ(quick.axis.cause, careful.axis.cause) << scenario.code() << " " << quick.now;
@@ -86,7 +86,7 @@ TEST(AxisEquivalence, WithinItsWindowNothingDependsOnThePlace) {
       const Axis& axis = course.axis;
       ASSERT_LE(axis.watch_low, axis.travel_pulses) << scenario.code() << " " << course.now;
       ASSERT_GE(axis.watch_high, axis.travel_pulses) << scenario.code() << " " << course.now;
-      if (axis.attentive) continue;
+      if (axis.must_recheck) continue;
       const std::int64_t low = std::max(axis.watch_low, axis.travel_pulses - 1'000'000);
       const std::int64_t high = std::min(axis.watch_high, axis.travel_pulses + 1'000'000);
       for (const std::int64_t place : {low, high, scenario.between(low, high), scenario.between(low, high)}) {

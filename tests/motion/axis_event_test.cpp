@@ -126,12 +126,12 @@ TEST(AxisEvent, AComparatorOfTheEncoderMeetsWhatComesAfterIt) {
   course.axis.run(+1, constant(1'000), 0);
   EXPECT_TRUE(firings(course, 5, 1).empty());
   course.axis.set_encoder(50);
-  EXPECT_FALSE(course.axis.attentive);
+  EXPECT_FALSE(course.axis.must_recheck);
   course.axis.set_comparator(
       1, {.relation = Comparator::Relation::equal_upwards, .count = Count::encoder, .value = 30});
   EXPECT_TRUE(firings(course, 5, 1).empty()) << "it was passed before";
   course.axis.set_encoder(20);
-  EXPECT_TRUE(course.axis.attentive);
+  EXPECT_TRUE(course.axis.must_recheck);
   EXPECT_TRUE(firings(course, 5, 1).empty());
   course.axis.set_encoder(40);
   EXPECT_EQ(firings(course, 5, 1).size(), 1U);

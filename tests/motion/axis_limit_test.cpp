@@ -74,7 +74,7 @@ TEST(AxisLimit, OnlyMotionTowardsItIsStopped) {
     EXPECT_EQ(course.axis.forbidden(-way), Cause::none);
     EXPECT_EQ(course.axis.move(way * 10, constant(10'000), course.now), hard);
     EXPECT_EQ(course.axis.run(way, constant(10'000), course.now), hard);
-    EXPECT_EQ(course.axis.hang(way), hard);
+    EXPECT_EQ(course.axis.move_at_zero_speed(way), hard);
     EXPECT_FALSE(course.axis.moving());
     EXPECT_EQ(course.axis.move(-way * 300, constant(10'000), course.now), Cause::none);
     course.until_rest();
@@ -272,7 +272,7 @@ TEST(AxisLimit, AHangingMoveIsEndedByWhatItWouldBeStoppedBy) {
   for (const Reaction reaction : {Reaction::stop_at_once, Reaction::slow_down}) {
     AxisCourse course;
     course.axis.set({.at_alarm = reaction});
-    course.axis.hang(+1);
+    course.axis.move_at_zero_speed(+1);
     course.steps(10);
     course.environment.set_steady(Signal::alarm, true);
     course.step();

@@ -91,13 +91,13 @@ TEST(AxisMotion, AnEndlessRunGoesOnAtItsSpeed) {
 
 TEST(AxisMotion, AMoveAtSpeedZeroHangsUntilItIsStopped) {
   AxisCourse course;
-  EXPECT_EQ(course.axis.hang(-1), Cause::none);
+  EXPECT_EQ(course.axis.move_at_zero_speed(-1), Cause::none);
   EXPECT_EQ(course.steps(5000), 0);
   EXPECT_TRUE(course.axis.moving());
   course.axis.slow_down(course.now);
   EXPECT_FALSE(course.axis.moving());
   EXPECT_EQ(course.axis.cause, Cause::stopped);
-  course.axis.hang(+1);
+  course.axis.move_at_zero_speed(+1);
   course.step();
   course.axis.move(5, constant(1000), course.now);
   course.until_rest();
@@ -237,7 +237,7 @@ TEST(AxisMotion, WithTheServoOffCommandsAreRefusedAndMotionEnds) {
   const Axis before = course.axis;
   EXPECT_EQ(course.axis.move(1000, constant(1000), course.now), Cause::servo_off);
   EXPECT_EQ(course.axis.run(+1, constant(1000), course.now), Cause::servo_off);
-  EXPECT_EQ(course.axis.hang(+1), Cause::servo_off);
+  EXPECT_EQ(course.axis.move_at_zero_speed(+1), Cause::servo_off);
   EXPECT_EQ(course.axis.follow({}), Cause::servo_off);
   EXPECT_EQ(course.axis.take_part(), Cause::servo_off);
   EXPECT_EQ(course.axis, before);

@@ -310,7 +310,7 @@ TEST(HomingFailure, AMotionOfAnotherKindTakesItsPlace) {
   const SpeedLaw law = slope_law(kFastPps, kSlope);
   const std::vector<std::function<Cause(Axis&, Tick)>> table = {
       [&](Axis& axis, Tick now) { return axis.move(100, law, now); },
-      [&](Axis& axis, Tick) { return axis.hang(+1); },
+      [&](Axis& axis, Tick) { return axis.move_at_zero_speed(+1); },
       [&](Axis& axis, Tick) { return axis.follow(Follower{}); },
       [&](Axis& axis, Tick) { return axis.take_part(); },
       [&](Axis& axis, Tick now) { return axis.run(+1, law, now); },

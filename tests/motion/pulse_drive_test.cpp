@@ -109,7 +109,7 @@ TEST(PulseDrive, TicksThatItDoesNotAskForSendNothing) {
 
 TEST(PulseDrive, AHangingMoveSendsNothingAndLastsUntilItIsStopped) {
   PulseDrive drive;
-  drive.hang(-1);
+  drive.move_at_zero_speed(-1);
   EXPECT_TRUE(drive.moving());
   EXPECT_EQ(drive.direction, -1);
   EXPECT_EQ(run(drive, 1, 100'000), 0);
@@ -146,17 +146,17 @@ TEST(PulseDrive, AMoveOfNoDistanceEndsTheOneThatRuns) {
   drive.start(Profile{}, +1, 1001);
   EXPECT_FALSE(drive.moving());
   EXPECT_EQ(run(drive, 1001, 4000), 0);
-  drive.hang(+1);
+  drive.move_at_zero_speed(+1);
   drive.start(Profile{}, +1, 4001);
   EXPECT_FALSE(drive.moving());
 }
 
 TEST(PulseDrive, ANewMoveEndsAHangingOneAndTheOtherWayRound) {
   PulseDrive drive;
-  drive.hang(+1);
+  drive.move_at_zero_speed(+1);
   drive.start(kManualExample.plan(), +1, 10);
   EXPECT_EQ(run(drive, 10, 110), 800);
-  drive.hang(+1);
+  drive.move_at_zero_speed(+1);
   EXPECT_TRUE(drive.moving());
   EXPECT_EQ(run(drive, 111, 4000), 0);
 }

@@ -34,7 +34,7 @@ struct EventBench {
   void step(bool with_care) {
     ++now;
     const std::int64_t base = axis().base_pulses;
-    if (with_care) axis().attentive = true;
+    if (with_care) axis().must_recheck = true;
     axis().step(now, environment);
     for (const Event event : {Event::constant_ended, Event::constant_started}) {
       if ((axis().events & bit(event)) == 0) continue;
@@ -210,7 +210,7 @@ TEST(SyncSpeedEvent, TheShortWayThroughATickRaisesThemToo) {
         act(command, *course);
         course->axis.settings.raises = raises;
       }
-      careful.axis.attentive = true;
+      careful.axis.must_recheck = true;
       ASSERT_EQ(step(quick, counts), step(careful, counts)) << scenario.code() << " " << quick.now;
       ASSERT_EQ(quick.axis.events, careful.axis.events) << scenario.code() << " " << quick.now;
       ASSERT_EQ(quick.axis.event_at, careful.axis.event_at) << scenario.code() << " " << quick.now;

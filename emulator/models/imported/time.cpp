@@ -115,7 +115,7 @@ void ImportedDevice::update_outputs(Tick tick) {
 
 bool ImportedDevice::is_quiet(const AxisState& axis) const {
   const motion::Axis& motor = axis.motor;
-  return !motor.moving() && !motor.attentive && motor.events == 0 && motor.events_between == 0 &&
+  return !motor.moving() && !motor.must_recheck && motor.events == 0 && motor.events_between == 0 &&
          axis.sent_pulses == 0 && axis.environment.version == motor.seen_version;
 }
 

@@ -153,7 +153,7 @@ bool RsM8194h::rests() const {
   for (std::size_t a = 0; a < kAxes; ++a) {
     const motion::Axis& motor = state_.motors[a];
     const AxisUnit& unit = state_.units[a];
-    if (motor.moving() || motor.attentive || motor.events != 0 || motor.events_between != 0) return false;
+    if (motor.moving() || motor.must_recheck || motor.events != 0 || motor.events_between != 0) return false;
     if (unit.sent_pulses != 0 || state_.environment[a].version != motor.seen_version) return false;
     if (is_filtering(unit)) return false;
     if (unit.held_drive.what != Drive::What::none && !unit.held) return false;

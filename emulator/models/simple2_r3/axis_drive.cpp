@@ -292,7 +292,7 @@ bool is_moving(const AxisState& axis) {
 
 Tick next_active_tick(const AxisState& axis, Tick done) {
   const motion::Axis& motor = axis.motor;
-  if (motor.attentive || motor.events != 0 || motor.events_between != 0 || axis.pulses_this_tick != 0) {
+  if (motor.must_recheck || motor.events != 0 || motor.events_between != 0 || axis.pulses_this_tick != 0) {
     return done + 1;
   }
   const bool stands_in_velocity = runs_velocity(axis) && !is_moving(axis);

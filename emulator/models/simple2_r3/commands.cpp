@@ -142,7 +142,7 @@ void Simple2R3::start_move(int axis_number, Command command, const MoveParameter
   if (distance_pulses == 0) return;
   const motion::SpeedLaw law =
       law_of(axis_number, move.speed_rpm, move.acceleration_10ms, move.deceleration_10ms);
-  const motion::Cause refused = move.speed_rpm == 0 ? axis.motor.hang(direction)
+  const motion::Cause refused = move.speed_rpm == 0 ? axis.motor.move_at_zero_speed(direction)
                                 : speed_pps != 0
                                     ? axis.motor.move_on(speed_pps, distance_pulses, law, now())
                                     : axis.motor.move(distance_pulses, law, tick_before_motion());

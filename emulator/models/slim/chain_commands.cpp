@@ -213,7 +213,7 @@ void Chain::begin_jog(int module, int direction, Tick begin_at) {
   mine.starved = false;
   const int pulse_direction = mine.settings.jog_speed < 0 ? -direction : direction;
   if (mine.settings.jog_speed == 0) {
-    axes_[at(module)].hang(pulse_direction);
+    axes_[at(module)].move_at_zero_speed(pulse_direction);
   } else if (mine.jog_law(options_).top_speed_u_s == 0) {
     mine.starved = true;
   } else {
@@ -225,7 +225,7 @@ void Chain::begin_thrust(int module, std::int32_t force, Tick begin_at) {
   Module& mine = modules_[at(module)];
   if (thrust_runs()) begin_jog(module, +1, begin_at);
   // Also where there is no speed to run at.
-  if (!axes_[at(module)].moving()) axes_[at(module)].hang(+1);
+  if (!axes_[at(module)].moving()) axes_[at(module)].move_at_zero_speed(+1);
   mine.starved = false;
   mine.activity = Activity::thrust;
   mine.jog_direction = mine.next_jog_direction = 0;

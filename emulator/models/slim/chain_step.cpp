@@ -70,7 +70,7 @@ void Chain::step_groups() {
 /// The axis met nothing in the last tick, and nothing has changed for it since.
 bool Chain::undisturbed(int module) const {
   const motion::Axis& axis = axes_[at(module)];
-  return axis.events == 0 && !axis.attentive && environment_[at(module)].version == axis.seen_version;
+  return axis.events == 0 && !axis.must_recheck && environment_[at(module)].version == axis.seen_version;
 }
 
 void Chain::step_axes(Tick tick) {

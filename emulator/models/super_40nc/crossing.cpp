@@ -89,7 +89,7 @@ void Super40nc::wake_plc_by_what_changed() {
 bool Super40nc::is_quiet(int axis_number) const {
   const motion::Axis& motor = chip(axis_number);
   const AxisState& state = axis(axis_number);
-  return !motor.moving() && !motor.attentive && motor.events == 0 && motor.events_between == 0 &&
+  return !motor.moving() && !motor.must_recheck && motor.events == 0 && motor.events_between == 0 &&
          !counts_a_clock(axis_number) && state.sent_pulses == 0 && state.followed_pulses == 0 &&
          environment(axis_number).version == motor.seen_version;
 }

@@ -28,7 +28,7 @@ std::int64_t play_before(const motion::Axis& motor, int direction) {
   const std::int64_t all = motor.settings.backlash_pulses;
   if (motor.settings.slips) return all;
   if (motor.last_direction == 0) return 0;
-  const std::int64_t play = std::clamp<std::int64_t>(motor.play_pulses, 0, all);
+  const std::int64_t play = std::clamp<std::int64_t>(motor.backlash_taken_pulses, 0, all);
   return direction > 0 ? all - play : play;
 }
 
@@ -59,7 +59,7 @@ void Super40nc::begin_path_backlash(const motion::Path& path) {
     if (play == 0) continue;
     axis(number).path_backlash = play * direction;
     // Record how much has come, in case it is stopped.
-    motor.play_pulses = direction > 0 ? motor.settings.backlash_pulses - play : play;
+    motor.backlash_taken_pulses = direction > 0 ? motor.settings.backlash_pulses - play : play;
     motor.last_direction = static_cast<std::int8_t>(direction);
   }
   awaits_path() ? state_.path.run.pause(before_motion()) : end_path_backlash();
@@ -87,7 +87,7 @@ void Super40nc::step_path_backlash(Tick tick, std::array<std::int64_t, kAxisCoun
     const std::int64_t now_come =
         (come - come_by(all, speed_pps, ticks - 1)) * (axis(number).path_backlash < 0 ? -1 : +1);
     motor.backlash_sent += now_come;
-    motor.play_pulses += now_come;
+    motor.backlash_taken_pulses += now_come;
     sent[static_cast<std::size_t>(number)] += motor.inverted ? -now_come : now_come;
     if (come == all) axis(number).path_backlash = 0;
   }

@@ -115,7 +115,7 @@ class Motors {
   bool is_quiet() const {
     return std::all_of(state.motors.begin(), state.motors.end(), [](const Motor& motor) {
       const motion::Axis& axis = motor.axis;
-      return !axis.moving() && !axis.attentive && axis.events == 0 && axis.events_between == 0 &&
+      return !axis.moving() && !axis.must_recheck && axis.events == 0 && axis.events_between == 0 &&
              motor.sent_pulses == 0 && motor.environment.version == axis.seen_version;
     });
   }
