@@ -105,8 +105,8 @@ Cause Axis::begin(Task what, int direction, std::int64_t distance_pulses, const 
                               : plan(static_cast<double>(size_of(distance_pulses)), speed);
   // A stop from the greatest speed must be possible as well: a reaction cannot be refused.
   (void)slow_to_stop({.speed_u_s = speed.top_speed_u_s}, speed);
-  const std::int64_t play = play_before(direction);
-  if (play > 0) require_positive(settings.backlash_speed_pps, "backlash", "speed");
+  const std::int64_t untaken = backlash_before(direction);
+  if (untaken > 0) require_positive(settings.backlash_speed_pps, "backlash", "speed");
   const Signals ignored = for_homing ? homing.row().ignores : Signals{0};
   if (const Cause why_not = forbidden(direction, ignored); why_not != Cause::none) return why_not;
 
@@ -117,13 +117,13 @@ Cause Axis::begin(Task what, int direction, std::int64_t distance_pulses, const 
   target_pulses = what == Task::move ? size_of(distance_pulses) : 0;
   cause = Cause::none;
   if (!for_homing) events_between |= bit(Event::started);
-  backlash_taken_pulses = direction > 0 ? settings.backlash_pulses - play : play;
+  backlash_taken_pulses = direction > 0 ? settings.backlash_pulses - untaken : untaken;
   last_direction = static_cast<std::int8_t>(direction);
   base_pulses = travel_pulses;
-  if (play > 0) {
+  if (untaken > 0) {
     in_backlash = true;
     Profile extra;
-    const auto pulses = static_cast<double>(play);
+    const auto pulses = static_cast<double>(untaken);
     extra.append(pulses / settings.backlash_speed_pps, settings.backlash_speed_pps, 0, 0);
     extra.end_exactly_at(pulses);
     drive.start(extra, direction, at);
@@ -135,11 +135,11 @@ Cause Axis::begin(Task what, int direction, std::int64_t distance_pulses, const 
 
 /// Returns how many pulses of backlash precede a motion in `direction`. Before the first motion it is
 /// unknown: 0.
-std::int64_t Axis::play_before(int direction) const {
+std::int64_t Axis::backlash_before(int direction) const {
   if (settings.slips) return settings.backlash_pulses;
   if (last_direction == 0) return 0;
-  const std::int64_t play = std::clamp<std::int64_t>(backlash_taken_pulses, 0, settings.backlash_pulses);
-  return direction > 0 ? settings.backlash_pulses - play : play;
+  const std::int64_t untaken = std::clamp<std::int64_t>(backlash_taken_pulses, 0, settings.backlash_pulses);
+  return direction > 0 ? settings.backlash_pulses - untaken : untaken;
 }
 
 Profile Axis::planned(const SpeedLaw& speed) const {

@@ -383,7 +383,7 @@ struct alignas(64) Axis {
   Cause begin(Task what, int direction, std::int64_t distance_pulses, const SpeedLaw& speed, Instant at,
               bool for_homing = false);
   void go_on_by(const SpeedLaw& speed, Instant at);
-  std::int64_t play_before(int direction) const;
+  std::int64_t backlash_before(int direction) const;
   void know_encoder(const Environment& environment);
   void follow_encoder_count(Instant at);
   bool counts_by_encoder() const;

@@ -263,7 +263,7 @@ bool AxisTick::sets_out(int direction, Instant at) {
   }
   axis_.drive.direction = direction;
   if (!axis_.settings.slips) {
-    axis_.backlash_sent += axis_.play_before(direction) * direction;
+    axis_.backlash_sent += axis_.backlash_before(direction) * direction;
     axis_.backlash_taken_pulses = direction > 0 ? axis_.settings.backlash_pulses : 0;
   }
   axis_.last_direction = static_cast<std::int8_t>(direction);

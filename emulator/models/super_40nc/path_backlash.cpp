@@ -24,12 +24,12 @@ namespace understudy::emulator::models::super_40nc {
 namespace {
 
 /// Returns the backlash as for a separate motion.
-std::int64_t play_before(const motion::Axis& motor, int direction) {
+std::int64_t backlash_before(const motion::Axis& motor, int direction) {
   const std::int64_t all = motor.settings.backlash_pulses;
   if (motor.settings.slips) return all;
   if (motor.last_direction == 0) return 0;
-  const std::int64_t play = std::clamp<std::int64_t>(motor.backlash_taken_pulses, 0, all);
-  return direction > 0 ? all - play : play;
+  const std::int64_t untaken = std::clamp<std::int64_t>(motor.backlash_taken_pulses, 0, all);
+  return direction > 0 ? all - untaken : untaken;
 }
 
 /// Returns how many of `pulses` have come after `ticks`.
@@ -55,11 +55,11 @@ void Super40nc::begin_path_backlash(const motion::Path& path) {
     if (ahead == 0) continue;
     const int direction = ahead < 0 ? -1 : +1;
     motion::Axis& motor = chip(number);
-    const std::int64_t play = play_before(motor, direction);
-    if (play == 0) continue;
-    axis(number).path_backlash = play * direction;
+    const std::int64_t untaken = backlash_before(motor, direction);
+    if (untaken == 0) continue;
+    axis(number).path_backlash = untaken * direction;
     // Record how much has come, in case it is stopped.
-    motor.backlash_taken_pulses = direction > 0 ? motor.settings.backlash_pulses - play : play;
+    motor.backlash_taken_pulses = direction > 0 ? motor.settings.backlash_pulses - untaken : untaken;
     motor.last_direction = static_cast<std::int8_t>(direction);
   }
   awaits_path() ? state_.path.run.pause(before_motion()) : end_path_backlash();
