@@ -11,17 +11,17 @@ namespace understudy {
 
 namespace {
 
-std::vector<FileError::Complaint> alone(FilePlace place, const std::string& text) {
-  std::vector<FileError::Complaint> complaints(1);
-  complaints.front().place = std::move(place);
-  complaints.front().text = one_line(text);
-  return complaints;
+std::vector<FileError::Diagnostic> alone(FilePlace place, const std::string& text) {
+  std::vector<FileError::Diagnostic> diagnostics(1);
+  diagnostics.front().place = std::move(place);
+  diagnostics.front().text = one_line(text);
+  return diagnostics;
 }
 
-std::string joined(const std::vector<FileError::Complaint>& complaints) {
+std::string joined(const std::vector<FileError::Diagnostic>& diagnostics) {
   std::string lines;
-  for (const FileError::Complaint& complaint : complaints) {
-    lines += (lines.empty() ? "" : "\n") + complaint.text;
+  for (const FileError::Diagnostic& diagnostic : diagnostics) {
+    lines += (lines.empty() ? "" : "\n") + diagnostic.text;
   }
   return lines;
 }
@@ -37,7 +37,7 @@ FileError::FileError(const std::string& text) : FileError(alone({}, text)) {}
 FileError::FileError(const FilePlace& place, const std::string& text)
     : FileError(alone(place, to_text(place) + text)) {}
 
-FileError::FileError(std::vector<Complaint> complaints)
-    : std::runtime_error(joined(complaints)), complaints_(std::move(complaints)) {}
+FileError::FileError(std::vector<Diagnostic> diagnostics)
+    : std::runtime_error(joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 
 }  // namespace understudy

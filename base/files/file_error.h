@@ -17,19 +17,19 @@ struct FilePlace {
 /// what is wrong; what was expected".
 class FileError : public std::runtime_error {
  public:
-  struct Complaint {
+  struct Diagnostic {
     FilePlace place;
     std::string text;  // the whole line
   };
 
   explicit FileError(const std::string& text);
   FileError(const FilePlace& place, const std::string& text);
-  explicit FileError(std::vector<Complaint> complaints);
+  explicit FileError(std::vector<Diagnostic> diagnostics);
 
-  const std::vector<Complaint>& complaints() const { return complaints_; }
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
 
  private:
-  std::vector<Complaint> complaints_;
+  std::vector<Diagnostic> diagnostics_;
 };
 
 }  // namespace understudy

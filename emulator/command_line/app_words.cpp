@@ -62,11 +62,11 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 /// The words of a command line, in their order, as far as they are commands and flags.
 struct Walk {
   const CLI::App* command;  // the last one that was named
-  std::string complaint;    // about the first word that is none
+  std::string diagnostic;   // about the first word that is none
 };
 
 Walk walk(const CLI::App& app, int argc, char** argv) {
-  Walk found{.command = &app, .complaint = {}};
+  Walk found{.command = &app, .diagnostic = {}};
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--") break;
@@ -76,8 +76,8 @@ Walk walk(const CLI::App& app, int argc, char** argv) {
       const bool is_number = parse_real(word).has_value();
       if (flag == nullptr && is_number) continue;
       if (flag == nullptr) {
-        found.complaint = quoted(name) + " is not a flag here" + nearest(name, flags_of(*found.command)) +
-                          std::string(kListed);
+        found.diagnostic = quoted(name) + " is not a flag here" + nearest(name, flags_of(*found.command)) +
+                           std::string(kListed);
         return found;
       }
       const bool has_value = flag->get_items_expected_min() > 0 && word.find('=') == std::string::npos;
@@ -90,7 +90,7 @@ Walk walk(const CLI::App& app, int argc, char** argv) {
     for (const CLI::App* const command : commands) names.push_back(command->get_name());
     const auto named = std::find(names.begin(), names.end(), word);
     if (named == names.end()) {
-      found.complaint = quoted(word) + " is not a command" + nearest(word, names) + std::string(kListed);
+      found.diagnostic = quoted(word) + " is not a command" + nearest(word, names) + std::string(kListed);
       return found;
     }
     found.command = commands[static_cast<std::size_t>(named - names.begin())];
@@ -132,9 +132,9 @@ std::string before(const std::string& text, std::string_view end) { return text.
 
 }  // namespace
 
-std::string complaint_about(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const Walk found = walk(app, argc, argv);
-  if (!found.complaint.empty()) return found.complaint;
+  if (!found.diagnostic.empty()) return found.diagnostic;
   const std::string told = error.what();
   const std::string& kind = error.get_name();
   const std::string where = path_of(*found.command);

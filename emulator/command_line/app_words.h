@@ -17,6 +17,6 @@ CommandWords words_of(const CLI::App& app);
 
 /// Returns what is wrong with a command line, in the words of this program: the first unknown command or
 /// flag with the nearest known one, or the subject of `error`.
-std::string complaint_about(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
+std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
 }  // namespace understudy::emulator::command_line

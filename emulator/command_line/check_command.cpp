@@ -66,8 +66,8 @@ std::string_view kind_name(play::FileKind kind) {
 /// Each once: what several cases of a file have in common is one.
 class Warnings {
  public:
-  void add(const std::vector<FileError::Complaint>& odd, const std::string& file) {
-    for (const FileError::Complaint& each : odd) {
+  void add(const std::vector<FileError::Diagnostic>& odd, const std::string& file) {
+    for (const FileError::Diagnostic& each : odd) {
       if (!told_.insert(each.text).second) continue;
       findings_.push_back(finding_of(each, file));
       findings_.back().is_warning = true;
@@ -129,8 +129,8 @@ CheckedFile checked_file(ModelList models, const std::string& file, const std::s
     checked.is = described(models, file, kind, save_below, warnings);
     checked.findings = warnings.take();
   } catch (const FileError& error) {
-    for (const FileError::Complaint& complaint : error.complaints()) {
-      checked.findings.push_back(finding_of(complaint, file));
+    for (const FileError::Diagnostic& diagnostic : error.diagnostics()) {
+      checked.findings.push_back(finding_of(diagnostic, file));
     }
   } catch (const NvError& error) {
     checked.findings.push_back(finding_of({.place = {}, .text = one_line(error.what())}, file));

@@ -153,8 +153,8 @@ std::optional<FindingFormat> finding_format_called(std::string_view name) {
   return std::nullopt;
 }
 
-Finding finding_of(const FileError::Complaint& complaint, const std::string& file) {
-  Finding finding{.place = complaint.place, .text = complaint.text};
+Finding finding_of(const FileError::Diagnostic& diagnostic, const std::string& file) {
+  Finding finding{.place = diagnostic.place, .text = diagnostic.text};
   if (finding.place.file.empty()) finding.place.file = file;
   for (const FilePlace& known : {finding.place, FilePlace{finding.place.file}}) {
     const std::string begin = place_text(known);
@@ -173,7 +173,7 @@ std::string line_of(const Finding& finding) {
 
 }  // namespace
 
-std::string warning_line(const FileError::Complaint& odd) {
+std::string warning_line(const FileError::Diagnostic& odd) {
   Finding finding = finding_of(odd, odd.place.file);
   finding.is_warning = true;
   return line_of(finding);

@@ -29,12 +29,12 @@ struct CheckedFile {
 enum class FindingFormat : std::uint8_t { text, json, sarif, github };
 std::optional<FindingFormat> finding_format_called(std::string_view name);
 
-/// Converts one of the `complaints` of a file error to a finding. Its text begins with the position, which
+/// Converts one of the `diagnostics` of a file error to a finding. Its text begins with the position, which
 /// is removed.
-Finding finding_of(const FileError::Complaint& complaint, const std::string& file);
+Finding finding_of(const FileError::Diagnostic& diagnostic, const std::string& file);
 
 /// Returns a warning: "mill.lst:4: warning: label K1 stands twice".
-std::string warning_line(const FileError::Complaint& odd);
+std::string warning_line(const FileError::Diagnostic& odd);
 
 /// Prints the traditional form: valid files to standard output, errors to standard error.
 void print_as_text(const CheckedFile& checked);

@@ -414,8 +414,8 @@ std::function<int()> parse_command_line(int argc, char** argv, ModelList models)
     whole->app.exit(help);
     code = kExitWell;
   } catch (const CLI::ParseError& error) {
-    const std::string complaint = complaint_about(whole->app, error, argc, argv);
-    std::fprintf(stderr, "understudy: %s\n", one_line(complaint).c_str());
+    const std::string diagnostic = diagnostic_about(whole->app, error, argc, argv);
+    std::fprintf(stderr, "understudy: %s\n", one_line(diagnostic).c_str());
   }
   return [code] { return code; };
 }

@@ -31,12 +31,12 @@ class WorkFolder {
  public:
   ~WorkFolder() {
     std::error_code ignored;
-    for (const std::string& file : {script(), picture(), complaints()})
+    for (const std::string& file : {script(), picture(), diagnostics()})
       std::filesystem::remove(file, ignored);
   }
   std::string script() { return folder_.path() + "/script"; }
   std::string picture() { return folder_.path() + "/picture"; }
-  std::string complaints() { return folder_.path() + "/complaints"; }
+  std::string diagnostics() { return folder_.path() + "/complaints"; }
 
  private:
   serve::PrivateFolder folder_;
@@ -56,7 +56,7 @@ int run_gnuplot(WorkFolder& folder) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, folder.complaints().c_str(),
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, folder.diagnostics().c_str(),
                                    O_WRONLY | O_CREAT | O_TRUNC, 0600);
   std::string program = "gnuplot";
   std::string no_defaults = "-d";
@@ -73,12 +73,12 @@ int run_gnuplot(WorkFolder& folder) {
 }
 
 /// The most telling line of what gnuplot has said: the last one with words in it.
-std::string complaint_in(const std::string& text) {
-  std::string complaint = "it printed nothing";
+std::string diagnostic_in(const std::string& text) {
+  std::string diagnostic = "it printed nothing";
   for (const TextLine line : TextLines(text)) {
-    if (line.text.find_first_not_of(" \t^") != std::string_view::npos) complaint = line.text;
+    if (line.text.find_first_not_of(" \t^") != std::string_view::npos) diagnostic = line.text;
   }
-  return complaint;
+  return diagnostic;
 }
 
 }  // namespace
@@ -103,9 +103,9 @@ int plot_trace(const PlotArguments& arguments) {
   const int code = run_gnuplot(folder);
   const auto picture = read_text_file(folder.picture());
   if (code != 0 || !picture || picture->empty()) {
-    const std::string said = read_text_file(folder.complaints()).value_or("");
+    const std::string said = read_text_file(folder.diagnostics()).value_or("");
     std::fprintf(stderr, "understudy: plot: gnuplot did not make a picture: %s\n",
-                 one_line(complaint_in(said)).c_str());
+                 one_line(diagnostic_in(said)).c_str());
     return kExitNoResource;
   }
   require_written("--output: " + output.string(),

@@ -238,7 +238,7 @@ Context connect(const PollArguments& arguments) {
   if (!timeout || *timeout < std::chrono::microseconds(1) || *timeout > std::chrono::hours(1))
     throw UsageError("--timeout: " + quoted(arguments.timeout) +
                      " is not a duration; expected one like 500ms");
-  // Checked here, because libmodbus prints complaints of its own.
+  // Checked here, because libmodbus prints diagnostics of its own.
   if (std::find(kBauds.begin(), kBauds.end(), arguments.baud) == kBauds.end()) {
     throw UsageError("--baud: " + std::to_string(arguments.baud) +
                      " is not a speed of a serial port; expected one like 9600, 19200 or 115200");

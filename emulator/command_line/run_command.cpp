@@ -76,7 +76,7 @@ struct Known {
 };
 
 void warn(const play::Scenario& scenario, Known& known) {
-  for (const FileError::Complaint& odd : play::warnings_of(scenario)) {
+  for (const FileError::Diagnostic& odd : play::warnings_of(scenario)) {
     const std::string line = warning_line(odd);
     if (known.warned.insert(line).second) std::fprintf(stderr, "%s\n", line.c_str());
   }
@@ -241,9 +241,9 @@ class Stagehand {
     } catch (const FileError&) {
       // Then it has no better one.
     }
-    play::Failure failure{.what = one_line(error.complaints().front().text)};
-    for (std::size_t i = 1; i < error.complaints().size(); ++i) {
-      failure.details.push_back(one_line(error.complaints()[i].text));
+    play::Failure failure{.what = one_line(error.diagnostics().front().text)};
+    for (std::size_t i = 1; i < error.diagnostics().size(); ++i) {
+      failure.details.push_back(one_line(error.diagnostics()[i].text));
     }
     result.failure = std::move(failure);
     return result;

@@ -256,7 +256,7 @@ Serving make_serving(ModelList models, const ServeArguments& arguments, const st
   }
   options.speed = *speed;
   serving.group = require_group(arguments.group);
-  for (const FileError::Complaint& odd : world::program_warnings(serving.bench)) log_line(warning_line(odd));
+  for (const FileError::Diagnostic& odd : world::program_warnings(serving.bench)) log_line(warning_line(odd));
   return serving;
 }
 

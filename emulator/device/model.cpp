@@ -240,11 +240,11 @@ void set_registers(Device& device, const DeviceSettings& settings) {
       continue;
     }
     if (device.named_values() == nullptr) {
-      const std::string complaint = why_no_value(device, name);
-      throw SettingEntryError("set", name, complaint, complaint);
+      const std::string diagnostic = why_no_value(device, name);
+      throw SettingEntryError("set", name, diagnostic, diagnostic);
     }
-    if (const auto complaint = device.named_values()->assign(name, value))
-      throw SettingEntryError("set", name, *complaint, name + ": " + *complaint);
+    if (const auto diagnostic = device.named_values()->assign(name, value))
+      throw SettingEntryError("set", name, *diagnostic, name + ": " + *diagnostic);
   }
 }
 

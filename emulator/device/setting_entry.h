@@ -14,11 +14,11 @@ struct SettingEntryError : SettingError {
                     const std::string& told)
       : SettingError(std::move(setting_name), told),
         entry(std::move(entry_name)),
-        complaint(std::move(what_is_wrong)) {}
+        diagnostic(std::move(what_is_wrong)) {}
   SettingEntryError(std::string setting_name, std::string entry_name, const std::string& what_is_wrong)
       : SettingEntryError(std::move(setting_name), std::move(entry_name), what_is_wrong, what_is_wrong) {}
   std::string entry;
-  std::string complaint;
+  std::string diagnostic;
 };
 
 }  // namespace understudy::emulator

@@ -18,7 +18,7 @@
 #include "emulator/model_file/line_fields.h"
 #include "emulator/model_file/model_form.h"
 #include "emulator/models/imported/description.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "motion/unit_scale.h"
 
@@ -102,23 +102,23 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kInputNee
      {"at_upper_limit", "upper_limit"},
      {"at_lower_limit", "lower_limit"}}};
 
-void check_needs(const YamlFields& fields, world::Complaints& complaints) {
+void check_needs(const YamlFields& fields, world::Diagnostics& diagnostics) {
   for (const Need& need : kNeeds) {
     const auto field = fields.find(need.key);
     if (!field || fields.has(need.needed) || (!need.instead.empty() && fields.has(need.instead))) continue;
-    complaints.attempt(
+    diagnostics.attempt(
         [&] { field->fail("has no effect alone; expected `" + std::string(need.needed) + "` as well"); });
   }
   for (const auto& [key, other] : kEither) {
     if (!fields.has(key) || !fields.has(other)) continue;
-    complaints.attempt([&, &first = key, &second = other] {
+    diagnostics.attempt([&, &first = key, &second = other] {
       fields.at(first).fail("cannot be combined with `" + std::string(second) + "`; expected one of the two");
     });
   }
   const auto inputs = fields.find("inputs");
   for (const auto& [key, input] : kInputNeeds) {
     if (!fields.has(key) || (inputs && inputs->has(input))) continue;
-    complaints.attempt([&, &of = key, &needed = input] {
+    diagnostics.attempt([&, &of = key, &needed = input] {
       fields.at(of).fail("needs a switch; expected `inputs: { " + std::string(needed) + ": ... }` as well");
     });
   }
@@ -127,12 +127,12 @@ void check_needs(const YamlFields& fields, world::Complaints& complaints) {
 }  // namespace
 
 AxisBinding read_axis(const YamlFields& fields, const std::string& name, const Description& description,
-                      Binder& binder, world::Complaints& complaints) {
+                      Binder& binder, world::Diagnostics& diagnostics) {
   AxisBinding axis{.name = name};
   if (!fields.is_map()) fields.fail("expected a map, as in `key: value`");
-  complaints.attempt([&] { fields.require_keys(kAxisKeys); });
+  diagnostics.attempt([&] { fields.require_keys(kAxisKeys); });
   const auto read = [&](std::string_view key, const auto& how) {
-    complaints.attempt([&] {
+    diagnostics.attempt([&] {
       if (const auto field = fields.find(key)) how(*field);
     });
   };
@@ -158,13 +158,13 @@ AxisBinding read_axis(const YamlFields& fields, const std::string& name, const D
   read("pulses_per_count", [&](const YamlFields& field) { axis.pulses_per_count = read_scale(field); });
   read("pps_per_count", [&](const YamlFields& field) { axis.pps_per_count = read_factor(field); });
   read("inputs", [&](const YamlFields& inputs) {
-    complaints.attempt([&] { inputs.require_keys(kAxisInputKeys); });
+    diagnostics.attempt([&] { inputs.require_keys(kAxisInputKeys); });
     const std::array<std::pair<std::string_view, int*>, 4> all{{{"upper_limit", &axis.upper_limit_input},
                                                                 {"lower_limit", &axis.lower_limit_input},
                                                                 {"home", &axis.home_input},
                                                                 {"alarm", &axis.alarm_input}}};
     for (const auto& [key, input] : all) {
-      complaints.attempt([&, &called = key, &number = input] {
+      diagnostics.attempt([&, &called = key, &number = input] {
         if (const auto field = inputs.find(called)) *number = read_input(*field, description);
       });
     }
@@ -181,7 +181,7 @@ AxisBinding read_axis(const YamlFields& fields, const std::string& name, const D
   read("while_disabled", [&](const YamlFields& field) {
     axis.while_disabled = static_cast<models::imported::WhileDisabled>(read_word(field, kWhileDisabledForm));
   });
-  check_needs(fields, complaints);
+  check_needs(fields, diagnostics);
   return axis;
 }
 

@@ -5,7 +5,7 @@
 
 #include "emulator/model_file/binder.h"
 #include "emulator/models/imported/description.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::model_file {
@@ -13,6 +13,6 @@ namespace understudy::emulator::model_file {
 /// Reads one entry of `axes`. Its inputs must have been read. Keeps all errors.
 models::imported::AxisBinding read_axis(const world::YamlFields& fields, const std::string& name,
                                         const models::imported::Description& description, Binder& binder,
-                                        world::Complaints& complaints);
+                                        world::Diagnostics& diagnostics);
 
 }  // namespace understudy::emulator::model_file

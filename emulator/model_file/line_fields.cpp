@@ -18,7 +18,7 @@
 #include "emulator/model_file/binder.h"
 #include "emulator/model_file/model_form.h"
 #include "emulator/models/imported/description.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/stations/server.h"
 
@@ -26,7 +26,7 @@ namespace understudy::emulator::model_file {
 
 using models::imported::Description;
 using models::imported::Line;
-using world::Complaints;
+using world::Diagnostics;
 using world::YamlFields;
 
 namespace {
@@ -73,10 +73,10 @@ std::size_t read_word(const YamlFields& field, const Form& form) {
   field.fail(understudy::quoted(written) + " is not possible" + suggestion(written, words));
 }
 
-void read_line(const YamlFields& fields, Line& line, Complaints& complaints) {
-  complaints.attempt([&] { fields.require_keys(kLineKeys); });
+void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
+  diagnostics.attempt([&] { fields.require_keys(kLineKeys); });
   const auto read = [&](std::string_view key, const auto& how) {
-    complaints.attempt([&] {
+    diagnostics.attempt([&] {
       if (const auto field = fields.find(key)) how(*field);
     });
   };
@@ -123,10 +123,10 @@ void read_line(const YamlFields& fields, Line& line, Complaints& complaints) {
        [&](const YamlFields& field) { line.obeys_broadcasts = read_word(field, kBroadcastForm) == 0; });
 }
 
-void read_policy(const YamlFields& fields, MapPolicy& policy, Complaints& complaints) {
-  complaints.attempt([&] { fields.require_keys(kMapKeys); });
+void read_policy(const YamlFields& fields, MapPolicy& policy, Diagnostics& diagnostics) {
+  diagnostics.attempt([&] { fields.require_keys(kMapKeys); });
   const auto read = [&](std::string_view key, const Form& form, const auto& take) {
-    complaints.attempt([&] {
+    diagnostics.attempt([&] {
       if (const auto field = fields.find(key)) take(read_word(*field, form));
     });
   };

@@ -5,7 +5,7 @@
 
 #include "emulator/model_file/binder.h"
 #include "emulator/models/imported/description.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::model_file {
@@ -14,8 +14,9 @@ namespace understudy::emulator::model_file {
 std::size_t read_word(const world::YamlFields& field, const world::Form& form);
 
 /// Reads everything except `station_in`. Keeps all errors.
-void read_line(const world::YamlFields& fields, models::imported::Line& line, world::Complaints& complaints);
-void read_policy(const world::YamlFields& fields, MapPolicy& policy, world::Complaints& complaints);
+void read_line(const world::YamlFields& fields, models::imported::Line& line,
+               world::Diagnostics& diagnostics);
+void read_policy(const world::YamlFields& fields, MapPolicy& policy, world::Diagnostics& diagnostics);
 /// Returns the name of the register that holds the station number.
 std::string read_station_register(const world::YamlFields& field, const Binder& binder,
                                   const models::imported::Description& description);

@@ -25,15 +25,15 @@
 #include "emulator/model_file/value_fields.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/models/imported/model.h"
-#include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/device_fields.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::model_file {
 
 using models::imported::Description;
 using models::imported::ListedRegister;
-using world::Complaints;
+using world::Diagnostics;
 using world::YamlFields;
 
 namespace {
@@ -80,10 +80,10 @@ std::string whole_text(const YamlFields& root, const std::string& list) {
          "\n";
 }
 
-void read_bits(const YamlFields& field, Description& made, Complaints& complaints) {
-  complaints.attempt([&] { field.require_map(); });
+void read_bits(const YamlFields& field, Description& made, Diagnostics& diagnostics) {
+  diagnostics.attempt([&] { field.require_map(); });
   for (const auto& [name, bits] : field.entries()) {
-    complaints.attempt([&, &called = name, &entries = bits] {
+    diagnostics.attempt([&, &called = name, &entries = bits] {
       const auto found = std::find_if(made.registers.begin(), made.registers.end(),
                                       [&](const ListedRegister& listed) { return listed.name == called; });
       if (found == made.registers.end()) {
@@ -122,35 +122,35 @@ std::unique_ptr<RegisterMap> plain_map(const Description& made, std::vector<std:
 
 class ModelReader {
  public:
-  ModelReader(const YamlFields& root, Complaints& complaints) : root_(root), complaints_(complaints) {}
+  ModelReader(const YamlFields& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {}
 
   Description read(bool may_read, std::vector<FileClaim>& files) {
-    complaints_.attempt([&] { root_.require_keys(kModelKeys); });
-    complaints_.attempt([&] { root_.at("understudy").integer(kVersionForm); });
-    complaints_.attempt([&] { read_names(); });
-    complaints_.attempt([&] {
+    diagnostics_.attempt([&] { root_.require_keys(kModelKeys); });
+    diagnostics_.attempt([&] { root_.at("understudy").integer(kVersionForm); });
+    diagnostics_.attempt([&] { read_names(); });
+    diagnostics_.attempt([&] {
       const YamlFields field = root_.at("registers");
       const ReadList list = read_list(field, may_read, files);
       list_ = list.text;
-      const std::size_t before = complaints_.count();
-      made_.registers = read_register_list(list.text, list.place, complaints_);
-      list_is_whole_ = complaints_.count() == before;
+      const std::size_t before = diagnostics_.count();
+      made_.registers = read_register_list(list.text, list.place, diagnostics_);
+      list_is_whole_ = diagnostics_.count() == before;
     });
-    read("map", [&](const YamlFields& field) { read_policy(field, made_.policy, complaints_); });
+    read("map", [&](const YamlFields& field) { read_policy(field, made_.policy, diagnostics_); });
     read("bits", [&](const YamlFields& field) {
-      if (list_is_whole_) read_bits(field, made_, complaints_);
+      if (list_is_whole_) read_bits(field, made_, diagnostics_);
     });
-    read("line", [&](const YamlFields& field) { read_line(field, made_.line, complaints_); });
-    if (list_is_whole_) complaints_.attempt([&] { read_bindings(); });
+    read("line", [&](const YamlFields& field) { read_line(field, made_.line, diagnostics_); });
+    if (list_is_whole_) diagnostics_.attempt([&] { read_bindings(); });
     // Only what has been found good: an alias may be inside of what it names.
-    if (complaints_.count() == 0) made_.text = whole_text(root_, list_);
+    if (diagnostics_.count() == 0) made_.text = whole_text(root_, list_);
     return std::move(made_);
   }
 
  private:
   template <typename How>
   void read(std::string_view key, const How& how) {
-    complaints_.attempt([&] {
+    diagnostics_.attempt([&] {
       if (const auto field = root_.find(key)) how(*field);
     });
   }
@@ -170,28 +170,29 @@ class ModelReader {
     Binder binder(made_, *map);
     if (const auto line = root_.find("line")) {
       if (const auto field = line->find("station_in"))
-        complaints_.attempt([&] { made_.line.station_in = read_station_register(*field, binder, made_); });
+        diagnostics_.attempt([&] { made_.line.station_in = read_station_register(*field, binder, made_); });
     }
-    read("inputs", [&](const YamlFields& field) { read_terminals(field, true, made_, binder, complaints_); });
+    read("inputs",
+         [&](const YamlFields& field) { read_terminals(field, true, made_, binder, diagnostics_); });
     read("outputs",
-         [&](const YamlFields& field) { read_terminals(field, false, made_, binder, complaints_); });
+         [&](const YamlFields& field) { read_terminals(field, false, made_, binder, diagnostics_); });
     read("axes", [&](const YamlFields& axes) {
-      complaints_.attempt([&] { axes.require_map(); });
+      diagnostics_.attempt([&] { axes.require_map(); });
       for (const auto& [name, keys] : axes.entries()) {
-        complaints_.attempt([&, &called = name, &its = keys] {
+        diagnostics_.attempt([&, &called = name, &its = keys] {
           world::require_name(its, called);
-          made_.axes.push_back(read_axis(its, called, made_, binder, complaints_));
+          made_.axes.push_back(read_axis(its, called, made_, binder, diagnostics_));
         });
       }
     });
-    read("follows", [&](const YamlFields& field) { read_followings(field, made_, binder, complaints_); });
-    read("shows", [&](const YamlFields& field) { read_comparisons(field, made_, binder, complaints_); });
-    read("momentary", [&](const YamlFields& field) { read_momentary(field, made_, binder, complaints_); });
-    check_bindings(root_, made_, complaints_);
+    read("follows", [&](const YamlFields& field) { read_followings(field, made_, binder, diagnostics_); });
+    read("shows", [&](const YamlFields& field) { read_comparisons(field, made_, binder, diagnostics_); });
+    read("momentary", [&](const YamlFields& field) { read_momentary(field, made_, binder, diagnostics_); });
+    check_bindings(root_, made_, diagnostics_);
   }
 
   const YamlFields& root_;
-  Complaints& complaints_;
+  Diagnostics& diagnostics_;
   Description made_;
   std::string list_;
   bool list_is_whole_ = false;
@@ -203,9 +204,9 @@ Description read_model(const std::string& text, const std::string& name, bool ma
                        std::vector<FileClaim>& files) {
   const YamlFields root =
       YamlFields::parse(text, name, "model", "`understudy: 1`, `model:` and `registers:`");
-  Complaints complaints;
-  Description made = ModelReader(root, complaints).read(may_read, files);
-  complaints.throw_if_any();
+  Diagnostics diagnostics;
+  Description made = ModelReader(root, diagnostics).read(may_read, files);
+  diagnostics.throw_if_any();
   return made;
 }
 

@@ -21,7 +21,7 @@
 #include "emulator/model_file/csv.h"
 #include "emulator/model_file/list_row.h"
 #include "emulator/models/imported/description.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 
 namespace understudy::emulator::model_file {
 
@@ -68,7 +68,8 @@ class Taken {
   std::map<std::pair<Table, std::string>, int> names_;
 };
 
-std::vector<Column> read_headings(const CsvRow& row, const ListPlace& place, world::Complaints& complaints) {
+std::vector<Column> read_headings(const CsvRow& row, const ListPlace& place,
+                                  world::Diagnostics& diagnostics) {
   std::vector<Column> columns;
   std::vector<std::string> known;
   for (const auto& [word, column] : kHeadings) known.emplace_back(word);
@@ -78,7 +79,7 @@ std::vector<Column> read_headings(const CsvRow& row, const ListPlace& place, wor
       throw FileError({place.file, row.line + place.lines_before, cell.column}, "columns: " + what);
     };
     columns.push_back(Column::left_out);
-    complaints.attempt([&] {
+    diagnostics.attempt([&] {
       if (cell.text.empty()) return;
       const auto column = column_called(cell.text);
       if (!column) fail(quoted(cell.text) + " is not a column" + suggestion(cell.text, known));
@@ -88,7 +89,7 @@ std::vector<Column> read_headings(const CsvRow& row, const ListPlace& place, wor
       columns.back() = *column;
     });
   }
-  complaints.attempt([&] {
+  diagnostics.attempt([&] {
     for (const Column needed : {Column::address, Column::name}) {
       if (seen[static_cast<std::size_t>(needed)]) continue;
       throw FileError({place.file, row.line + place.lines_before, 1},
@@ -156,9 +157,9 @@ void require_apart(const std::vector<BitName>& all) {
 }
 
 std::vector<ListedRegister> read_register_list(const std::string& text, const ListPlace& place,
-                                               world::Complaints& complaints) {
+                                               world::Diagnostics& diagnostics) {
   std::vector<ListedRegister> all;
-  complaints.attempt([&] {
+  diagnostics.attempt([&] {
     require_text(text, place);
     const std::vector<CsvRow> rows = parse_csv(text, place.file);
     const auto fail = [&](const std::string& what) {
@@ -167,12 +168,12 @@ std::vector<ListedRegister> read_register_list(const std::string& text, const Li
     if (rows.size() < 2) fail("there is none; expected a line of columns, and one for each register");
     if (rows.size() > kMaxRegisters)
       fail("there are too many; expected " + std::to_string(kMaxRegisters) + " at most");
-    const std::size_t before = complaints.count();
-    const std::vector<Column> columns = read_headings(rows.front(), place, complaints);
-    if (complaints.count() != before) return;  // what columns mean is not known
+    const std::size_t before = diagnostics.count();
+    const std::vector<Column> columns = read_headings(rows.front(), place, diagnostics);
+    if (diagnostics.count() != before) return;  // what columns mean is not known
     Taken taken;
     for (std::size_t i = 1; i < rows.size(); ++i) {
-      complaints.attempt([&] {
+      diagnostics.attempt([&] {
         const ListRow row(rows[i], columns, place.file, place.lines_before);
         if (rows[i].cells.size() > columns.size()) {
           throw FileError({place.file, row.line(), rows[i].cells[columns.size()].column},

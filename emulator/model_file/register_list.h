@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "emulator/models/imported/description.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 
 namespace understudy::emulator::model_file {
 
@@ -21,7 +21,7 @@ struct ListPlace {
 /// left out.
 std::vector<models::imported::ListedRegister> read_register_list(const std::string& text,
                                                                  const ListPlace& place,
-                                                                 world::Complaints& complaints);
+                                                                 world::Diagnostics& diagnostics);
 
 /// Parses named bits of a list: "READY, 4-7 STATE". Throws std::invalid_argument with what is wrong and what
 /// was expected.

@@ -11,7 +11,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/register_list.h"
 #include "emulator/models/imported/description.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 
 namespace understudy::emulator::model_file {
 
@@ -95,9 +95,9 @@ std::string quoted_yaml(const std::string& text) {
 }  // namespace
 
 std::vector<ListedRegister> read_list_file(const std::string& text, const std::string& path) {
-  world::Complaints complaints;
+  world::Diagnostics diagnostics;
   std::vector<ListedRegister> registers;
-  complaints.require([&] { registers = read_register_list(text, {.file = path}, complaints); });
+  diagnostics.require([&] { registers = read_register_list(text, {.file = path}, diagnostics); });
   return registers;
 }
 

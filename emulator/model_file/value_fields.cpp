@@ -16,8 +16,8 @@
 #include "emulator/model_file/model_form.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/models/imported/shown.h"
-#include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/device_fields.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::model_file {
@@ -31,7 +31,7 @@ using models::imported::Quantity;
 using models::imported::ShownPart;
 using models::imported::Spot;
 using models::imported::Terminal;
-using world::Complaints;
+using world::Diagnostics;
 using world::YamlFields;
 
 namespace {
@@ -42,10 +42,10 @@ constexpr Tick kMaxEvery = 60'000;
 }  // namespace
 
 void read_terminals(const YamlFields& fields, bool are_inputs, Description& made, Binder& binder,
-                    Complaints& complaints) {
-  complaints.attempt([&] { fields.require_map(); });
+                    Diagnostics& diagnostics) {
+  diagnostics.attempt([&] { fields.require_map(); });
   for (const auto& [name, field] : fields.entries()) {
-    complaints.attempt([&, &called = name, &where = field] {
+    diagnostics.attempt([&, &called = name, &where = field] {
       world::require_name(where, called);
       const bool is_there = std::any_of(made.terminals.begin(), made.terminals.end(),
                                         [&](const Terminal& other) { return other.name == called; });
@@ -71,11 +71,11 @@ void read_terminals(const YamlFields& fields, bool are_inputs, Description& made
   }
 }
 
-void read_followings(const YamlFields& fields, Description& made, Binder& binder, Complaints& complaints) {
-  complaints.attempt([&] { fields.require_map(); });
+void read_followings(const YamlFields& fields, Description& made, Binder& binder, Diagnostics& diagnostics) {
+  diagnostics.attempt([&] { fields.require_map(); });
   for (const auto& [name, its] : fields.entries()) {
-    complaints.attempt([&, &called = name, &keys = its] {
-      complaints.attempt([&] { keys.require_keys(kFollowKeys); });
+    diagnostics.attempt([&, &called = name, &keys = its] {
+      diagnostics.attempt([&] { keys.require_keys(kFollowKeys); });
       Following following;
       following.spot = binder.shown(keys, called, false, "what follows");
       const auto not_itself = [&](const YamlFields& field, const Quantity& quantity) {
@@ -109,11 +109,11 @@ void read_followings(const YamlFields& fields, Description& made, Binder& binder
   }
 }
 
-void read_comparisons(const YamlFields& fields, Description& made, Binder& binder, Complaints& complaints) {
-  complaints.attempt([&] { fields.require_map(); });
+void read_comparisons(const YamlFields& fields, Description& made, Binder& binder, Diagnostics& diagnostics) {
+  diagnostics.attempt([&] { fields.require_map(); });
   std::vector<YamlFields> places;
   for (const auto& [name, relation] : fields.entries()) {
-    complaints.attempt([&, &called = name, &field = relation] {
+    diagnostics.attempt([&, &called = name, &field = relation] {
       Comparison comparison = binder.comparison(field);
       comparison.spot = binder.shown(field, called, true, "a relation");
       made.comparisons.push_back(comparison);
@@ -126,7 +126,7 @@ void read_comparisons(const YamlFields& fields, Description& made, Binder& binde
                        [&](const Comparison& other) { return other.spot.number == side.spot->number; });
   };
   for (std::size_t i = 0; i < places.size(); ++i) {
-    complaints.attempt([&] {
+    diagnostics.attempt([&] {
       if (shows_one(made.comparisons[i].left) || shows_one(made.comparisons[i].right))
         places[i].fail("compares a register that shows a relation itself; expected registers without one");
     });
@@ -134,9 +134,9 @@ void read_comparisons(const YamlFields& fields, Description& made, Binder& binde
 }
 
 void read_momentary(const YamlFields& field, Description& made, const Binder& binder,
-                    Complaints& complaints) {
+                    Diagnostics& diagnostics) {
   for (const YamlFields& element : field.elements()) {
-    complaints.attempt([&] {
+    diagnostics.attempt([&] {
       const Spot spot = binder.spot(element);
       const ListedRegister& listed = made.registers[spot.number];
       if (!spot.is_whole() || is_32_bit(listed.type) || listed.access == Access::read)
@@ -152,14 +152,14 @@ namespace {
 
 class BindingCheck {
  public:
-  BindingCheck(const YamlFields& root, const Description& made, Complaints& complaints)
-      : root_(root), made_(made), complaints_(complaints), shown_(shown_parts(made)) {}
+  BindingCheck(const YamlFields& root, const Description& made, Diagnostics& diagnostics)
+      : root_(root), made_(made), diagnostics_(diagnostics), shown_(shown_parts(made)) {}
 
   void check() {
     for (const auto& axis : made_.axes) {
       for (std::size_t i = 0; i < models::imported::kCommands; ++i) {
         if (!axis.commands[i]) continue;
-        complaints_.attempt([&] {
+        diagnostics_.attempt([&] {
           const auto command = static_cast<Command>(i);
           check_command(root_.at("axes").at(axis.name).at(key_of(command)), command, axis.commands[i]->spot);
         });
@@ -167,7 +167,7 @@ class BindingCheck {
     }
     for (const Terminal& terminal : made_.terminals) {
       if (terminal.is_input) continue;
-      complaints_.attempt([&] { check_output(root_.at("outputs").at(terminal.name), *terminal.spot); });
+      diagnostics_.attempt([&] { check_output(root_.at("outputs").at(terminal.name), *terminal.spot); });
     }
   }
 
@@ -208,14 +208,14 @@ class BindingCheck {
 
   const YamlFields& root_;
   const Description& made_;
-  Complaints& complaints_;
+  Diagnostics& diagnostics_;
   const std::vector<std::vector<ShownPart>> shown_;
 };
 
 }  // namespace
 
-void check_bindings(const YamlFields& root, const Description& made, Complaints& complaints) {
-  BindingCheck(root, made, complaints).check();
+void check_bindings(const YamlFields& root, const Description& made, Diagnostics& diagnostics) {
+  BindingCheck(root, made, diagnostics).check();
 }
 
 }  // namespace understudy::emulator::model_file

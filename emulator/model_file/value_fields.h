@@ -3,24 +3,24 @@
 
 #include "emulator/model_file/binder.h"
 #include "emulator/models/imported/description.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::model_file {
 
 /// Reads `inputs`, or `outputs` that follow them. Like the other readers it keeps all errors.
 void read_terminals(const world::YamlFields& fields, bool are_inputs, models::imported::Description& made,
-                    Binder& binder, world::Complaints& complaints);
+                    Binder& binder, world::Diagnostics& diagnostics);
 void read_followings(const world::YamlFields& fields, models::imported::Description& made, Binder& binder,
-                     world::Complaints& complaints);
+                     world::Diagnostics& diagnostics);
 void read_comparisons(const world::YamlFields& fields, models::imported::Description& made, Binder& binder,
-                      world::Complaints& complaints);
+                      world::Diagnostics& diagnostics);
 void read_momentary(const world::YamlFields& field, models::imported::Description& made, const Binder& binder,
-                    world::Complaints& complaints);
+                    world::Diagnostics& diagnostics);
 
 /// Reports errors that only the whole file can show: commands in registers that show something else,
 /// relations of relations, and the like.
 void check_bindings(const world::YamlFields& root, const models::imported::Description& made,
-                    world::Complaints& complaints);
+                    world::Diagnostics& diagnostics);
 
 }  // namespace understudy::emulator::model_file

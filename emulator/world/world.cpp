@@ -405,7 +405,7 @@ std::optional<std::string> World::assign(std::size_t device, const std::string& 
   begin_act();
   NamedValues* const values = devices_[device]->named_values();
   if (values == nullptr) return "cannot be set; expected a name of the device";
-  if (auto complaint = values->assign(name, value)) return complaint;
+  if (auto diagnostic = values->assign(name, value)) return diagnostic;
   tell([&](OutsideListener& listener) { listener.on_assign(device, name, value); });
   look_for_speech(now_);
   return std::nullopt;

@@ -298,18 +298,18 @@ class Checker {
       const auto line = static_cast<std::size_t>(fault.line);
       const Token& token = places_[line];
       const std::string subject = fault.code == Code::label_twice ? "" : text_of(current_.lines[line]) + " ";
-      Complaint complaint{
+      Diagnostic diagnostic{
           token.line, token.column, subject + fault.what, std::move(fault.expected), fault.code, steps[line],
           0};
       if (fault.other_line >= 0) {
-        complaint.other_step = steps[static_cast<std::size_t>(fault.other_line)];
-        complaint.expected +=
+        diagnostic.other_step = steps[static_cast<std::size_t>(fault.other_line)];
+        diagnostic.expected +=
             ", as in line " + std::to_string(places_[static_cast<std::size_t>(fault.other_line)].line);
       }
       switch (fault.weight) {
-        case Fault::Weight::error: checked_.errors.push_back(std::move(complaint)); break;
-        case Fault::Weight::warning: checked_.warnings.push_back(std::move(complaint)); break;
-        case Fault::Weight::note: checked_.notes.push_back(std::move(complaint)); break;
+        case Fault::Weight::error: checked_.errors.push_back(std::move(diagnostic)); break;
+        case Fault::Weight::warning: checked_.warnings.push_back(std::move(diagnostic)); break;
+        case Fault::Weight::note: checked_.notes.push_back(std::move(diagnostic)); break;
       }
     }
     if (file_ >= 0) {

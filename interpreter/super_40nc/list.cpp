@@ -55,8 +55,9 @@ std::string list(const Program& program) {
   return text;
 }
 
-std::string to_string(const Complaint& complaint) {
-  return std::to_string(complaint.line) + ':' + std::to_string(complaint.column) + ": " + complaint.message();
+std::string to_string(const Diagnostic& diagnostic) {
+  return std::to_string(diagnostic.line) + ':' + std::to_string(diagnostic.column) + ": " +
+         diagnostic.message();
 }
 
 }  // namespace understudy::interpreter::super_40nc

@@ -23,7 +23,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-struct Complaint {
+struct Diagnostic {
   int line = 0;    // of the text, from 1
   int column = 0;  // in bytes, from 1
   std::string what;
@@ -33,17 +33,17 @@ struct Complaint {
   int other_step = 0;  // for D8096
 
   std::string message() const { return expected.empty() ? what : what + "; expected " + expected; }
-  bool operator==(const Complaint&) const = default;
+  bool operator==(const Diagnostic&) const = default;
 };
 
 /// "4:9: X50 does not exist; expected X0 to X47".
-std::string to_string(const Complaint& complaint);
+std::string to_string(const Diagnostic& diagnostic);
 
 struct Checked {
-  std::optional<Program> program;   // only if nothing is wrong
-  std::vector<Complaint> errors;    // the first kMaxMistakes, in the order of the text
-  std::vector<Complaint> warnings;  // loads, but is reported: a duplicate label
-  std::vector<Complaint> notes;     // loads, and is not reported: a jump whose label is missing
+  std::optional<Program> program;    // only if nothing is wrong
+  std::vector<Diagnostic> errors;    // the first kMaxMistakes, in the order of the text
+  std::vector<Diagnostic> warnings;  // loads, but is reported: a duplicate label
+  std::vector<Diagnostic> notes;     // loads, and is not reported: a jump whose label is missing
 };
 
 inline constexpr int kGreatestFile = 29999;

@@ -321,7 +321,7 @@ TEST_F(Campaign, FlagsThatMakeNoSenseAreRefused) {
   const std::string scenario = file(3);
   struct Row {
     Words flags;
-    const char* complaint;
+    const char* diagnostic;
     int code;
   };
   folder_.write("other.jsonl", "not a row\n");
@@ -343,7 +343,7 @@ TEST_F(Campaign, FlagsThatMakeNoSenseAreRefused) {
     words.insert(words.end(), row.flags.begin(), row.flags.end());
     const Finished finished = understudy(words);
     EXPECT_EQ(finished.exit_code, row.code) << finished.errors;
-    EXPECT_NE(finished.errors.find(row.complaint), std::string::npos) << finished.errors;
+    EXPECT_NE(finished.errors.find(row.diagnostic), std::string::npos) << finished.errors;
   }
 }
 

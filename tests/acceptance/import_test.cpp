@@ -194,25 +194,25 @@ TEST(ImportCommand, WritesWhatCanBeServedAndNothingOver) {
 TEST(ImportCommand, RefusesWhatCannotBeOne) {
   const PrivateFolder folder;
   const std::string list = folder.write("p.csv", "address,name\n0,X\n");
-  const auto complaint = [](const Words& words) {
+  const auto diagnostic = [](const Words& words) {
     const Finished refused = understudy(words);
     EXPECT_EQ(refused.exit_code, 2) << refused.output;
     return refused.errors;
   };
-  EXPECT_EQ(complaint({"import", folder / "q.csv"}),
+  EXPECT_EQ(diagnostic({"import", folder / "q.csv"}),
             folder /
                 "q.csv: registers: cannot be read (No such file or directory); expected a list of registers "
                 "(CSV)\n");
-  EXPECT_EQ(complaint({"import", list, "--name", "a b"}),
+  EXPECT_EQ(diagnostic({"import", list, "--name", "a b"}),
             "understudy: --name: 'a b' is not a name; expected letters, digits, _ and -\n");
-  EXPECT_EQ(complaint({"import", list, "--name", "slim"}),
+  EXPECT_EQ(diagnostic({"import", list, "--name", "slim"}),
             "understudy: --name: 'slim' is the name of an existing model; expected another name\n");
-  EXPECT_EQ(complaint({"import", list, "-o", "p.txt"}),
+  EXPECT_EQ(diagnostic({"import", list, "-o", "p.txt"}),
             "understudy: --output: 'p.txt' does not end in .yaml; expected a model file\n");
-  EXPECT_EQ(complaint({"serve", "--model", folder / "none.yaml"}),
+  EXPECT_EQ(diagnostic({"serve", "--model", folder / "none.yaml"}),
             folder / "none.yaml: model: cannot be read (No such file or directory); expected a model file\n");
   const std::string wrong = folder.write("w.yaml", "understudy: 1\nmodel: w\nregisters: p.csv\naxis: {}\n");
-  EXPECT_NE(complaint({"check", wrong}).find(wrong + ":4:7: axis: is not a key here; expected one of"),
+  EXPECT_NE(diagnostic({"check", wrong}).find(wrong + ":4:7: axis: is not a key here; expected one of"),
             std::string::npos);
   EXPECT_EQ(fs::exists(folder / "p.yaml"), false);
 }

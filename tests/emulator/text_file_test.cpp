@@ -91,7 +91,7 @@ TEST_F(TextFile, IsReadUpToTheLimitAndNotBeyond) {
 }
 
 TEST_F(TextFile, WhoeverReadsOneSaysWhatIsWrongWithIt) {
-  const auto complaint = [](const auto& read) -> std::string {
+  const auto diagnostic = [](const auto& read) -> std::string {
     try {
       read();
       return "";
@@ -102,19 +102,19 @@ TEST_F(TextFile, WhoeverReadsOneSaysWhatIsWrongWithIt) {
   const std::string pipe = path("pipe");
   const std::string csv = path("pipe.csv");
   ASSERT_EQ(mkfifo(csv.c_str(), 0600), 0);
-  EXPECT_EQ(complaint([&] { world::load_bench(models::all_models(), pipe); }),
+  EXPECT_EQ(diagnostic([&] { world::load_bench(models::all_models(), pipe); }),
             pipe + ": bench: is not a regular file; expected a bench file");
-  EXPECT_EQ(complaint([&] { play::load_scenarios(models::all_models(), pipe); }),
+  EXPECT_EQ(diagnostic([&] { play::load_scenarios(models::all_models(), pipe); }),
             pipe + ": scenario: is not a regular file; expected a scenario file");
-  EXPECT_EQ(complaint([&] { play::kind_of_file(pipe); }),
+  EXPECT_EQ(diagnostic([&] { play::kind_of_file(pipe); }),
             pipe + ": file: is not a regular file; expected a bench or a scenario");
-  EXPECT_EQ(complaint([&] { read_nv_file(pipe); }),
+  EXPECT_EQ(diagnostic([&] { read_nv_file(pipe); }),
             pipe + ": file: is not a regular file; expected an NV image");
-  EXPECT_EQ(complaint([&] { play::read_trace(csv); }), csv + ": is not a regular file; expected a trace");
+  EXPECT_EQ(diagnostic([&] { play::read_trace(csv); }), csv + ": is not a regular file; expected a trace");
   // A bench's listing, a scenario's and what it includes.
   const std::string bench =
       "understudy: 1\nlines:\n  rs485:\n    stations:\n      - { name: feeder, model: simple2-r3 }\n";
-  EXPECT_EQ(complaint([&] {
+  EXPECT_EQ(diagnostic([&] {
               world::load_bench(models::all_models(),
                                 put("b.yaml", bench.substr(0, bench.rfind(" }")) + ", program: pipe }\n"));
             }),
@@ -127,7 +127,7 @@ TEST_F(TextFile, WhoeverReadsOneSaysWhatIsWrongWithIt) {
            {"include: pipe",
             "14: steps[0].include: " + pipe + " is not a regular file; expected a file of steps"}}) {
     const std::string file = put("s.yaml", "understudy: 1\nbench: feeder.yaml\nsteps:\n  - " + step + "\n");
-    EXPECT_EQ(complaint([&] { play::load_scenarios(models::all_models(), file); }), file + ":4:" + why);
+    EXPECT_EQ(diagnostic([&] { play::load_scenarios(models::all_models(), file); }), file + ":4:" + why);
   }
 }
 

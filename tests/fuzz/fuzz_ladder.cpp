@@ -54,7 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > kLongest) return 0;
   const Checked checked = check(fuzzing::text_of(data, size));
   require(checked.program.has_value() == checked.errors.empty(), "programs or errors");
-  for (const Complaint& error : checked.errors) {
+  for (const Diagnostic& error : checked.errors) {
     require(error.line >= 1 && error.column >= 1, "an error has its place");
     require(!error.what.empty() && error.code != Code::none, "an error says something");
   }

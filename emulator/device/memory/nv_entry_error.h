@@ -19,11 +19,11 @@ struct NvEntryError : NvError {
         list(list_of_it),
         kind(std::move(kind_of_it)),
         name(std::move(name_of_it)),
-        complaint(std::move(what_is_wrong)) {}
+        diagnostic(std::move(what_is_wrong)) {}
   List list;
-  std::string kind;       // of blocks
-  std::string name;       // of blocks: none where all of their kind are meant
-  std::string complaint;  // for messages that name the entry already
+  std::string kind;        // of blocks
+  std::string name;        // of blocks: none where all of their kind are meant
+  std::string diagnostic;  // for messages that name the entry already
 };
 
 /// Makes the error for a refused value: "registers: " or "reals: ", then the reason.

@@ -18,7 +18,7 @@
 
 namespace understudy::emulator {
 
-FileError::Complaint complaint_of(const NvError& wrong, const std::string& path) {
+FileError::Diagnostic diagnostic_of(const NvError& wrong, const std::string& path) {
   return {.place = {.file = path, .line = static_cast<int>(wrong.line)},
           .text = one_line(wrong.in_file(path))};
 }
@@ -35,7 +35,7 @@ std::optional<NvImage> read_nv_file(const std::string& path) {
   try {
     return parse_nv_image(*text);
   } catch (const NvError& wrong) {
-    throw FileError({complaint_of(wrong, path)});
+    throw FileError({diagnostic_of(wrong, path)});
   }
 }
 

@@ -18,7 +18,7 @@
 namespace understudy::emulator {
 
 /// Converts the error of an image to a message for its file: "path:line: field: what is wrong".
-FileError::Complaint complaint_of(const NvError& wrong, const std::string& path);
+FileError::Diagnostic diagnostic_of(const NvError& wrong, const std::string& path);
 
 /// Returns nothing if the file does not exist. Throws FileError "path:line: field: what is wrong"; the file
 /// stays as it is.

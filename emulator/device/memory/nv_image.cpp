@@ -224,12 +224,12 @@ void read_blocks(const Json& blocks, const std::vector<BlockPlace>& places, NvIm
 
 }  // namespace
 
-NvError::NvError(const std::string& complaint, std::size_t line_of_it)
-    : std::runtime_error(line_text(line_of_it) + complaint), line(line_of_it) {}
+NvError::NvError(const std::string& diagnostic, std::size_t line_of_it)
+    : std::runtime_error(line_text(line_of_it) + diagnostic), line(line_of_it) {}
 
 std::string NvError::in_file(const std::string& path) const {
-  const std::string complaint = std::string(what()).substr(line_text(line).size());
-  return path + (line == 0 ? "" : ":" + std::to_string(line)) + ": " + complaint;
+  const std::string diagnostic = std::string(what()).substr(line_text(line).size());
+  return path + (line == 0 ? "" : ":" + std::to_string(line)) + ": " + diagnostic;
 }
 
 bool NvImage::operator==(const NvImage& other) const {

@@ -40,7 +40,7 @@ using LateImage = std::function<NvImage()>;
 /// Reports an image that cannot be used, as one line: "field: what is wrong; what was expected", with "line
 /// 3: " in front if the line is known.
 struct NvError : std::runtime_error {
-  explicit NvError(const std::string& complaint, std::size_t line_of_it = 0);
+  explicit NvError(const std::string& diagnostic, std::size_t line_of_it = 0);
   std::size_t line;  // in the file; 0: it is the whole
   /// Returns the message for an image in a file: "path:3: field: what is wrong; what was expected".
   std::string in_file(const std::string& path) const;

@@ -90,7 +90,7 @@ std::string why_not_listing(const std::string& text) {
   options.swapped = language::Options::Swapped::clears_all;
   const language::Checked checked = language::check(text, options);
   if (checked.program) return "";
-  const language::Complaint& first = checked.errors.front();
+  const language::Diagnostic& first = checked.errors.front();
   return "line " + std::to_string(first.line) + ": " + first.message();
 }
 

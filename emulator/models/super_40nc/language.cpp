@@ -114,7 +114,7 @@ const ProgramLanguage& program_language() {
 
 std::vector<ProgramMistake> mistakes_of(const lang::Checked& checked) {
   std::vector<ProgramMistake> mistakes;
-  for (const lang::Complaint& error : checked.errors) {
+  for (const lang::Diagnostic& error : checked.errors) {
     mistakes.push_back({error.line, error.column, error.message()});
   }
   return mistakes;

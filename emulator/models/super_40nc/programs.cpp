@@ -121,11 +121,11 @@ std::vector<ProgramMistake> Super40nc::mistakes_in(std::string_view text) const 
 
 std::vector<ProgramMistake> Super40nc::warnings_about(std::string_view text) const {
   const language::Checked checked = language::check(text, options_with_room());
-  std::vector<language::Complaint> all = checked.warnings;
+  std::vector<language::Diagnostic> all = checked.warnings;
   all.insert(all.end(), checked.notes.begin(), checked.notes.end());
   leave_first(all);
   std::vector<ProgramMistake> warnings;
-  for (const language::Complaint& one : all) warnings.push_back({one.line, one.column, one.message()});
+  for (const language::Diagnostic& one : all) warnings.push_back({one.line, one.column, one.message()});
   return warnings;
 }
 
@@ -135,7 +135,7 @@ void Super40nc::load_program(std::string_view text) {
   }
   const language::Checked checked = language::check(text, options_with_room());
   if (!checked.program) {
-    const language::Complaint& first = checked.errors.front();
+    const language::Diagnostic& first = checked.errors.front();
     state_.error = {.code = first.code, .step = first.step, .other_step = first.other_step, .tick = now()};
     throw ProgramError(mistakes_of(checked));
   }
@@ -166,7 +166,7 @@ void Super40nc::load_program(std::string_view text) {
       options_.labels_are_common ? language::check(program_text(), options_with_room()) : language::Checked{};
   const auto& warnings = all.warnings.empty() ? checked.warnings : all.warnings;
   if (!warnings.empty()) {
-    const language::Complaint& first = warnings.front();
+    const language::Diagnostic& first = warnings.front();
     report({.code = first.code, .step = first.step, .other_step = first.other_step});
   }
   state_.touched = true;

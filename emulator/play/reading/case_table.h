@@ -30,7 +30,7 @@ class CaseTable {
   const std::string& choice() const { return choice_; }
   /// The last entry of `vary` changes fastest, the row slowest.
   Case at(std::uint64_t number) const;
-  /// Where that case gets that parameter's value, for complaints.
+  /// Where that case gets that parameter's value, for diagnostics.
   world::YamlFields field_of(std::uint64_t number, const std::string& name) const;
   /// Where the case as a whole stands.
   world::YamlFields place_of(std::uint64_t number) const;

@@ -69,7 +69,7 @@ void read_repeat(StepsReader& reader, const world::YamlFields& /*step*/, const w
     Parameters inner(reader.parameters());
     if (as) define(*as, inner, as->text(), std::to_string(round));
     reader.read_here(steps, inner);
-    if (reader.has_complaints()) return;
+    if (reader.has_diagnostics()) return;
   }
 }
 
@@ -89,7 +89,7 @@ void read_for(StepsReader& reader, const world::YamlFields& /*step*/, const worl
       define(as ? *as : value, inner, value.at("as").text(), row.text());
     }
     reader.read_here(steps, inner);
-    if (reader.has_complaints()) return;
+    if (reader.has_diagnostics()) return;
   }
 }
 

@@ -32,7 +32,7 @@
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/bench_file/bench_form.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/expression/tokens.h"
 #include "emulator/world/names/names.h"
@@ -270,7 +270,7 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
         {device.nv_path, "the initial memory of " + understudy::quoted(device.settings.name)});
   }
   const Trial trial = make_trial(root, scenario.bench);
-  world::Complaints all;
+  world::Diagnostics all;
   all.attempt([&] { scenario.name = name_with(which, parameters); });
   all.attempt([&] {
     if (root.has("gap")) scenario.gap = root.at("gap").duration();

@@ -22,7 +22,7 @@
 #include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench_file/bench_form.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::play {
@@ -65,7 +65,7 @@ class ScenarioFile::Reader {
 
   void check(const std::function<void(Scenario)>& take) {
     std::set<std::string> names;
-    world::Complaints all = head_;
+    world::Diagnostics all = head_;
     file_.saved_before.emplace();
     all.require([&] {
       for (PlayReader& play : plays_) {
@@ -90,10 +90,10 @@ class ScenarioFile::Reader {
     const world::YamlFields common = root_.without(kOfTheFile);
     const auto plays = root_.at("plays").elements();
     if (plays.empty()) root_.at("plays").fail("is empty; expected at least one play");
-    world::Complaints complaints;
+    world::Diagnostics diagnostics;
     std::set<std::string> names;
     for (const world::YamlFields& play : plays) {
-      complaints.attempt([&] {
+      diagnostics.attempt([&] {
         PlayReader read(play, common, file_);
         if (!names.insert(read.written_name()).second) {
           play.fail("is called " + understudy::quoted(read.written_name()) +
@@ -103,7 +103,7 @@ class ScenarioFile::Reader {
         first_.push_back(first_.back() + plays_.back().cases().size());
       });
     }
-    complaints.throw_if_any();
+    diagnostics.throw_if_any();
   }
 
   /// The play that a case is of, and its number there.
@@ -113,8 +113,8 @@ class ScenarioFile::Reader {
     return {play, number - first_[play]};
   }
 
-  void check_one(PlayReader& play, std::uint64_t number, std::set<std::string>& names, world::Complaints& all,
-                 const std::function<void(Scenario)>& take) {
+  void check_one(PlayReader& play, std::uint64_t number, std::set<std::string>& names,
+                 world::Diagnostics& all, const std::function<void(Scenario)>& take) {
     try {
       Scenario scenario = read_one(play, number);
       if (!names.insert(scenario.name).second && !play.cases().is_varied()) {
@@ -149,7 +149,7 @@ class ScenarioFile::Reader {
 
   world::YamlFields root_;
   FilePlays file_;
-  world::Complaints head_;  // what is wrong beside the cases
+  world::Diagnostics head_;  // what is wrong beside the cases
   std::vector<PlayReader> plays_;
   std::vector<std::uint64_t> first_{0};  // the first case of each play, and behind the last
 };

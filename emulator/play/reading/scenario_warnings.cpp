@@ -17,7 +17,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-void add_warnings(const Steps& steps, const world::Bench& bench, std::vector<FileError::Complaint>& all) {
+void add_warnings(const Steps& steps, const world::Bench& bench, std::vector<FileError::Diagnostic>& all) {
   for (const Step& step : steps) {
     if (const auto* const fork = std::get_if<ForkStep>(&step.what)) {
       for (const ForkStep::Branch& branch : fork->branches) add_warnings(branch.steps, bench, all);
@@ -42,8 +42,8 @@ void add_warnings(const Steps& steps, const world::Bench& bench, std::vector<Fil
 
 }  // namespace
 
-std::vector<FileError::Complaint> warnings_of(const Scenario& scenario) {
-  std::vector<FileError::Complaint> all = world::program_warnings(scenario.bench);
+std::vector<FileError::Diagnostic> warnings_of(const Scenario& scenario) {
+  std::vector<FileError::Diagnostic> all = world::program_warnings(scenario.bench);
   add_warnings(scenario.steps, scenario.bench, all);
   return all;
 }

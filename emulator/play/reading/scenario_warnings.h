@@ -9,6 +9,6 @@
 namespace understudy::emulator::play {
 
 /// Returns the warnings in the order of the bench and of the steps.
-std::vector<FileError::Complaint> warnings_of(const Scenario& scenario);
+std::vector<FileError::Diagnostic> warnings_of(const Scenario& scenario);
 
 }  // namespace understudy::emulator::play

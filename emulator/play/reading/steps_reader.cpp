@@ -84,7 +84,7 @@ StepsReader::StepsReader(const Trial& trial, FileReading& file, const std::strin
 Steps StepsReader::read(const world::YamlFields& list, const Parameters& parameters) {
   Steps steps;
   into_ = &steps;
-  complaints_.require([&] { read_here(list, parameters); });
+  diagnostics_.require([&] { read_here(list, parameters); });
   return steps;
 }
 
@@ -121,14 +121,15 @@ void StepsReader::read_here(const world::YamlFields& list, const Parameters& par
 void StepsReader::read_or_complain(const world::YamlFields& step) {
   const auto before = std::tuple(parameters_, into_, paths_.size(), depth_);
   const StepRow* row = nullptr;
-  const bool is_read = complaints_.attempt([&] {
+  const bool is_read = diagnostics_.attempt([&] {
     row = row_of(step);
     try {
       read_step(step, row);
     } catch (const world::LastError&) {
       throw;
     } catch (const FileError&) {
-      if (lacks_names_ && row != nullptr && row->names == StepRow::Names::wants) throw world::Untold();
+      if (lacks_names_ && row != nullptr && row->names == StepRow::Names::wants)
+        throw world::AlreadyReported();
       throw;
     }
   });
@@ -143,7 +144,7 @@ Steps StepsReader::read_branch(const world::YamlFields& list) {
   Steps steps;
   Steps* const outer = std::exchange(into_, &steps);
   const Story before = story_;
-  complaints_.attempt([&] { read_here(list, *parameters_); });
+  diagnostics_.attempt([&] { read_here(list, *parameters_); });
   story_ = before;
   into_ = outer;
   return steps;

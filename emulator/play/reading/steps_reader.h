@@ -12,7 +12,7 @@
 #include "emulator/play/reading/story.h"
 #include "emulator/play/reading/trial.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::play {
@@ -70,7 +70,7 @@ class StepsReader {
   Steps read_branch(const world::YamlFields& list);
   void read_included(const world::YamlFields& field);
   /// Returns true if a step could not be read. Another round of a loop would only repeat the error.
-  bool has_complaints() const { return complaints_.count() > 0; }
+  bool has_diagnostics() const { return diagnostics_.count() > 0; }
 
  private:
   void read_or_complain(const world::YamlFields& step);
@@ -87,7 +87,7 @@ class StepsReader {
   std::vector<std::pair<std::string, world::YamlFields>> saved_;
   std::vector<std::string> paths_;  // of the files that include each other here
   int depth_ = 0;
-  world::Complaints complaints_;
+  world::Diagnostics diagnostics_;
   bool lacks_names_ = false;  // a step that could not be read may have given some
 };
 

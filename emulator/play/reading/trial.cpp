@@ -21,7 +21,7 @@
 #include "emulator/play/scenario/requests.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/disturbance_fields.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/check_fault.h"
@@ -246,13 +246,13 @@ void Trial::require_program(const world::YamlFields& field, std::size_t device, 
   try {
     make_device(*bench_.devices[device].model, settings);
   } catch (const ProgramError& error) {
-    if (!name.empty()) throw world::program_complaints(error, name);
-    std::vector<FileError::Complaint> all;
+    if (!name.empty()) throw world::program_diagnostics(error, name);
+    std::vector<FileError::Diagnostic> all;
     for (const ProgramMistake& mistake : error.mistakes) {
       try {
         field.fail(in_text(mistake));
-      } catch (const FileError& complaint) {
-        all.push_back(complaint.complaints().front());
+      } catch (const FileError& diagnostic) {
+        all.push_back(diagnostic.diagnostics().front());
       }
     }
     throw FileError(std::move(all));
@@ -262,10 +262,10 @@ void Trial::require_program(const world::YamlFields& field, std::size_t device, 
 }
 
 world::Fault Trial::fault(const world::YamlFields& field, std::string_view other_key) const {
-  world::Complaints complaints;
-  const auto fault = world::read_fault(field, known(), complaints, other_key);
-  world::require_possible(field, world_, fault, complaints);
-  complaints.throw_if_any();
+  world::Diagnostics diagnostics;
+  const auto fault = world::read_fault(field, known(), diagnostics, other_key);
+  world::require_possible(field, world_, fault, diagnostics);
+  diagnostics.throw_if_any();
   return *fault;
 }
 
@@ -278,7 +278,7 @@ world::Fault Trial::turn(const world::YamlFields& field, const world::YamlFields
     world::check_fault(world_, fault);
     return fault;
   } catch (const world::FaultFieldError& error) {
-    (error.field == "in" ? *in : field).fail(error.complaint);
+    (error.field == "in" ? *in : field).fail(error.diagnostic);
   } catch (const world::NameError& error) {
     field.fail(error.what());
   }

@@ -69,7 +69,7 @@ Json course_of_scope(const world::Scope& scope) {
             {"condition", scope.setup().condition}, {"from_ns", time_of(scope.first_tick()).count()},
             {"step_ns", kTickLength.count()},       {"count", scope.count()}};
   if (scope.state() != world::Scope::State::armed) told["trigger_ns"] = time_of(scope.trigger_tick()).count();
-  if (!scope.complaint().empty()) told["error"] = scope.complaint();
+  if (!scope.diagnostic().empty()) told["error"] = scope.diagnostic();
   return told;
 }
 

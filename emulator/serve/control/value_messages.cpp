@@ -51,7 +51,7 @@ bool is_real_register(const world::KnownDevices& known, const std::string& name)
   try {
     return world::find_register(known, name).place.is_real();
   } catch (const world::NameError&) {
-    return false;  // the complaint comes where it is looked up
+    return false;  // the diagnostic comes where it is looked up
   }
 }
 
@@ -153,8 +153,8 @@ void require_possible(const world::World& world,
     const NamedValues* const values = device.named_values();
     if (values == nullptr || !values->value_named(place.name))
       throw MessageError(why_no_value(device, place.name));
-    if (const auto complaint = trial->named_values()->assign(place.name, value)) {
-      throw MessageError(place.name + ": " + *complaint);
+    if (const auto diagnostic = trial->named_values()->assign(place.name, value)) {
+      throw MessageError(place.name + ": " + *diagnostic);
     }
   }
 }

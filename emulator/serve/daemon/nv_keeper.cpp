@@ -21,7 +21,7 @@
 #include "emulator/device/model.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/world.h"
 #include "pty/port_link.h"
 
@@ -56,21 +56,21 @@ void make_folder(const std::string& folder) {
 }
 
 /// All that is wrong with it is told.
-void read_memory(world::DeviceSetup& device, world::Complaints& complaints) {
-  bool is_asked = complaints.attempt([&] {
+void read_memory(world::DeviceSetup& device, world::Diagnostics& diagnostics) {
+  bool is_asked = diagnostics.attempt([&] {
     // Until there is a file, the bench may say what the memory holds.
     if (auto image = read_nv_file(device.nv_path)) device.settings.nv = std::move(image);
   });
   while (is_asked) {
     is_asked = false;
-    complaints.attempt([&] {
+    diagnostics.attempt([&] {
       try {
         make_device(*device.model, device.settings);
       } catch (const NvEntryError& refused) {
         is_asked = take_away(refused, *device.settings.nv);
-        throw FileError({complaint_of(refused, device.nv_path)});
+        throw FileError({diagnostic_of(refused, device.nv_path)});
       } catch (const NvError& error) {
-        throw FileError({complaint_of(error, device.nv_path)});
+        throw FileError({diagnostic_of(error, device.nv_path)});
       }
     });
   }
@@ -86,10 +86,10 @@ void read_memories(world::Bench& bench, const std::string& folder) {
     }
   }
   require_own_files(bench);
-  world::Complaints complaints;
-  complaints.require([&] {
+  world::Diagnostics diagnostics;
+  diagnostics.require([&] {
     for (world::DeviceSetup& device : bench.devices) {
-      if (!device.nv_path.empty()) read_memory(device, complaints);
+      if (!device.nv_path.empty()) read_memory(device, diagnostics);
     }
   });
 }

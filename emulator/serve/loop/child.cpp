@@ -97,7 +97,7 @@ void Child::start(const ChildCommand& command) {
   const std::vector<char*> entries = pointers_to(environment);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe2");
-  const Descriptor complaints(ends[0]);
+  const Descriptor diagnostics(ends[0]);
   Descriptor complaining(ends[1]);
   pid_ = fork();
   if (pid_ == 0) become(words.data(), entries.data(), complaining.get());
@@ -108,7 +108,7 @@ void Child::start(const ChildCommand& command) {
   int why = 0;
   ssize_t size = 0;
   do {
-    size = read(complaints.get(), &why, sizeof why);
+    size = read(diagnostics.get(), &why, sizeof why);
   } while (size < 0 && errno == EINTR);
   if (size != static_cast<ssize_t>(sizeof why)) return;  // it has become the command
   waitpid(pid_, nullptr, 0);
@@ -118,7 +118,7 @@ void Child::start(const ChildCommand& command) {
 }
 
 /// In the child, between fork and exec.
-void Child::become(char* const* words, char* const* environment, int complaints) {
+void Child::become(char* const* words, char* const* environment, int diagnostics) {
   setpgid(0, 0);
   give_terminal_to(getpid());
   prctl(PR_SET_PDEATHSIG, SIGTERM);  // its ports go when we do, however that happens
@@ -126,7 +126,7 @@ void Child::become(char* const* words, char* const* environment, int complaints)
   signals_.restore();
   execvpe(words[0], words, environment);
   const int why = errno;
-  [[maybe_unused]] const ssize_t told = write(complaints, &why, sizeof why);
+  [[maybe_unused]] const ssize_t told = write(diagnostics, &why, sizeof why);
   _exit(127);
 }
 

@@ -54,7 +54,7 @@ class Child {
 
  private:
   void start(const ChildCommand& command);
-  [[noreturn]] void become(char* const* words, char* const* environment, int complaints);
+  [[noreturn]] void become(char* const* words, char* const* environment, int diagnostics);
   void on_end(const siginfo_t& how);
   void on_stop();
   void look_at_group();

@@ -17,8 +17,8 @@
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_form.h"
 #include "emulator/world/bench_file/bench_names.h"
-#include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/device_fields.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/disturbance_fields.h"
 #include "emulator/world/bench_file/line_fields.h"
 #include "emulator/world/bench_file/machine_fields.h"
@@ -46,8 +46,8 @@ class BenchReader {
   BenchReader& operator=(const BenchReader&) = delete;
 
   /// Throws all that is wrong, with what was wrong before.
-  Bench read(const YamlFields& root, Complaints complaints) {
-    all_ = std::move(complaints);
+  Bench read(const YamlFields& root, Diagnostics diagnostics) {
+    all_ = std::move(diagnostics);
     all_.require([&] { read_all(root); });
     return std::move(bench_);
   }
@@ -88,7 +88,7 @@ class BenchReader {
       name_field.fail("two devices are called " + understudy::quoted(name) + "; expected a new name");
     names_.lose_device(name);
     DeviceSetup device = read_device(fields, name, folder_, models_, bench_, all_);
-    if (device.model == nullptr) throw Untold();
+    if (device.model == nullptr) throw AlreadyReported();
     bench_.devices.push_back(std::move(device));
     names_.find_device_again(name);
     const std::size_t ports = bench_.devices.back().model->line.ports.size();
@@ -162,7 +162,7 @@ class BenchReader {
         const auto address = station.find("address");
         if (address)
           numbered.push_back({station, std::nullopt, static_cast<int>(address->integer(kAddressForm))});
-        throw Untold();
+        throw AlreadyReported();
       }
     }
     DeviceSetup& setup = bench_.devices[device];
@@ -275,7 +275,7 @@ class BenchReader {
       all_.attempt([&] { root.at("inputs").require_map(); });
       for (const auto& [name, level] : root.at("inputs").entries()) {
         all_.attempt([&, &called = name, &field = level] {
-          if (names_.names_lost(called)) throw Untold();
+          if (names_.names_lost(called)) throw AlreadyReported();
           bench_.inputs.push_back(read_input(field, called, known));
         });
       }
@@ -300,7 +300,7 @@ class BenchReader {
   ModelList models_;
   std::optional<std::string> folder_;
   std::optional<std::string> links_;
-  Complaints all_;
+  Diagnostics all_;
   Bench bench_;
   BenchNames names_{bench_};
   std::vector<DevicePlaces> places_;                    // of each device
@@ -316,10 +316,10 @@ Bench read_whole(const std::string& text, const std::string& name, BenchReader r
   if (!root.has("lines") && (root.has("registers") || root.has("model"))) {
     throw FileError({name, 1, 1}, "bench: is a model file; expected a bench, whose stations name it");
   }
-  Complaints complaints;
-  complaints.attempt([&] { root.require_keys(kBenchKeys); });
-  complaints.attempt([&] { root.at("understudy").integer(kVersionForm); });
-  return reader.read(root, std::move(complaints));
+  Diagnostics diagnostics;
+  diagnostics.attempt([&] { root.require_keys(kBenchKeys); });
+  diagnostics.attempt([&] { root.at("understudy").integer(kVersionForm); });
+  return reader.read(root, std::move(diagnostics));
 }
 
 }  // namespace
@@ -334,9 +334,9 @@ Bench parse_recorded_bench(ModelList models, const std::string& text) {
 }
 
 Bench read_bench(ModelList models, const YamlFields& fields, const std::string& folder) {
-  Complaints complaints;
-  complaints.attempt([&] { fields.require_keys(kInlineBenchKeys); });
-  return BenchReader(models, folder).read(fields, std::move(complaints));
+  Diagnostics diagnostics;
+  diagnostics.attempt([&] { fields.require_keys(kInlineBenchKeys); });
+  return BenchReader(models, folder).read(fields, std::move(diagnostics));
 }
 
 namespace {

@@ -12,7 +12,7 @@
 #include "base/text/suggestion.h"
 #include "emulator/device/model.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::world {
@@ -51,7 +51,7 @@ int BenchNames::find_device(const std::string& name) const {
 std::size_t BenchNames::require_device(const YamlFields& field, const std::string& name) const {
   const int found = find_device(name);
   if (found >= 0) return static_cast<std::size_t>(found);
-  if (lost_devices_.contains(name)) throw Untold();
+  if (lost_devices_.contains(name)) throw AlreadyReported();
   std::vector<std::string> names;
   for (const DeviceSetup& device : bench_.devices) names.push_back(device.settings.name);
   field.fail("no device is called " + quoted(name) + suggestion(name, names));

@@ -26,7 +26,7 @@
 #include "emulator/device/setting_entry.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_form.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::world {
@@ -91,11 +91,11 @@ bool is_register(const Model& model, std::string_view name) {
 
 /// The registers and blocks of a memory, given in the bench: they have no file, so what changes lasts as long
 /// as the run.
-NvImage read_memory(const YamlFields& field, const Model& model, Complaints& complaints) {
+NvImage read_memory(const YamlFields& field, const Model& model, Diagnostics& diagnostics) {
   NvImage image{.model = std::string(model.name), .firmware = {}, .registers = {}};
-  complaints.attempt([&] { field.require_map(); });
+  diagnostics.attempt([&] { field.require_map(); });
   for (const auto& [register_name, value] : field.entries()) {
-    complaints.attempt([&, &name = register_name, &number = value] {
+    diagnostics.attempt([&, &name = register_name, &number = value] {
       if (number.is_map()) return read_blocks(name, number, image);
       if (model.registers == nullptr) return read_value_of_memory(name, number, image);
       if (is_real_register(model, name)) {
@@ -143,10 +143,11 @@ const Model& require_model(ModelList models, const YamlFields& field,
 }
 
 /// Without a model they are numbers at least.
-void read_set(const YamlFields& field, const Model* model, DeviceSettings& settings, Complaints& complaints) {
-  complaints.attempt([&] { field.require_map(); });
+void read_set(const YamlFields& field, const Model* model, DeviceSettings& settings,
+              Diagnostics& diagnostics) {
+  diagnostics.attempt([&] { field.require_map(); });
   for (const auto& [register_name, value] : field.entries()) {
-    complaints.attempt([&, &name = register_name, &number = value] {
+    diagnostics.attempt([&, &name = register_name, &number = value] {
       if (model == nullptr) {
         require_real(number);
       } else if (model->registers == nullptr || is_real_register(*model, name)) {
@@ -181,8 +182,8 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
   if (!nv.is_map()) nv.fail(error.what());
   const bool is_block = error.list == NvEntryError::List::blocks;
   if (const auto entry = nv.find(is_block ? error.kind : error.name)) {
-    if (!is_block || error.name.empty()) entry->fail(error.complaint);
-    if (const auto block = entry->find(error.name)) block->fail(error.complaint);
+    if (!is_block || error.name.empty()) entry->fail(error.diagnostic);
+    if (const auto block = entry->find(error.name)) block->fail(error.diagnostic);
   }
   nv.fail(error.what());
 }
@@ -198,7 +199,7 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
   const auto field = device.find(error.setting);
   if (!field) device.fail(error.what());
   if (const auto* const of_entry = dynamic_cast<const SettingEntryError*>(&error)) {
-    if (const auto entry = field->find(of_entry->entry)) entry->fail(of_entry->complaint);
+    if (const auto entry = field->find(of_entry->entry)) entry->fail(of_entry->diagnostic);
   }
   field->fail(std::string(error.what()).substr(error.setting.size() + 2));
 }
@@ -224,13 +225,14 @@ std::string path_in(const std::optional<std::string>& folder, const YamlFields& 
 
 DeviceSetup read_device(const YamlFields& fields, const std::string& name,
                         const std::optional<std::string>& folder, ModelList models, Bench& bench,
-                        Complaints& complaints) {
+                        Diagnostics& diagnostics) {
   DeviceSetup device;
   DeviceSettings& settings = device.settings;
   settings.name = name;
-  complaints.attempt([&] { device.model = &require_model(models, fields.at("model"), folder, name, bench); });
+  diagnostics.attempt(
+      [&] { device.model = &require_model(models, fields.at("model"), folder, name, bench); });
   const auto read = [&](const char* key, const auto& how) {
-    return complaints.attempt([&] {
+    return diagnostics.attempt([&] {
       if (const auto field = fields.find(key)) how(*field);
     });
   };
@@ -243,34 +245,34 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
     settings.modules = static_cast<int>(field.integer(kModulesForm));
   });
   if (!knows_modules && device.model != nullptr) settings.modules = device.model->most_modules;
-  read("set", [&](const YamlFields& field) { read_set(field, device.model, settings, complaints); });
+  read("set", [&](const YamlFields& field) { read_set(field, device.model, settings, diagnostics); });
   read("dip", [&](const YamlFields& field) {
-    complaints.attempt([&] { field.require_map(); });
+    diagnostics.attempt([&] { field.require_map(); });
     for (const auto& [dip, level] : field.entries()) {
-      complaints.attempt([&, &of = dip, &is = level] { settings.dip[of] = is.on_or_off(); });
+      diagnostics.attempt([&, &of = dip, &is = level] { settings.dip[of] = is.on_or_off(); });
     }
   });
   read("program", [&](const YamlFields& field) { read_program(field, folder, bench, settings); });
   read("nv", [&](const YamlFields& field) {
     if (!field.is_map()) return read_nv_path(field, folder, bench, device);
-    if (device.model != nullptr) settings.nv = read_memory(field, *device.model, complaints);
+    if (device.model != nullptr) settings.nv = read_memory(field, *device.model, diagnostics);
   });
   read("choices", [&](const YamlFields& field) {
-    complaints.attempt([&] { field.require_map(); });
+    diagnostics.attempt([&] { field.require_map(); });
     for (const auto& [id, option] : field.entries()) {
-      complaints.attempt([&, &of = id, &is = option] { settings.choices[of] = is.text(); });
+      diagnostics.attempt([&, &of = id, &is = option] { settings.choices[of] = is.text(); });
     }
   });
   return device;
 }
 
-void judge_device(const DevicePlaces& places, DeviceSetup& device, Complaints& complaints) {
+void judge_device(const DevicePlaces& places, DeviceSetup& device, Diagnostics& diagnostics) {
   const YamlFields& fields = places.device;
   DeviceSettings& settings = device.settings;
   bool is_asked = true;
   while (is_asked) {
     is_asked = false;
-    complaints.attempt([&] {
+    diagnostics.attempt([&] {
       try {
         make_device(*device.model, settings);
       } catch (const SettingError& error) {
@@ -286,7 +288,7 @@ void judge_device(const DevicePlaces& places, DeviceSetup& device, Complaints& c
         fields.fail(std::string("nv: ") + error.what());
       } catch (const ProgramError& error) {
         is_asked = !std::exchange(settings.program, "").empty();
-        throw program_complaints(error, settings.program_name);
+        throw program_diagnostics(error, settings.program_name);
       }
     });
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::world {
@@ -19,7 +19,7 @@ void require_name(const YamlFields& field, const std::string& name);
 /// bench; no two of its devices may have the same memory file.
 DeviceSetup read_device(const YamlFields& fields, const std::string& name,
                         const std::optional<std::string>& folder, ModelList models, Bench& bench,
-                        Complaints& complaints);
+                        Diagnostics& diagnostics);
 
 /// The positions in a file of a device's description, and of its stations by port.
 struct DevicePlaces {
@@ -28,7 +28,7 @@ struct DevicePlaces {
 };
 
 /// Reports everything in a device that the model refuses, and removes it, so that the rest suits the model.
-void judge_device(const DevicePlaces& places, DeviceSetup& device, Complaints& complaints);
+void judge_device(const DevicePlaces& places, DeviceSetup& device, Diagnostics& diagnostics);
 
 /// Returns a path in `folder`. It is refused if there is no folder.
 std::string path_in(const std::optional<std::string>& folder, const YamlFields& field);

@@ -8,7 +8,7 @@
 #include "base/text/one_line.h"
 #include "emulator/device/model.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/check_fault.h"
 #include "emulator/world/faults/fault.h"
@@ -47,7 +47,7 @@ void check_condition_of(const YamlFields& when, const Inventory& inventory) {
   try {
     set_trigger_field(trigger, "when", when.text());
   } catch (const NameError&) {
-    throw Untold();  // with the fault
+    throw AlreadyReported();  // with the fault
   }
   try {
     check_condition(inventory, trigger.when);
@@ -72,10 +72,10 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
   }
 }
 
-std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& devices, Complaints& complaints,
-                                std::string_view other_key) {
+std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& devices,
+                                Diagnostics& diagnostics, std::string_view other_key) {
   FaultText text{};
-  if (!complaints.attempt([&] { text = text_of_fault(fields, other_key); })) return std::nullopt;
+  if (!diagnostics.attempt([&] { text = text_of_fault(fields, other_key); })) return std::nullopt;
   // A field that is wrong is taken away, to judge the others. What the fault lacks then has been given.
   bool is_whole = true;
   while (true) {
@@ -84,24 +84,24 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
       return is_whole ? std::optional(fault) : std::nullopt;
     } catch (const FaultFieldError& error) {
       is_whole = false;
-      complaints.attempt([&] { fields.at(error.field).fail(error.complaint); });
+      diagnostics.attempt([&] { fields.at(error.field).fail(error.diagnostic); });
       const auto is_it = [&](const auto& field) { return one_line(field.first) == error.field; };
       if (std::erase_if(text.fields, is_it) == 0) return std::nullopt;
     } catch (const NameError& error) {
-      if (is_whole) complaints.attempt([&] { fields.fail(error.what()); });
+      if (is_whole) diagnostics.attempt([&] { fields.fail(error.what()); });
       return std::nullopt;
     }
   }
 }
 
 void require_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
-                      Complaints& complaints) {
-  complaints.attempt([&] {
+                      Diagnostics& diagnostics) {
+  diagnostics.attempt([&] {
     try {
       if (fault) return check_fault(inventory, *fault);
       if (const auto when = fields.find("when")) check_condition_of(*when, inventory);
     } catch (const FaultFieldError& error) {
-      fields.at(error.field).fail(error.complaint);
+      fields.at(error.field).fail(error.diagnostic);
     } catch (const NameError& error) {
       fields.fail(error.what());
     }

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/view/inventory.h"
@@ -18,12 +18,12 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
 
 /// Reads one element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }". `other_key` is allowed and left to
 /// other readers. If anything is wrong, keeps all errors and returns nothing.
-std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& devices, Complaints& complaints,
-                                std::string_view other_key = {});
+std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& devices,
+                                Diagnostics& diagnostics, std::string_view other_key = {});
 
 /// Reports a fault that the bench cannot have. Its condition is checked even if the fault itself could not
 /// be read.
 void require_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
-                      Complaints& complaints);
+                      Diagnostics& diagnostics);
 
 }  // namespace understudy::emulator::world

@@ -12,7 +12,7 @@
 #include "base/text/suggestion.h"
 #include "emulator/device/model.h"
 #include "emulator/world/bench_file/bench_form.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/form.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/plant/plant.h"
@@ -24,35 +24,35 @@ namespace {
 /// The keys of a map, each read for itself: what is wrong with one hides nothing of the next.
 class Keys {
  public:
-  Keys(const YamlFields& fields, std::span<const KeyRow> known, Complaints& complaints)
-      : fields_(fields), complaints_(complaints) {
-    complaints_.attempt([&] { fields_.require_keys(known); });
+  Keys(const YamlFields& fields, std::span<const KeyRow> known, Diagnostics& diagnostics)
+      : fields_(fields), diagnostics_(diagnostics) {
+    diagnostics_.attempt([&] { fields_.require_keys(known); });
   }
   /// Calls `how` with the field if it is there. Whether nothing is wrong with it.
   template <typename How>
   bool read(const std::string& key, const How& how) const {
-    return complaints_.attempt([&] {
+    return diagnostics_.attempt([&] {
       if (const auto field = fields_.find(key)) how(*field);
     });
   }
   /// Demands that it is there.
   template <typename How>
   bool require(const std::string& key, const How& how) const {
-    return complaints_.attempt([&] { how(fields_.at(key)); });
+    return diagnostics_.attempt([&] { how(fields_.at(key)); });
   }
 
  private:
   const YamlFields& fields_;
-  Complaints& complaints_;
+  Diagnostics& diagnostics_;
 };
 
-PulseSpan read_span(const YamlFields& field, Complaints& complaints) {
+PulseSpan read_span(const YamlFields& field, Diagnostics& diagnostics) {
   const auto ends = field.elements();
   if (ends.size() != 2) field.fail("expected two positions, as in `[ -20000, 20000 ]`");
   PulseSpan span{};
-  const bool has_first = complaints.attempt([&] { span.first = ends[0].integer(kPositionForm); });
-  const bool has_last = complaints.attempt([&] { span.last = ends[1].integer(kPositionForm); });
-  if (!has_first || !has_last) throw Untold();
+  const bool has_first = diagnostics.attempt([&] { span.first = ends[0].integer(kPositionForm); });
+  const bool has_last = diagnostics.attempt([&] { span.last = ends[1].integer(kPositionForm); });
+  if (!has_first || !has_last) throw AlreadyReported();
   if (span.first > span.last) field.fail("ends before it begins; expected the lower position first");
   return span;
 }
@@ -66,8 +66,8 @@ bool read_word(const YamlFields& field, std::string_view first, std::string_view
   return word == first;
 }
 
-DriveSetup read_drive(const YamlFields& drive, Complaints& complaints) {
-  const Keys keys(drive, kDriveKeys, complaints);
+DriveSetup read_drive(const YamlFields& drive, Diagnostics& diagnostics) {
+  const Keys keys(drive, kDriveKeys, diagnostics);
   DriveSetup setup;
   keys.read("ready_after", [&](const YamlFields& field) { setup.ready_after = field.ticks(); });
   keys.read("enabled_by", [&](const YamlFields& field) { setup.enabled_by = read_word(field, "on", "off"); });
@@ -90,14 +90,14 @@ int read_own_input(const YamlFields& field, const Model& model) {
 
 /// Where the period is not given it is a revolution of the motor.
 IndexSetup read_index(const YamlFields& index, const Model& model, int pulses_per_revolution,
-                      Complaints& complaints) {
-  const Keys keys(index, kIndexKeys, complaints);
+                      Diagnostics& diagnostics) {
+  const Keys keys(index, kIndexKeys, diagnostics);
   IndexSetup setup{.period = pulses_per_revolution};
   keys.read("at", [&](const YamlFields& field) { setup.at = field.integer(kPositionForm); });
   keys.read("width", [&](const YamlFields& field) { setup.width = field.integer(kWidthForm); });
   keys.read("period", [&](const YamlFields& field) { setup.period = field.integer(kWidthForm); });
   keys.read("input", [&](const YamlFields& field) { setup.input = read_own_input(field, model); });
-  complaints.attempt([&] {
+  diagnostics.attempt([&] {
     const bool is_known = setup.period > 0;  // else the encoder is complained of
     if (!is_known || setup.width < setup.period) return;
     (index.has("width") ? index.at("width") : index)
@@ -107,8 +107,9 @@ IndexSetup read_index(const YamlFields& index, const Model& model, int pulses_pe
   return setup;
 }
 
-void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& setup, Complaints& complaints) {
-  const Keys keys(encoder, kEncoderKeys, complaints);
+void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& setup,
+                  Diagnostics& diagnostics) {
+  const Keys keys(encoder, kEncoderKeys, diagnostics);
   const auto per_revolution = [](const YamlFields& field) {
     return static_cast<int>(field.integer(kPerRevolutionForm));
   };
@@ -117,7 +118,7 @@ void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& set
   keys.read("motor_pulses_per_revolution",
             [&](const YamlFields& field) { setup.pulses_per_revolution = per_revolution(field); });
   keys.read("on", [&](const YamlFields& field) { setup.has_wheel = read_word(field, "wheel", "machine"); });
-  complaints.attempt([&] {
+  diagnostics.attempt([&] {
     if (setup.pulses_per_revolution > 0 || encoder.has("motor_pulses_per_revolution")) return;
     if (!setup.has_wheel)
       encoder.fail("needs the pulses per revolution of the motor; expected `motor_pulses_per_revolution`");
@@ -127,12 +128,12 @@ void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& set
             [&](const YamlFields& field) { setup.encoder_reversed = read_word(field, "true", "false"); });
   keys.read("index", [&](const YamlFields& field) {
     if (setup.has_wheel) field.fail("is on a hand wheel; expected an encoder on the machine");
-    setup.index = read_index(field, model, setup.pulses_per_revolution, complaints);
+    setup.index = read_index(field, model, setup.pulses_per_revolution, diagnostics);
   });
 }
 
-void read_travel(const YamlFields& travel, bool knows_start, PlantSetup& setup, Complaints& complaints) {
-  const PulseSpan span = read_span(travel, complaints);
+void read_travel(const YamlFields& travel, bool knows_start, PlantSetup& setup, Diagnostics& diagnostics) {
+  const PulseSpan span = read_span(travel, diagnostics);
   if (span.first == span.last) travel.fail("has no length; expected two positions that differ");
   const std::int64_t start = setup.position_pulses;
   if (knows_start && (span.first > start || span.last < start)) {
@@ -142,8 +143,8 @@ void read_travel(const YamlFields& travel, bool knows_start, PlantSetup& setup, 
   setup.travel = span;
 }
 
-SwitchSetup read_switch(const YamlFields& fields, const Model& model, Complaints& complaints) {
-  const Keys keys(fields, kHomeKeys, complaints);
+SwitchSetup read_switch(const YamlFields& fields, const Model& model, Diagnostics& diagnostics) {
+  const Keys keys(fields, kHomeKeys, diagnostics);
   SwitchSetup setup;
   std::int64_t at = 0;
   std::int64_t width = 1;
@@ -157,16 +158,16 @@ SwitchSetup read_switch(const YamlFields& fields, const Model& model, Complaints
   return setup;
 }
 
-void read_home(const YamlFields& home, const Model& model, PlantSetup& setup, Complaints& complaints) {
-  const SwitchSetup switch_setup = read_switch(home, model, complaints);
+void read_home(const YamlFields& home, const Model& model, PlantSetup& setup, Diagnostics& diagnostics) {
+  const SwitchSetup switch_setup = read_switch(home, model, diagnostics);
   setup.home = switch_setup.on;
   setup.home_hysteresis_pulses = switch_setup.hysteresis_pulses;
   setup.home_opens = switch_setup.opens;
   setup.home_input = switch_setup.input;
 }
 
-void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup, Complaints& complaints) {
-  const Keys keys(limits, kLimitKeys, complaints);
+void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup, Diagnostics& diagnostics) {
+  const Keys keys(limits, kLimitKeys, diagnostics);
   const auto read = [&](const std::string& side, std::optional<std::int64_t>& position, int& input) {
     keys.read(side, [&](const YamlFields& field) { position = field.integer(kPositionForm); });
     keys.read(side + "_input", [&](const YamlFields& field) {
@@ -178,7 +179,7 @@ void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup
   };
   read("lower", setup.lower_limit, setup.lower_limit_input);
   read("upper", setup.upper_limit, setup.upper_limit_input);
-  complaints.attempt([&] {
+  diagnostics.attempt([&] {
     if (setup.lower_limit && setup.upper_limit && *setup.lower_limit >= *setup.upper_limit) {
       limits.fail("the lower limit is not below the upper one; expected it below");
     }
@@ -191,20 +192,20 @@ void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup
 
 }  // namespace
 
-PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis, Complaints& complaints) {
+PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis, Diagnostics& diagnostics) {
   PlantSetup setup;
   setup.pulses_per_revolution = model.axes[static_cast<std::size_t>(axis)].pulses_per_revolution;
-  const Keys keys(fields, kMachineKeys, complaints);
+  const Keys keys(fields, kMachineKeys, diagnostics);
   const bool knows_start = keys.read(
       "position", [&](const YamlFields& field) { setup.position_pulses = field.integer(kPositionForm); });
-  keys.read("travel", [&](const YamlFields& field) { read_travel(field, knows_start, setup, complaints); });
-  keys.read("home", [&](const YamlFields& field) { read_home(field, model, setup, complaints); });
+  keys.read("travel", [&](const YamlFields& field) { read_travel(field, knows_start, setup, diagnostics); });
+  keys.read("home", [&](const YamlFields& field) { read_home(field, model, setup, diagnostics); });
   keys.read("near_home",
-            [&](const YamlFields& field) { setup.near_home = read_switch(field, model, complaints); });
-  keys.read("mark", [&](const YamlFields& field) { setup.mark = read_switch(field, model, complaints); });
-  keys.read("limits", [&](const YamlFields& field) { read_limits(field, model, setup, complaints); });
-  keys.read("encoder", [&](const YamlFields& field) { read_encoder(field, model, setup, complaints); });
-  keys.read("drive", [&](const YamlFields& field) { setup.drive = read_drive(field, complaints); });
+            [&](const YamlFields& field) { setup.near_home = read_switch(field, model, diagnostics); });
+  keys.read("mark", [&](const YamlFields& field) { setup.mark = read_switch(field, model, diagnostics); });
+  keys.read("limits", [&](const YamlFields& field) { read_limits(field, model, setup, diagnostics); });
+  keys.read("encoder", [&](const YamlFields& field) { read_encoder(field, model, setup, diagnostics); });
+  keys.read("drive", [&](const YamlFields& field) { setup.drive = read_drive(field, diagnostics); });
   return setup;
 }
 

@@ -11,9 +11,9 @@
 
 namespace understudy::emulator::world {
 
-std::vector<FileError::Complaint> program_warnings(const DeviceSetup& device, const std::string& text,
-                                                   const std::string& file) {
-  std::vector<FileError::Complaint> all;
+std::vector<FileError::Diagnostic> program_warnings(const DeviceSetup& device, const std::string& text,
+                                                    const std::string& file) {
+  std::vector<FileError::Diagnostic> all;
   if (text.empty()) return all;
   for (const ProgramMistake& odd : emulator::program_warnings(*device.model, text, device.settings)) {
     all.push_back({.place = {.file = file, .line = odd.line, .column = odd.column},
@@ -22,8 +22,8 @@ std::vector<FileError::Complaint> program_warnings(const DeviceSetup& device, co
   return all;
 }
 
-std::vector<FileError::Complaint> program_warnings(const Bench& bench) {
-  std::vector<FileError::Complaint> all;
+std::vector<FileError::Diagnostic> program_warnings(const Bench& bench) {
+  std::vector<FileError::Diagnostic> all;
   for (const DeviceSetup& device : bench.devices) {
     const auto warnings = program_warnings(device, device.settings.program, device.settings.program_name);
     all.insert(all.end(), warnings.begin(), warnings.end());

@@ -11,9 +11,9 @@ namespace understudy::emulator::world {
 
 /// Returns one line each, about the file of the program; a program inside the bench is called
 /// "mill.program".
-std::vector<FileError::Complaint> program_warnings(const Bench& bench);
+std::vector<FileError::Diagnostic> program_warnings(const Bench& bench);
 /// Returns the warnings for a text that loads into a device of the bench.
-std::vector<FileError::Complaint> program_warnings(const DeviceSetup& device, const std::string& text,
-                                                   const std::string& file);
+std::vector<FileError::Diagnostic> program_warnings(const DeviceSetup& device, const std::string& text,
+                                                    const std::string& file);
 
 }  // namespace understudy::emulator::world

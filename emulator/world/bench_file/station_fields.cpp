@@ -12,7 +12,7 @@
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/view/bench_inventory.h"
 
@@ -92,14 +92,14 @@ std::optional<int> number_of(const NumberedStation& station, const Bench& bench,
 }  // namespace
 
 void check_addresses(const std::vector<std::vector<NumberedStation>>& lines, const Bench& bench,
-                     Complaints& complaints) {
+                     Diagnostics& diagnostics) {
   const BenchInventory inventory(bench);
   for (const std::vector<NumberedStation>& line : lines) {
     std::set<int> taken;
     for (const NumberedStation& station : line) {
       const auto number = number_of(station, bench, inventory);
       if (!number || taken.insert(*number).second) continue;
-      complaints.attempt([&] {
+      diagnostics.attempt([&] {
         station.fields.fail("address " + std::to_string(*number) +
                             " is taken on this line; expected another");
       });

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::world {
@@ -33,6 +33,6 @@ struct NumberedStation {
 /// Reports stations of a line that have the same number. A device whose number is in a memory file is left
 /// out, because that file is read later.
 void check_addresses(const std::vector<std::vector<NumberedStation>>& lines, const Bench& bench,
-                     Complaints& complaints);
+                     Diagnostics& diagnostics);
 
 }  // namespace understudy::emulator::world

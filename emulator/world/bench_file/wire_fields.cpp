@@ -12,7 +12,7 @@
 #include "emulator/device/model.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_names.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/plant/plant.h"
 
@@ -58,7 +58,7 @@ void require_machine(const YamlFields& wire, const MachinePlace& place, const Be
   for (const MachineSetup& machine : bench.machines) {
     if (machine.device == place.device && machine.axis == place.axis && has(PlantAxis(machine.plant))) return;
   }
-  if (names.is_lost_part(place.axis_name)) throw Untold();
+  if (names.is_lost_part(place.axis_name)) throw AlreadyReported();
   wire.fail("the machine on " + place.axis_name + " has no " + what + "; expected it in `plant`");
 }
 

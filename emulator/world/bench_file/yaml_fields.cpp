@@ -20,7 +20,7 @@
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/form.h"
 #include "emulator/world/bench_file/yaml_document.h"
 
@@ -160,18 +160,18 @@ void YamlFields::require_map() const { require_keys_of(nullptr); }
 void YamlFields::require_keys(std::span<const KeyRow> known) const { require_keys_of(&known); }
 
 void YamlFields::require_keys_of(const std::span<const KeyRow>* known) const {
-  Complaints complaints;
+  Diagnostics diagnostics;
   std::set<std::string> seen;
   const auto is_known = [&](const std::string& key) {
     return known == nullptr ||
            std::any_of(known->begin(), known->end(), [&](const KeyRow& row) { return row.key == key; });
   };
-  complaints.require([&] {
+  diagnostics.require([&] {
     for_each_entry([&](const std::string& key, const YamlNode& value) {
       if (!seen.insert(key).second) {
-        complaints.attempt([&] { part(value, field_of(key)).fail("is given twice; expected it once"); });
+        diagnostics.attempt([&] { part(value, field_of(key)).fail("is given twice; expected it once"); });
       } else if (!is_known(key)) {
-        complaints.attempt([&] { part(value, field_of(key)).refuse_key(key, *known); });
+        diagnostics.attempt([&] { part(value, field_of(key)).refuse_key(key, *known); });
       }
     });
   });

@@ -95,9 +95,9 @@ struct FaultFieldError : NameError {
   FaultFieldError(const std::string& kind, std::string field_name, std::string what_is_wrong)
       : NameError(kind + ": " + field_name + ": " + what_is_wrong),
         field(std::move(field_name)),
-        complaint(std::move(what_is_wrong)) {}
+        diagnostic(std::move(what_is_wrong)) {}
   std::string field;
-  std::string complaint;
+  std::string diagnostic;
 };
 
 /// Throws NameError for names that the bench does not have. check_fault.h checks the names in `when`.

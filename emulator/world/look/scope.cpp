@@ -65,7 +65,7 @@ bool Scope::is_there() {
   try {
     return is_true(condition_, probes_);
   } catch (const std::runtime_error& error) {
-    complaint_ = error.what();
+    diagnostic_ = error.what();
     return true;
   }
 }

@@ -45,7 +45,7 @@ class Scope final : private TickWatcher {
   /// Valid only after the trigger.
   Tick trigger_tick() const { return trigger_tick_; }
   /// Returns why the condition had no result, which ended the scope; otherwise an empty text.
-  const std::string& complaint() const { return complaint_; }
+  const std::string& diagnostic() const { return diagnostic_; }
   /// Returns a name's value `place` samples behind the first. A device without power reads as 0.
   double sample(std::size_t name, std::size_t place) const;
 
@@ -70,7 +70,7 @@ class Scope final : private TickWatcher {
   State state_ = State::armed;
   Tick trigger_tick_ = 0;
   bool is_watching_ = true;
-  std::string complaint_;
+  std::string diagnostic_;
 };
 
 }  // namespace understudy::emulator::world

@@ -163,7 +163,7 @@ void read_header(ModelList models, RecordedLines& lines, Replayed& replayed) {
   } catch (const RecordingError& error) {
     throw lines.error(error.what());
   } catch (const BenchError& error) {
-    throw lines.error("bench: " + error.complaints().front().text);
+    throw lines.error("bench: " + error.diagnostics().front().text);
   }
 }
 

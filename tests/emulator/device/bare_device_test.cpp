@@ -68,7 +68,7 @@ DeviceSettings settings_at(int address) {
   return settings;
 }
 
-std::string complaint_of_making(const Model& model, const DeviceSettings& settings = settings_at(1)) {
+std::string diagnostic_of_making(const Model& model, const DeviceSettings& settings = settings_at(1)) {
   try {
     make_device(model, settings);
   } catch (const std::exception& error) {
@@ -95,10 +95,10 @@ TEST(BareDevice, LivesWithoutAnyFacet) {
 TEST(BareDevice, RefusesWhatItHasNoFacetFor) {
   EXPECT_FALSE(find_register(bare(), "Speed", 100));
   EXPECT_TRUE(register_rows(bare()).empty());
-  EXPECT_EQ(complaint_of_making(bare(), settings_at(1000)), "");  // it has no station number
+  EXPECT_EQ(diagnostic_of_making(bare(), settings_at(1000)), "");  // it has no station number
   DeviceSettings settings = settings_at(1);
   settings.set.emplace_back("Speed", 1);
-  EXPECT_EQ(complaint_of_making(bare(), settings), "set: no register is called 'Speed'; there is none");
+  EXPECT_EQ(diagnostic_of_making(bare(), settings), "set: no register is called 'Speed'; there is none");
 }
 
 const Model& with_lamp() {
@@ -142,10 +142,10 @@ const Model& without_port() {
 }
 
 TEST(BareDevice, IsNotMadeOfAModelThatListsMore) {
-  EXPECT_EQ(complaint_of_making(with_lamp()), "bare: lacks the facet Terminals, for its terminals");
-  EXPECT_EQ(complaint_of_making(with_wheel()), "bare: lacks the facet Axes, for its axes");
-  EXPECT_EQ(complaint_of_making(with_frames()), "bare: lacks the facet ModbusStation, for its `rtu`");
-  EXPECT_EQ(complaint_of_making(without_port()), "bare: lacks a port on its line");
+  EXPECT_EQ(diagnostic_of_making(with_lamp()), "bare: lacks the facet Terminals, for its terminals");
+  EXPECT_EQ(diagnostic_of_making(with_wheel()), "bare: lacks the facet Axes, for its axes");
+  EXPECT_EQ(diagnostic_of_making(with_frames()), "bare: lacks the facet ModbusStation, for its `rtu`");
+  EXPECT_EQ(diagnostic_of_making(without_port()), "bare: lacks a port on its line");
 }
 
 // A bench is read by a model's ports before any device is made.

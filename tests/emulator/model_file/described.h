@@ -30,7 +30,7 @@ inline std::string model_with(const std::string& list, const std::string& more) 
 }
 
 /// What is wrong with a model file; empty if nothing is.
-inline std::string complaint_about(const std::string& text) {
+inline std::string diagnostic_about(const std::string& text) {
   try {
     described_models().parse(text, "m.yaml");
     return "";

@@ -35,7 +35,7 @@ const std::string kList =
 constexpr int kLines = 17;  // before what follows the list
 
 /// Of a model with these further lines, without the place of the file's beginning.
-std::string complaint(const std::string& more) { return complaint_about(model_with(kList, more)); }
+std::string diagnostic(const std::string& more) { return diagnostic_about(model_with(kList, more)); }
 
 std::string at(int line, int column, const std::string& text) {
   return "m.yaml:" + std::to_string(kLines + line) + ":" + std::to_string(column) + ": " + text;
@@ -47,7 +47,7 @@ std::string axis(const std::string& keys) { return "axes:\n  A: { " + keys + " }
 struct WrongAxis {
   const char* keys;
   int column;
-  const char* complaint;
+  const char* diagnostic;
 };
 
 TEST(ModelReader, SaysWhatIsWrongWithAnAxis) {
@@ -106,9 +106,9 @@ TEST(ModelReader, SaysWhatIsWrongWithAnAxis) {
       {"while_disabled: refuse", 24, "axes.A.while_disabled: has no effect alone; expected `enable` as well"},
   };
   for (const WrongAxis& wrong : kWrong) {
-    if (std::string(wrong.complaint).empty()) continue;
-    const std::string came = complaint(axis(wrong.keys));
-    const std::string expected = at(2, wrong.column, wrong.complaint);
+    if (std::string(wrong.diagnostic).empty()) continue;
+    const std::string came = diagnostic(axis(wrong.keys));
+    const std::string expected = at(2, wrong.column, wrong.diagnostic);
     EXPECT_EQ(came.substr(0, expected.size()), expected) << wrong.keys << "\n" << came;
   }
 }
@@ -117,7 +117,7 @@ struct WrongPart {
   const char* lines;
   int line;
   int column;
-  const char* complaint;
+  const char* diagnostic;
 };
 
 TEST(ModelReader, SaysWhatIsWrongElsewhere) {
@@ -189,42 +189,42 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
        "input"},
   };
   for (const WrongPart& wrong : kWrong) {
-    const std::string came = complaint(wrong.lines);
-    const std::string expected = at(wrong.line, wrong.column, wrong.complaint);
+    const std::string came = diagnostic(wrong.lines);
+    const std::string expected = at(wrong.line, wrong.column, wrong.diagnostic);
     EXPECT_EQ(came.substr(0, expected.size()), expected) << wrong.lines << "\n" << came;
   }
 }
 
 TEST(ModelReader, SaysWhatIsWrongWithTheWhole) {
-  EXPECT_EQ(complaint_about(""),
+  EXPECT_EQ(diagnostic_about(""),
             "m.yaml:1:1: model: the file is not a map; expected `understudy: 1`, `model:` and `registers:`");
 }
 
 /// What is stored as it comes may be beyond the range of the list, and so may what is shown.
 TEST(ModelReader, KnowsWhichValuesMayBeThere) {
-  EXPECT_EQ(complaint("axes: { A: { stop: SPEED == 9000 } }\n"), "");
-  EXPECT_EQ(complaint("map: { out_of_range: stored }\naxes: { A: { stop: SPEED == 9001 } }\n"), "");
-  EXPECT_NE(complaint("map: { out_of_range: clamped }\naxes: { A: { stop: SPEED == 9001 } }\n"), "");
-  EXPECT_EQ(complaint("line: { most: { 3: 125, 6: 1, 1: 2000 } }\n"), "");
-  EXPECT_EQ(complaint("outputs: { DO1: STATUS.3, DO2: CONTROL.3 }\nshows: { STATUS.3: SPEED > 5 }\n"), "");
+  EXPECT_EQ(diagnostic("axes: { A: { stop: SPEED == 9000 } }\n"), "");
+  EXPECT_EQ(diagnostic("map: { out_of_range: stored }\naxes: { A: { stop: SPEED == 9001 } }\n"), "");
+  EXPECT_NE(diagnostic("map: { out_of_range: clamped }\naxes: { A: { stop: SPEED == 9001 } }\n"), "");
+  EXPECT_EQ(diagnostic("line: { most: { 3: 125, 6: 1, 1: 2000 } }\n"), "");
+  EXPECT_EQ(diagnostic("outputs: { DO1: STATUS.3, DO2: CONTROL.3 }\nshows: { STATUS.3: SPEED > 5 }\n"), "");
 }
 
 TEST(ModelReader, TakesAnAxisWithEveryKey) {
   EXPECT_EQ(
-      complaint("inputs: { UP: STATUS.8, DOWN: STATUS.9, HOME: SWITCH, ALARM: nowhere }\n"
-                "axes:\n"
-                "  A:\n"
-                "    target: TARGET\n"
-                "    distance: 500\n"
-                "    speed: SPEED\n"
-                "    start_speed: 10\n"
-                "    acceleration_time: RAMP\n"
-                "    deceleration: 4000\n"
-                "    rated_speed: 1000\n"
-                "    home_speed: GAIN\n"
-                "    stop_at_once: CONTROL.MODE == 7\n"
-                "    stop: ORDER == 0\n    start: ORDER == 1\n    start_relative: ORDER == 2\n"
-                "    enable: UP_IS_NO_REGISTER\n"),
+      diagnostic("inputs: { UP: STATUS.8, DOWN: STATUS.9, HOME: SWITCH, ALARM: nowhere }\n"
+                 "axes:\n"
+                 "  A:\n"
+                 "    target: TARGET\n"
+                 "    distance: 500\n"
+                 "    speed: SPEED\n"
+                 "    start_speed: 10\n"
+                 "    acceleration_time: RAMP\n"
+                 "    deceleration: 4000\n"
+                 "    rated_speed: 1000\n"
+                 "    home_speed: GAIN\n"
+                 "    stop_at_once: CONTROL.MODE == 7\n"
+                 "    stop: ORDER == 0\n    start: ORDER == 1\n    start_relative: ORDER == 2\n"
+                 "    enable: UP_IS_NO_REGISTER\n"),
       at(16, 13, "axes.A.enable: no register is called 'UP_IS_NO_REGISTER'; expected one such as 'CONTROL'"));
   const std::string all =
       "inputs: { UP: STATUS.8, DOWN: STATUS.9, HOME: SWITCH, ALARM: nowhere, V: LEVEL }\n"
@@ -242,13 +242,13 @@ TEST(ModelReader, TakesAnAxisWithEveryKey) {
       "       at_lower_limit: STATUS.7, pulses_per_count: 25/4, pps_per_count: 0.5, home_way: plus,\n"
       "       home_position: -7, pulses_per_revolution: 400, while_busy: ignore, while_disabled: refuse,\n"
       "       inputs: { upper_limit: UP, lower_limit: DOWN, home: HOME, alarm: ALARM } }\n";
-  EXPECT_EQ(complaint(all), "");
+  EXPECT_EQ(diagnostic(all), "");
 }
 
 /// Each key is read: what is no register, number, word or map anywhere is refused.
 TEST(ModelReader, ReadsEveryKeyOfAnAxis) {
   for (const KeyRow& row : kAxisKeys) {
-    const std::string came = complaint(axis(std::string(row.key) + ": '?'"));
+    const std::string came = diagnostic(axis(std::string(row.key) + ": '?'"));
     EXPECT_NE(came.find("axes.A." + std::string(row.key) + ": "), std::string::npos)
         << row.key << ": " << came;
     EXPECT_EQ(came.find("is not a key"), std::string::npos) << row.key;
@@ -257,9 +257,9 @@ TEST(ModelReader, ReadsEveryKeyOfAnAxis) {
 
 /// An alias may be inside of what it names.
 TEST(ModelReader, IsNotCaughtInACircle) {
-  EXPECT_NE(complaint("momentary: &m [ *m ]\n"), "");
-  EXPECT_NE(complaint("axes: &a { A: *a }\n"), "");
-  EXPECT_NE(complaint("bits: &b { STATUS: *b }\n"), "");
+  EXPECT_NE(diagnostic("momentary: &m [ *m ]\n"), "");
+  EXPECT_NE(diagnostic("axes: &a { A: *a }\n"), "");
+  EXPECT_NE(diagnostic("bits: &b { STATUS: *b }\n"), "");
 }
 
 TEST(ModelSchema, SuitsTheExamplesAndThePage) {
@@ -270,7 +270,7 @@ TEST(ModelSchema, SuitsTheExamplesAndThePage) {
     return text.str();
   };
   for (const char* const example : {"/examples/import/drive.yaml", "/examples/import/oven.yaml"})
-    EXPECT_EQ(play::schema_complaint(schema, contents(example)), "") << example;
+    EXPECT_EQ(play::schema_diagnostic(schema, contents(example)), "") << example;
   // The page shows one file in parts.
   const std::string page = contents("/docs/import.md");
   std::string whole;
@@ -278,8 +278,8 @@ TEST(ModelSchema, SuitsTheExamplesAndThePage) {
     at += 8;
     whole += page.substr(at, page.find("```\n", at) - at);
   }
-  EXPECT_EQ(play::schema_complaint(schema, whole), "") << whole;
-  EXPECT_NE(play::schema_complaint(schema, "understudy: 1\nmodel: m\nregisters: l.csv\naxis: {}\n"), "");
+  EXPECT_EQ(play::schema_diagnostic(schema, whole), "") << whole;
+  EXPECT_NE(play::schema_diagnostic(schema, "understudy: 1\nmodel: m\nregisters: l.csv\naxis: {}\n"), "");
 }
 
 TEST(ModelFiles, GiveTheSameModelForTheSameText) {
@@ -291,7 +291,7 @@ TEST(ModelFiles, GiveTheSameModelForTheSameText) {
 }
 
 TEST(ModelFiles, RefuseTheNameOfAModelThatThereIs) {
-  EXPECT_EQ(complaint_about("understudy: 1\nmodel: slim\nregisters: \"address,name\\n0,A\\n\"\n"),
+  EXPECT_EQ(diagnostic_about("understudy: 1\nmodel: slim\nregisters: \"address,name\\n0,A\\n\"\n"),
             "m.yaml:2:8: model: 'slim' is a built-in model; expected another name");
 }
 
@@ -333,7 +333,7 @@ TEST_F(ModelFilesInAFolder, AreNamedByBenches) {
 TEST_F(ModelFilesInAFolder, AreSaidToBeMissingWhereTheyAreNamed) {
   const std::string bench =
       write("bench.yaml", "understudy: 1\nlines: { a: { stations: [ { name: it, model: m.yaml } ] } }\n");
-  const auto complaint_about_bench = [&] {
+  const auto diagnostic_about_bench = [&] {
     try {
       world::load_bench(with_described(), bench);
       return std::string();
@@ -342,11 +342,11 @@ TEST_F(ModelFilesInAFolder, AreSaidToBeMissingWhereTheyAreNamed) {
     }
   };
   const std::string model = (folder_ / "m.yaml").string();
-  EXPECT_EQ(complaint_about_bench(),
+  EXPECT_EQ(diagnostic_about_bench(),
             bench + ":2:46: lines.a.stations[0].model: " + model +
                 " cannot be read (No such file or directory); expected a model file");
   write("m.yaml", "understudy: 1\nmodel: one\nregisters: list.csv\n");
-  EXPECT_EQ(complaint_about_bench(),
+  EXPECT_EQ(diagnostic_about_bench(),
             model + ":3:12: registers: " + (folder_ / "list.csv").string() +
                 " cannot be read (No such file or directory); expected a list of registers (CSV)");
 }

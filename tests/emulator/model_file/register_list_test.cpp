@@ -12,7 +12,7 @@
 namespace understudy::emulator::model_file {
 namespace register_list_test {
 
-std::string complaint_about_list(const std::string& list) {
+std::string diagnostic_about_list(const std::string& list) {
   try {
     read_list_file(list, "l.csv");
     return "";
@@ -23,7 +23,7 @@ std::string complaint_about_list(const std::string& list) {
 
 struct WrongList {
   const char* list;
-  const char* complaint;
+  const char* diagnostic;
 };
 
 TEST(RegisterList, SaysWhatIsWrongAndWhere) {
@@ -109,11 +109,11 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
        "l.csv:2:1: registers: the line is not UTF-8; expected the list saved as CSV in UTF-8"},
   };
   for (const WrongList& wrong : kWrong)
-    EXPECT_EQ(complaint_about_list(wrong.list), wrong.complaint) << wrong.list;
+    EXPECT_EQ(diagnostic_about_list(wrong.list), wrong.diagnostic) << wrong.list;
 }
 
 TEST(RegisterList, TellsAllThatIsWrongAtOnce) {
-  EXPECT_EQ(complaint_about_list("address,name,access\nx,A,R\n1,B,Q\n2,C,R\n"),
+  EXPECT_EQ(diagnostic_about_list("address,name,access\nx,A,R\n1,B,Q\n2,C,R\n"),
             "l.csv:2:1: address: 'x' is not an address; expected 0 to 65535, or 0x0000 to 0xFFFF\n"
             "l.csv:3:5: access: 'Q' is unknown; expected R, W or R/W");
 }
@@ -192,7 +192,7 @@ TEST(RegisterList, IsWhatDescribePrints) {
 
 /// Lines of a list inside of a model file are those of that file.
 TEST(RegisterList, InsideOfAModelFileIsSaidToBeThere) {
-  EXPECT_EQ(complaint_about(model_with("address,name\n0,A\n0,B\n", "")),
+  EXPECT_EQ(diagnostic_about(model_with("address,name\n0,A\n0,B\n", "")),
             "m.yaml:6:1: address: '0' is taken by A in line 5; expected a free one in the table holding");
 }
 
@@ -207,13 +207,13 @@ TEST(Starter, IsAModelThatCanBeReadAndEdited) {
     const std::string key = "registers: l.csv";
     return model.replace(model.find(key), key.size(), "registers: " + quoted_scalar(list));
   };
-  EXPECT_EQ(complaint_about(put_list_in(text)), "");
+  EXPECT_EQ(diagnostic_about(put_list_in(text)), "");
   // With the marks of the axis taken away what it guesses is a whole axis, but for the two bits of no value.
   const std::size_t axes = text.find("#axes:");
   for (std::size_t at = axes; at < text.find("# A value that"); ++at) {
     if (text[at] == '#' && (at == axes || text[at - 1] == '\n')) text.erase(at, 1);
   }
-  EXPECT_EQ(complaint_about(put_list_in(text)), "");
+  EXPECT_EQ(diagnostic_about(put_list_in(text)), "");
 }
 
 }  // namespace register_list_test

@@ -110,8 +110,8 @@ TEST(KeptBlocks, ThoseOfABenchAreToldWithTheirLines) {
     ADD_FAILURE() << "it is taken";
   } catch (const FileError& error) {
     std::string told;
-    for (const FileError::Complaint& complaint : error.complaints()) {
-      told += complaint.text + "\n";
+    for (const FileError::Diagnostic& diagnostic : error.diagnostics()) {
+      told += diagnostic.text + "\n";
     }
     EXPECT_EQ(
         told,

@@ -186,7 +186,7 @@ std::string scenario_text(const std::string& steps) {
 TEST(Languages, AScenarioLoadsAProgramAndTellsAllMistakes) {
   const Folder folder;
   folder.write("wrong.wb", kWrong[1].text);
-  const auto complaint = [&](const std::string& steps) -> std::string {
+  const auto diagnostic = [&](const std::string& steps) -> std::string {
     try {
       play::parse_scenarios(kModels, scenario_text(steps), folder.path() + "/s.yaml");
       return "";
@@ -194,11 +194,11 @@ TEST(Languages, AScenarioLoadsAProgramAndTellsAllMistakes) {
       return error.what();
     }
   };
-  const std::string in_a_file = complaint("  - program: { it: wrong.wb }\n");
+  const std::string in_a_file = diagnostic("  - program: { it: wrong.wb }\n");
   EXPECT_NE(in_a_file.find("wrong.wb:2:7: axis: 'W'"), std::string::npos) << in_a_file;
   EXPECT_NE(in_a_file.find("wrong.wb:3:9: target: '1000001'"), std::string::npos) << in_a_file;
   const std::string in_the_step =
-      complaint("  - program:\n      it: |\n        AREA MAIN\n         MOVE W 5\n         FLY\n");
+      diagnostic("  - program:\n      it: |\n        AREA MAIN\n         MOVE W 5\n         FLY\n");
   EXPECT_NE(in_the_step.find("program.it: line 2, column 7: axis: 'W'"), std::string::npos) << in_the_step;
   EXPECT_NE(in_the_step.find("program.it: line 3, column 2: 'FLY'"), std::string::npos) << in_the_step;
 

@@ -134,12 +134,12 @@ TEST(Memory, NamesRealsAndRegistersOfSeveralTables) {
       {{.model = "workbench", .firmware = {}, .registers = {{"Speed_X", 4001}}},
        "registers: 'Speed_X': 4001 does not fit; expected 1 to 4000"},
   };
-  for (const auto& [wrong, complaint] : bad) {
+  for (const auto& [wrong, diagnostic] : bad) {
     try {
       read_registers(bank, wrong, 100);
-      ADD_FAILURE() << complaint;
+      ADD_FAILURE() << diagnostic;
     } catch (const NvError& error) {
-      EXPECT_NE(std::string(error.what()).find(complaint), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(diagnostic), std::string::npos) << error.what();
     }
   }
 }

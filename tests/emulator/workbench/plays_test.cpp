@@ -38,7 +38,7 @@ std::vector<Scenario> parsed(const std::string& steps) {
                                "test.yaml");
 }
 
-std::string complaint_of(const std::string& step) {
+std::string diagnostic_of(const std::string& step) {
   try {
     parsed("  - " + step + "\n");
     return "";
@@ -227,7 +227,7 @@ TEST(Plays, WhatCannotBeWrittenIsAnErrorOfTheFile) {
       {"expect: { it.Output_1: 2 }", "it.Output_1 is never 2; expected something in 0 to 1"},
   };
   for (const auto& [step, wanted] : cases) {
-    EXPECT_NE(complaint_of(step).find(wanted), std::string::npos) << step << ": " << complaint_of(step);
+    EXPECT_NE(diagnostic_of(step).find(wanted), std::string::npos) << step << ": " << diagnostic_of(step);
   }
 }
 

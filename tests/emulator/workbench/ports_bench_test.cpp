@@ -56,7 +56,7 @@ TEST(PortsOfABench, AreAllServedOfOneDevice) {
   }
 }
 
-std::string complaints_of(const std::string& text) {
+std::string diagnostics_of(const std::string& text) {
   try {
     workbench_bench(text);
   } catch (const std::exception& error) {
@@ -77,7 +77,7 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
   const std::string one = "devices:\n  mill: { model: workbench }\n";
   struct Case {
     std::string text;
-    std::string complaint;
+    std::string diagnostic;
   };
   const std::vector<Case> cases{
       {lines_ab(mill, "{ device: mill, port: RS422 }", one),
@@ -141,11 +141,11 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
        "another `port`, or the device on one line\nbench.yaml:4:49: lines.b.stations[1].device: no device is "
        "called 'mil'; the nearest is 'mill'"},
   };
-  for (const auto& [text, complaint] : cases) EXPECT_EQ(complaints_of(text), complaint) << text;
+  for (const auto& [text, diagnostic] : cases) EXPECT_EQ(diagnostics_of(text), diagnostic) << text;
 }
 
 TEST(PortsOfABench, AreNamedForModelsOfOneAsWell) {
-  const auto complaint = [](const std::string& port) -> std::string {
+  const auto diagnostic = [](const std::string& port) -> std::string {
     try {
       world::parse_bench(models::all_models(),
                          "understudy: 1\nlines: { a: { stations: [ { name: x, model: simple2-r3, port: " +
@@ -156,8 +156,8 @@ TEST(PortsOfABench, AreNamedForModelsOfOneAsWell) {
     }
     return "none";
   };
-  EXPECT_EQ(complaint("RS485"), "none");
-  EXPECT_EQ(complaint("USB"),
+  EXPECT_EQ(diagnostic("RS485"), "none");
+  EXPECT_EQ(diagnostic("USB"),
             "bench.yaml:2:63: lines.a.stations[0].port: 'USB' is not a port of simple2-r3; expected 'RS485'");
 }
 
@@ -166,8 +166,8 @@ TEST(PortsOfABench, LeaveANumberInAFileOpen) {
       "devices:\n  mill: { model: workbench, nv: /tmp/none/m.json }\n  lathe: { model: workbench, nv: l.json "
       "}\n";
   EXPECT_EQ(
-      complaints_of("understudy: 1\nlines:\n  a: { stations: [ { device: mill }, { device: lathe } ] }\n" +
-                    devices),
+      diagnostics_of("understudy: 1\nlines:\n  a: { stations: [ { device: mill }, { device: lathe } ] }\n" +
+                     devices),
       "none");
 }
 

@@ -25,7 +25,7 @@ std::vector<play::Scenario> read(const std::string& steps) {
   return play::parse_scenarios(kWorkbenchModels, scenario_text(steps), "test.yaml");
 }
 
-std::string complaint_of(const std::string& steps) {
+std::string diagnostic_of(const std::string& steps) {
   try {
     read(steps);
   } catch (const std::exception& error) {
@@ -106,7 +106,7 @@ TEST(Via, IsRefusedWhereItCannotBe) {
        "test.yaml:11:10: steps[0].via: no line is called 'usb'; expected one of pc, hmi\n"
        "test.yaml:13:10: steps[1].via: no line is called 'usb'; expected one of pc, hmi"},
   };
-  for (const auto& [steps, complaint] : cases) EXPECT_EQ(complaint_of(steps), complaint) << steps;
+  for (const auto& [steps, diagnostic] : cases) EXPECT_EQ(diagnostic_of(steps), diagnostic) << steps;
 }
 
 }  // namespace ports_scenario_test

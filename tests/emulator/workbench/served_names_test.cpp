@@ -47,7 +47,7 @@ struct Served {
     const Json reply = ask({{"do", "get"}, {"names", {name}}});
     return reply.contains("values") ? reply["values"][name] : reply;
   }
-  std::string complaint_of_setting(const std::string& name, const Json& value) {
+  std::string diagnostic_of_setting(const std::string& name, const Json& value) {
     const Json reply = ask({{"do", "set"}, {"values", {{name, value}}}});
     return reply.value("error", std::string());
   }
@@ -62,15 +62,15 @@ TEST(ServedNames, ABenchAndTheControlSocketKnowTablesAndReals) {
   EXPECT_EQ(served.get("Mode"), 0x60);
   EXPECT_EQ(served.get("Temperature"), 21.5);
   EXPECT_EQ(served.get("input.STATE.WAITING"), 0);
-  EXPECT_EQ(served.complaint_of_setting("Gain_Z", 0.25), "");
+  EXPECT_EQ(served.diagnostic_of_setting("Gain_Z", 0.25), "");
   EXPECT_EQ(served.get("Gain_Z"), 0.25);
-  EXPECT_EQ(served.complaint_of_setting("Gain_Z", 4), "");
+  EXPECT_EQ(served.diagnostic_of_setting("Gain_Z", 4), "");
   EXPECT_EQ(served.get("Gain_Z"), 4);
-  EXPECT_EQ(served.complaint_of_setting("coil.Output_9", 1), "");
+  EXPECT_EQ(served.diagnostic_of_setting("coil.Output_9", 1), "");
   EXPECT_EQ(served.get("Output_9"), 1);
   EXPECT_EQ(served.get("coil.9"), 1);
   EXPECT_EQ(served.get("it.input.20"), 0x44);
-  EXPECT_EQ(served.complaint_of_setting("Mode.PROGRAM", 15), "");
+  EXPECT_EQ(served.diagnostic_of_setting("Mode.PROGRAM", 15), "");
   EXPECT_EQ(served.get("Mode.PROGRAM"), 15);
 }
 
@@ -86,7 +86,7 @@ TEST(ServedNames, ExpressionsAndStatusKnowThem) {
   for (const auto& [expression, wanted] : cases) {
     EXPECT_EQ(served.ask({{"do", "eval"}, {"expression", expression}})["value"], wanted) << expression;
   }
-  EXPECT_EQ(served.complaint_of_setting("Gain_X", 0.1), "");
+  EXPECT_EQ(served.diagnostic_of_setting("Gain_X", 0.1), "");
   EXPECT_EQ(served.ask({{"do", "eval"}, {"expression", "Gain_X"}})["value"].dump(), "0.1");
   EXPECT_EQ(served.ask({{"do", "eval"}, {"expression", "Gain_X == 0.1"}})["value"], 1);
   const Json registers = served.ask({{"do", "status"}})["status"]["devices"][0]["registers"];
@@ -101,7 +101,7 @@ TEST(ServedNames, ADeviceThatFailsMeanwhileTakesNoMore) {
             "holding.Position_X was not written: after the earlier writes the device does not accept it now");
   EXPECT_EQ(served.get("Absent"), 1);
   EXPECT_EQ(served.get("holding.Position_X"), 0);
-  EXPECT_EQ(served.complaint_of_setting("holding.Position_X", 5),
+  EXPECT_EQ(served.diagnostic_of_setting("holding.Position_X", 5),
             "holding.Position_X cannot be written; the device has failed");
 }
 
@@ -122,7 +122,8 @@ TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
       {"Position_X", 1,
        "it: 'Position_X' is in several tables; expected one of holding.Position_X, input.Position_X"},
   };
-  for (const auto& [name, value, wanted] : cases) EXPECT_EQ(served.complaint_of_setting(name, value), wanted);
+  for (const auto& [name, value, wanted] : cases)
+    EXPECT_EQ(served.diagnostic_of_setting(name, value), wanted);
   const std::pair<const char*, const char*> of_benches[] = {
       {"Gain_X: 11", "54: lines.rs485.stations[0].set.Gain_X: 11 is out of range; expected 0 to 10"},
       {"Mode.PROGRAM: 16",
@@ -132,12 +133,12 @@ TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
        "line"},
       {"input.20: 5", "56: lines.rs485.stations[0].set.input.20: cannot be written; it is read-only"},
   };
-  for (const auto& [set, complaint] : of_benches) {
+  for (const auto& [set, diagnostic] : of_benches) {
     try {
       bench_with(set);
       ADD_FAILURE() << set << " is taken";
     } catch (const std::exception& error) {
-      EXPECT_EQ(error.what(), std::string("bench.yaml:5:") + complaint);
+      EXPECT_EQ(error.what(), std::string("bench.yaml:5:") + diagnostic);
     }
   }
 }
@@ -153,7 +154,7 @@ TEST(ServedNames, ACommandIsGivenByItsName) {
   EXPECT_EQ(command("it", "MOVE X -70000"), "");
   EXPECT_EQ(command({}, "STOP"), "") << "the only device";
   // In the order of words that it has now.
-  EXPECT_EQ(served.complaint_of_setting("Word_Order", 1), "");
+  EXPECT_EQ(served.diagnostic_of_setting("Word_Order", 1), "");
   EXPECT_EQ(command({}, "MOVE Z 65537"), "");
   EXPECT_EQ(served.get("STATE.WAITING"), 3);
   EXPECT_EQ(command({}, "STOP"), "it refuses it: it is busy (reason 193)") << "the FIFO holds three";
@@ -176,12 +177,12 @@ TEST(ServedNames, ACommandIsGivenByItsName) {
 
 TEST(ServedNames, ATurnsComplaintIsNotToldTwice) {
   Served served;
-  const auto complaint = [&](const Json& in) {
+  const auto diagnostic = [&](const Json& in) {
     return served.ask({{"do", "turn"}, {"values", {{"it.MPG", 30}}}, {"in", in}})["error"].get<std::string>();
   };
   for (const char* in : {"2", "soon", "-1s"}) {
-    EXPECT_EQ(complaint(in).find("turn"), std::string::npos) << complaint(in);
-    EXPECT_EQ(complaint(in).substr(0, 4), "in: ") << complaint(in);
+    EXPECT_EQ(diagnostic(in).find("turn"), std::string::npos) << diagnostic(in);
+    EXPECT_EQ(diagnostic(in).substr(0, 4), "in: ") << diagnostic(in);
   }
 }
 

@@ -43,7 +43,7 @@ void expect_passes(const std::string& steps, const std::string& more = "") {
   EXPECT_TRUE(play::has_passed(result)) << text << play::why(result);
 }
 
-std::string complaint_of(const std::string& steps) {
+std::string diagnostic_of(const std::string& steps) {
   try {
     play::parse_scenarios(kModels, scenario(steps), "test.yaml");
   } catch (const FileError& error) {
@@ -90,16 +90,16 @@ TEST(TerminalsOfEveryKind, AWheelOfAnAxisIsTurnedByAStepToo) {
 
 TEST(TerminalsOfEveryKind, ATurnOfSomethingElseIsRefused) {
   EXPECT_EQ(
-      complaint_of("  - turn: { it.A: 4 }\n"),
+      diagnostic_of("  - turn: { it.A: 4 }\n"),
       "test.yaml:5:19: steps[0].turn.it.A: it.A has no hand wheel; expected `encoder: { on: wheel }` in "
       "`plant`");
-  EXPECT_EQ(complaint_of("  - turn: { it.MPG: many }\n").substr(0, 42),
+  EXPECT_EQ(diagnostic_of("  - turn: { it.MPG: many }\n").substr(0, 42),
             "test.yaml:5:21: steps[0].turn.it.MPG: 'man");
-  EXPECT_EQ(complaint_of("  - turn: { it.MPG: 4, in: 2 }\n").substr(0, 35),
+  EXPECT_EQ(diagnostic_of("  - turn: { it.MPG: 4, in: 2 }\n").substr(0, 35),
             "test.yaml:5:28: steps[0].turn.in: '");
-  EXPECT_NE(complaint_of("  - turn: { in: 2s }\n").find("turns nothing; expected something such as"),
+  EXPECT_NE(diagnostic_of("  - turn: { in: 2s }\n").find("turns nothing; expected something such as"),
             std::string::npos);
-  EXPECT_NE(complaint_of("  - input: { it.MPG: 4 }\n")
+  EXPECT_NE(diagnostic_of("  - input: { it.MPG: 4 }\n")
                 .find("it.MPG is counted; expected it to be turned, as by `turn`"),
             std::string::npos);
 }

@@ -29,7 +29,7 @@ std::vector<play::Scenario> read(const std::string& steps) {
   return play::parse_scenarios(kWorkbenchModels, scenario_text(steps), "test.yaml");
 }
 
-std::string complaint_of(const std::string& steps) {
+std::string diagnostic_of(const std::string& steps) {
   try {
     read(steps);
   } catch (const FileError& error) {
@@ -97,7 +97,7 @@ TEST(WindowNames, AFileThatIsWrongSaysWhere) {
        "steps[0].via: no line is called 'rs485'; expected one of pc, hmi"},
   };
   for (const auto& [step, why] : cases) {
-    EXPECT_EQ(complaint_of(std::string("  - ") + step + "\n"), why) << step;
+    EXPECT_EQ(diagnostic_of(std::string("  - ") + step + "\n"), why) << step;
   }
   EXPECT_EQ(read(kCommands).front().steps[4].text, "command mill: MOVE Z 65537");
   EXPECT_EQ(read(kCommands).front().steps[5].text, "command mill: STOP (exception 6)");

@@ -26,7 +26,7 @@ void expect_passes(const std::string& text) {
   EXPECT_TRUE(play::has_passed(result)) << text << play::why(result);
 }
 
-std::string complaint_of(const std::string& machine, const std::string& wires = "") {
+std::string diagnostic_of(const std::string& machine, const std::string& wires = "") {
   try {
     play::parse_scenarios(models::all_models(), text_of(machine, wires, "  - advance: 1ms\n"), "test.yaml");
     return "";
@@ -91,20 +91,20 @@ TEST(Switches, MayBeWiredToOtherControllers) {
 
 TEST(Switches, ThatCannotBeWiredSoAreRefused) {
   EXPECT_EQ(
-      complaint_of("home: { at: 0, width: 5, input: DIN_2 }, limits: { upper: 9 }"),
+      diagnostic_of("home: { at: 0, width: 5, input: DIN_2 }, limits: { upper: 9 }"),
       "bench.plant.x.A: x.A.upper_limit and x.A.home are both wired to DIN_2; expected one contact on an "
       "input, and `wires` for more");
-  EXPECT_EQ(complaint_of("home: { at: 0, width: 5, input: DIN_99 }"),
+  EXPECT_EQ(diagnostic_of("home: { at: 0, width: 5, input: DIN_99 }"),
             "bench.plant.x.A.home.input: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'");
-  EXPECT_EQ(complaint_of("home: { at: 0, width: 5, contact: closed }"),
+  EXPECT_EQ(diagnostic_of("home: { at: 0, width: 5, contact: closed }"),
             "bench.plant.x.A.home.contact: 'closed' is unknown; expected opens or closes");
-  EXPECT_EQ(complaint_of("limits: { upper: 3, lower_input: DIN_9 }"),
+  EXPECT_EQ(diagnostic_of("limits: { upper: 3, lower_input: DIN_9 }"),
             "bench.plant.x.A.limits.lower_input: there is no lower limit switch; expected `lower` as well");
-  EXPECT_EQ(complaint_of("travel: [ -5, 5 ]", "x.A.home -> y.DIN_1"),
+  EXPECT_EQ(diagnostic_of("travel: [ -5, 5 ]", "x.A.home -> y.DIN_1"),
             "bench.wires[0]: the machine on x.A has no home; expected it in `plant`");
-  EXPECT_EQ(complaint_of("travel: [ -5, 5 ]", "x.A.hom -> y.DIN_1"),
+  EXPECT_EQ(diagnostic_of("travel: [ -5, 5 ]", "x.A.hom -> y.DIN_1"),
             "bench.wires[0]: 'hom' is not a switch of a machine; the nearest is 'home'");
-  EXPECT_EQ(complaint_of("travel: [ -5, 5 ]", "x.DOUT_4 -> y.A.home"),
+  EXPECT_EQ(diagnostic_of("travel: [ -5, 5 ]", "x.DOUT_4 -> y.A.home"),
             "bench.wires[0]: 'home' is not an input of a drive; expected one of servo, alarm_clear");
 }
 
@@ -134,22 +134,22 @@ TEST(Switches, NearHomeMarkAndIndexAreLevelsToSuchAController) {
 }
 
 TEST(Switches, OfTheseKindsThatCannotBeAreRefused) {
-  EXPECT_EQ(complaint_of("near_home: { width: 5 }"),
+  EXPECT_EQ(diagnostic_of("near_home: { width: 5 }"),
             "bench.plant.x.A.near_home: 'at' is missing; expected it here");
   EXPECT_EQ(
-      complaint_of("mark: { at: 5, width: 0 }"),
+      diagnostic_of("mark: { at: 5, width: 0 }"),
       "bench.plant.x.A.mark.width: '0' is not possible; expected a whole number from 1 to 1000000000000");
-  EXPECT_EQ(complaint_of("mark: { at: 5, width: 1, input: DOUT_1 }").substr(0, 45),
+  EXPECT_EQ(diagnostic_of("mark: { at: 5, width: 1, input: DOUT_1 }").substr(0, 45),
             "bench.plant.x.A.mark.input: 'DOUT_1' is not a");
   EXPECT_EQ(
-      complaint_of("encoder: { per_revolution: 400, index: { width: 50, period: 50 } }"),
+      diagnostic_of("encoder: { per_revolution: 400, index: { width: 50, period: 50 } }"),
       "bench.plant.x.A.encoder.index.width: is on for 50 of 50 positions; expected fewer than its period");
-  EXPECT_EQ(complaint_of("encoder: { per_revolution: 400, on: wheel, index: { width: 5 } }"),
+  EXPECT_EQ(diagnostic_of("encoder: { per_revolution: 400, on: wheel, index: { width: 5 } }"),
             "bench.plant.x.A.encoder.index: is on a hand wheel; expected an encoder on the machine");
-  EXPECT_EQ(complaint_of("travel: [ -5, 5 ]", "x.A.mark -> y.DIN_1"),
+  EXPECT_EQ(diagnostic_of("travel: [ -5, 5 ]", "x.A.mark -> y.DIN_1"),
             "bench.wires[0]: the machine on x.A has no mark; expected it in `plant`");
   EXPECT_EQ(
-      complaint_of("mark: { at: 5, width: 1, input: DIN_9 }, near_home: { at: 5, width: 1, input: DIN_9 }"),
+      diagnostic_of("mark: { at: 5, width: 1, input: DIN_9 }, near_home: { at: 5, width: 1, input: DIN_9 }"),
       "bench.plant.x.A: x.A.mark and x.A.near_home are both wired to DIN_9; expected one contact on an "
       "input, and `wires` for more");
 }
@@ -168,7 +168,7 @@ TEST(Machines, BeginWhereTheyAreSaidToStand) {
       "  - advance: 2ms\n"
       "  - assert: [ x.A.position == 100, x.A.encoder == -1600 ]\n"));
   EXPECT_EQ(
-      complaint_of("position: 500, travel: [ -5, 5 ]"),
+      diagnostic_of("position: 500, travel: [ -5, 5 ]"),
       "bench.plant.x.A.travel: does not hold position 500, where the machine starts; expected it inside");
 }
 

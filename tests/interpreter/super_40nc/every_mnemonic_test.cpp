@@ -133,12 +133,12 @@ class Trial {
     const Checked checked = check(text);
     EXPECT_FALSE(checked.program) << text;
     ASSERT_FALSE(checked.errors.empty()) << text;
-    const Complaint& first = checked.errors.front();
+    const Diagnostic& first = checked.errors.front();
     EXPECT_EQ(std::tuple(first.line, first.column, first.code, first.step),
               std::tuple(around_.line, refused.column, refused.code, step_))
         << text << to_string(first);
     const int behind = step_ + (steps.empty() ? 0 : std::stoi(steps));
-    const bool is_told = std::any_of(checked.errors.begin(), checked.errors.end(), [&](const Complaint& e) {
+    const bool is_told = std::any_of(checked.errors.begin(), checked.errors.end(), [&](const Diagnostic& e) {
       return e.line == around_.line + 1 && e.column == 5 && e.code == Code::unknown && e.step == behind;
     });
     EXPECT_TRUE(is_told) << text;

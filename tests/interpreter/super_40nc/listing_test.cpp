@@ -167,7 +167,7 @@ TEST(Super40ncListing, IsRefusedWithPlaceCodeAndStep) {
     const Checked checked = check(refusal.text);
     EXPECT_FALSE(checked.program) << refusal.text;
     ASSERT_FALSE(checked.errors.empty()) << refusal.text;
-    const Complaint& error = checked.errors[0];
+    const Diagnostic& error = checked.errors[0];
     EXPECT_EQ(std::tuple(error.line, error.column, error.code, error.step),
               std::tuple(refusal.line, refusal.column, refusal.code, refusal.step))
         << refusal.text << to_string(error);

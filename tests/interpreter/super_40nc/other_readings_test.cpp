@@ -141,8 +141,8 @@ TEST(Super40ncOtherReadings, OfBlocksBehindAnOutputAndLabelsOfAll) {
   const auto codes = [&](const std::string& text) {
     std::string said;
     const Checked checked = check(text, options);
-    for (const Complaint& error : checked.errors) said += to_string(error) + ";";
-    for (const Complaint& warning : checked.warnings) said += "(" + to_string(warning) + ")";
+    for (const Diagnostic& error : checked.errors) said += to_string(error) + ";";
+    for (const Diagnostic& warning : checked.warnings) said += "(" + to_string(warning) + ")";
     return said;
   };
   EXPECT_EQ(codes("AREA PLC\nLD X0\nLD X1\nOUT Y0\nANB\nOUT Y1\nEND\n"),

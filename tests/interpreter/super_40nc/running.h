@@ -14,7 +14,7 @@ namespace understudy::interpreter::super_40nc {
 inline Program program_of(std::string_view text, const Options& options = {}) {
   const Checked checked = check(text, options);
   std::string errors;
-  for (const Complaint& error : checked.errors) errors += to_string(error) + '\n';
+  for (const Diagnostic& error : checked.errors) errors += to_string(error) + '\n';
   EXPECT_EQ(errors, "") << text;
   return checked.program.value_or(Program{});
 }

@@ -64,7 +64,7 @@ std::int64_t value_of_whole(const NvImage& image, std::size_t registers = 400) {
   return image.registers.front().second;
 }
 
-std::string complaint(const std::string& path) {
+std::string diagnostic(const std::string& path) {
   try {
     read_nv_file(path);
     return "";
@@ -98,7 +98,7 @@ TEST_F(NvFile, RefusedIsKeptAsItIs) {
   const std::string torn = to_json(image_of(1)).substr(0, 1000);
   for (const std::string& text : {torn, std::string("hello\n"), std::string()}) {
     put(path(), text);
-    const std::string found = complaint(path());
+    const std::string found = diagnostic(path());
     EXPECT_EQ(found.rfind(path() + ":", 0), 0u) << found;
     EXPECT_EQ(found.find('\n'), std::string::npos) << found;
     EXPECT_EQ(text_of(path()), text);
@@ -108,7 +108,7 @@ TEST_F(NvFile, RefusedIsKeptAsItIs) {
 
 TEST_F(NvFile, ThatCannotBeReadIsRefused) {
   fs::create_directory(path());
-  EXPECT_EQ(complaint(path()), path() + ": file: is not a regular file; expected an NV image");
+  EXPECT_EQ(diagnostic(path()), path() + ": file: is not a regular file; expected an NV image");
 }
 
 TEST_F(NvFile, ALeftOverOfAWriterThatDiedIsNotReadAndNotTouched) {

@@ -26,7 +26,7 @@ const NvImage kExample{.model = "simple2-r3",
                                      {"Aaxis_SVON_Polarity", 0}}};
 
 /// What is wrong with a text; empty if nothing is.
-std::string complaint(const std::string& text) {
+std::string diagnostic(const std::string& text) {
   try {
     parse_nv_image(text);
     return "";
@@ -80,7 +80,7 @@ TEST(NvImage, TornAnywhereIsRefusedWithTheLineOfTheTear) {
   for (std::size_t size = 0; size + 1 < whole.size(); ++size) {
     const std::string torn = whole.substr(0, size);
     const auto line = 1 + std::count(torn.begin(), torn.end(), '\n');
-    EXPECT_EQ(complaint(torn),
+    EXPECT_EQ(diagnostic(torn),
               "line " + std::to_string(line) + ": is damaged or not JSON; expected an NV image")
         << "after " << size << " bytes";
   }
@@ -95,7 +95,7 @@ TEST(NvImage, ATailOfAnotherImageBehindItIsRefused) {
   const std::string head = to_json(shorter);
   ASSERT_LT(head.size(), longer.size());
   const std::string mixed = head + longer.substr(head.size());
-  EXPECT_NE(complaint(mixed).find(": is damaged or not JSON"), std::string::npos) << complaint(mixed);
+  EXPECT_NE(diagnostic(mixed).find(": is damaged or not JSON"), std::string::npos) << diagnostic(mixed);
 }
 
 TEST(NvImage, OneDamagedByteGivesAnImageOrOneLine) {
@@ -107,7 +107,7 @@ TEST(NvImage, OneDamagedByteGivesAnImageOrOneLine) {
     for (const char value : values) {
       std::string damaged = whole;
       damaged[place] = value;
-      const std::string wrong = complaint(damaged);
+      const std::string wrong = diagnostic(damaged);
       if (wrong.empty()) continue;
       ++refused;
       ASSERT_TRUE(is_one_line(wrong)) << place << " " << int{value} << ": " << wrong;
@@ -120,7 +120,7 @@ TEST(NvImage, OneDamagedByteGivesAnImageOrOneLine) {
 struct Refused {
   const char* what;
   std::string text;
-  std::string complaint;
+  std::string diagnostic;
 };
 
 TEST(NvImage, RefusesWhatIsNoImage) {
@@ -170,10 +170,10 @@ TEST(NvImage, RefusesWhatIsNoImage) {
       {"a key with a newline, twice", R"({"a\nb": 1, "a\nb": 1})", "'a?b': appears twice; expected it once"},
   };
   for (const Refused& c : cases) {
-    const std::string found = complaint(c.text);
+    const std::string found = diagnostic(c.text);
     EXPECT_TRUE(is_one_line(found)) << c.what << ": " << found;
     if (std::string(c.what).find("newline") == std::string::npos) {
-      EXPECT_EQ(found, c.complaint) << c.what;
+      EXPECT_EQ(found, c.diagnostic) << c.what;
     }
   }
 }
@@ -191,7 +191,7 @@ TEST(NvImage, HoldsRealNumbersAndAProgram) {
   EXPECT_NE(text.find("完成"), std::string::npos) << text;
   const std::string head = R"({"understudy": 1, "kind": "nv-image", "model": "m", "firmware": "1.52", )";
   const auto program = [&](const std::string& lines) {
-    return complaint(head + R"("registers": {}, "program": )" + lines + "}");
+    return diagnostic(head + R"("registers": {}, "program": )" + lines + "}");
   };
   EXPECT_EQ(program(R"(["MA 5", [77, 65, 32, 53]])"), "");
   for (const char* lines :
@@ -199,7 +199,7 @@ TEST(NvImage, HoldsRealNumbersAndAProgram) {
     EXPECT_EQ(program(lines), "program: is not a list of lines; expected one") << lines;
   }
   const auto reals = [&](const std::string& values) {
-    return complaint(head + R"("registers": {}, "reals": )" + values + "}");
+    return diagnostic(head + R"("registers": {}, "reals": )" + values + "}");
   };
   EXPECT_EQ(reals("[1]"), "reals: is not an object; expected names and values");
   EXPECT_EQ(reals(R"({"R0": "1"})"), "reals: 'R0': is not a number; expected one");
@@ -213,17 +213,17 @@ TEST(NvImage, TakesWholeNumbersOf64BitsOnly) {
       (std::vector<std::pair<std::string, std::int64_t>>{{"a", INT64_MIN}, {"b", INT64_MAX}}));
   for (const char* value : {"1.0", "1e3", "0.5", "-0.0", "9223372036854775808", "18446744073709551616",
                             "-9223372036854775809", "\"1\"", "null", "true", "[1]", "{}"}) {
-    EXPECT_EQ(complaint(with_registers(std::string("{\"a\": ") + value + "}")),
+    EXPECT_EQ(diagnostic(with_registers(std::string("{\"a\": ") + value + "}")),
               "registers: 'a': is not a whole number; expected one")
         << value;
   }
   for (const char* value : {"1e999", "-1e999"}) {
-    EXPECT_EQ(complaint(with_registers(std::string("{\"a\": ") + value + "}")),
+    EXPECT_EQ(diagnostic(with_registers(std::string("{\"a\": ") + value + "}")),
               "a number is too large; expected one that fits into 64 bits")
         << value;
   }
   for (const char* value : {"01", "+1", "0x10", "1_000", "NaN", ".5", "--1", "1 2"}) {
-    EXPECT_EQ(complaint(with_registers(std::string("{\"a\": ") + value + "}")),
+    EXPECT_EQ(diagnostic(with_registers(std::string("{\"a\": ") + value + "}")),
               "line 1: is damaged or not JSON; expected an NV image")
         << value;
   }
@@ -234,11 +234,11 @@ TEST(NvImage, IsNotBroughtDownByItsSize) {
   std::string nest;
   for (std::size_t i = 0; i < kDeep; ++i) nest += "{\"a\":";
   nest += "1" + std::string(kDeep, '}');
-  EXPECT_EQ(complaint(nest), "understudy: is missing; expected an NV image");
-  EXPECT_EQ(complaint(with_registers(std::string(kDeep, '[') + std::string(kDeep, ']'))),
+  EXPECT_EQ(diagnostic(nest), "understudy: is missing; expected an NV image");
+  EXPECT_EQ(diagnostic(with_registers(std::string(kDeep, '[') + std::string(kDeep, ']'))),
             "registers: is not an object; expected names and values");
-  EXPECT_EQ(complaint(std::string(5'000'000, '[')), "line 1: is damaged or not JSON; expected an NV image");
-  EXPECT_EQ(complaint(with_registers("{\"a\": " + std::string(1'000'000, '9') + "}")),
+  EXPECT_EQ(diagnostic(std::string(5'000'000, '[')), "line 1: is damaged or not JSON; expected an NV image");
+  EXPECT_EQ(diagnostic(with_registers("{\"a\": " + std::string(1'000'000, '9') + "}")),
             "a number is too large; expected one that fits into 64 bits");
   const std::string long_name(2'000'000, 'n');
   EXPECT_EQ(parse_nv_image(with_registers("{\"" + long_name + "\": 1}")).registers.front().first, long_name);
@@ -258,7 +258,7 @@ std::unique_ptr<Device> device(const std::optional<NvImage>& nv = {}, Firmware f
   return make_device(models::simple2_r3::model(), settings);
 }
 
-std::string device_complaint(NvImage image) {
+std::string device_diagnostic(NvImage image) {
   try {
     device(image);
     return "";
@@ -301,7 +301,7 @@ TEST(NvImageOfADevice, IsRefusedWhereItSuitsAnotherOne) {
   };
   struct Case {
     NvImage image;
-    const char* complaint;  // part of it
+    const char* diagnostic;  // part of it
   };
   const Case cases[] = {
       {{.model = "rsm8194h", .firmware = "1.00", .registers = {}},
@@ -320,9 +320,9 @@ TEST(NvImageOfADevice, IsRefusedWhereItSuitsAnotherOne) {
       {with("MAIN_LINE0_CMD", 256), "'MAIN_LINE0_CMD': 256 does not fit"},
   };
   for (const Case& c : cases) {
-    const std::string found = device_complaint(c.image);
-    EXPECT_TRUE(is_one_line(found)) << c.complaint << ": " << found;
-    EXPECT_NE(found.find(c.complaint), std::string::npos) << c.complaint << ": " << found;
+    const std::string found = device_diagnostic(c.image);
+    EXPECT_TRUE(is_one_line(found)) << c.diagnostic << ": " << found;
+    EXPECT_NE(found.find(c.diagnostic), std::string::npos) << c.diagnostic << ": " << found;
   }
 }
 

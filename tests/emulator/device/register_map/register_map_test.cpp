@@ -222,8 +222,8 @@ TEST(RegisterMap, NumbersNamesFromTheRowsFirstNumberOn) {
 TEST(RegisterMap, SuggestsANameWithoutItsBit) {
   const Toy toy(kToyRows);
   const auto end = [&](const char* name) {
-    const std::string complaint = toy.map.why_not(name, 100);
-    return complaint.substr(complaint.find(';'));
+    const std::string diagnostic = toy.map.why_not(name, 100);
+    return diagnostic.substr(diagnostic.find(';'));
   };
   EXPECT_EQ(end("Spedd"), "; the nearest is 'Speed'");
   EXPECT_EQ(end("Spedd.12"), "; the nearest is 'Speed'");

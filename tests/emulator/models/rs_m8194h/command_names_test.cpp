@@ -18,7 +18,7 @@ constexpr WindowForm kForms[] = {{.firmware = 300, .low_word_first = false},
 
 std::string name_in(const std::string& text) { return text.substr(0, text.find(' ')); }
 
-std::string complaint_of(const std::string& text) {
+std::string diagnostic_of(const std::string& text) {
   try {
     command_names().words_of(text, kForms[0]);
   } catch (const ProgramError& error) {
@@ -155,11 +155,11 @@ TEST(RsM8194hCommandNames, WhatIsNoCommandHasNone) {
 }
 
 TEST(RsM8194hCommandNames, AWrongTextIsToldWithItsPlace) {
-  EXPECT_EQ(complaint_of("RSM_FIXED_MOV X 1"),
+  EXPECT_EQ(diagnostic_of("RSM_FIXED_MOV X 1"),
             "column 1: 'RSM_FIXED_MOV' is not a command; the nearest is 'RSM_FIXED_MOVE'");
-  EXPECT_EQ(complaint_of("RSM_SET_PULSE_MODE X 6"),
+  EXPECT_EQ(diagnostic_of("RSM_SET_PULSE_MODE X 6"),
             "column 22: parameter nMode: '6' does not fit; expected 0 to 5");
-  EXPECT_EQ(complaint_of(""), "column 1: is empty; expected a command");
+  EXPECT_EQ(diagnostic_of(""), "column 1: is empty; expected a command");
 }
 
 TEST(RsM8194hCommandNames, ADeviceIsAskedForItsOrderOfWords) {

@@ -134,17 +134,17 @@ class ChoiceCheck {
     for (const std::string_view option : options_of(row)) options_.emplace_back(option);
   }
 
-  std::vector<std::string> complaints(const Proof& proof) {
+  std::vector<std::string> diagnostics(const Proof& proof) {
     look_at_comment(proof.comment);
     if (look_at_options(proof.cases)) {
       look_at_cases(proof.cases);
       look_at_causes(proof.cases);
     }
-    return complaints_;
+    return diagnostics_;
   }
 
  private:
-  void complain(const std::string& what) { complaints_.push_back(id_ + ": " + what); }
+  void complain(const std::string& what) { diagnostics_.push_back(id_ + ": " + what); }
 
   void look_at_comment(const std::string& comment) {
     const std::size_t question = comment.find('?');
@@ -207,7 +207,7 @@ class ChoiceCheck {
 
   std::string id_;
   std::vector<std::string> options_;
-  std::vector<std::string> complaints_;
+  std::vector<std::string> diagnostics_;
 };
 
 }  // namespace
@@ -230,8 +230,8 @@ std::vector<Proof> proofs_in(const std::string& text, const std::string& path) {
   return proofs;
 }
 
-std::vector<std::string> complaints_of_proof(const ChoiceRow& row, const Proof& proof) {
-  return ChoiceCheck(row).complaints(proof);
+std::vector<std::string> diagnostics_of_proof(const ChoiceRow& row, const Proof& proof) {
+  return ChoiceCheck(row).diagnostics(proof);
 }
 
 }  // namespace understudy::emulator::play

@@ -25,6 +25,6 @@ std::vector<Proof> proofs_in(const std::string& text, const std::string& path);
 ///  - what comes out differs from case to case (outcome_hash.h);
 ///  - and it does so by the choice alone. The first case is played without its expectations, with one option
 ///    after the other, and still comes out differently; and what another case does is just that.
-std::vector<std::string> complaints_of_proof(const ChoiceRow& row, const Proof& proof);
+std::vector<std::string> diagnostics_of_proof(const ChoiceRow& row, const Proof& proof);
 
 }  // namespace understudy::emulator::play

@@ -28,15 +28,15 @@ std::string proof_file(const std::string& options = kOptions, const std::string&
          comment + "  - choice: { version_encoding: " + options + " }\n    steps:\n" + steps;
 }
 
-std::string complaints_of(const std::string& file) {
+std::string diagnostics_of(const std::string& file) {
   std::string text;
   try {
     const std::vector<Proof> proofs = proofs_in(file, "version_encoding.yaml");
     EXPECT_EQ(proofs.size(), 1U);
     EXPECT_EQ(proofs.at(0).id, "version_encoding");
-    for (const std::string& complaint : complaints_of_proof(kRow, proofs.at(0))) {
-      EXPECT_TRUE(complaint.starts_with("version_encoding: ")) << complaint;
-      text += complaint + "\n";
+    for (const std::string& diagnostic : diagnostics_of_proof(kRow, proofs.at(0))) {
+      EXPECT_TRUE(diagnostic.starts_with("version_encoding: ")) << diagnostic;
+      text += diagnostic + "\n";
     }
   } catch (const FileError& error) {
     text = error.what();
@@ -44,12 +44,12 @@ std::string complaints_of(const std::string& file) {
   return text;
 }
 
-TEST(ChoiceCheck, HasNothingAgainstAGoodFile) { EXPECT_EQ(complaints_of(proof_file()), ""); }
+TEST(ChoiceCheck, HasNothingAgainstAGoodFile) { EXPECT_EQ(diagnostics_of(proof_file()), ""); }
 
 TEST(ChoiceCheck, FindsWhatIsWrong) {
   struct Case {
     std::string file;
-    std::string complaint;
+    std::string diagnostic;
   };
   const std::string one_case = "{ hundredths: { version: 152 } }";
   const std::string wrong_order = "{ bcd: { version: 338 }, hundredths: { version: 152 } }";
@@ -79,23 +79,23 @@ TEST(ChoiceCheck, FindsWhatIsWrong) {
        "what comes out by the choice alone is the same for hundredths and bcd"},
   };
   for (const Case& c : cases) {
-    const std::string complaints = complaints_of(c.file);
-    EXPECT_NE(complaints.find(c.complaint), std::string::npos) << c.file << "\n" << complaints;
+    const std::string diagnostics = diagnostics_of(c.file);
+    EXPECT_NE(diagnostics.find(c.diagnostic), std::string::npos) << c.file << "\n" << diagnostics;
   }
 }
 
 TEST(ChoiceCheck, LooksIntoBranchesAndBehindRawReplies) {
   const std::string replies =
       "{ hundredths: { reply: 01 03 02 00 98 +crc }, bcd: { reply: 01 03 02 01 52 +crc } }";
-  EXPECT_EQ(complaints_of(proof_file(
+  EXPECT_EQ(diagnostics_of(proof_file(
                 replies, "      - send: { bytes: 01 03 00 02 00 01 +crc, reply: \"${reply}\" }\n")),
             "");
-  EXPECT_EQ(complaints_of(proof_file(
+  EXPECT_EQ(diagnostics_of(proof_file(
                 kOptions, "      - fork: { look: [ { expect: { d.Version: \"${version}\" } } ] }\n")),
             "");
-  EXPECT_NE(complaints_of(proof_file(kOptions,
-                                     "      - fork: { look: [ { expect: { d.Version: \"${version}\" } }, "
-                                     "{ advance: \"${version}ms\" } ] }\n"))
+  EXPECT_NE(diagnostics_of(proof_file(kOptions,
+                                      "      - fork: { look: [ { expect: { d.Version: \"${version}\" } }, "
+                                      "{ advance: \"${version}ms\" } ] }\n"))
                 .find("does something else"),
             std::string::npos);
 }

@@ -50,7 +50,7 @@ TEST(ChoiceScenarios, TellTheOptionsOfEveryRowApart) {
                       << (file.empty() ? "no row of kProofs has its section" : file + " has no play of it");
         continue;
       }
-      for (const std::string& complaint : complaints_of_proof(row, *proof)) ADD_FAILURE() << complaint;
+      for (const std::string& diagnostic : diagnostics_of_proof(row, *proof)) ADD_FAILURE() << diagnostic;
     }
   }
 }

@@ -71,7 +71,7 @@ TEST(ScenarioFaults, ChanceBeginsWithTheScenariosSeed) {
 }
 
 TEST(ScenarioFaults, ThatAreWrongAreErrorsOfTheFile) {
-  const auto complaint = [](const std::string& inject) -> std::string {
+  const auto diagnostic = [](const std::string& inject) -> std::string {
     try {
       scenario_of("  - inject: " + inject + "\n");
     } catch (const FileError& error) {
@@ -80,12 +80,12 @@ TEST(ScenarioFaults, ThatAreWrongAreErrorsOfTheFile) {
     return "";
   };
   const std::string at = "test.yaml:5: steps[0].inject";
-  EXPECT_EQ(complaint("{ dorp: feeder }"), at + ": 'dorp' is not a fault; the nearest is 'drop'");
-  EXPECT_EQ(complaint("{ drop: feeder, nht: 3 }"), at + ".nht: is not a field here; the nearest is 'nth'");
-  EXPECT_EQ(complaint("{ drop: feeder, when: feeder.A.puls > 3 }"),
+  EXPECT_EQ(diagnostic("{ dorp: feeder }"), at + ": 'dorp' is not a fault; the nearest is 'drop'");
+  EXPECT_EQ(diagnostic("{ drop: feeder, nht: 3 }"), at + ".nht: is not a field here; the nearest is 'nth'");
+  EXPECT_EQ(diagnostic("{ drop: feeder, when: feeder.A.puls > 3 }"),
             at + ".when: column 1 of 'feeder.A.puls > 3': axis A has no 'puls'; the nearest is 'pulses'");
-  EXPECT_EQ(complaint("{ drop: feedr }"), at + ": no device is called 'feedr'; the nearest is 'feeder'");
-  EXPECT_EQ(complaint("{ drop: feeder, nth: 3, name: all }"),
+  EXPECT_EQ(diagnostic("{ drop: feedr }"), at + ": no device is called 'feedr'; the nearest is 'feeder'");
+  EXPECT_EQ(diagnostic("{ drop: feeder, nth: 3, name: all }"),
             at + ".name: 'all' cannot be the name of a fault; expected another");
 }
 

@@ -8,21 +8,21 @@ namespace scenario_errors_test {
 
 struct Bad {
   std::string text;
-  std::string complaint;
+  std::string diagnostic;
 };
 
 class ScenarioErrors : public testing::Test {
  protected:
-  void expect_complaints(const std::vector<Bad>& files) const {
+  void expect_diagnostics(const std::vector<Bad>& files) const {
     for (const Bad& file : files) {
-      EXPECT_EQ(folder_.complaint(file.text), "scenario.yaml:" + file.complaint) << file.text;
+      EXPECT_EQ(folder_.diagnostic(file.text), "scenario.yaml:" + file.diagnostic) << file.text;
     }
   }
   /// Of single steps; the step stands in line 4.
-  void expect_step_complaints(const std::vector<Bad>& steps) const {
+  void expect_step_diagnostics(const std::vector<Bad>& steps) const {
     for (const Bad& step : steps) {
-      EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of("  - " + step.text + "\n")),
-                "scenario.yaml:4: steps[0]" + step.complaint)
+      EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of("  - " + step.text + "\n")),
+                "scenario.yaml:4: steps[0]" + step.diagnostic)
           << step.text;
     }
   }
@@ -34,7 +34,7 @@ class ScenarioErrors : public testing::Test {
 };
 
 TEST_F(ScenarioErrors, TheFileAsAWhole) {
-  expect_complaints({
+  expect_diagnostics({
       {"", "1: scenario: the file is not a map; expected `understudy: 1`, `bench:` and `steps:`"},
       {"- advance: 1ms\n",
        "1: scenario: the file is not a map; expected `understudy: 1`, `bench:` and `steps:`"},
@@ -59,7 +59,7 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
 }
 
 TEST_F(ScenarioErrors, TheBench) {
-  expect_complaints({
+  expect_diagnostics({
       {"understudy: 1\nbench: ''\nsteps: []\n", "2: bench: is empty; expected a path"},
       {"understudy: 1\nbench: { line: {}, lines: { a: { stations: [ { name: x, model: simple2-r3 } ] } } "
        "}\nsteps: [ say: x ]\n",
@@ -81,22 +81,22 @@ TEST_F(ScenarioErrors, TheBench) {
   });
   // What is wrong elsewhere is told of where it is.
   EXPECT_EQ(
-      folder_.complaint("understudy: 1\nbench: none.yaml\nsteps: []\n"),
+      folder_.diagnostic("understudy: 1\nbench: none.yaml\nsteps: []\n"),
       "scenario.yaml:2: bench: none.yaml cannot be read (No such file or directory); expected a bench file");
   folder_.write("bad.yaml", "understudy: 1\nlines: {}\n");
-  EXPECT_EQ(folder_.complaint("understudy: 1\nbench: bad.yaml\nsteps: []\n"),
+  EXPECT_EQ(folder_.diagnostic("understudy: 1\nbench: bad.yaml\nsteps: []\n"),
             "bad.yaml:2: lines: has no line; expected at least one");
-  EXPECT_EQ(folder_.complaint(with("nv: { feeder: none.json }")),
+  EXPECT_EQ(folder_.diagnostic(with("nv: { feeder: none.json }")),
             "scenario.yaml:3: nv.feeder: none.json cannot be read (No such file or directory); expected an "
             "NV image");
   folder_.write("torn.json", "{ \"understudy\": 1,");
-  EXPECT_EQ(folder_.complaint(with("nv: { feeder: torn.json }")),
+  EXPECT_EQ(folder_.diagnostic(with("nv: { feeder: torn.json }")),
             "torn.json:1: is damaged or not JSON; expected an NV image");
 }
 
 TEST_F(ScenarioErrors, ParametersAndCases) {
   const std::string used = "name: ${a}";
-  expect_complaints({
+  expect_diagnostics({
       {with("parameters: { a: 1 }"),
        "3: parameters.a: 'a' is not used; expected ${a} somewhere in the scenario"},
       {with("parameters: { a: 1, a: 2 }\n" + used), "3: parameters.a: is given twice; expected it once"},
@@ -126,7 +126,7 @@ TEST_F(ScenarioErrors, ParametersAndCases) {
 }
 
 TEST_F(ScenarioErrors, WhatIsNoStep) {
-  expect_step_complaints({
+  expect_step_diagnostics({
       {"advance", ": expected a step, as in `- advance: 250ms`"},
       {"{}", ": is empty; expected a step, as in `- advance: 250ms`"},
       {"wirte: { feeder.Aaxis_SVON: 1 }", ".wirte: is not a step; the nearest is 'write'"},
@@ -172,7 +172,7 @@ TEST_F(ScenarioErrors, AreNotOfWhatADeviceTakes) {
 }
 
 TEST_F(ScenarioErrors, Registers) {
-  expect_step_complaints({
+  expect_step_diagnostics({
       {"write: {}", ".write: is empty; expected registers, as in `{ feeder.Aaxis_SVON: 1 }`"},
       {"write: [ 1 ]", ".write: expected a map, as in `key: value`"},
       {"write: { feeder.Aaxis_SVNO: 1 }",
@@ -233,7 +233,7 @@ TEST_F(ScenarioErrors, Registers) {
 TEST_F(ScenarioErrors, BytesAndLines) {
   const std::string hint =
       " is not a byte; expected bytes such as 01 03 00 01, with +crc at the end for the checksum";
-  expect_step_complaints({
+  expect_step_diagnostics({
       {"send: { reply: 01 }", ".send: 'bytes' is missing; expected it here"},
       {"send: { bytes: '' }", ".send.bytes: has 0 bytes; expected 1 to 1024"},
       {"send: { bytes: 0 }", ".send.bytes: '0'" + hint},
@@ -246,7 +246,7 @@ TEST_F(ScenarioErrors, BytesAndLines) {
       {"send: { byte: 01 }",
        ".send.byte: is not a key here; expected one of line, bytes, reply, within (the nearest is 'bytes')"},
   });
-  expect_complaints(
+  expect_diagnostics(
       {{"understudy: 1\nbench:\n  lines:\n    a: { stations: [ { name: x, model: simple2-r3 } ] }\n"
         "    b: { stations: [ { name: y, model: simple2-r3 } ] }\nsteps: [ send: { bytes: 01 } ]\n",
         "6: steps[0].send: 'line' is missing, but the bench has several; expected it here"}});
@@ -254,7 +254,7 @@ TEST_F(ScenarioErrors, BytesAndLines) {
 
 TEST_F(ScenarioErrors, Conditions) {
   const std::string until = "until: feeder.STATUS.4 == 0";
-  expect_step_complaints({
+  expect_step_diagnostics({
       {"wait: { within: 1s }", ".wait: 'until' is missing; expected it here"},
       {"wait: { " + until + " }", ".wait: 'within' is missing; expected it here"},
       {"wait: { " + until + ", within: 0s }", ".wait.within: takes no time; expected some"},
@@ -282,18 +282,18 @@ TEST_F(ScenarioErrors, Conditions) {
       {"always: 1", ".always: '1' never changes; expected a condition that names something"},
       {"end: slow", ".end: no active `always` or `never` is called 'slow'; there is none"},
   });
-  EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of("  - never: { what: feeder.power, name: slow }\n"
-                                                          "  - end: slwo\n")),
+  EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of("  - never: { what: feeder.power, name: slow }\n"
+                                                           "  - end: slwo\n")),
             "scenario.yaml:5: steps[1].end: no active `always` or `never` is called 'slwo'; the nearest "
             "is 'slow'");
   EXPECT_EQ(
-      folder_.complaint(ScenarioFolder::scenario_of("  - never: feeder.power\n  - always: feeder.power\n")),
+      folder_.diagnostic(ScenarioFolder::scenario_of("  - never: feeder.power\n  - always: feeder.power\n")),
       "scenario.yaml:5: steps[1].always: 'feeder.power' is already active; expected another name, or an "
       "`end` first");
 }
 
 TEST_F(ScenarioErrors, FromOutside) {
-  expect_step_complaints({
+  expect_step_diagnostics({
       {"input: {}", ".input: is empty; expected something such as `{ feeder.DIN_10: on }`"},
       {"input: { feeder.DIN_99: on }",
        ".input.feeder.DIN_99: no input of feeder is called 'DIN_99'; the nearest is 'DIN_9'"},
@@ -313,30 +313,30 @@ TEST_F(ScenarioErrors, FromOutside) {
       {"save: { feeder: nowhere/x.json }", ".save.feeder: nowhere is not a folder; expected one to write in"},
       {"save: { feder: x.json }", ".save.feder: no device is called 'feder'; the nearest is 'feeder'"},
   });
-  const auto complaint = [&](const std::string& steps) {
-    return folder_.complaint(ScenarioFolder::scenario_of(steps));
+  const auto diagnostic = [&](const std::string& steps) {
+    return folder_.diagnostic(ScenarioFolder::scenario_of(steps));
   };
   const std::string jam = "  - inject: { stall: feeder.A, name: jam }\n";
-  EXPECT_EQ(complaint(jam + "  - clear: jma\n"),
+  EXPECT_EQ(diagnostic(jam + "  - clear: jma\n"),
             "scenario.yaml:5: steps[1].clear: no fault in force here is called 'jma'; the nearest is 'jam'");
-  EXPECT_EQ(complaint(jam + jam),
+  EXPECT_EQ(diagnostic(jam + jam),
             "scenario.yaml:5: steps[1].inject.name: 'jam' is already in force; expected another name, or a "
             "`clear` first");
-  EXPECT_EQ(complaint(jam + "  - clear: all\n  - clear: jam\n"),
+  EXPECT_EQ(diagnostic(jam + "  - clear: all\n  - clear: jam\n"),
             "scenario.yaml:6: steps[2].clear: no fault in force here is called 'jam'; there is none");
   folder_.write("bad.lst", "        SVON_A\n        Fly MEM0\n        END\n");
-  EXPECT_TRUE(complaint("  - program: { feeder: bad.lst }\n").starts_with("bad.lst:2: mnemonic: "));
-  EXPECT_TRUE(complaint("  - program:\n      feeder: |\n        SVON_A\n        Fly MEM0\n")
+  EXPECT_TRUE(diagnostic("  - program: { feeder: bad.lst }\n").starts_with("bad.lst:2: mnemonic: "));
+  EXPECT_TRUE(diagnostic("  - program:\n      feeder: |\n        SVON_A\n        Fly MEM0\n")
                   .starts_with("scenario.yaml:5: steps[0].program.feeder: line 2, column 1: mnemonic: "));
   folder_.write("mill.json",
                 to_json({.model = "simple2-r3", .firmware = "1.52", .registers = {{"Aaxis_SVON", 1}}}));
-  EXPECT_EQ(complaint("  - memory: { feeder: mill.json }\n"),
+  EXPECT_EQ(diagnostic("  - memory: { feeder: mill.json }\n"),
             "scenario.yaml:4: steps[0].memory.feeder: registers: 'Aaxis_SVON' is not persistent; expected a "
             "persistent register");
 }
 
 TEST_F(ScenarioErrors, TheCourseOfThings) {
-  expect_step_complaints({
+  expect_step_diagnostics({
       {"snapshot: ''", ".snapshot: is empty; expected a name"},
       {"restore: homed", ".restore: no earlier snapshot is called 'homed'; there is none"},
       {"fork: {}", ".fork: is empty; expected continuations by name"},
@@ -360,39 +360,40 @@ TEST_F(ScenarioErrors, TheCourseOfThings) {
        ".include: none.yaml cannot be read (No such file or directory); expected a file of steps"},
       {"include: ''", ".include: is empty; expected a path"},
   });
-  const auto complaint = [&](const std::string& steps) {
-    return folder_.complaint(ScenarioFolder::scenario_of(steps));
+  const auto diagnostic = [&](const std::string& steps) {
+    return folder_.diagnostic(ScenarioFolder::scenario_of(steps));
   };
   // What a continuation makes is not there beside it, nor after it.
   const std::string fork = "  - fork:\n      a: [ snapshot: inner ]\n";
-  EXPECT_EQ(complaint(fork + "      b: [ restore: inner ]\n"),
+  EXPECT_EQ(diagnostic(fork + "      b: [ restore: inner ]\n"),
             "scenario.yaml:6: steps[0].fork.b[0].restore: no earlier snapshot is called 'inner'; there "
             "is none");
-  EXPECT_EQ(complaint(fork + "  - restore: inner\n"),
+  EXPECT_EQ(diagnostic(fork + "  - restore: inner\n"),
             "scenario.yaml:6: steps[1].restore: no earlier snapshot is called 'inner'; there is none");
   // The faults are again what they were.
-  EXPECT_EQ(complaint("  - snapshot: well\n  - inject: { stall: feeder.A, name: jam }\n  - restore: well\n"
-                      "  - clear: jam\n"),
+  EXPECT_EQ(diagnostic("  - snapshot: well\n  - inject: { stall: feeder.A, name: jam }\n  - restore: well\n"
+                       "  - clear: jam\n"),
             "scenario.yaml:7: steps[3].clear: no fault in force here is called 'jam'; there is none");
 }
 
 TEST_F(ScenarioErrors, IncludedFiles) {
-  const auto complaint = [&](const std::string& file) {
-    return folder_.complaint(ScenarioFolder::scenario_of("  - include: " + file + "\n"));
+  const auto diagnostic = [&](const std::string& file) {
+    return folder_.diagnostic(ScenarioFolder::scenario_of("  - include: " + file + "\n"));
   };
   folder_.write("self.yaml", "understudy: 1\nsteps: [ include: self.yaml ]\n");
-  EXPECT_EQ(complaint("self.yaml"),
+  EXPECT_EQ(diagnostic("self.yaml"),
             "self.yaml:2: steps[0].include: self.yaml includes itself; expected another file");
   folder_.write("a.yaml", "understudy: 1\nsteps: [ include: ./b.yaml ]\n");
   folder_.write("b.yaml", "understudy: 1\nsteps: [ include: sub/../a.yaml ]\n");
-  EXPECT_EQ(complaint("a.yaml"), "b.yaml:2: steps[0].include: a.yaml includes itself; expected another file");
+  EXPECT_EQ(diagnostic("a.yaml"),
+            "b.yaml:2: steps[0].include: a.yaml includes itself; expected another file");
   folder_.write("scenario.yaml", ScenarioFolder::scenario_of("  - include: scenario.yaml\n"));
-  EXPECT_EQ(complaint("scenario.yaml"),
+  EXPECT_EQ(diagnostic("scenario.yaml"),
             "scenario.yaml:4: steps[0].include: scenario.yaml includes itself; expected another file");
   folder_.write("key.yaml", "understudy: 1\nname: x\nsteps: [ advance: 1ms ]\n");
-  EXPECT_EQ(complaint("key.yaml"), "key.yaml:2: name: is not a key here; expected one of understudy, steps");
+  EXPECT_EQ(diagnostic("key.yaml"), "key.yaml:2: name: is not a key here; expected one of understudy, steps");
   folder_.write("wrong.yaml", "understudy: 1\nsteps:\n  - advance: 1ms\n  - advance: 1\n");
-  EXPECT_EQ(complaint("wrong.yaml"),
+  EXPECT_EQ(diagnostic("wrong.yaml"),
             "wrong.yaml:4: steps[1].advance: '1' is not a duration; expected one such as 250ms");
   for (int i = 0; i < 40; ++i) {
     folder_.write("deep" + std::to_string(i) + ".yaml",
@@ -400,7 +401,7 @@ TEST_F(ScenarioErrors, IncludedFiles) {
   }
   // The scenario's own steps are the first level, those of deep30.yaml the 32nd.
   EXPECT_EQ(
-      complaint("deep0.yaml"),
+      diagnostic("deep0.yaml"),
       "deep31.yaml:2: steps: is nested too deeply; expected at most 32 levels of loops, forks and includes");
 }
 
@@ -409,7 +410,7 @@ TEST_F(ScenarioErrors, AreOneLineWhateverIsQuotedInThem) {
        {"\"a\\nb\": 1", "say: { \"a\\nb\": 1 }", "write: { \"feeder.a\\nb\": 1 }", "advance: \"1\\nms\"",
         "send: { bytes: \"a\\tb\\x1b\" }", "restore: \"a\\nb\"", "clear: \"a\\nb\"", "end: \"a\\nb\"",
         "wait: { until: \"feeder.a\\nb\", within: 1s }", "include: \"a\\nb\"", "power: { \"a\\nb\": on }"}) {
-    const std::string got = folder_.complaint(ScenarioFolder::scenario_of("  - " + step + "\n"));
+    const std::string got = folder_.diagnostic(ScenarioFolder::scenario_of("  - " + step + "\n"));
     EXPECT_NE(got, "") << step;
     EXPECT_EQ(got.find_first_of("\n\t\x1b"), std::string::npos) << got;
   }

@@ -59,7 +59,7 @@ class ScenarioFolder {
     return "understudy: 1\nbench: feeder.yaml\nsteps:\n" + steps;
   }
   /// What is wrong with a text, the folder's path taken out; empty if nothing is.
-  std::string complaint(const std::string& text) const {
+  std::string diagnostic(const std::string& text) const {
     try {
       parse(text);
       return "";

@@ -1,4 +1,4 @@
-// Whatever stands in a scenario file: it is a scenario, or it gets one complaint. Nothing crashes, nothing
+// Whatever stands in a scenario file: it is a scenario, or it gets one diagnostic. Nothing crashes, nothing
 // hangs.
 #include <gtest/gtest.h>
 
@@ -43,14 +43,14 @@ steps:
 
 class ScenarioMutation : public testing::Test {
  protected:
-  /// True if it is a scenario or gets a complaint that begins with a file and a line.
+  /// True if it is a scenario or gets a diagnostic that begins with a file and a line.
   bool is_handled(const std::string& text) const {
     try {
       folder_.parse(text);
     } catch (const FileError& error) {
-      bool are_lines = !error.complaints().empty();
-      for (const FileError::Complaint& complaint : error.complaints()) {
-        const std::string& what = complaint.text;
+      bool are_lines = !error.diagnostics().empty();
+      for (const FileError::Diagnostic& diagnostic : error.diagnostics()) {
+        const std::string& what = diagnostic.text;
         are_lines = are_lines && what.find('\n') == std::string::npos;
         EXPECT_TRUE(what.starts_with(folder_.path("")) || what.starts_with("and ")) << what;
       }
@@ -69,7 +69,7 @@ class ScenarioMutation : public testing::Test {
   ScenarioFolder folder_;
 };
 
-TEST_F(ScenarioMutation, TheWholeIsGood) { EXPECT_EQ(folder_.complaint(kFull), ""); }
+TEST_F(ScenarioMutation, TheWholeIsGood) { EXPECT_EQ(folder_.diagnostic(kFull), ""); }
 
 TEST_F(ScenarioMutation, EveryBeginningOfAFileIsHandled) { world::try_every_beginning(kFull, try_text_); }
 
@@ -93,7 +93,7 @@ TEST_F(ScenarioMutation, StepsWithoutEndAreRefused) {
   const auto refuse = [&](const std::string& steps) {
     const std::string text = "understudy: 1\nbench: feeder.yaml\n" + steps;
     EXPECT_TRUE(is_handled(text)) << text.substr(0, 200);
-    EXPECT_NE(folder_.complaint(text), "") << text.substr(0, 200);
+    EXPECT_NE(folder_.diagnostic(text), "") << text.substr(0, 200);
   };
   refuse("steps: &s [ repeat: { times: 100000, steps: *s } ]\n");
   refuse("steps: &s [ { say: x }, { repeat: { times: 100000, steps: *s } } ]\n");

@@ -27,7 +27,7 @@ TEST_F(ScenarioOutputs, AreNothingThatIsRead) {
   struct Case {
     std::string bench;
     std::string steps;
-    std::string complaint;  // behind the file's name
+    std::string diagnostic;  // behind the file's name
   };
   const std::string own = "; expected another path";
   const std::vector<Case> cases = {
@@ -55,22 +55,22 @@ TEST_F(ScenarioOutputs, AreNothingThatIsRead) {
        "4: steps[0].fork.a[0].save.feeder: feeder.yaml is the bench itself" + own},
   };
   for (const Case& c : cases) {
-    EXPECT_EQ(folder_.complaint("understudy: 1\nbench: " + c.bench + "\nsteps:\n" + c.steps),
-              "scenario.yaml:" + c.complaint)
+    EXPECT_EQ(folder_.diagnostic("understudy: 1\nbench: " + c.bench + "\nsteps:\n" + c.steps),
+              "scenario.yaml:" + c.diagnostic)
         << c.steps;
   }
 }
 
 TEST_F(ScenarioOutputs, MayBeWrittenAndReadAgainByTheSameCase) {
-  EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of("  - save: { feeder: new.json }\n"
-                                                          "  - memory: { feeder: new.json }\n"
-                                                          "  - save: { turner: new.json }\n")),
+  EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of("  - save: { feeder: new.json }\n"
+                                                           "  - memory: { feeder: new.json }\n"
+                                                           "  - save: { turner: new.json }\n")),
             "");
 }
 
 TEST_F(ScenarioOutputs, StayBelowTheScenariosFolder) {
-  const auto complaint_of = [&](const std::string& file) {
-    return folder_.complaint(ScenarioFolder::scenario_of("  - save: { feeder: '" + file + "' }\n"));
+  const auto diagnostic_of = [&](const std::string& file) {
+    return folder_.diagnostic(ScenarioFolder::scenario_of("  - save: { feeder: '" + file + "' }\n"));
   };
   namespace fs = std::filesystem;
   const std::string own = fs::path(folder_.path("x")).parent_path().string();
@@ -78,16 +78,16 @@ TEST_F(ScenarioOutputs, StayBelowTheScenariosFolder) {
   fs::create_directory_symlink("/tmp", folder_.path("elsewhere"));
   fs::create_symlink("/tmp/understudy-no-such-file", folder_.path("leads out.json"));
   fs::create_symlink("inner/new.json", folder_.path("leads in.json"));
-  EXPECT_EQ(complaint_of("inner/new.json"), "");
-  EXPECT_EQ(complaint_of("inner/../new.json"), "");
-  EXPECT_EQ(complaint_of("leads in.json"), "");
-  EXPECT_EQ(complaint_of("/tmp/new.json"),
+  EXPECT_EQ(diagnostic_of("inner/new.json"), "");
+  EXPECT_EQ(diagnostic_of("inner/../new.json"), "");
+  EXPECT_EQ(diagnostic_of("leads in.json"), "");
+  EXPECT_EQ(diagnostic_of("/tmp/new.json"),
             "scenario.yaml:4: steps[0].save.feeder: /tmp/new.json is outside " + own +
                 "; expected a path in it (`--save-below FOLDER` allows another folder)");
   fs::create_directory(own + "-2");
   for (const std::string& path : {std::string("../new.json"), std::string("elsewhere/new.json"),
                                   std::string("leads out.json"), own + "-2/new.json"}) {
-    EXPECT_NE(complaint_of(path).find(" is outside "), std::string::npos) << path;
+    EXPECT_NE(diagnostic_of(path).find(" is outside "), std::string::npos) << path;
   }
   fs::remove(own + "-2");
   const std::string scenario = ScenarioFolder::scenario_of("  - save: { feeder: /tmp/new.json }\n");
@@ -102,11 +102,11 @@ TEST_F(ScenarioOutputs, ReplaceNothingButImages) {
   const std::string steps = "  - save: { feeder: there }\n";
   const std::string where = "scenario.yaml:4: steps[0].save.feeder: there cannot be written: ";
   folder_.write("there", "alias ls=ls\n");
-  EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of(steps)),
+  EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of(steps)),
             where + "it is not an NV image; expected one to replace, or a free path");
   std::filesystem::remove(folder_.path("there"));
   ASSERT_EQ(::mkfifo(folder_.path("there").c_str(), 0600), 0);
-  EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of(steps)),
+  EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of(steps)),
             where + "it is a pipe; expected a regular file, or a free path");
   // What has come there since it was read.
   std::filesystem::remove(folder_.path("there"));
@@ -119,14 +119,14 @@ TEST_F(ScenarioOutputs, ReplaceNothingButImages) {
 }
 
 TEST_F(ScenarioOutputs, OfTwoCasesAreTwoFiles) {
-  const auto complaint_of = [&](const std::string& file) {
-    return folder_.complaint(
+  const auto diagnostic_of = [&](const std::string& file) {
+    return folder_.diagnostic(
         "understudy: 1\nbench: feeder.yaml\ncases: [ { speed: 1 }, { speed: 2 } ]\nsteps:\n"
         "  - say: ${speed}\n  - save: { feeder: '" +
         file + "' }\n");
   };
-  EXPECT_EQ(complaint_of("after-${speed}.json"), "");
-  EXPECT_EQ(complaint_of("new.json"),
+  EXPECT_EQ(diagnostic_of("after-${speed}.json"), "");
+  EXPECT_EQ(diagnostic_of("new.json"),
             "scenario.yaml:6: steps[1].save.feeder: new.json is what another case saves; expected another "
             "path  (speed=2)");
 }
@@ -142,10 +142,10 @@ TEST_F(ScenarioOutputs, AreKnownBeforeTheRun) {
 }
 
 TEST_F(ScenarioOutputs, ABenchIsNoScenarioAndAScenarioNoBench) {
-  EXPECT_EQ(folder_.complaint(kTwoStations),
+  EXPECT_EQ(folder_.diagnostic(kTwoStations),
             "scenario.yaml:1: scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
   folder_.write("play.yaml", ScenarioFolder::scenario_of("  - advance: 1ms\n"));
-  EXPECT_EQ(folder_.complaint("understudy: 1\nbench: play.yaml\nsteps: [ advance: 1ms ]\n"),
+  EXPECT_EQ(folder_.diagnostic("understudy: 1\nbench: play.yaml\nsteps: [ advance: 1ms ]\n"),
             "play.yaml:1: bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
 }
 

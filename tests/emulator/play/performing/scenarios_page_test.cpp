@@ -33,7 +33,7 @@ std::vector<std::string> examples() {
 bool speaks_text(const std::string& example) { return example.find("hear:") != std::string::npos; }
 
 /// Of steps with a device that speaks text: the tests' own, whose N0 stands for the page's PE.
-std::string complaint_of_text(std::string steps) {
+std::string diagnostic_of_text(std::string steps) {
   const std::string value = "robot.PE";
   for (std::size_t at = 0; (at = steps.find(value)) != std::string::npos;) {
     steps.replace(at, value.size(), "robot.N0");
@@ -51,7 +51,7 @@ std::string complaint_of_text(std::string steps) {
 }
 
 /// Of steps that send commands by name: to the tests' own controller, which has some.
-std::string complaint_of_commands(const std::string& steps) {
+std::string diagnostic_of_commands(const std::string& steps) {
   const ListedModel models[] = {&workbench::model()};
   try {
     parse_scenarios(models,
@@ -70,16 +70,16 @@ TEST(ScenariosPage, EveryExampleIsRead) {
   int files = 0;
   for (const std::string& example : examples()) {
     if (speaks_text(example)) {
-      EXPECT_EQ(complaint_of_text(example), "") << example;
+      EXPECT_EQ(diagnostic_of_text(example), "") << example;
       continue;
     }
     if (example.find("command:") != std::string::npos) {
-      EXPECT_EQ(complaint_of_commands(example), "") << example;
+      EXPECT_EQ(diagnostic_of_commands(example), "") << example;
       continue;
     }
     const bool is_whole = example.starts_with("understudy: 1");
     files += is_whole ? 1 : 0;
-    EXPECT_EQ(folder.complaint(is_whole ? example : ScenarioFolder::scenario_of(example)), "") << example;
+    EXPECT_EQ(folder.diagnostic(is_whole ? example : ScenarioFolder::scenario_of(example)), "") << example;
   }
   EXPECT_EQ(files, 4);
 }

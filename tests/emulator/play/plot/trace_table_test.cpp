@@ -9,7 +9,7 @@ namespace understudy::emulator::play {
 namespace trace_table_test {
 
 template <typename Act>
-std::string complaint_of(Act act) {
+std::string diagnostic_of(Act act) {
   try {
     act();
   } catch (const FileError& error) {
@@ -38,7 +38,7 @@ TEST(TraceTable, CsvErrorsHaveTheirLine) {
       {"time_ms,a,b\n0,,1\n", "t.csv:2: a: '' is not a number; expected one"},
   };
   for (const auto& [text, expected] : kCases) {
-    EXPECT_EQ(complaint_of([&, csv = text] { parse_csv_trace(csv, "t.csv"); }), expected) << text;
+    EXPECT_EQ(diagnostic_of([&, csv = text] { parse_csv_trace(csv, "t.csv"); }), expected) << text;
   }
 }
 
@@ -68,7 +68,7 @@ TEST(TraceTable, VcdErrorsHaveTheirLine) {
       {head + "#0\nb12 \"\n", "t.vcd:8: 'b12' is not a value; expected one such as 1, b101 or r2.5"},
   };
   for (const auto& [text, expected] : kCases) {
-    EXPECT_EQ(complaint_of([&, vcd = text] { parse_vcd_trace(vcd, "t.vcd"); }), expected) << text;
+    EXPECT_EQ(diagnostic_of([&, vcd = text] { parse_vcd_trace(vcd, "t.vcd"); }), expected) << text;
   }
 }
 
@@ -97,7 +97,7 @@ TEST(PlotScript, HasAPanelForEachKindOfThing) {
 TEST(PlotScript, RefusesWhatCannotBeDrawn) {
   const TraceTable still{.names = {"f.A.position"}, .ticks = {0, 1}, .columns = {{5, 5}}};
   const auto script = [&](std::vector<std::string> also) {
-    return complaint_of([&] { plot_script(still, also, PlotFormat::png, "p", "t.csv"); });
+    return diagnostic_of([&] { plot_script(still, also, PlotFormat::png, "p", "t.csv"); });
   };
   EXPECT_EQ(script({}), "t.csv: none of its values change; expected at least one that does");
   EXPECT_EQ(script({"f.A.positon"}),

@@ -19,7 +19,7 @@ class ParametersTest : public testing::Test {
     parameters_.define("sum", "3 * 4");
     parameters_.define("hex", "0x10");
   }
-  std::string complaint(const std::string& text) const {
+  std::string diagnostic(const std::string& text) const {
     try {
       return "made " + parameters_.apply(text);
     } catch (const std::runtime_error& error) {
@@ -73,9 +73,9 @@ TEST_F(ParametersTest, ComplainOfWhatTheyAreNot) {
        "number, a duration or a voltage"},
       {"${speed / 0}", "column 7 of 'speed / 0': division by zero  (speed is 200)"},
   };
-  for (const auto& [written, said] : rows) EXPECT_EQ(complaint(written), said) << written;
-  EXPECT_NE(complaint("${speed + takes}").find("duration"), std::string::npos)
-      << complaint("${speed + takes}");
+  for (const auto& [written, said] : rows) EXPECT_EQ(diagnostic(written), said) << written;
+  EXPECT_NE(diagnostic("${speed + takes}").find("duration"), std::string::npos)
+      << diagnostic("${speed + takes}");
   EXPECT_EQ(Parameters().names(), std::vector<std::string>());
 }
 

@@ -107,7 +107,7 @@ TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
   const std::string head = "understudy: 1\nbench: feeder.yaml\n";
   const struct {
     std::string text;
-    std::string complaint;
+    std::string diagnostic;
   } kCases[] = {
       {head + "plays: []\n", "3: plays: is empty; expected at least one play"},
       {head + "plays: [ { name: a } ]\n", "3: plays[0]: 'steps' is missing; expected it here"},
@@ -144,7 +144,7 @@ TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
        "'speed'"},
   };
   for (const auto& wrong : kCases) {
-    EXPECT_EQ(folder_.complaint(wrong.text), "scenario.yaml:" + wrong.complaint) << wrong.text;
+    EXPECT_EQ(folder_.diagnostic(wrong.text), "scenario.yaml:" + wrong.diagnostic) << wrong.text;
   }
 }
 

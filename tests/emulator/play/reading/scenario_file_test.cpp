@@ -143,7 +143,7 @@ TEST_F(ScenarioFile, AHundredThousandStepsAreEnough) {
       "  - repeat: { times: 1000, steps: [ repeat: { times: 100, steps: [ say: x ] } ] }\n";
   EXPECT_EQ(folder_.steps(loop).size(), 100'000U);
   EXPECT_EQ(
-      folder_.complaint(ScenarioFolder::scenario_of(loop + "  - say: y\n")),
+      folder_.diagnostic(ScenarioFolder::scenario_of(loop + "  - say: y\n")),
       "scenario.yaml:5: steps[1]: is one step too many; expected at most 100000 with all loops and cases");
 }
 
@@ -156,12 +156,12 @@ TEST_F(ScenarioFile, StepsMayNotGrowBeyondAllBounds) {
   const std::string beyond =
       "scenario.yaml:8: steps[0].repeat.steps[0]: is too large: the steps exceed 64 MiB; expected "
       "less, with all loops and cases";
-  EXPECT_EQ(folder_.complaint(scenario + "  - repeat: { times: 6000, steps: [ { say: '${c}' } ] }\n"), "");
-  EXPECT_EQ(folder_.complaint(scenario + "  - repeat: { times: 99999, steps: [ { say: '${c}' } ] }\n"),
+  EXPECT_EQ(folder_.diagnostic(scenario + "  - repeat: { times: 6000, steps: [ { say: '${c}' } ] }\n"), "");
+  EXPECT_EQ(folder_.diagnostic(scenario + "  - repeat: { times: 99999, steps: [ { say: '${c}' } ] }\n"),
             beyond);
   // And a program is counted with all its remarks, wherever they come from.
   folder_.write("long.lst", std::string(1 << 20, ';') + "\n        END\n");
-  EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of(
+  EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of(
                 "  - repeat: { times: 99999, steps: [ program: { feeder: long.lst } ] }\n")),
             "scenario.yaml:4: steps[0].repeat.steps[0]: is too large: the steps exceed 64 MiB; "
             "expected less, with all loops and cases");

@@ -163,7 +163,7 @@ TEST(Shuffled, IsAPermutationOfAnyCount) {
 TEST(Variation, WhatIsWrongIsSaidWithItsPlace) {
   struct Row {
     const char* yaml;
-    const char* complaint;
+    const char* diagnostic;
   };
   for (const Row& row : std::vector<Row>{
            {"5",
@@ -194,7 +194,7 @@ TEST(Variation, WhatIsWrongIsSaidWithItsPlace) {
       of(row.yaml);
       ADD_FAILURE() << row.yaml;
     } catch (const FileError& error) {
-      EXPECT_EQ(world::without_columns(error.what()), "f.yaml:1: " + std::string(row.complaint));
+      EXPECT_EQ(world::without_columns(error.what()), "f.yaml:1: " + std::string(row.diagnostic));
     }
   }
 }

@@ -75,7 +75,7 @@ TEST_F(Vary, MayNumberMoreThanAnybodyCouldPlay) {
   EXPECT_EQ(file->size(), 1'000'000'000'000U);
   EXPECT_EQ(file->case_of(999'999'999'999).values[0].second, "1000000");
   EXPECT_EQ(file->read(999'999'999'999).name, file->name_of(999'999'999'999));
-  EXPECT_EQ(folder_.complaint(
+  EXPECT_EQ(folder_.diagnostic(
                 text("vary: { a: { from: 1, to: 1000000, step: 1 }, b: { from: 0, to: 1000000, step: 1 } }\n",
                      {"a", "b"})),
             "scenario.yaml:3: vary.b: makes more than 1000000000000 cases; expected fewer");
@@ -159,7 +159,7 @@ TEST_F(Vary, TypicalCasesHaveEachListedValueAndBothEnds) {
 TEST_F(Vary, WhatIsWrongIsSaidWithItsPlace) {
   struct Row {
     std::string text;
-    const char* complaint;
+    const char* diagnostic;
   };
   for (const Row& row : std::vector<Row>{
            {text("vary: {}\n", {}),
@@ -185,7 +185,7 @@ TEST_F(Vary, WhatIsWrongIsSaidWithItsPlace) {
            {"understudy: 1\nbench: feeder.yaml\nvary: { a: [ 1, 2 ] }\n"
             "steps: [ say: \"${a}\", save: { feeder: same.json } ]\n",
             "4: steps[1].save.feeder: same.json is what another case saves; expected another path  (a=2)"}}) {
-    EXPECT_EQ(folder_.complaint(row.text), "scenario.yaml:" + std::string(row.complaint)) << row.text;
+    EXPECT_EQ(folder_.diagnostic(row.text), "scenario.yaml:" + std::string(row.diagnostic)) << row.text;
   }
 }
 

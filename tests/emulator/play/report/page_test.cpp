@@ -62,7 +62,7 @@ for link in reader.links:
     if link[:1] != '#' or link[1:] not in reader.names: print('leads nowhere:', link)
 )";
 
-std::string complaints_of_a_parser(const std::string& page) {
+std::string diagnostics_of_a_parser(const std::string& page) {
   const std::string file = testing::TempDir() + "understudy-page" + std::to_string(getpid()) + ".html";
   const std::string script = file + ".py";
   std::ofstream(file) << page;
@@ -88,10 +88,10 @@ const std::string kDay =
     "  - fork: { well: [ advance: 5ms ], ill: [ advance: 5ms, assert: feeder.DIN_10 == 0 ] }\n";
 
 TEST(ReportPage, IsWellFormedWhateverHasHappened) {
-  EXPECT_EQ(complaints_of_a_parser(page_of(kDay)), "");
-  EXPECT_EQ(complaints_of_a_parser(page_of("  - assert: 1 == 2\n" + kDay)), "");
-  EXPECT_EQ(complaints_of_a_parser(report_page({}, "1.2.3")), "");
-  EXPECT_EQ(complaints_of_a_parser(report_page(run_scenario(scenario_of(kDay)), "1.2.3")),
+  EXPECT_EQ(diagnostics_of_a_parser(page_of(kDay)), "");
+  EXPECT_EQ(diagnostics_of_a_parser(page_of("  - assert: 1 == 2\n" + kDay)), "");
+  EXPECT_EQ(diagnostics_of_a_parser(report_page({}, "1.2.3")), "");
+  EXPECT_EQ(diagnostics_of_a_parser(report_page(run_scenario(scenario_of(kDay)), "1.2.3")),
             "");  // without footage
 }
 
@@ -112,7 +112,7 @@ TEST(ReportPage, ShowsNamesAsTheyAre) {
                            .failure = Failure{.what = "x < y", .frames = {"<b>"}, .state = {"</pre>"}},
                            .manners = {"<i>"}};
   const std::string page = report_page({&odd, 1}, "1.2.3");
-  EXPECT_EQ(complaints_of_a_parser(page), "");
+  EXPECT_EQ(diagnostics_of_a_parser(page), "");
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
   EXPECT_NE(page.find("&lt;script&gt;alert(1)&lt;/script&gt; &amp; &quot;more&quot;"), std::string::npos);
   EXPECT_NE(page.find("<code>&lt;i&gt;</code>"), std::string::npos);
@@ -187,7 +187,7 @@ TEST(ReportPage, NamesTheRecordingThatWasKept) {
   const std::string page = report_page(results, "1.2.3");
   EXPECT_NE(page.find("<p>to run this again: <code>understudy replay /tmp/a&amp;b.jsonl</code></p>"),
             std::string::npos);
-  EXPECT_EQ(complaints_of_a_parser(page), "");
+  EXPECT_EQ(diagnostics_of_a_parser(page), "");
 }
 
 TEST(ReportPage, DrawsWhatMovedWithItsData) {
@@ -261,7 +261,7 @@ TEST(ReportPage, MarksWhatFaultsStruck) {
               kExampleMove + "  - wait: { until: feeder.STATUS.4 == 0, within: 4s }\n");
   EXPECT_NE(page.find("<span class=\"bad\">fault 1 drop: not said</span>"), std::string::npos);
   EXPECT_NE(page.find("rs485: fault 1 drop: not said</title><line class=\"fault\""), std::string::npos);
-  EXPECT_EQ(complaints_of_a_parser(page), "");
+  EXPECT_EQ(diagnostics_of_a_parser(page), "");
 }
 
 }  // namespace page_test

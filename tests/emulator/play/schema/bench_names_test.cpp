@@ -26,13 +26,13 @@ constexpr const char* kTwoModels =
 constexpr const char* kOneDevice =
     "understudy: 1\nlines: { com: { stations: [ { name: cell, model: rs-m8194h } ] } }\n";
 
-std::string complaint_of(const std::string& bench, const std::string& step) {
+std::string diagnostic_of(const std::string& bench, const std::string& step) {
   static std::map<std::string, std::string> schemas;
   std::string& schema = schemas[bench];
   if (schema.empty())
     schema =
         scenario_schema(models::all_models(), world::parse_bench(models::all_models(), bench, "b.yaml", "."));
-  return schema_complaint(schema, "understudy: 1\nbench: b.yaml\nsteps: [ " + step + " ]\n");
+  return schema_diagnostic(schema, "understudy: 1\nbench: b.yaml\nsteps: [ " + step + " ]\n");
 }
 
 TEST(BenchNames, OfTheBenchSuit) {
@@ -54,11 +54,11 @@ TEST(BenchNames, OfTheBenchSuit) {
            "{ send: { text: TX=0, line: text } }",
            "{ expect: { feeder.Cord_A: 0 }, via: rs485 }",
        }) {
-    EXPECT_EQ(complaint_of(kTwoModels, step), "") << step;
+    EXPECT_EQ(diagnostic_of(kTwoModels, step), "") << step;
   }
   for (const char* step : {"write: { LP_X: 0 }", "write: { cell.LP_X: 0 }", "input: { LMTP_X: 1 }",
                            "expect: { input.82: 0 }", "command: { cell: RSM_FIXED_MOVE X 1 }"}) {
-    EXPECT_EQ(complaint_of(kOneDevice, step), "") << step;
+    EXPECT_EQ(diagnostic_of(kOneDevice, step), "") << step;
   }
 }
 
@@ -79,11 +79,11 @@ TEST(BenchNames, MisspeltOnesDoNotSuit) {
            "{ send: { text: TX=0, line: txt } }",
            "{ expect: { feeder.Cord_A: 0 }, via: rs484 }",
        }) {
-    EXPECT_NE(complaint_of(kTwoModels, step), "") << step;
+    EXPECT_NE(diagnostic_of(kTwoModels, step), "") << step;
   }
   for (const char* step : {"write: { LPX: 0 }", "write: { cel.LP_X: 0 }", "input: { LMTP_V: 1 }",
                            "command: { cel: RSM_STOP X }"}) {
-    EXPECT_NE(complaint_of(kOneDevice, step), "") << step;
+    EXPECT_NE(diagnostic_of(kOneDevice, step), "") << step;
   }
 }
 
@@ -99,7 +99,7 @@ TEST(BenchNames, SuitEveryShippedScenario) {
     text << file.rdbuf();
     const auto scenarios = load_scenarios(models::all_models(), path, "/");
     ASSERT_FALSE(scenarios.empty()) << path;
-    EXPECT_EQ(schema_complaint(scenario_schema(models::all_models(), scenarios.front().bench), text.str()),
+    EXPECT_EQ(schema_diagnostic(scenario_schema(models::all_models(), scenarios.front().bench), text.str()),
               "")
         << path;
     ++count;

@@ -27,11 +27,11 @@ std::string contents(const std::string& path) {
 
 std::string of_bench(const std::string& text) {
   static const std::string schema = bench_schema(models::all_models());
-  return schema_complaint(schema, text);
+  return schema_diagnostic(schema, text);
 }
 std::string of_scenario(const std::string& text) {
   static const std::string schema = scenario_schema(models::all_models());
-  return schema_complaint(schema, text);
+  return schema_diagnostic(schema, text);
 }
 
 std::vector<std::string> examples_of(const std::string& page) {
@@ -136,7 +136,7 @@ TEST(JsonSchema, RefusesScenariosOfAnotherForm) {
                                  "- { write: { feeder.Aaxis_SVON: 1 }, exception: 0 }"}) {
     const std::string text = ScenarioFolder::scenario_of(step + "\n");
     EXPECT_NE(of_scenario(text), "") << step;
-    EXPECT_NE(folder.complaint(text), "") << step;
+    EXPECT_NE(folder.diagnostic(text), "") << step;
   }
   const std::string good = ScenarioFolder::scenario_of("- advance: 1ms\n");
   EXPECT_EQ(of_scenario(good), "");
@@ -144,7 +144,7 @@ TEST(JsonSchema, RefusesScenariosOfAnotherForm) {
        {"nam: x\n", "gap: 5\n", "seed: -1\n", "cases: {}\n", "parameters: [ a ]\n", "vary: [ 1 ]\n",
         "vary: { a: 5 }\n", "vary: { a: { from: 1, to: 2 } }\n", "vary: { a: { between: [ 1 ] } }\n"}) {
     EXPECT_NE(of_scenario(good + more), "") << more;
-    EXPECT_NE(folder.complaint(good + more), "") << more;
+    EXPECT_NE(folder.diagnostic(good + more), "") << more;
   }
 }
 

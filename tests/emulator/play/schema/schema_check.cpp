@@ -49,7 +49,7 @@ class Judge {
  public:
   explicit Judge(const json& root) : root_(root) {}
 
-  std::string complaint(const json& schema, const json& value, const std::string& at) const {
+  std::string diagnostic(const json& schema, const json& value, const std::string& at) const {
     for (const auto& [keyword, rule] : schema.items()) {
       const std::string found = judge(keyword, rule, schema, value, at);
       if (!found.empty()) return found;
@@ -64,7 +64,7 @@ class Judge {
     if (keyword == "$schema" || keyword == "title" || keyword == "description" || keyword == "definitions")
       return "";
     if (keyword == "$ref") {
-      return complaint(root_.at(json::json_pointer(rule.get<std::string>().substr(1))), value, at);
+      return diagnostic(root_.at(json::json_pointer(rule.get<std::string>().substr(1))), value, at);
     }
     if (keyword == "type") {
       const json types = rule.is_array() ? rule : json::array({rule});
@@ -77,8 +77,8 @@ class Judge {
                        !std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>())));
     }
     if (keyword == "if") {
-      if (!schema.contains("then") || !complaint(rule, value, at).empty()) return "";
-      return complaint(schema["then"], value, at);
+      if (!schema.contains("then") || !diagnostic(rule, value, at).empty()) return "";
+      return diagnostic(schema["then"], value, at);
     }
     if (keyword == "then") return "";  // with its `if`
     if (keyword == "maxProperties") return refuse_if(value.is_object() && value.size() > rule);
@@ -90,7 +90,7 @@ class Judge {
       std::size_t good = 0;
       std::string all;
       for (const json& way : rule) {
-        const std::string found = complaint(way, value, at);
+        const std::string found = diagnostic(way, value, at);
         if (found.empty()) ++good;
         all += " " + found;
       }
@@ -101,7 +101,7 @@ class Judge {
     }
     if (keyword == "items") {
       for (std::size_t i = 0; value.is_array() && i < value.size(); ++i) {
-        const std::string found = complaint(rule, value[i], at + "[" + std::to_string(i) + "]");
+        const std::string found = diagnostic(rule, value[i], at + "[" + std::to_string(i) + "]");
         if (!found.empty()) return found;
       }
       return "";
@@ -110,7 +110,7 @@ class Judge {
       std::string found;
       for (auto at_key = value.begin(); value.is_object() && found.empty() && at_key != value.end();
            ++at_key) {
-        found = complaint(rule, at_key.key(), at + "." + at_key.key());
+        found = diagnostic(rule, at_key.key(), at + "." + at_key.key());
       }
       return found;
     }
@@ -127,19 +127,19 @@ class Judge {
                            const json& value, const std::string& at) const {
     for (const auto& [key, part] : value.items()) {
       std::string found;
-      if (keyword == "properties" && rule.contains(key)) found = complaint(rule[key], part, at + "." + key);
+      if (keyword == "properties" && rule.contains(key)) found = diagnostic(rule[key], part, at + "." + key);
       if (keyword == "patternProperties") {
         for (const auto& [pattern, way] : rule.items()) {
           if (found.empty() && std::regex_search(key, std::regex(pattern)))
-            found = complaint(way, part, at + "." + key);
+            found = diagnostic(way, part, at + "." + key);
         }
       }
       if (keyword == "additionalProperties" &&
           !(schema.contains("properties") && schema["properties"].contains(key)) &&
           !suits_pattern(schema, key)) {
-        found = rule == false ? at + "." + key + ": is not a key" : complaint(rule, part, at + "." + key);
+        found = rule == false ? at + "." + key + ": is not a key" : diagnostic(rule, part, at + "." + key);
       }
-      if (keyword == "dependencies" && rule.contains(key)) found = complaint(rule[key], value, at);
+      if (keyword == "dependencies" && rule.contains(key)) found = diagnostic(rule[key], value, at);
       if (!found.empty()) return found;
     }
     if (keyword == "properties" || keyword == "patternProperties" || keyword == "additionalProperties" ||
@@ -165,11 +165,11 @@ class Judge {
 
 }  // namespace
 
-std::string schema_complaint(const std::string& schema, const std::string& yaml) {
+std::string schema_diagnostic(const std::string& schema, const std::string& yaml) {
   static std::string parsed;  // many files are held against one schema
   static json root;
   if (parsed != schema) root = json::parse(schema), parsed = schema;
-  return Judge(root).complaint(root, to_json(YAML::Load(yaml)), "file");
+  return Judge(root).diagnostic(root, to_json(YAML::Load(yaml)), "file");
 }
 
 }  // namespace understudy::emulator::play

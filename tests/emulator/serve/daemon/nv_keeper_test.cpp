@@ -42,7 +42,7 @@ world::Bench bench_of(const TestFolder& folder, const std::string& feeder = "",
                             "bench.yaml", folder.path);
 }
 
-std::string complaint(world::Bench bench, const std::string& folder) {
+std::string diagnostic(world::Bench bench, const std::string& folder) {
   try {
     read_memories(bench, folder);
     return "";
@@ -101,14 +101,14 @@ TEST(ReadMemories, RefusesOneFileForTwoDevicesHoweverItIsSpelled) {
   fs::create_symlink(folder.path + "/nv", folder.path + "/also");
   for (const char* spelled : {"nv/feeder.json", "./nv/../nv/feeder.json", "also/feeder.json"}) {
     const std::string found =
-        complaint(bench_of(folder, "", std::string(", nv: ") + spelled), folder.path + "/nv");
+        diagnostic(bench_of(folder, "", std::string(", nv: ") + spelled), folder.path + "/nv");
     EXPECT_NE(found.find("is the memory of 'feeder' and of 'turner'"), std::string::npos) << spelled << found;
     EXPECT_EQ(found.find('\n'), std::string::npos);
   }
-  EXPECT_EQ(complaint(bench_of(folder, "", ", nv: nv/other.json"), folder.path + "/nv"), "");
+  EXPECT_EQ(diagnostic(bench_of(folder, "", ", nv: nv/other.json"), folder.path + "/nv"), "");
   // Both named by the bench: once relative to it, once from the root.
   const std::string both =
-      complaint(bench_of(folder, ", nv: nv/one.json", ", nv: " + folder.path + "/also/one.json"), "");
+      diagnostic(bench_of(folder, ", nv: nv/one.json", ", nv: " + folder.path + "/also/one.json"), "");
   EXPECT_NE(both.find("is the memory of 'feeder' and of 'turner'"), std::string::npos) << both;
 }
 
@@ -131,7 +131,7 @@ TEST(ReadMemories, RefusesWhatIsNoMemoryOfTheDeviceAndLeavesItAlone) {
   for (const auto& [text, why] : cases) {
     const std::string path = folder.path + "/turner.json";
     put(path, text);
-    const std::string found = complaint(bench_of(folder), folder.path);
+    const std::string found = diagnostic(bench_of(folder), folder.path);
     EXPECT_EQ(found.rfind(path + ":", 0), 0u) << found;
     EXPECT_NE(found.find(why), std::string::npos) << found;
     EXPECT_NE(found.find("; "), std::string::npos) << found;
@@ -153,20 +153,20 @@ TEST(ReadMemories, TellsAllThatIsWrongWithAllOfThem) {
     read_memories(bench, folder.path);
     ADD_FAILURE() << "they are taken";
   } catch (const FileError& error) {
-    ASSERT_EQ(error.complaints().size(), 4u) << error.what();
+    ASSERT_EQ(error.diagnostics().size(), 4u) << error.what();
     const std::string begins[] = {
         feeder + ": firmware: '9.99' is unknown", feeder + ": registers: 'Cord_A' is",
         feeder + ": registers: 'Parms_Speed1': 70000 does", turner + ":2: is damaged or not JSON"};
     for (std::size_t i = 0; i < std::size(begins); ++i) {
-      EXPECT_EQ(error.complaints()[i].text.rfind(begins[i], 0), 0u) << error.complaints()[i].text;
+      EXPECT_EQ(error.diagnostics()[i].text.rfind(begins[i], 0), 0u) << error.diagnostics()[i].text;
     }
-    EXPECT_EQ(error.complaints()[3].place.line, 2);
+    EXPECT_EQ(error.diagnostics()[3].place.line, 2);
   }
   // There may be a hundred wrong values: no more is told than of a bench.
   NvImage wild{.model = "simple2-r3", .firmware = "1.52"};
   for (int i = 0; i < 100; ++i) wild.registers.emplace_back("N" + std::to_string(i), 1);
   put(feeder, to_json(wild));
-  const std::string many = complaint(bench_of(folder), folder.path);
+  const std::string many = diagnostic(bench_of(folder), folder.path);
   EXPECT_EQ(std::count(many.begin(), many.end(), '\n'), 20) << many;
 }
 

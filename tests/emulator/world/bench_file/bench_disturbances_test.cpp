@@ -82,11 +82,12 @@ std::string and_then(const std::string& more, const std::string& of_x = "") {
 
 struct Bad {
   std::string text;
-  std::string complaint;  // behind "bench.yaml:"
+  std::string diagnostic;  // behind "bench.yaml:"
 };
 
-void expect_complaints(const std::vector<Bad>& files) {
-  for (const Bad& file : files) EXPECT_EQ(complaint(file.text), "bench.yaml:" + file.complaint) << file.text;
+void expect_diagnostics(const std::vector<Bad>& files) {
+  for (const Bad& file : files)
+    EXPECT_EQ(diagnostic(file.text), "bench.yaml:" + file.diagnostic) << file.text;
 }
 
 /// RS-M8194H knows no pulses a revolution: the bench has to, where its motor turns the encoder.
@@ -99,9 +100,9 @@ TEST(BenchErrors, AnEncoderKnowsTheMotorThatTurnsIt) {
   const std::string unknown =
       "4: plant.x.X.encoder: needs the pulses per revolution of the motor; expected "
       "`motor_pulses_per_revolution`";
-  expect_complaints({{with_encoder("per_revolution: 4000"), unknown},
-                     {with_encoder("per_revolution: 4000, index: { at: 40 }"), unknown},
-                     {with_encoder("per_revolution: 4000, index: { at: 40, period: 100 }"), unknown}});
+  expect_diagnostics({{with_encoder("per_revolution: 4000"), unknown},
+                      {with_encoder("per_revolution: 4000, index: { at: 40 }"), unknown},
+                      {with_encoder("per_revolution: 4000, index: { at: 40, period: 100 }"), unknown}});
   for (const char* what : {"per_revolution: 4000, on: wheel",
                            "per_revolution: 4000, motor_pulses_per_revolution: 200, index: { at: 40 }"}) {
     const Bench bench = parse(to_text(parse(with_encoder(what))));
@@ -115,7 +116,7 @@ TEST(BenchErrors, DrivesEncodersAndHysteresis) {
   const auto machine = [](const std::string& text) { return and_then("plant:\n  x.A: { " + text + " }\n"); };
   const std::string at = "6: plant.x.A.";
   const std::string no_time = "' is not a duration of whole milliseconds; expected one such as 120ms";
-  expect_complaints({
+  expect_diagnostics({
       {machine("drive: { ready: 5ms }"), at + "drive.ready: is not a key here; expected one of ready_after, "
                                               "enabled_by, alarm_contact (the nearest "
                                               "is 'ready_after')"},
@@ -143,13 +144,13 @@ TEST(BenchErrors, DrivesEncodersAndHysteresis) {
       {machine("home: { at: 0, width: 5, hysteresis: 1, hysteresis: 2 }"),
        at + "home.hysteresis: is given twice; expected it once"},
   });
-  EXPECT_EQ(complaint(machine("drive: { ready_after: 1.5s }")), "");
+  EXPECT_EQ(diagnostic(machine("drive: { ready_after: 1.5s }")), "");
   EXPECT_EQ(parse(machine("drive: { ready_after: 1.5s }")).machines[0].plant.drive->ready_after, 1500);
 }
 
 TEST(BenchErrors, SwitchesOnTheHousing) {
   const std::string at = "4: lines.a.stations[0]";
-  expect_complaints({
+  expect_diagnostics({
       {and_then("", "dip: { DIP3: on }"),
        at + ".dip.DIP3: 'DIP3' is not a switch of simple2-r3; the nearest is 'DIP1'"},
       {and_then("", "dip: { DIN_1: on }"),
@@ -168,7 +169,7 @@ TEST(BenchErrors, SwitchesOnTheHousing) {
 
 TEST(BenchErrors, MemoriesAndPrograms) {
   const std::string at = "4: lines.a.stations[0]";
-  expect_complaints({
+  expect_diagnostics({
       {and_then("", "nv: ''"), at + ".nv: is empty; expected a path"},
       {and_then("", "nv: [ a ]"), at + ".nv: expected a word or a number"},
       {and_then("  b: { stations: [ { name: y, model: simple2-r3, nv: sub/../m.json } ] }\n", "nv: m.json"),
@@ -193,7 +194,7 @@ TEST(BenchFile, AProgramIsAListingBesideIt) {
     read("NOP\n  Dellay_mSec 5\n");
     ADD_FAILURE() << "there is no such instruction";
   } catch (const BenchError& error) {
-    // The complaint is about the listing, where an editor finds it.
+    // The diagnostic is about the listing, where an editor finds it.
     EXPECT_EQ(error.what(), folder +
                                 "/pick.lst:2:3: mnemonic: no instruction is called 'Dellay_mSec'; expected "
                                 "an instruction (nearest: 'Delay_mSec')");
@@ -204,7 +205,7 @@ TEST(BenchFile, AProgramIsAListingBesideIt) {
 TEST(BenchErrors, Inputs) {
   const auto inputs = [](const std::string& text) { return and_then("inputs: { " + text + " }\n"); };
   const std::string at = "5: inputs.";
-  expect_complaints({
+  expect_diagnostics({
       {and_then("inputs: [ x.DIN_1 ]\n"), "5: inputs: expected a map, as in `key: value`"},
       {inputs("x.DIN_1: high"), at + "x.DIN_1: 'high' is not a level; expected on or off"},
       {inputs("x.DIN_1: 2"), at + "x.DIN_1: x.DIN_1: 2 is not a level; expected 0 or 1"},
@@ -220,13 +221,13 @@ TEST(BenchErrors, Inputs) {
        at + "x.DOUT_1: no input of x is called 'DOUT_1'; expected one such as 'DIN_0'"},
       {inputs("x.DIN_1: on, x.DIN_1: off"), at + "x.DIN_1: is given twice; expected it once"},
   });
-  EXPECT_EQ(complaint(inputs("x.AIN_A: 12V, x.AIN_B: 12000mV, DIN_1: on")), "");
+  EXPECT_EQ(diagnostic(inputs("x.AIN_A: 12V, x.AIN_B: 12000mV, DIN_1: on")), "");
 }
 
 TEST(BenchErrors, Faults) {
   const auto fault = [](const std::string& text) { return and_then("faults:\n  - { " + text + " }\n"); };
   const std::string at = "6: faults[0]: ";
-  expect_complaints({
+  expect_diagnostics({
       {and_then("faults: { stall: x.A }\n"), "5: faults: expected a list, as in `[ a, b ]`"},
       {and_then("faults: [ stall ]\n"), "5: faults[0]: expected a map, as in `key: value`"},
       {fault(""), at + "is empty; expected a fault, as in `{ stall: feeder.A }`"},
@@ -269,7 +270,7 @@ TEST(BenchErrors, Faults) {
        "5: seed: 'now' is not possible; expected a whole number from 0 to 9223372036854775807"},
       {fault("stuck: x.AIN_A, level: 1"), at + "'x.AIN_A' cannot be stuck; expected a digital input"},
   });
-  EXPECT_EQ(complaint(fault("stuck: DIN_1, level: true")), "") << "one device needs no name";
+  EXPECT_EQ(diagnostic(fault("stuck: DIN_1, level: true")), "") << "one device needs no name";
 }
 
 TEST(BenchErrors, OfDisturbancesAreOneLineToo) {
@@ -280,7 +281,7 @@ TEST(BenchErrors, OfDisturbancesAreOneLineToo) {
         and_then("faults: [ { stuck: x.DIN_1, level: \"a\\nb\" } ]\n"),
         and_then("plant:\n  x.A: { drive: { enabled_by: \"o\\nn\" } }\n"),
         and_then("", "program: \"NOP\\nb\""), and_then("", "dip: { \"DIP\\n1\": on }")}) {
-    const std::string got = complaint(text);
+    const std::string got = diagnostic(text);
     EXPECT_NE(got, "") << text;
     EXPECT_EQ(got.find('\n'), std::string::npos) << got;
   }

@@ -8,11 +8,12 @@ namespace bench_errors_test {
 
 struct Bad {
   std::string text;
-  std::string complaint;  // behind "bench.yaml:"
+  std::string diagnostic;  // behind "bench.yaml:"
 };
 
-void expect_complaints(const std::vector<Bad>& files) {
-  for (const Bad& file : files) EXPECT_EQ(complaint(file.text), "bench.yaml:" + file.complaint) << file.text;
+void expect_diagnostics(const std::vector<Bad>& files) {
+  for (const Bad& file : files)
+    EXPECT_EQ(diagnostic(file.text), "bench.yaml:" + file.diagnostic) << file.text;
 }
 
 /// A file whose fifth line is a station.
@@ -38,7 +39,7 @@ const std::string kLines = "lines: { a: { " + kStation + " } }\n";
 
 TEST(BenchErrors, AFileThatIsNoMap) {
   const std::string no_map = "1: bench: the file is not a map; expected `understudy: 1` and `lines:`";
-  expect_complaints({
+  expect_diagnostics({
       {"", no_map},
       {" \n\n", no_map},
       {"# only a remark\n", no_map},
@@ -57,13 +58,13 @@ TEST(BenchErrors, AFileThatIsNoYaml) {
                                                 {"understudy: 1\nlines: }\n", 2},
                                                 {std::string("understudy: 1\n\0", 15), 2},
                                                 {"%YAML 9.9\n---\nunderstudy: 1\n", 1}}) {
-    const std::string got = complaint(text);
+    const std::string got = diagnostic(text);
     EXPECT_TRUE(got.starts_with("bench.yaml:" + std::to_string(line) + ": bench: is not YAML: ")) << got;
   }
 }
 
 TEST(BenchErrors, TheFormatsVersion) {
-  expect_complaints({
+  expect_diagnostics({
       {kLines, "1: bench: 'understudy' is missing; expected it here"},
       {"understudy: 2\n" + kLines, "1: understudy: '2' is not possible; expected a whole number from 1 to 1"},
       {"understudy: one\n" + kLines,
@@ -77,7 +78,7 @@ TEST(BenchErrors, TheFormatsVersion) {
 }
 
 TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
-  expect_complaints({
+  expect_diagnostics({
       {"understudy: 1\nline: {}\n" + kLines,
        "2: line: is not a key here; expected one of understudy, lines, devices, plant, wires, inputs, "
        "faults, "
@@ -116,7 +117,7 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
 }
 
 TEST(BenchErrors, Lines) {
-  expect_complaints({
+  expect_diagnostics({
       {"understudy: 1\n", "1: bench: 'lines' is missing; expected it here"},
       {"understudy: 1\nlines: {}\n", "2: lines: has no line; expected at least one"},
       {"understudy: 1\nlines: [ a ]\n", "2: lines: expected a map, as in `key: value`"},
@@ -188,7 +189,7 @@ TEST(BenchErrors, Lines) {
 
 TEST(BenchErrors, Stations) {
   const std::string at = "5: lines.a.stations[0]";
-  expect_complaints({
+  expect_diagnostics({
       {with_station("{ model: simple2-r3 }"), at + ": 'name' is missing; expected it here"},
       {with_station("{ name: x }"), at + ": 'model' is missing; expected it here"},
       {with_station("[ x ]"), at + ": expected a map, as in `key: value`"},
@@ -214,13 +215,13 @@ TEST(BenchErrors, Stations) {
 }
 
 TEST(BenchErrors, AStationThatIsJustAWord) {
-  EXPECT_EQ(complaint(with_station("feeder")),
+  EXPECT_EQ(diagnostic(with_station("feeder")),
             "bench.yaml:5: lines.a.stations[0]: expected a map, as in `key: value`");
 }
 
 TEST(BenchErrors, Devices) {
   const std::string mill = "devices:\n  mill: { model: simple2-r3 }\n";
-  expect_complaints({
+  expect_diagnostics({
       {with_station("{ device: x }"),
        "5: lines.a.stations[0].device: no device is called 'x'; there is none"},
       {with_station("{ device: mil }") + mill,
@@ -237,7 +238,7 @@ TEST(BenchErrors, Devices) {
 TEST(BenchErrors, ValuesAndChoices) {
   const std::string at = "5: lines.a.stations[0]";
   const std::string most = "expected a whole number from -2147483648 to 4294967295";
-  expect_complaints({
+  expect_diagnostics({
       {with("set: { Aaxis_AccTime: 3001 }"),
        at + ".set.Aaxis_AccTime: 3001 is out of range; expected 0 to 3000"},
       {with("set: { Aaxis_AccTim: 3 }"),
@@ -262,7 +263,7 @@ TEST(BenchErrors, ValuesAndChoices) {
 TEST(BenchErrors, Machines) {
   const auto plant = [](const std::string& text) { return and_then("plant:\n  " + text + "\n"); };
   const std::string far = "expected a whole number from -1000000000000 to 1000000000000";
-  expect_complaints({
+  expect_diagnostics({
       {plant("y.A: {}"), "7: plant.y.A: no device is called 'y'; expected 'x'"},
       {plant("x.C: {}"), "7: plant.x.C: 'C' is not an axis of simple2-r3; expected one of A, B"},
       {plant("x: {}"), "7: plant.x: 'x' names no device; expected a name like feeder.A"},
@@ -289,7 +290,7 @@ TEST(BenchErrors, Machines) {
 
 TEST(BenchErrors, Wires) {
   const auto wires = [](const std::string& text) { return and_then("wires: " + text + "\n"); };
-  expect_complaints({
+  expect_diagnostics({
       {wires("[ x.DOUT_4 ]"),
        "6: wires[0]: expected `DEVICE.OUTPUT -> DEVICE.INPUT`, or `DEVICE.AXIS.SWITCH -> DEVICE.INPUT`, or "
        "`DEVICE.OUTPUT -> DEVICE.AXIS.alarm_clear`"},
@@ -313,7 +314,7 @@ TEST(BenchErrors, AreOneLineWhateverIsQuotedInThem) {
         with("set: { \"a\\nb\": 1 }"), with("firmware: \"1\\n2\""), with("address: \"1\\n2\""),
         "understudy: 1\n\"li\\nnes\": 1\n" + kLines, and_then("wires: [ \"x.DOUT\\n -> x.DIN_1\" ]\n"),
         and_then("plant:\n  \"x.\\nA\": {}\n"), with("choices: { stop: \"a\\nb\" }")}) {
-    const std::string got = complaint(text);
+    const std::string got = diagnostic(text);
     EXPECT_NE(got, "");
     EXPECT_EQ(got.find('\n'), std::string::npos) << got;
   }

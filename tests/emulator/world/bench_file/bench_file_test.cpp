@@ -169,7 +169,7 @@ TEST(BenchFile, WhatIsNoReadableFileIsRefused) {
 TEST(BenchFile, WindowsLineEndsAndAByteOrderMarkDoNoHarm) {
   std::string text = "\xEF\xBB\xBF";
   for (const char c : kFullBench) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
-  EXPECT_EQ(complaint(text), "");
+  EXPECT_EQ(diagnostic(text), "");
 }
 
 TEST(FindTerminal, KnowsTheModelsTerminalsAndAxes) {

@@ -1,4 +1,4 @@
-// Whatever stands in a bench file: it is a bench, or it gets one complaint. Nothing crashes.
+// Whatever stands in a bench file: it is a bench, or it gets one diagnostic. Nothing crashes.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -9,7 +9,7 @@
 namespace understudy::emulator::world {
 namespace bench_mutation_test {
 
-/// True if it is a bench or gets a complaint that begins with file and line.
+/// True if it is a bench or gets a diagnostic that begins with file and line.
 bool is_handled(const std::string& text) {
   try {
     parse(text);
@@ -35,7 +35,7 @@ const TryText kTryText = [](const std::string& text, const std::string& how) {
 
 TEST(BenchMutation, EveryBeginningOfAFileIsHandled) {
   for (const std::string& whole : {kFullBench, kDisturbedBench}) {
-    ASSERT_EQ(complaint(whole), "");
+    ASSERT_EQ(diagnostic(whole), "");
     try_every_beginning(whole, kTryText);
   }
 }
@@ -96,7 +96,7 @@ TEST(BenchMutation, DeepNestingIsRefused) {
         times("- ", 20000), times("? ", 20000), times("[{a: ", 20000), staircase, times("&a ", 20000),
         times("!a ", 20000)}) {
     EXPECT_TRUE(is_handled(text)) << text.substr(0, 60);
-    EXPECT_NE(complaint(text), "") << text.substr(0, 60);
+    EXPECT_NE(diagnostic(text), "") << text.substr(0, 60);
   }
 }
 

@@ -69,8 +69,8 @@ inline Bench parse(const std::string& text) {
   return parse_bench(models::all_models(), text, "bench.yaml", "/benches");
 }
 
-/// The complaint about a text; empty if there is none.
-inline std::string complaint(const std::string& text) {
+/// The diagnostic about a text; empty if there is none.
+inline std::string diagnostic(const std::string& text) {
   try {
     parse(text);
   } catch (const BenchError& error) {

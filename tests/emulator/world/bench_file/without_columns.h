@@ -1,4 +1,4 @@
-// Complaints about files without the columns that they tell, for tests of what they say.
+// Diagnostics about files without the columns that they tell, for tests of what they say.
 #pragma once
 
 #include <regex>
@@ -7,9 +7,9 @@
 namespace understudy::emulator::world {
 
 /// "a.yaml:3:12: lines: ..." as "a.yaml:3: lines: ...", in every line.
-inline std::string without_columns(const std::string& complaint) {
+inline std::string without_columns(const std::string& diagnostic) {
   static const std::regex with_column("(^|\n)([^:\n]*:[0-9]+):[0-9]+: ");
-  return std::regex_replace(complaint, with_column, "$1$2: ");
+  return std::regex_replace(diagnostic, with_column, "$1$2: ");
 }
 
 }  // namespace understudy::emulator::world

@@ -17,7 +17,7 @@ namespace understudy::emulator::world {
 namespace yaml_document_test {
 
 /// What is said of a text; empty if nothing is.
-std::string complaint(const std::string& text) {
+std::string diagnostic(const std::string& text) {
   try {
     parse_yaml(text, "a.yaml", "bench");
     return "";
@@ -28,7 +28,7 @@ std::string complaint(const std::string& text) {
 
 struct Bad {
   std::string text;
-  std::string begin;  // of the complaint, behind "a.yaml:"
+  std::string begin;  // of the diagnostic, behind "a.yaml:"
 };
 
 TEST(YamlDocument, WhatIsNotYamlIsSaidInPlainWords) {
@@ -71,14 +71,14 @@ TEST(YamlDocument, WhatIsNotYamlIsSaidInPlainWords) {
             "2:1" + not_yaml + "this does not belong to the map before it"},
            {"- 1\na: 2\n", "2:1" + not_yaml + "this does not belong to the map before it"},
        }) {
-    const std::string got = complaint(text);
+    const std::string got = diagnostic(text);
     EXPECT_TRUE(got.starts_with("a.yaml:" + begin)) << text << got;
     EXPECT_EQ(got.find('\n'), std::string::npos) << got;
   }
 }
 
 TEST(YamlDocument, TheLineIsShown) {
-  EXPECT_EQ(complaint("a: 1\n\tb: 2\r\n"),
+  EXPECT_EQ(diagnostic("a: 1\n\tb: 2\r\n"),
             "a.yaml:2:1: bench: is not YAML: a tab indents this line; expected spaces  (the line is "
             "'\\x09b: 2')");
 }
@@ -88,7 +88,7 @@ TEST(YamlDocument, GoodQuotesAreLeftAlone) {
                            "'a': 1", "a: \"\\\\\"", "a: 'x' # isn't\n",
                            "\xEF\xBB\xBF"
                            "a: 'x'\r\n"}) {
-    EXPECT_EQ(complaint(text), "") << text;
+    EXPECT_EQ(diagnostic(text), "") << text;
   }
 }
 
@@ -97,7 +97,7 @@ void try_all(const std::string& text, int most) {
   static constexpr std::array<const char*, 24> kTokens{
       ",",  ":",     "- ",    "? ", "[", "]",   "{",  "}",   "a",  ": ", "\n",   "\n  ",
       "\t", "---\n", "...\n", "\"", "'", "&a ", "*a", "!t ", "| ", "> ", "%Y\n", "# c\n"};
-  complaint(text);
+  diagnostic(text);
   if (most == 0) return;
   for (const char* token : kTokens) try_all(text + token, most - 1);
 }

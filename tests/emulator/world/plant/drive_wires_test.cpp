@@ -33,7 +33,7 @@ void expect_passes(const std::string& text) {
   EXPECT_TRUE(play::has_passed(result)) << text << play::why(result);
 }
 
-std::string complaint_of(const std::string& wires) {
+std::string diagnostic_of(const std::string& wires) {
   const std::string text = text_of("rs-m8194h", "X", "enabled_by: on", wires, "  - advance: 1ms\n");
   try {
     play::parse_scenarios(model_file::with_described(), text, "test.yaml");
@@ -116,10 +116,10 @@ TEST(DriveWires, OfASimple2AreBesideItsOwnOutputs) {
 }
 
 TEST(DriveWires, ThatCannotBeAreRefused) {
-  EXPECT_EQ(complaint_of("d.DO_0_0 -> d.X.alarm_clear"), "");
-  EXPECT_EQ(complaint_of("d.DO_0_0 -> d.Y.alarm_clear"),
+  EXPECT_EQ(diagnostic_of("d.DO_0_0 -> d.X.alarm_clear"), "");
+  EXPECT_EQ(diagnostic_of("d.DO_0_0 -> d.Y.alarm_clear"),
             "bench.wires[0]: the machine on d.Y has no drive; expected it in `plant`");
-  EXPECT_EQ(complaint_of("d.DO_0_0 -> d.X.alarm_claer"),
+  EXPECT_EQ(diagnostic_of("d.DO_0_0 -> d.X.alarm_claer"),
             "bench.wires[0]: 'alarm_claer' is not an input of a drive; the nearest is 'alarm_clear'");
 }
 

@@ -77,7 +77,7 @@ std::string indented(const std::string& listing) {
 Course course_of(std::string_view name, std::uint64_t seed) {
   using namespace sleepers_course;
   const std::unique_ptr<Life> life = life_of(name);
-  std::string complaint;
+  std::string diagnostic;
   for (std::uint64_t tries = 0; tries < 20; ++tries) {
     Draw draw(seed * 32 + tries);
     const bool is_calm = draw.one_in(2);  // more sleep, less of everything else
@@ -119,10 +119,10 @@ Course course_of(std::string_view name, std::uint64_t seed) {
       }
       return course;
     } catch (const std::exception& error) {
-      complaint = error.what();
+      diagnostic = error.what();
     }
   }
-  throw std::runtime_error("no bench can be made of this: " + complaint);
+  throw std::runtime_error("no bench can be made of this: " + diagnostic);
 }
 
 std::unique_ptr<Life> life_of(std::string_view model) {

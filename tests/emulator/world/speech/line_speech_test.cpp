@@ -50,13 +50,13 @@ TEST(LineSpeech, IsRefusedWhereTheWorldHasNone) {
                     .gaps = {},
                     .line = {.protocol = kSmokeSigns, .ports = kTextPort},
                     .make = nullptr};
-  std::string complaint;
+  std::string diagnostic;
   try {
     speech_of(model);
   } catch (const std::logic_error& error) {
-    complaint = error.what();
+    diagnostic = error.what();
   }
-  EXPECT_EQ(complaint, "chief: no line of a world carries smoke signs");
+  EXPECT_EQ(diagnostic, "chief: no line of a world carries smoke signs");
 }
 
 /// What it is spoken to in, it does not speak.

@@ -31,7 +31,7 @@ plant:
 )";
 
 template <typename Act>
-std::string complaint_of(const Act& act) {
+std::string diagnostic_of(const Act& act) {
   try {
     act();
   } catch (const std::runtime_error& error) {
@@ -78,8 +78,8 @@ TEST_F(BenchInventoryTest, UnderstandsTheSameNames) {
     SCOPED_TRACE(name);
     Unit here{};
     Unit there{};
-    EXPECT_EQ(complaint_of([&] { here = names.resolve(name).unit; }),
-              complaint_of([&] { there = probes.resolve(name).unit; }));
+    EXPECT_EQ(diagnostic_of([&] { here = names.resolve(name).unit; }),
+              diagnostic_of([&] { there = probes.resolve(name).unit; }));
     EXPECT_EQ(here, there);
   }
 }
@@ -89,7 +89,7 @@ TEST_F(BenchInventoryTest, JudgesFaultsAsTheWorldDoes) {
     const char* kind;
     const char* place;
     std::vector<std::pair<std::string, std::string>> fields;
-    const char* complaint;
+    const char* diagnostic;
   };
   const Case cases[] = {
       {"stall", "feeder.A", {}, "(none)"},
@@ -113,14 +113,14 @@ TEST_F(BenchInventoryTest, JudgesFaultsAsTheWorldDoes) {
   for (const Case& c : cases) {
     SCOPED_TRACE(std::string(c.kind) + " " + c.place);
     const auto judged = [&](const Inventory& inventory) {
-      return complaint_of([&] {
+      return diagnostic_of([&] {
         check_fault(inventory, find_fault(inventory.known(), {c.kind, c.place, c.fields}));
       });
     };
     const std::string here = judged(inventory_);
     EXPECT_EQ(here, judged(world_));
-    if (c.complaint != nullptr) {
-      EXPECT_EQ(here, c.complaint);
+    if (c.diagnostic != nullptr) {
+      EXPECT_EQ(here, c.diagnostic);
     } else {
       EXPECT_NE(here, "(none)");
     }

@@ -1,24 +1,24 @@
 // All that is wrong with a file is told at once, in the file's order, and nothing twice.
 #include <gtest/gtest.h>
 
-#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "tests/emulator/play/performing/scenario_folder.h"
 #include "tests/emulator/world/bench_file/bench_texts.h"
 
 namespace understudy::emulator::world {
-namespace all_complaints_test {
+namespace all_diagnostics_test {
 
 FileError error_at(int line, int column, const std::string& text) {
   return {FilePlace{"a.yaml", line, column}, text};
 }
 
-TEST(Complaints, AreToldInTheFilesOrderAndOnce) {
-  Complaints all;
+TEST(Diagnostics, AreToldInTheFilesOrderAndOnce) {
+  Diagnostics all;
   EXPECT_FALSE(all.attempt([] { throw error_at(7, 1, "late"); }));
   EXPECT_FALSE(all.attempt([] { throw error_at(2, 9, "right"); }));
   EXPECT_FALSE(all.attempt([] { throw error_at(2, 3, "left"); }));
   EXPECT_FALSE(all.attempt([] { throw error_at(7, 1, "late"); }));
-  EXPECT_FALSE(all.attempt([] { throw Untold(); }));
+  EXPECT_FALSE(all.attempt([] { throw AlreadyReported(); }));
   EXPECT_TRUE(all.attempt([] {}));
   try {
     all.throw_if_any();
@@ -28,21 +28,21 @@ TEST(Complaints, AreToldInTheFilesOrderAndOnce) {
   }
 }
 
-TEST(Complaints, AreTwentyAtMost) {
-  Complaints all;
+TEST(Diagnostics, AreTwentyAtMost) {
+  Diagnostics all;
   for (int line = 1; line <= 25; ++line) all.add(error_at(line, 1, "wrong"));
   try {
     all.throw_if_any();
     FAIL();
   } catch (const FileError& error) {
-    ASSERT_EQ(error.complaints().size(), 21U);
-    EXPECT_EQ(error.complaints()[19].text, "a.yaml:20:1: wrong");
-    EXPECT_EQ(error.complaints()[20].text, "and 5 more; the first 20 are shown");
+    ASSERT_EQ(error.diagnostics().size(), 21U);
+    EXPECT_EQ(error.diagnostics()[19].text, "a.yaml:20:1: wrong");
+    EXPECT_EQ(error.diagnostics()[20].text, "and 5 more; the first 20 are shown");
   }
 }
 
-TEST(Complaints, EndTheReadingWhereTheyAreTooMany) {
-  Complaints all;
+TEST(Diagnostics, EndTheReadingWhereTheyAreTooMany) {
+  Diagnostics all;
   int tried = 0;
   EXPECT_THROW(all.require([&] {
     for (; tried < 100'000; ++tried) all.attempt([&] { throw error_at(tried + 1, 1, "wrong"); });
@@ -51,8 +51,8 @@ TEST(Complaints, EndTheReadingWhereTheyAreTooMany) {
   EXPECT_LE(tried, 1000);
 }
 
-TEST(AllComplaints, OfABench) {
-  EXPECT_EQ(complaint(R"(understudy: 2
+TEST(AllDiagnostics, OfABench) {
+  EXPECT_EQ(diagnostic(R"(understudy: 2
 lines:
   a:
     bud: 9600
@@ -96,7 +96,7 @@ std::string all_of(const std::string& text) {
   return "";
 }
 
-TEST(AllComplaints, OfWhatOneDeviceIsGiven) {
+TEST(AllDiagnostics, OfWhatOneDeviceIsGiven) {
   EXPECT_EQ(
       all_of(R"(understudy: 1
 lines:
@@ -128,26 +128,26 @@ bench.yaml:15:47: lines.a.stations[0].dip.DIP8: 'DIP8' is not a switch of simple
 x.program:2:1: mnemonic: no instruction is called 'NONSENSE'; expected an instruction, such as Delay_mSec)");
 }
 
-TEST(AllComplaints, OfAChainWhateverItsLengthIs) {
+TEST(AllDiagnostics, OfAChainWhateverItsLengthIs) {
   const std::string bench =
       "understudy: 1\nlines: { a: { stations: [ { device: r } ] } }\ndevices:\n"
       "  r: { model: slim, modules: ";
   const std::string more = ", set: { T7VM: 100, NOTHING: 1 } }\n";
   const std::string nothing =
       ".set.NOTHING: is not a parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
-  EXPECT_EQ(complaint(bench + "8" + more), "bench.yaml:4: devices.r" + nothing);
-  EXPECT_EQ(complaint(bench + "9" + more),
+  EXPECT_EQ(diagnostic(bench + "8" + more), "bench.yaml:4: devices.r" + nothing);
+  EXPECT_EQ(diagnostic(bench + "9" + more),
             "bench.yaml:4: devices.r.modules: 9 is not possible: slim has 1 to 8 of them\n"
             "bench.yaml:4: devices.r" +
                 nothing);
-  EXPECT_EQ(complaint(bench + "many" + more),
+  EXPECT_EQ(diagnostic(bench + "many" + more),
             "bench.yaml:4: devices.r.modules: 'many' is not possible; expected a whole number from 1 to 255\n"
             "bench.yaml:4: devices.r" +
                 nothing);
 }
 
-TEST(AllComplaints, OfADeviceWhoseModelIsWrong) {
-  EXPECT_EQ(complaint(R"(understudy: 1
+TEST(AllDiagnostics, OfADeviceWhoseModelIsWrong) {
+  EXPECT_EQ(diagnostic(R"(understudy: 1
 lines:
   a:
     stations:
@@ -178,9 +178,9 @@ bench.yaml:10: inputs.x.DIN_1: 'maybe' is not a level; expected on or off
 bench.yaml:13: faults[1].when: column 14 of 'x.B.pulses ==': unexpected end; expected a name, a number or '(')");
 }
 
-TEST(AllComplaints, OfAMachine) {
+TEST(AllDiagnostics, OfAMachine) {
   EXPECT_EQ(
-      complaint(R"(understudy: 1
+      diagnostic(R"(understudy: 1
 lines: { a: { stations: [ { name: x, model: simple2-r3 }, { name: y, model: simple2-r3, address: 2 } ] } }
 plant:
   x.A:
@@ -217,10 +217,10 @@ bench.yaml:14: faults[1].nth: 'some' is not possible; expected a whole number, o
 bench.yaml:14: faults[1].when: column 1 of 'y.A.homes': axis A has no 'homes'; the nearest is 'home')");
 }
 
-TEST(AllComplaints, OfAScenario) {
+TEST(AllDiagnostics, OfAScenario) {
   const play::ScenarioFolder folder;
   EXPECT_EQ(
-      folder.complaint(R"(understudy: 1
+      folder.diagnostic(R"(understudy: 1
 bench: feeder.yaml
 gap: soon
 seeed: 1
@@ -236,20 +236,20 @@ steps:
 scenario.yaml:4: seeed: is not a key here; expected one of understudy, name, bench, nv, firmware, gap, seed, parameters, cases, choice, vary, steps, plays (the nearest is 'seed')
 scenario.yaml:6: steps[0].write.feeder.Aaxis_SVN: feeder: no register is called 'Aaxis_SVN'; the nearest is 'Aaxis_SVON'
 scenario.yaml:7: steps[1].inject: )" +
-          folder.complaint(play::ScenarioFolder::scenario_of("  - inject: { stal: feeder.A, name: jam }\n"))
+          folder.diagnostic(play::ScenarioFolder::scenario_of("  - inject: { stal: feeder.A, name: jam }\n"))
               .substr(std::string("scenario.yaml:4: steps[0].inject: ").size()) +
           R"(
 scenario.yaml:9: steps[3].repeat.steps[0].advance: '1' is not a duration; expected one such as 250ms
 scenario.yaml:9: steps[3].repeat.steps[1].fork.a[0].wirte: is not a step; the nearest is 'write'
 scenario.yaml:9: steps[3].repeat.steps[1].fork.b[0].advance: '2' is not a duration; expected one such as 250ms
 scenario.yaml:11: steps[5].expect.feeder.Cord_A: )" +
-          folder.complaint(play::ScenarioFolder::scenario_of("  - expect: { feeder.Cord_A: x }\n"))
+          folder.diagnostic(play::ScenarioFolder::scenario_of("  - expect: { feeder.Cord_A: x }\n"))
               .substr(std::string("scenario.yaml:4: steps[0].expect.feeder.Cord_A: ").size()));
 }
 
-TEST(AllComplaints, OfAFaultInAScenario) {
+TEST(AllDiagnostics, OfAFaultInAScenario) {
   const play::ScenarioFolder folder;
-  const std::string told = folder.complaint(play::ScenarioFolder::scenario_of(
+  const std::string told = folder.diagnostic(play::ScenarioFolder::scenario_of(
       "  - inject: { lost_steps: feeder.A, one_in: none, when: \"feeder.A.homes\" }\n"));
   EXPECT_EQ(told,
             "scenario.yaml:4: steps[0].inject.one_in: 'none' is not possible; expected a whole number\n"
@@ -257,11 +257,11 @@ TEST(AllComplaints, OfAFaultInAScenario) {
             "nearest is 'home'");
 }
 
-TEST(AllComplaints, OfCasesAreToldForTheFirstOne) {
+TEST(AllDiagnostics, OfCasesAreToldForTheFirstOne) {
   const play::ScenarioFolder folder;
   EXPECT_EQ(
-      folder.complaint("understudy: 1\nbench: feeder.yaml\ncases: [ { a: 1 }, { a: x }, { a: y } ]\nsteps:\n"
-                       "  - advance: 1\n  - write: { feeder.Aaxis_Speed: \"${a}\" }\n"),
+      folder.diagnostic("understudy: 1\nbench: feeder.yaml\ncases: [ { a: 1 }, { a: x }, { a: y } ]\nsteps:\n"
+                        "  - advance: 1\n  - write: { feeder.Aaxis_Speed: \"${a}\" }\n"),
       "scenario.yaml:5: steps[0].advance: '1' is not a duration; expected one such as 250ms  (a=1)\n"
       "scenario.yaml:6: steps[1].write.feeder.Aaxis_Speed: column 1 of 'x': no device is called 'x'; "
       "expected one of feeder, turner  (a=x)\n"
@@ -269,5 +269,5 @@ TEST(AllComplaints, OfCasesAreToldForTheFirstOne) {
       "expected one of feeder, turner  (a=y)");
 }
 
-}  // namespace all_complaints_test
+}  // namespace all_diagnostics_test
 }  // namespace understudy::emulator::world

@@ -19,12 +19,12 @@ struct LastError : FileError {
 };
 
 /// Converts the mistakes of a program to an error about the program's own file.
-FileError program_complaints(const ProgramError& error, const std::string& file);
+FileError program_diagnostics(const ProgramError& error, const std::string& file);
 
 /// Thrown if a part that is referred to could not be read. That has been reported already.
-struct Untold {};
+struct AlreadyReported {};
 
-class Complaints {
+class Diagnostics {
  public:
   static constexpr std::size_t kMaxTold = 20;
 
@@ -39,7 +39,7 @@ class Complaints {
       throw;
     } catch (const FileError& error) {
       add(error);
-    } catch (const Untold&) {
+    } catch (const AlreadyReported&) {
     }
     return false;
   }
@@ -55,7 +55,7 @@ class Complaints {
   /// Adds an error, unless it was reported already, with `behind` appended to each line. Throws LastError if
   /// there are too many.
   void add(const FileError& error, const std::string& behind = "");
-  std::size_t count() const { return complaints_.size(); }
+  std::size_t count() const { return diagnostics_.size(); }
   /// Throws a FileError with the first errors in the order of the file; several files keep the order in
   /// which they were reported.
   void throw_if_any() const;
@@ -63,7 +63,7 @@ class Complaints {
  private:
   static constexpr std::size_t kMaxKept = 1000;
 
-  std::vector<FileError::Complaint> complaints_;
+  std::vector<FileError::Diagnostic> diagnostics_;
   std::set<std::string> told_;
 };
 
