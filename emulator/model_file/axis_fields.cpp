@@ -170,16 +170,17 @@ AxisBinding read_axis(const YamlFields& fields, const std::string& name, const D
     }
   });
   read("home_way",
-       [&](const YamlFields& field) { axis.home_direction = read_word(field, kWayForm) == 0 ? -1 : +1; });
-  read("home_position", [&](const YamlFields& field) { axis.home_position = field.integer(kCountsForm); });
+       [&](const YamlFields& field) { axis.home_direction = read_word(field, kWaySchema) == 0 ? -1 : +1; });
+  read("home_position", [&](const YamlFields& field) { axis.home_position = field.integer(kCountsSchema); });
   read("pulses_per_revolution", [&](const YamlFields& field) {
-    axis.pulses_per_revolution = static_cast<int>(field.integer(kPerRevolutionForm));
+    axis.pulses_per_revolution = static_cast<int>(field.integer(kPerRevolutionSchema));
   });
   read("while_busy", [&](const YamlFields& field) {
-    axis.while_busy = static_cast<models::imported::WhileBusy>(read_word(field, kWhileBusyForm));
+    axis.while_busy = static_cast<models::imported::WhileBusy>(read_word(field, kWhileBusySchema));
   });
   read("while_disabled", [&](const YamlFields& field) {
-    axis.while_disabled = static_cast<models::imported::WhileDisabled>(read_word(field, kWhileDisabledForm));
+    axis.while_disabled =
+        static_cast<models::imported::WhileDisabled>(read_word(field, kWhileDisabledSchema));
   });
   check_needs(fields, diagnostics);
   return axis;

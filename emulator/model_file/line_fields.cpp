@@ -32,7 +32,7 @@ using world::YamlFields;
 namespace {
 
 std::uint8_t read_function(const YamlFields& field) {
-  const auto code = field.integer(kFunctionForm);
+  const auto code = field.integer(kFunctionSchema);
   std::string known;
   for (const world::FunctionRow& row : world::kModbusFunctions) {
     if (row.code == code) return row.code;
@@ -53,7 +53,7 @@ void read_limits(const YamlFields& field, Line& line) {
     const world::FunctionRow& row =
         *std::find_if(std::begin(world::kModbusFunctions), std::end(world::kModbusFunctions),
                       [&](const world::FunctionRow& one) { return one.code == *number; });
-    const auto count = most.integer(kMaxForm);
+    const auto count = most.integer(kMaxSchema);
     if (count > row.most) {
       most.fail(std::to_string(count) + " is more than function " + code + " can have; expected " +
                 std::to_string(row.most) + " or fewer");
@@ -64,7 +64,7 @@ void read_limits(const YamlFields& field, Line& line) {
 
 }  // namespace
 
-std::size_t read_word(const YamlFields& field, const Form& form) {
+std::size_t read_word(const YamlFields& field, const Schema& form) {
   const std::string written = field.text();
   for (std::size_t i = 0; i < form.words.size(); ++i) {
     if (form.words[i] == written) return i;
@@ -83,7 +83,7 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
   read("baud", [&](const YamlFields& field) {
     std::vector<int> bauds;
     const auto add = [&](const YamlFields& one) {
-      bauds.push_back(static_cast<int>(one.integer(kBaudForm)));
+      bauds.push_back(static_cast<int>(one.integer(kBaudSchema)));
     };
     if (field.is_list()) {
       for (const YamlFields& one : field.elements()) add(one);
@@ -95,10 +95,10 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
   });
   read("parity", [&](const YamlFields& field) {
     constexpr std::array<pty::Parity, 3> kOrder{pty::Parity::none, pty::Parity::even, pty::Parity::odd};
-    line.parity = kOrder.at(read_word(field, kParityForm));
+    line.parity = kOrder.at(read_word(field, kParitySchema));
   });
   read("stop_bits",
-       [&](const YamlFields& field) { line.stop_bits = static_cast<int>(field.integer(kStopBitsForm)); });
+       [&](const YamlFields& field) { line.stop_bits = static_cast<int>(field.integer(kStopBitsSchema)); });
   read("silence", [&](const YamlFields& field) {
     line.silence = field.duration();
     constexpr pty::SimTime kLongest = std::chrono::seconds(1);
@@ -108,8 +108,8 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
   read("stations", [&](const YamlFields& field) {
     const auto ends = field.elements();
     if (ends.size() != 2) field.fail("expected the lowest and the highest, as in [1, 247]");
-    line.lowest_station = static_cast<int>(ends[0].integer(kStationForm));
-    line.highest_station = static_cast<int>(ends[1].integer(kStationForm));
+    line.lowest_station = static_cast<int>(ends[0].integer(kStationSchema));
+    line.highest_station = static_cast<int>(ends[1].integer(kStationSchema));
     if (line.lowest_station > line.highest_station) field.fail("ends before it begins; expected [1, 247]");
   });
   read("functions", [&](const YamlFields& field) {
@@ -120,36 +120,36 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
   });
   read("most", [&](const YamlFields& field) { read_limits(field, line); });
   read("broadcast",
-       [&](const YamlFields& field) { line.obeys_broadcasts = read_word(field, kBroadcastForm) == 0; });
+       [&](const YamlFields& field) { line.obeys_broadcasts = read_word(field, kBroadcastSchema) == 0; });
 }
 
 void read_policy(const YamlFields& fields, MapPolicy& policy, Diagnostics& diagnostics) {
   diagnostics.attempt([&] { fields.require_keys(kMapKeys); });
-  const auto read = [&](std::string_view key, const Form& form, const auto& take) {
+  const auto read = [&](std::string_view key, const Schema& form, const auto& take) {
     diagnostics.attempt([&] {
       if (const auto field = fields.find(key)) take(read_word(*field, form));
     });
   };
-  read("holes", kRefusedOrZeroForm, [&](std::size_t word) {
+  read("holes", kRefusedOrZeroSchema, [&](std::size_t word) {
     policy.unmapped = word == 0 ? MapPolicy::Unmapped::refused : MapPolicy::Unmapped::reads_zero;
   });
-  read("out_of_range", kOutOfRangeForm, [&](std::size_t word) {
+  read("out_of_range", kOutOfRangeSchema, [&](std::size_t word) {
     constexpr std::array<MapPolicy::OutOfRange, 3> kOrder{
         MapPolicy::OutOfRange::refused, MapPolicy::OutOfRange::clamped, MapPolicy::OutOfRange::stored};
     policy.out_of_range = kOrder.at(word);
   });
-  read("read_only", kRefusedOrIgnoredForm, [&](std::size_t word) {
+  read("read_only", kRefusedOrIgnoredSchema, [&](std::size_t word) {
     policy.read_only = word == 0 ? MapPolicy::ReadOnly::refused : MapPolicy::ReadOnly::ignores_writes;
   });
-  read("write_only", kZeroOrRefusedForm, [&](std::size_t word) {
+  read("write_only", kZeroOrRefusedSchema, [&](std::size_t word) {
     policy.write_only = word == 0 ? MapPolicy::WriteOnly::reads_zero : MapPolicy::WriteOnly::refused;
   });
-  read("halves", kAloneOrWholeForm, [&](std::size_t word) {
+  read("halves", kAloneOrWholeSchema, [&](std::size_t word) {
     policy.halves = word == 0 ? MapPolicy::Halves::may_be_written_alone : MapPolicy::Halves::come_whole;
     policy.read_halves =
         word == 0 ? MapPolicy::ReadHalves::may_be_read_alone : MapPolicy::ReadHalves::come_whole;
   });
-  read("first_word", kHighOrLowForm, [&](std::size_t word) { policy.low_word_first = word == 1; });
+  read("first_word", kHighOrLowSchema, [&](std::size_t word) { policy.low_word_first = word == 1; });
 }
 
 std::string read_station_register(const YamlFields& field, const Binder& binder,

@@ -126,7 +126,7 @@ class ModelReader {
 
   Description read(bool may_read, std::vector<FileClaim>& files) {
     diagnostics_.attempt([&] { root_.require_keys(kModelKeys); });
-    diagnostics_.attempt([&] { root_.at("understudy").integer(kVersionForm); });
+    diagnostics_.attempt([&] { root_.at("understudy").integer(kVersionSchema); });
     diagnostics_.attempt([&] { read_names(); });
     diagnostics_.attempt([&] {
       const YamlFields field = root_.at("registers");

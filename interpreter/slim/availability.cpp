@@ -37,7 +37,7 @@ bool is_for_hosts(const CommandRow& row) {
 }
 bool is_let_through(const CommandRow& row) { return is_one_of(kLetThrough, row.verb) || row.is_query(); }
 
-bool is_variable_form(const CommandRow& row) { return row.slots[0] == Slot::real_variable; }
+bool is_variable_schema(const CommandRow& row) { return row.slots[0] == Slot::real_variable; }
 
 }  // namespace
 
@@ -52,7 +52,7 @@ bool is_allowed(const Command& command, Place place, const Columns& columns) {
     case Place::immediate:
       if (row.immediate == Printed::nothing) return !is_one_of(kForPrograms, row.verb);
       if (row.immediate == Printed::yes) return true;
-      return columns.variable_forms == Columns::VariableForms::typed_too && is_variable_form(row);
+      return columns.variable_forms == Columns::VariableForms::typed_too && is_variable_schema(row);
     case Place::external:
       // It leaves a running program: nowhere else has it a meaning.
       if (row.external == Printed::yes || row.verb == Verb::exit) return true;

@@ -34,15 +34,15 @@ constexpr std::string_view head_of(const CommandRow& row) {
 
 /// What a word of a line is compared with, row by row.
 struct RowKey {
-  enum class Form : std::uint8_t { plain, assignment, query };
-  Form form = Form::plain;
+  enum class Schema : std::uint8_t { plain, assignment, query };
+  Schema form = Schema::plain;
   bool takes_module = false;
   std::string_view head;  // of a query all behind the "?"
 
   constexpr explicit RowKey(const CommandRow& row)
-      : form(row.is_query()        ? Form::query
-             : row.is_assignment() ? Form::assignment
-                                   : Form::plain),
+      : form(row.is_query()        ? Schema::query
+             : row.is_assignment() ? Schema::assignment
+                                   : Schema::plain),
         takes_module(row.takes_module()),
         head(row.is_query() ? row.command.substr(1) : head_of(row)) {}
 
@@ -105,7 +105,7 @@ ParseResult parse_plain(const Prefixed& name, std::string_view rest, const Diale
   bool is_first = true;
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     const RowKey& key = kRowKeys[i];
-    if (key.form != RowKey::Form::plain || key.takes_module != name.has_prefix) continue;
+    if (key.form != RowKey::Schema::plain || key.takes_module != name.has_prefix) continue;
     if (!key.is_called(name.word)) continue;
     if (is_no_module(name)) return refused(Error::range);
     const CommandRow& row = kCommands[i];
@@ -160,7 +160,7 @@ ParseResult assign_variable(std::string_view target_text, std::string_view data,
 ParseResult parse_assignment(const Prefixed& name, std::string_view data, const Dialect& dialect) {
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     const RowKey& key = kRowKeys[i];
-    if (key.form != RowKey::Form::assignment || key.takes_module != name.has_prefix) continue;
+    if (key.form != RowKey::Schema::assignment || key.takes_module != name.has_prefix) continue;
     if (!key.is_called(name.word)) continue;
     const CommandRow& row = kCommands[i];
     const bool is_element =
@@ -177,7 +177,7 @@ ParseResult parse_assignment(const Prefixed& name, std::string_view data, const 
 /// The row that the query has without a prefix; -1 for a parameter.
 int find_query(std::string_view word) {
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
-    if (kRowKeys[i].form == RowKey::Form::query && kRowKeys[i].is_called(word)) return static_cast<int>(i);
+    if (kRowKeys[i].form == RowKey::Schema::query && kRowKeys[i].is_called(word)) return static_cast<int>(i);
   }
   return -1;
 }

@@ -62,7 +62,7 @@ void read_fork(StepsReader& reader, const world::YamlFields& step, const world::
 
 void read_repeat(StepsReader& reader, const world::YamlFields& /*step*/, const world::YamlFields& value) {
   value.require_keys(kRepeatKeys);
-  const std::int64_t times = value.at("times").integer(kTimesForm);
+  const std::int64_t times = value.at("times").integer(kTimesSchema);
   const world::YamlFields steps = value.at("steps");
   const auto as = value.find("as");
   for (std::int64_t round = 1; round <= times; ++round) {

@@ -26,7 +26,7 @@ namespace {
 Answer read_answer(const world::YamlFields& step) {
   Answer answer;
   if (step.has("exception")) {
-    answer.exception = static_cast<int>(step.at("exception").integer(kExceptionForm));
+    answer.exception = static_cast<int>(step.at("exception").integer(kExceptionSchema));
   }
   if (step.has("reply")) {
     const world::YamlFields reply = step.at("reply");

@@ -277,7 +277,7 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   });
   all.attempt([&] {
     if (!root.has("seed")) return;
-    scenario.bench.seed = static_cast<std::uint64_t>(root.at("seed").integer(world::kSeedForm));
+    scenario.bench.seed = static_cast<std::uint64_t>(root.at("seed").integer(world::kSeedSchema));
   });
   if (file_.seed) scenario.bench.seed = *file_.seed;
   scenario.seed = scenario.bench.seed;

@@ -38,7 +38,7 @@ class ScenarioFile::Reader {
               .seed = options.seed,
               .reading = {.shared = shared}} {
     head_.attempt([&] { root_.require_keys(kScenarioKeys); });
-    head_.attempt([&] { root_.at("understudy").integer(world::kVersionForm); });
+    head_.attempt([&] { root_.at("understudy").integer(world::kVersionSchema); });
     // Without its cases nothing more can be said.
     if (!head_.attempt([&] { read_plays(); })) head_.throw_if_any();
   }

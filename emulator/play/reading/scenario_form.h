@@ -7,76 +7,76 @@
 
 namespace understudy::emulator::play {
 
-inline constexpr std::array<const world::Form*, 2> kBenchWays{&world::kText, &world::kInlineBenchForm};
-inline constexpr world::Form kBenchOrFileForm = world::either_form(kBenchWays);
+inline constexpr std::array<const world::Schema*, 2> kBenchWays{&world::kText, &world::kInlineBenchSchema};
+inline constexpr world::Schema kBenchOrFileSchema = world::any_of_schemas(kBenchWays);
 /// What a play changes of the file's bench need not be a bench by itself.
-inline constexpr world::Form kBenchPartForm = world::part_form(world::kInlineBenchForm);
-inline constexpr std::array<const world::Form*, 2> kBenchPartWays{&world::kText, &kBenchPartForm};
-inline constexpr world::Form kBenchOrPartForm = world::either_form(kBenchPartWays);
-inline constexpr std::array<const world::Form*, 2> kFirmwareWays{&world::kText, &world::kTextByDevice};
-inline constexpr world::Form kFirmwareForm = world::either_form(kFirmwareWays);
-inline constexpr world::Form kCasesForm = world::list_form(world::kTextByName);
+inline constexpr world::Schema kBenchPartSchema = world::part_form(world::kInlineBenchSchema);
+inline constexpr std::array<const world::Schema*, 2> kBenchPartWays{&world::kText, &kBenchPartSchema};
+inline constexpr world::Schema kBenchOrPartSchema = world::any_of_schemas(kBenchPartWays);
+inline constexpr std::array<const world::Schema*, 2> kFirmwareWays{&world::kText, &world::kTextByDevice};
+inline constexpr world::Schema kFirmwareSchema = world::any_of_schemas(kFirmwareWays);
+inline constexpr world::Schema kCasesSchema = world::list_schema(world::kTextByName);
 
 // --- vary ----------------------------------------------------------------------------------------
-inline constexpr world::Form kSamplesForm = world::integer_form(1, 1'000'000'000'000);
-inline constexpr world::Form kTwoTexts = world::list_form(world::kText, 2);
-inline constexpr world::KeyRow kSamplesKey{
-    "samples", "Number of distinct values to draw; without it, one is drawn for each case.", &kSamplesForm};
-inline constexpr world::KeyRow kSamplesSeedKey{"seed", "Seed of these draws (default: the scenario's seed).",
-                                               &world::kSeedForm};
+inline constexpr world::Schema kSamplesSchema = world::integer_schema(1, 1'000'000'000'000);
+inline constexpr world::Schema kTwoTexts = world::list_schema(world::kText, 2);
+inline constexpr world::Key kSamplesKey{
+    "samples", "Number of distinct values to draw; without it, one is drawn for each case.", &kSamplesSchema};
+inline constexpr world::Key kSamplesSeedKey{"seed", "Seed of these draws (default: the scenario's seed).",
+                                            &world::kSeedSchema};
 inline constexpr std::array kRangeKeys{
-    world::KeyRow{"from", "The first value: a number, a duration or a voltage.", &world::kText, true},
-    world::KeyRow{"to", "The limit; no value goes beyond it.", &world::kText, true},
-    world::KeyRow{"step", "The step from one value to the next.", &world::kText, true}};
+    world::Key{"from", "The first value: a number, a duration or a voltage.", &world::kText, true},
+    world::Key{"to", "The limit; no value goes beyond it.", &world::kText, true},
+    world::Key{"step", "The step from one value to the next.", &world::kText, true}};
 inline constexpr std::array kBetweenKeys{
-    world::KeyRow{"between", "The smallest and the largest value to draw.", &kTwoTexts, true},
-    world::KeyRow{"step", "The distance between values (default: the precision of the ends).", &world::kText},
+    world::Key{"between", "The smallest and the largest value to draw.", &kTwoTexts, true},
+    world::Key{"step", "The distance between values (default: the precision of the ends).", &world::kText},
     kSamplesKey, kSamplesSeedKey};
 inline constexpr std::array kOneOfKeys{
-    world::KeyRow{"one_of", "Values to choose from at random.", &world::kTextList, true}, kSamplesKey,
+    world::Key{"one_of", "Values to choose from at random.", &world::kTextList, true}, kSamplesKey,
     kSamplesSeedKey};
-inline constexpr world::Form kRangeForm = world::keys_form(kRangeKeys);
-inline constexpr world::Form kBetweenForm = world::keys_form(kBetweenKeys);
-inline constexpr world::Form kOneOfForm = world::keys_form(kOneOfKeys);
-inline constexpr std::array<const world::Form*, 4> kVariationWays{&world::kTextList, &kRangeForm,
-                                                                  &kBetweenForm, &kOneOfForm};
-inline constexpr world::Form kVariationForm = world::either_form(kVariationWays);
-inline constexpr world::Form kVaryForm = world::names_form(kVariationForm);
+inline constexpr world::Schema kRangeSchema = world::keys_schema(kRangeKeys);
+inline constexpr world::Schema kBetweenSchema = world::keys_schema(kBetweenKeys);
+inline constexpr world::Schema kOneOfSchema = world::keys_schema(kOneOfKeys);
+inline constexpr std::array<const world::Schema*, 4> kVariationWays{&world::kTextList, &kRangeSchema,
+                                                                    &kBetweenSchema, &kOneOfSchema};
+inline constexpr world::Schema kVariationSchema = world::any_of_schemas(kVariationWays);
+inline constexpr world::Schema kVarySchema = world::names_schema(kVariationSchema);
 
 // --- choice --------------------------------------------------------------------------------------
-inline constexpr world::Form kOptionsForm = world::names_form(world::kTextByName);
-inline constexpr std::array<const world::Form*, 2> kOptionsWays{&world::kTextList, &kOptionsForm};
-inline constexpr world::Form kOptionsOrValuesForm = world::either_form(kOptionsWays);
-inline constexpr world::Form kChoiceForm = world::names_form(kOptionsOrValuesForm);
+inline constexpr world::Schema kOptionsSchema = world::names_schema(world::kTextByName);
+inline constexpr std::array<const world::Schema*, 2> kOptionsWays{&world::kTextList, &kOptionsSchema};
+inline constexpr world::Schema kOptionsOrValuesSchema = world::any_of_schemas(kOptionsWays);
+inline constexpr world::Schema kChoiceSchema = world::names_schema(kOptionsOrValuesSchema);
 
 // --- keys of a file, and of each of its plays ----------------------------------------------------
-inline constexpr world::KeyRow kNameKey{
+inline constexpr world::Key kNameKey{
     "name", "A sentence that describes the scenario (default: the file's name).", &world::kText};
-inline constexpr world::KeyRow kBenchKey{"bench", "The bench, or the path of its file.", &kBenchOrFileForm};
-inline constexpr world::KeyRow kNvKey{
+inline constexpr world::Key kBenchKey{"bench", "The bench, or the path of its file.", &kBenchOrFileSchema};
+inline constexpr world::Key kNvKey{
     "nv", "Initial contents of the devices' memories: NV image files, by device.", &world::kTextByDevice};
-inline constexpr world::KeyRow kFirmwareKey{
+inline constexpr world::Key kFirmwareKey{
     "firmware", "A firmware version to use instead of the bench's: for all devices, or by device.",
-    &kFirmwareForm};
-inline constexpr world::KeyRow kGapKey{
+    &kFirmwareSchema};
+inline constexpr world::Key kGapKey{
     "gap", "Time that the host waits between two requests, in addition to t3.5.", &world::kDuration};
-inline constexpr world::KeyRow kSeedKey{"seed", "The seed of all random choices.", &world::kSeedForm};
-inline constexpr world::KeyRow kParametersKey{"parameters", "Names and values, used as ${name}.",
-                                              &world::kTextByName};
-inline constexpr world::KeyRow kCasesKey{"cases", "Rows of parameters; each row is a case.", &kCasesForm};
-inline constexpr world::KeyRow kChoiceKey{
+inline constexpr world::Key kSeedKey{"seed", "The seed of all random choices.", &world::kSeedSchema};
+inline constexpr world::Key kParametersKey{"parameters", "Names and values, used as ${name}.",
+                                           &world::kTextByName};
+inline constexpr world::Key kCasesKey{"cases", "Rows of parameters; each row is a case.", &kCasesSchema};
+inline constexpr world::Key kChoiceKey{
     "choice",
     "A choice that the manual leaves open, with its options: each option is a case, in which every "
     "device that has the choice has that option. An option may give values to parameters.",
-    &kChoiceForm};
-inline constexpr world::KeyRow kVaryKey{
-    "vary", "Values of parameters; each combination is a case, for each row of `cases`.", &kVaryForm};
+    &kChoiceSchema};
+inline constexpr world::Key kVaryKey{
+    "vary", "Values of parameters; each combination is a case, for each row of `cases`.", &kVarySchema};
 
 /// A play has the keys of a scenario. It may leave out `bench`, and what else the file gives to all of them.
 inline constexpr std::array kPlayKeys{
-    world::KeyRow{kNameKey.key, "What it is about, as a sentence; no two plays share one.", &world::kText},
-    world::KeyRow{kBenchKey.key, "The bench; where the file has one too, what differs from that.",
-                  &kBenchOrPartForm},
+    world::Key{kNameKey.key, "What it is about, as a sentence; no two plays share one.", &world::kText},
+    world::Key{kBenchKey.key, "The bench; where the file has one too, what differs from that.",
+               &kBenchOrPartSchema},
     kNvKey,
     kFirmwareKey,
     kGapKey,
@@ -85,9 +85,9 @@ inline constexpr std::array kPlayKeys{
     kCasesKey,
     kChoiceKey,
     kVaryKey,
-    world::KeyRow{"steps", "Actions and expectations, in order.", &world::kSteps}};
-inline constexpr world::Form kPlayForm = world::keys_form(kPlayKeys);
-inline constexpr world::Form kPlaysForm = world::list_form(kPlayForm);
+    world::Key{"steps", "Actions and expectations, in order.", &world::kSteps}};
+inline constexpr world::Schema kPlaySchema = world::keys_schema(kPlayKeys);
+inline constexpr world::Schema kPlaysSchema = world::list_schema(kPlaySchema);
 
 inline constexpr std::array kScenarioKeys{
     world::kVersionKey,
@@ -101,8 +101,8 @@ inline constexpr std::array kScenarioKeys{
     kCasesKey,
     kChoiceKey,
     kVaryKey,
-    world::KeyRow{"steps", "Actions and expectations, in order.", &world::kSteps},
-    world::KeyRow{"plays", "Several plays instead of `steps`; they share all other keys of the file.",
-                  &kPlaysForm}};
+    world::Key{"steps", "Actions and expectations, in order.", &world::kSteps},
+    world::Key{"plays", "Several plays instead of `steps`; they share all other keys of the file.",
+               &kPlaysSchema}};
 
 }  // namespace understudy::emulator::play

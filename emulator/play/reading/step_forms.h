@@ -8,87 +8,87 @@
 
 namespace understudy::emulator::play {
 
-inline constexpr world::Form kExceptionForm = world::integer_form(1, 255);
+inline constexpr world::Schema kExceptionSchema = world::integer_schema(1, 255);
 inline constexpr std::array<std::string_view, 1> kNothing{"nothing"};
-inline constexpr world::Form kNothingForm = world::words_form(kNothing);
-inline constexpr world::KeyRow kViaKey{"via", "The line, if the device is on several (default: the first).",
-                                       &world::kLineName};
+inline constexpr world::Schema kNothingSchema = world::words_schema(kNothing);
+inline constexpr world::Key kViaKey{"via", "The line, if the device is on several (default: the first).",
+                                    &world::kLineName};
 inline constexpr std::array kAnswerKeys{
-    world::KeyRow{"exception", "The Modbus exception that the device must return.", &kExceptionForm},
-    world::KeyRow{"reply", "`nothing`: no reply may arrive.", &kNothingForm},
-    world::KeyRow{"within", "How long no reply may arrive (500ms).", &world::kDuration}, kViaKey};
+    world::Key{"exception", "The Modbus exception that the device must return.", &kExceptionSchema},
+    world::Key{"reply", "`nothing`: no reply may arrive.", &kNothingSchema},
+    world::Key{"within", "How long no reply may arrive (500ms).", &world::kDuration}, kViaKey};
 
-inline constexpr std::array kProgramBesideKeys{world::KeyRow{
+inline constexpr std::array kProgramBesideKeys{world::Key{
     "refused", "The device must refuse it: `true`, or a part of the message about its first mistake.",
     &world::kText}};
 
 inline constexpr std::array kWaitKeys{
-    world::KeyRow{"until", "The condition, checked at every tick without using the line.", &world::kText,
-                  true},
-    world::KeyRow{"within", "The step fails after this time.", &world::kDuration, true},
-    world::KeyRow{"takes", "Expected time since the last write: 3050ms +- 2ms, 1s..2s.", &world::kText},
-    world::KeyRow{"poll", "Reads the registers over the line at this interval instead.", &world::kDuration},
+    world::Key{"until", "The condition, checked at every tick without using the line.", &world::kText, true},
+    world::Key{"within", "The step fails after this time.", &world::kDuration, true},
+    world::Key{"takes", "Expected time since the last write: 3050ms +- 2ms, 1s..2s.", &world::kText},
+    world::Key{"poll", "Reads the registers over the line at this interval instead.", &world::kDuration},
     kViaKey};
-inline constexpr world::Form kWaitForm = world::keys_form(kWaitKeys);
+inline constexpr world::Schema kWaitSchema = world::keys_schema(kWaitKeys);
 
-inline constexpr std::array<const world::Form*, 2> kAssertWays{&world::kText, &world::kTextList};
-inline constexpr world::Form kAssertForm = world::either_form(kAssertWays);
+inline constexpr std::array<const world::Schema*, 2> kAssertWays{&world::kText, &world::kTextList};
+inline constexpr world::Schema kAssertSchema = world::any_of_schemas(kAssertWays);
 
 inline constexpr std::array kSpanKeys{
-    world::KeyRow{"what", "The condition, checked at every tick.", &world::kText, true},
-    world::KeyRow{"name", "A name for `end` (default: the condition itself).", &world::kText}};
-inline constexpr world::Form kSpanKeysForm = world::keys_form(kSpanKeys);
-inline constexpr std::array<const world::Form*, 2> kSpanWays{&world::kText, &kSpanKeysForm};
-inline constexpr world::Form kSpanForm = world::either_form(kSpanWays);
+    world::Key{"what", "The condition, checked at every tick.", &world::kText, true},
+    world::Key{"name", "A name for `end` (default: the condition itself).", &world::kText}};
+inline constexpr world::Schema kSpanKeysSchema = world::keys_schema(kSpanKeys);
+inline constexpr std::array<const world::Schema*, 2> kSpanWays{&world::kText, &kSpanKeysSchema};
+inline constexpr world::Schema kSpanSchema = world::any_of_schemas(kSpanWays);
 
-inline constexpr world::Form kInjectForm = world::keys_form(world::kInjectKeys);
+inline constexpr world::Schema kInjectSchema = world::keys_schema(world::kInjectKeys);
 
 inline constexpr std::array<std::string_view, 3> kPowerWords{"on", "off", "cycle"};
-inline constexpr world::Form kPowerWordsForm = world::words_form(kPowerWords);
-inline constexpr world::Form kPowerForm = world::names_form(kPowerWordsForm, world::Form::Of::devices);
+inline constexpr world::Schema kPowerWordsSchema = world::words_schema(kPowerWords);
+inline constexpr world::Schema kPowerSchema =
+    world::names_schema(kPowerWordsSchema, world::Schema::Of::devices);
 
-inline constexpr std::array<const world::Form*, 2> kReplyLinesWays{&world::kText, &world::kTextList};
-inline constexpr world::Form kReplyLinesForm = world::either_form(kReplyLinesWays);
+inline constexpr std::array<const world::Schema*, 2> kReplyLinesWays{&world::kText, &world::kTextList};
+inline constexpr world::Schema kReplyLinesSchema = world::any_of_schemas(kReplyLinesWays);
 inline constexpr std::array kSendKeys{
-    world::KeyRow{"line", "The line (default: the only one).", &world::kLineName},
-    world::KeyRow{"bytes", "In hexadecimal; +crc at the end adds the checksum.", &world::kText, true},
-    world::KeyRow{"reply", "The expected bytes, or `nothing`.", &world::kText},
-    world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
+    world::Key{"line", "The line (default: the only one).", &world::kLineName},
+    world::Key{"bytes", "In hexadecimal; +crc at the end adds the checksum.", &world::kText, true},
+    world::Key{"reply", "The expected bytes, or `nothing`.", &world::kText},
+    world::Key{"within", "How long to wait for them (500ms).", &world::kDuration}};
 inline constexpr std::array kSendTextKeys{
-    world::KeyRow{"line", "The line (default: the only one).", &world::kLineName},
-    world::KeyRow{"text", "A line of text, without its line ending.", &world::kText, true},
-    world::KeyRow{"reply", "The expected line or lines, or `nothing`.", &kReplyLinesForm},
-    world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
-inline constexpr world::Form kSendBytesForm = world::keys_form(kSendKeys);
-inline constexpr world::Form kSendTextForm = world::keys_form(kSendTextKeys);
-inline constexpr std::array<const world::Form*, 2> kSendWays{&kSendBytesForm, &kSendTextForm};
-inline constexpr world::Form kSendForm = world::either_form(kSendWays);
+    world::Key{"line", "The line (default: the only one).", &world::kLineName},
+    world::Key{"text", "A line of text, without its line ending.", &world::kText, true},
+    world::Key{"reply", "The expected line or lines, or `nothing`.", &kReplyLinesSchema},
+    world::Key{"within", "How long to wait for them (500ms).", &world::kDuration}};
+inline constexpr world::Schema kSendBytesSchema = world::keys_schema(kSendKeys);
+inline constexpr world::Schema kSendTextSchema = world::keys_schema(kSendTextKeys);
+inline constexpr std::array<const world::Schema*, 2> kSendWays{&kSendBytesSchema, &kSendTextSchema};
+inline constexpr world::Schema kSendSchema = world::any_of_schemas(kSendWays);
 inline constexpr std::array kHearKeys{
-    world::KeyRow{"line", "The line (default: the only one).", &world::kLineName},
-    world::KeyRow{"text", "The expected line or lines, or `nothing`.", &kReplyLinesForm, true},
-    world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
-inline constexpr world::Form kHearForm = world::keys_form(kHearKeys);
+    world::Key{"line", "The line (default: the only one).", &world::kLineName},
+    world::Key{"text", "The expected line or lines, or `nothing`.", &kReplyLinesSchema, true},
+    world::Key{"within", "How long to wait for them (500ms).", &world::kDuration}};
+inline constexpr world::Schema kHearSchema = world::keys_schema(kHearKeys);
 
-inline constexpr world::Form kForkForm = world::names_form(world::kSteps);
+inline constexpr world::Schema kForkSchema = world::names_schema(world::kSteps);
 
 inline constexpr std::array<std::string_view, 1> kResetWords{"peaks"};
-inline constexpr world::Form kResetForm = world::words_form(kResetWords);
+inline constexpr world::Schema kResetSchema = world::words_schema(kResetWords);
 
-inline constexpr world::Form kTimesForm = world::integer_form(1, 100'000);
+inline constexpr world::Schema kTimesSchema = world::integer_schema(1, 100'000);
 inline constexpr std::array kRepeatKeys{
-    world::KeyRow{"times", "The number of rounds.", &kTimesForm, true},
-    world::KeyRow{"as", "A name for the number of the round, from 1.", &world::kText},
-    world::KeyRow{"steps", "The steps to repeat.", &world::kSteps, true}};
-inline constexpr world::Form kRepeatForm = world::keys_form(kRepeatKeys);
+    world::Key{"times", "The number of rounds.", &kTimesSchema, true},
+    world::Key{"as", "A name for the number of the round, from 1.", &world::kText},
+    world::Key{"steps", "The steps to repeat.", &world::kSteps, true}};
+inline constexpr world::Schema kRepeatSchema = world::keys_schema(kRepeatKeys);
 
-inline constexpr std::array<const world::Form*, 2> kRowWays{&world::kText, &world::kTextByName};
-inline constexpr world::Form kRowForm = world::either_form(kRowWays);
-inline constexpr world::Form kRowsForm = world::list_form(kRowForm);
+inline constexpr std::array<const world::Schema*, 2> kRowWays{&world::kText, &world::kTextByName};
+inline constexpr world::Schema kRowSchema = world::any_of_schemas(kRowWays);
+inline constexpr world::Schema kRowsSchema = world::list_schema(kRowSchema);
 inline constexpr std::array kForKeys{
-    world::KeyRow{"each", "The values, or rows of several: [ { n: 1, speed: 200 }, { n: 2, speed: 400 } ].",
-                  &kRowsForm, true},
-    world::KeyRow{"as", "A name for the value (rows have names already).", &world::kText},
-    world::KeyRow{"steps", "The steps to run for each value.", &world::kSteps, true}};
-inline constexpr world::Form kForForm = world::keys_form(kForKeys);
+    world::Key{"each", "The values, or rows of several: [ { n: 1, speed: 200 }, { n: 2, speed: 400 } ].",
+               &kRowsSchema, true},
+    world::Key{"as", "A name for the value (rows have names already).", &world::kText},
+    world::Key{"steps", "The steps to run for each value.", &world::kSteps, true}};
+inline constexpr world::Schema kForSchema = world::keys_schema(kForKeys);
 
 }  // namespace understudy::emulator::play

@@ -17,10 +17,10 @@ namespace understudy::emulator::play {
 class StepsReader;
 
 struct StepRow {
-  world::KeyRow key;
+  world::Key key;
   /// Adds the step that `value` describes. Its map `step` may have no other keys than those of `beside`.
   void (*read)(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
-  std::span<const world::KeyRow> beside{};
+  std::span<const world::Key> beside{};
   /// Tells, for a step that cannot be read, whether other steps may need a name that it defines, or it needs
   /// one of theirs.
   enum class Names : std::uint8_t { none, gives, wants } names = Names::none;
@@ -29,7 +29,7 @@ struct StepRow {
 /// Returns the rows in the order of the documentation.
 std::span<const StepRow> step_rows();
 
-inline constexpr std::array kIncludedKeys{
-    world::kVersionKey, world::KeyRow{"steps", "The steps to include.", &world::kSteps, true}};
+inline constexpr std::array kIncludedKeys{world::kVersionKey,
+                                          world::Key{"steps", "The steps to include.", &world::kSteps, true}};
 
 }  // namespace understudy::emulator::play

@@ -163,7 +163,7 @@ void StepsReader::read_included(const world::YamlFields& field) {
     const world::YamlFields root =
         world::YamlFields::parse(*text, field.path(), "steps", "`understudy: 1` and `steps:`");
     root.require_keys(kIncludedKeys);
-    root.at("understudy").integer(world::kVersionForm);
+    root.at("understudy").integer(world::kVersionSchema);
     it = included.emplace(field.path(), root.at("steps")).first;
   }
   add_file(field.path(), "a file of steps that is included");
@@ -175,7 +175,7 @@ void StepsReader::read_included(const world::YamlFields& field) {
 void StepsReader::read_step(const world::YamlFields& step, const StepRow* row) {
   step.require_map();
   if (row == nullptr) fail_without_row(step);
-  std::vector<world::KeyRow> known{row->key};
+  std::vector<world::Key> known{row->key};
   known.insert(known.end(), row->beside.begin(), row->beside.end());
   for (const auto& [key, value] : step.entries()) {
     if (key != row->key.key && find_row(key) != nullptr)

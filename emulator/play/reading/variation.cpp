@@ -42,7 +42,7 @@ Amount amount_in(const world::YamlFields& field) {
 }
 
 /// The three keys by which an entry's kind is told.
-const std::span<const world::KeyRow> keys_of(const world::YamlFields& field) {
+const std::span<const world::Key> keys_of(const world::YamlFields& field) {
   if (field.has("from")) return kRangeKeys;
   if (field.has("between")) return kBetweenKeys;
   if (field.has("one_of")) return kOneOfKeys;
@@ -150,7 +150,7 @@ void Variation::read_range(bool is_drawn) {
 void Variation::read_samples(std::uint64_t seed, bool overrides) {
   is_drawn_ = true;
   if (field_.has("seed")) {
-    const auto own = static_cast<std::uint64_t>(field_.at("seed").integer(world::kSeedForm));
+    const auto own = static_cast<std::uint64_t>(field_.at("seed").integer(world::kSeedSchema));
     if (!overrides) seed = own;
   }
   seed_ = stirred(seed ^ hash_of(std::as_bytes(std::span(name_))));
@@ -160,7 +160,7 @@ void Variation::read_samples(std::uint64_t seed, bool overrides) {
     return;
   }
   const world::YamlFields samples = field_.at("samples");
-  count_ = static_cast<std::uint64_t>(samples.integer(kSamplesForm));
+  count_ = static_cast<std::uint64_t>(samples.integer(kSamplesSchema));
   if (count_ > places_) {
     samples.fail("the range has only " + std::to_string(places_) + " values; expected at most that many");
   }

@@ -119,32 +119,32 @@ void add_axes(Names& names, const world::KnownDevice& device) {
 
 }  // namespace
 
-NameList bench_names(const world::Bench& bench, world::Form::Of sort) {
+NameList bench_names(const world::Bench& bench, world::Schema::Of sort) {
   const world::BenchInventory inventory(bench);
   const world::KnownDevices& devices = inventory.known();
   Names names(devices);
   switch (sort) {
-    case world::Form::Of::anything: names.list.patterns.emplace_back(".*"); break;
-    case world::Form::Of::lines:
-    case world::Form::Of::devices_and_lines:
+    case world::Schema::Of::anything: names.list.patterns.emplace_back(".*"); break;
+    case world::Schema::Of::lines:
+    case world::Schema::Of::devices_and_lines:
       for (std::size_t i = 0; i < inventory.line_count(); ++i)
         names.list.names.push_back(inventory.line_name(i));
-      if (sort == world::Form::Of::lines) break;
+      if (sort == world::Schema::Of::lines) break;
       [[fallthrough]];
-    case world::Form::Of::devices:
+    case world::Schema::Of::devices:
       for (const world::KnownDevice& device : devices) names.list.names.push_back(device.name);
       break;
-    case world::Form::Of::axes:
+    case world::Schema::Of::axes:
       for (const world::KnownDevice& device : devices) add_axes(names, device);
       break;
-    case world::Form::Of::inputs:
+    case world::Schema::Of::inputs:
       for (const world::KnownDevice& device : devices) add_inputs(names, device);
       break;
-    case world::Form::Of::turned:
+    case world::Schema::Of::turned:
       for (const world::KnownDevice& device : devices) add_inputs(names, device);
       names.list.names.emplace_back("in");
       break;
-    case world::Form::Of::registers:
+    case world::Schema::Of::registers:
       for (const world::KnownDevice& device : devices) add_registers(names, device);
       break;
   }

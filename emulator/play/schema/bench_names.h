@@ -17,6 +17,6 @@ struct NameList {
 
 /// Each name has its device in front, and also appears without it if there is only one device. For a device
 /// without registers any word is allowed, because only the running device knows its names.
-NameList bench_names(const world::Bench& bench, world::Form::Of sort);
+NameList bench_names(const world::Bench& bench, world::Schema::Of sort);
 
 }  // namespace understudy::emulator::play

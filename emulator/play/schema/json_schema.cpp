@@ -37,47 +37,47 @@ class SchemaWriter {
   SchemaWriter(ModelList models, bool has_parameters, bool has_names = false)
       : models_(models), has_parameters_(has_parameters), has_names_(has_names) {}
 
-  Json of(const world::Form& form) const {
+  Json of(const world::Schema& form) const {
     if (form.is_part && requires_) {
       SchemaWriter of_parts = *this;
       of_parts.requires_ = false;
       return of_parts.of(form);
     }
     switch (form.kind) {
-      case world::Form::Kind::text:
+      case world::Schema::Kind::text:
         return lists(form) ? reference(form.names_of) : Json{{"type", {"string", "number", "boolean"}}};
-      case world::Form::Kind::integer: return integer(form);
-      case world::Form::Kind::level:
+      case world::Schema::Kind::integer: return integer(form);
+      case world::Schema::Kind::level:
         return Json{{"enum", {"on", "off", "true", "false", "0", "1", true, false, 0, 1}}};
-      case world::Form::Kind::duration:
+      case world::Schema::Kind::duration:
         return or_parameter(Json{{"type", "string"}, {"pattern", kDurationText}});
-      case world::Form::Kind::words: return words(form);
-      case world::Form::Kind::list: return list(form);
-      case world::Form::Kind::names: {
+      case world::Schema::Kind::words: return words(form);
+      case world::Schema::Kind::list: return list(form);
+      case world::Schema::Kind::names: {
         Json schema{{"type", "object"}, {"additionalProperties", of(*form.of)}};
         if (lists(form)) schema["propertyNames"] = reference(form.names_of);
         return schema;
       }
-      case world::Form::Kind::keys: {
+      case world::Schema::Kind::keys: {
         Json schema = keys(form.keys);
         // A key may be a parameter's value as well: { "${fault}": feeder }.
         if (has_parameters_) schema["patternProperties"] = Json{{kParameter, Json::object()}};
         return schema;
       }
-      case world::Form::Kind::either: {
+      case world::Schema::Kind::either: {
         Json ways = Json::array();
-        for (const world::Form* way : form.ways) ways.push_back(of(*way));
+        for (const world::Schema* way : form.ways) ways.push_back(of(*way));
         return Json{{"anyOf", ways}};
       }
-      case world::Form::Kind::steps: return Json{{"$ref", "#/definitions/steps"}};
+      case world::Schema::Kind::steps: return Json{{"$ref", "#/definitions/steps"}};
     }
     return Json::object();
   }
 
-  Json keys(std::span<const world::KeyRow> rows) const {
+  Json keys(std::span<const world::Key> rows) const {
     Json properties = Json::object();
     Json required = Json::array();
-    for (const world::KeyRow& row : rows) {
+    for (const world::Key& row : rows) {
       properties[std::string(row.key)] = described(row);
       if (row.required && requires_) required.push_back(row.key);
     }
@@ -96,7 +96,7 @@ class SchemaWriter {
     for (const StepRow& row : step_rows()) {
       properties[std::string(row.key.key)] = described(row.key);
       kinds.push_back(Json{{"required", {row.key.key}}});
-      for (const world::KeyRow& beside : row.beside) {
+      for (const world::Key& beside : row.beside) {
         properties[std::string(beside.key)] = described(beside);
         needed[std::string(beside.key)].push_back(Json{{"required", {row.key.key}}});
       }
@@ -111,16 +111,16 @@ class SchemaWriter {
   }
 
   /// What a form's names may be, in a schema for one bench.
-  static std::string definition_of(world::Form::Of sort) {
+  static std::string definition_of(world::Schema::Of sort) {
     switch (sort) {
-      case world::Form::Of::anything: break;
-      case world::Form::Of::devices: return "devices";
-      case world::Form::Of::lines: return "lines";
-      case world::Form::Of::devices_and_lines: return "devices_and_lines";
-      case world::Form::Of::axes: return "axes";
-      case world::Form::Of::inputs: return "inputs";
-      case world::Form::Of::turned: return "turned";
-      case world::Form::Of::registers: return "registers";
+      case world::Schema::Of::anything: break;
+      case world::Schema::Of::devices: return "devices";
+      case world::Schema::Of::lines: return "lines";
+      case world::Schema::Of::devices_and_lines: return "devices_and_lines";
+      case world::Schema::Of::axes: return "axes";
+      case world::Schema::Of::inputs: return "inputs";
+      case world::Schema::Of::turned: return "turned";
+      case world::Schema::Of::registers: return "registers";
     }
     return "";
   }
@@ -143,7 +143,7 @@ class SchemaWriter {
                  {"required", {world::kModelKey.key}}};
       Json values{{"type", "object"},
                   {"properties", kinds_of_texts(*model)},
-                  {"additionalProperties", {{"anyOf", {of(world::kRegisterValueForm), of(world::kText)}}}}};
+                  {"additionalProperties", {{"anyOf", {of(world::kRegisterValueSchema), of(world::kText)}}}}};
       Json nv{{"anyOf", {of(world::kText), std::move(values)}}};
       conditions.push_back(
           Json{{"if", std::move(is_it)}, {"then", {{"properties", {{world::kNvKey.key, std::move(nv)}}}}}});
@@ -167,10 +167,10 @@ class SchemaWriter {
     return kinds;
   }
 
-  bool lists(const world::Form& form) const {
-    return has_names_ && form.names_of != world::Form::Of::anything;
+  bool lists(const world::Schema& form) const {
+    return has_names_ && form.names_of != world::Schema::Of::anything;
   }
-  static Json reference(world::Form::Of sort) {
+  static Json reference(world::Schema::Of sort) {
     return Json{{"$ref", "#/definitions/" + definition_of(sort)}};
   }
 
@@ -179,7 +179,7 @@ class SchemaWriter {
     return Json{{"anyOf", {schema, Json{{"type", "string"}, {"pattern", kParameter}}}}};
   }
 
-  Json integer(const world::Form& form) const {
+  Json integer(const world::Schema& form) const {
     Json number{{"type", "integer"}};
     if (form.lowest != INT64_MIN) number["minimum"] = form.lowest;
     if (form.highest != INT64_MAX) number["maximum"] = form.highest;
@@ -187,7 +187,7 @@ class SchemaWriter {
   }
 
   /// `on` and `true` are words to us, and truth values to some readers of YAML.
-  Json words(const world::Form& form) const {
+  Json words(const world::Schema& form) const {
     Json words = Json::array();
     for (const std::string_view word : form.words) words.push_back(word);
     for (const std::string_view word : form.words) {
@@ -197,14 +197,14 @@ class SchemaWriter {
     return or_parameter(Json{{"enum", words}});
   }
 
-  Json list(const world::Form& form) const {
+  Json list(const world::Schema& form) const {
     Json schema{{"type", "array"}, {"items", of(*form.of)}};
     if (form.count > 0) schema["maxItems"] = form.count;
     schema["minItems"] = std::max(form.count, 1);
     return schema;
   }
 
-  Json described(const world::KeyRow& row) const {
+  Json described(const world::Key& row) const {
     Json schema = of(*row.form);
     // Draft 7 ignores what stands beside a $ref.
     if (schema.contains("$ref")) schema = Json{{"allOf", {schema}}};
@@ -243,7 +243,7 @@ std::string bench_schema(ModelList models) {
   return finished("Understudy bench", SchemaWriter(models, false).keys(world::kBenchKeys), Json::object());
 }
 
-std::string file_schema(const std::string& title, std::span<const world::KeyRow> keys) {
+std::string file_schema(const std::string& title, std::span<const world::Key> keys) {
   return finished(title, SchemaWriter({}, false).keys(keys), Json::object());
 }
 
@@ -255,9 +255,10 @@ std::string scenario_schema(ModelList models) {
 std::string scenario_schema(ModelList models, const world::Bench& bench) {
   const SchemaWriter writer(models, true, true);
   Json definitions = step_definitions(writer);
-  for (const auto sort : {world::Form::Of::devices, world::Form::Of::lines,
-                          world::Form::Of::devices_and_lines, world::Form::Of::axes, world::Form::Of::inputs,
-                          world::Form::Of::turned, world::Form::Of::registers}) {
+  for (const auto sort :
+       {world::Schema::Of::devices, world::Schema::Of::lines, world::Schema::Of::devices_and_lines,
+        world::Schema::Of::axes, world::Schema::Of::inputs, world::Schema::Of::turned,
+        world::Schema::Of::registers}) {
     definitions[SchemaWriter::definition_of(sort)] = writer.definition(bench_names(bench, sort));
   }
   return finished("Understudy scenario", whole_scenario(writer), definitions);

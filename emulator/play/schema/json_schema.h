@@ -14,7 +14,7 @@ namespace understudy::emulator::play {
 std::string bench_schema(ModelList models);
 std::string scenario_schema(ModelList models);
 /// Returns the schema of another kind of file, which has these keys.
-std::string file_schema(const std::string& title, std::span<const world::KeyRow> keys);
+std::string file_schema(const std::string& title, std::span<const world::Key> keys);
 /// Returns the schema of scenarios for one bench: it accepts only the names of its devices, lines, axes,
 /// inputs and registers. Conditions are plain texts, which only `check` understands.
 std::string scenario_schema(ModelList models, const world::Bench& bench);

@@ -29,38 +29,38 @@ std::string_view place_word(world::FaultKindRow::Place place) {
   return {};
 }
 
-std::string_view form_word(world::FaultFieldRow::Form form) {
-  using Form = world::FaultFieldRow::Form;
+std::string_view form_word(world::FaultFieldRow::Schema form) {
+  using Schema = world::FaultFieldRow::Schema;
   switch (form) {
-    case Form::number: return "number";
-    case Form::level: return "level";
-    case Form::duration:
-    case Form::ticks:
-    case Form::even_ticks: return "duration";
-    case Form::bytes: return "bytes";
-    case Form::side: return "side";
+    case Schema::number: return "number";
+    case Schema::level: return "level";
+    case Schema::duration:
+    case Schema::ticks:
+    case Schema::even_ticks: return "duration";
+    case Schema::bytes: return "bytes";
+    case Schema::side: return "side";
   }
   return {};
 }
 
 std::string_view doc_of(std::string_view key) {
-  for (const world::KeyRow& row : world::kFaultKeys) {
+  for (const world::Key& row : world::kFaultKeys) {
     if (row.key == key) return row.doc;
   }
   return {};
 }
 
 /// Of what there are only a few, all of them.
-std::vector<std::string_view> words_of(world::FaultFieldRow::Form form) {
-  using Form = world::FaultFieldRow::Form;
+std::vector<std::string_view> words_of(world::FaultFieldRow::Schema form) {
+  using Schema = world::FaultFieldRow::Schema;
   switch (form) {
-    case Form::level: return {"on", "off"};
-    case Form::side: return {"reply", "request", "both"};
-    case Form::number:
-    case Form::duration:
-    case Form::ticks:
-    case Form::even_ticks:
-    case Form::bytes: break;
+    case Schema::level: return {"on", "off"};
+    case Schema::side: return {"reply", "request", "both"};
+    case Schema::number:
+    case Schema::duration:
+    case Schema::ticks:
+    case Schema::even_ticks:
+    case Schema::bytes: break;
   }
   return {};
 }
@@ -72,7 +72,7 @@ Json kind_of(const world::FaultKindRow& kind) {
                {"form", form_word(field.form)},
                {"required", field.required},
                {"doc", doc_of(field.name)}};
-    if (field.form == world::FaultFieldRow::Form::number) {
+    if (field.form == world::FaultFieldRow::Schema::number) {
       entry["lowest"] = field.lowest;
       entry["highest"] = field.highest;
     }
@@ -101,7 +101,7 @@ Telling faults_message(Daemon& daemon, Json message) {
   // The trigger's fields stand behind those of the kinds, from "function" on.
   text.open_list("trigger");
   const auto* const first = std::find_if(world::kFaultKeys.begin(), world::kFaultKeys.end(),
-                                         [](const world::KeyRow& row) { return row.key == "function"; });
+                                         [](const world::Key& row) { return row.key == "function"; });
   for (const auto* row = first; row != world::kFaultKeys.end(); ++row) {
     text.element({{"name", row->key}, {"doc", row->doc}});
   }

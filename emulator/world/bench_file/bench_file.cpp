@@ -64,7 +64,7 @@ class BenchReader {
     read_part("plant", [&](const YamlFields& plant) { read_plant(plant); });
     read_part("wires", [&](const YamlFields& wires) { read_wires(wires); });
     read_part("seed", [&](const YamlFields& seed) {
-      bench_.seed = static_cast<std::uint64_t>(seed.integer(kSeedForm));
+      bench_.seed = static_cast<std::uint64_t>(seed.integer(kSeedSchema));
     });
     give_usual_addresses();
     check_devices();
@@ -126,7 +126,7 @@ class BenchReader {
       if (const auto pty = fields.find("pty")) line.has_pty = pty->on_or_off();
     });
     all_.attempt([&] {
-      if (const auto baud = fields.find("baud")) line.baud = static_cast<int>(baud->integer(kBaudForm));
+      if (const auto baud = fields.find("baud")) line.baud = static_cast<int>(baud->integer(kBaudSchema));
     });
     all_.attempt([&] {
       if (const auto echo = fields.find("echo")) line.echoes = read_echo(*echo);
@@ -161,7 +161,7 @@ class BenchReader {
       if (!is_known) {
         const auto address = station.find("address");
         if (address)
-          numbered.push_back({station, std::nullopt, static_cast<int>(address->integer(kAddressForm))});
+          numbered.push_back({station, std::nullopt, static_cast<int>(address->integer(kAddressSchema))});
         throw AlreadyReported();
       }
     }
@@ -318,7 +318,7 @@ Bench read_whole(const std::string& text, const std::string& name, BenchReader r
   }
   Diagnostics diagnostics;
   diagnostics.attempt([&] { root.require_keys(kBenchKeys); });
-  diagnostics.attempt([&] { root.at("understudy").integer(kVersionForm); });
+  diagnostics.attempt([&] { root.at("understudy").integer(kVersionSchema); });
   return reader.read(root, std::move(diagnostics));
 }
 

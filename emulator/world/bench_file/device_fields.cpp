@@ -67,7 +67,7 @@ void read_value_of_memory(const std::string& name, const YamlFields& value, NvIm
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) image.program.push_back(line);
   } else if (text.find_first_of(".eE") == std::string::npos) {
-    image.registers.emplace_back(name, value.integer(kRegisterValueForm));
+    image.registers.emplace_back(name, value.integer(kRegisterValueSchema));
   } else {
     image.reals.emplace_back(name, require_real(value));
   }
@@ -104,7 +104,7 @@ NvImage read_memory(const YamlFields& field, const Model& model, Diagnostics& di
         number.fail(why_no_register(model, name, model.firmwares.back()) +
                     " (texts of a kind are a map, as in `files: { NAME: TEXT }`)");
       } else {
-        image.registers.emplace_back(name, number.integer(kRegisterValueForm));
+        image.registers.emplace_back(name, number.integer(kRegisterValueSchema));
       }
     });
   }
@@ -153,7 +153,7 @@ void read_set(const YamlFields& field, const Model* model, DeviceSettings& setti
       } else if (model->registers == nullptr || is_real_register(*model, name)) {
         settings.assignments.emplace_back(name, require_real(number));
       } else {
-        settings.set.emplace_back(name, number.integer(kRegisterValueForm));
+        settings.set.emplace_back(name, number.integer(kRegisterValueSchema));
       }
     });
   }
@@ -242,7 +242,7 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
       field.fail(understudy::quoted(field.text()) + " is not a version; expected one like \"1.52\"");
   });
   const bool knows_modules = read("modules", [&](const YamlFields& field) {
-    settings.modules = static_cast<int>(field.integer(kModulesForm));
+    settings.modules = static_cast<int>(field.integer(kModulesSchema));
   });
   if (!knows_modules && device.model != nullptr) settings.modules = device.model->most_modules;
   read("set", [&](const YamlFields& field) { read_set(field, device.model, settings, diagnostics); });

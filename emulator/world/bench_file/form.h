@@ -8,10 +8,10 @@
 
 namespace understudy::emulator::world {
 
-struct KeyRow;
+struct Key;
 
 /// The form of a value.
-struct Form {
+struct Schema {
   enum class Kind : std::uint8_t {
     text,      // a word, a number, a sentence: the reader knows more
     integer,   // from `lowest` to `highest`, decimal or 0x...
@@ -27,10 +27,10 @@ struct Form {
   std::int64_t lowest = INT64_MIN;
   std::int64_t highest = INT64_MAX;
   std::span<const std::string_view> words{};
-  const Form* of = nullptr;
+  const Schema* of = nullptr;
   int count = 0;
-  std::span<const KeyRow> keys{};
-  std::span<const Form* const> ways{};
+  std::span<const Key> keys{};
+  std::span<const Schema* const> ways{};
   /// For `text` and `names`: the kind of names in the bench. A schema for one bench lists them.
   enum class Of : std::uint8_t {
     anything,
@@ -46,53 +46,53 @@ struct Form {
   bool is_part = false;
 };
 
-struct KeyRow {
+struct Key {
   std::string_view key;
   std::string_view doc;  // a sentence for the author of the file
-  const Form* form = nullptr;
+  const Schema* form = nullptr;
   bool required = false;
 };
 
-constexpr Form integer_form(std::int64_t lowest, std::int64_t highest) {
-  return {.kind = Form::Kind::integer, .lowest = lowest, .highest = highest};
+constexpr Schema integer_schema(std::int64_t lowest, std::int64_t highest) {
+  return {.kind = Schema::Kind::integer, .lowest = lowest, .highest = highest};
 }
-constexpr Form words_form(std::span<const std::string_view> words) {
-  return {.kind = Form::Kind::words, .words = words};
+constexpr Schema words_schema(std::span<const std::string_view> words) {
+  return {.kind = Schema::Kind::words, .words = words};
 }
 /// Everything it refers to must outlive the form; all of it is constant.
-constexpr Form list_form(const Form& of, int count = 0) {
-  return {.kind = Form::Kind::list, .of = &of, .count = count};
+constexpr Schema list_schema(const Schema& of, int count = 0) {
+  return {.kind = Schema::Kind::list, .of = &of, .count = count};
 }
-constexpr Form names_form(const Form& of) { return {.kind = Form::Kind::names, .of = &of}; }
-constexpr Form keys_form(std::span<const KeyRow> keys) { return {.kind = Form::Kind::keys, .keys = keys}; }
-constexpr Form either_form(std::span<const Form* const> ways) {
-  return {.kind = Form::Kind::either, .ways = ways};
+constexpr Schema names_schema(const Schema& of) { return {.kind = Schema::Kind::names, .of = &of}; }
+constexpr Schema keys_schema(std::span<const Key> keys) { return {.kind = Schema::Kind::keys, .keys = keys}; }
+constexpr Schema any_of_schemas(std::span<const Schema* const> ways) {
+  return {.kind = Schema::Kind::either, .ways = ways};
 }
 
-constexpr Form part_form(Form whole) {
+constexpr Schema part_form(Schema whole) {
   whole.is_part = true;
   return whole;
 }
 
-constexpr Form names_form(const Form& of, Form::Of whose) {
-  return {.kind = Form::Kind::names, .of = &of, .names_of = whose};
+constexpr Schema names_schema(const Schema& of, Schema::Of whose) {
+  return {.kind = Schema::Kind::names, .of = &of, .names_of = whose};
 }
 
-inline constexpr Form kText{};
-inline constexpr Form kDeviceName{.names_of = Form::Of::devices};
-inline constexpr Form kLineName{.names_of = Form::Of::lines};
-inline constexpr Form kDeviceOrLineName{.names_of = Form::Of::devices_and_lines};
-inline constexpr Form kAxisName{.names_of = Form::Of::axes};
-inline constexpr Form kInputName{.names_of = Form::Of::inputs};
-inline constexpr Form kLevel{.kind = Form::Kind::level};
-inline constexpr Form kDuration{.kind = Form::Kind::duration};
-inline constexpr Form kSteps{.kind = Form::Kind::steps};
-inline constexpr Form kTextByName = names_form(kText);
-inline constexpr Form kTextByDevice = names_form(kText, Form::Of::devices);
-inline constexpr Form kTextByInput = names_form(kText, Form::Of::inputs);
-inline constexpr Form kTextByTurned = names_form(kText, Form::Of::turned);  // inputs, and `in`
-inline constexpr Form kTextByRegister = names_form(kText, Form::Of::registers);
-inline constexpr Form kLevelByName = names_form(kLevel);
-inline constexpr Form kTextList = list_form(kText);
+inline constexpr Schema kText{};
+inline constexpr Schema kDeviceName{.names_of = Schema::Of::devices};
+inline constexpr Schema kLineName{.names_of = Schema::Of::lines};
+inline constexpr Schema kDeviceOrLineName{.names_of = Schema::Of::devices_and_lines};
+inline constexpr Schema kAxisName{.names_of = Schema::Of::axes};
+inline constexpr Schema kInputName{.names_of = Schema::Of::inputs};
+inline constexpr Schema kLevel{.kind = Schema::Kind::level};
+inline constexpr Schema kDuration{.kind = Schema::Kind::duration};
+inline constexpr Schema kSteps{.kind = Schema::Kind::steps};
+inline constexpr Schema kTextByName = names_schema(kText);
+inline constexpr Schema kTextByDevice = names_schema(kText, Schema::Of::devices);
+inline constexpr Schema kTextByInput = names_schema(kText, Schema::Of::inputs);
+inline constexpr Schema kTextByTurned = names_schema(kText, Schema::Of::turned);  // inputs, and `in`
+inline constexpr Schema kTextByRegister = names_schema(kText, Schema::Of::registers);
+inline constexpr Schema kLevelByName = names_schema(kLevel);
+inline constexpr Schema kTextList = list_schema(kText);
 
 }  // namespace understudy::emulator::world

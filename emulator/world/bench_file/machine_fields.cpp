@@ -24,7 +24,7 @@ namespace {
 /// The keys of a map, each read for itself: what is wrong with one hides nothing of the next.
 class Keys {
  public:
-  Keys(const YamlFields& fields, std::span<const KeyRow> known, Diagnostics& diagnostics)
+  Keys(const YamlFields& fields, std::span<const Key> known, Diagnostics& diagnostics)
       : fields_(fields), diagnostics_(diagnostics) {
     diagnostics_.attempt([&] { fields_.require_keys(known); });
   }
@@ -50,8 +50,8 @@ PulseSpan read_span(const YamlFields& field, Diagnostics& diagnostics) {
   const auto ends = field.elements();
   if (ends.size() != 2) field.fail("expected two positions, as in `[ -20000, 20000 ]`");
   PulseSpan span{};
-  const bool has_first = diagnostics.attempt([&] { span.first = ends[0].integer(kPositionForm); });
-  const bool has_last = diagnostics.attempt([&] { span.last = ends[1].integer(kPositionForm); });
+  const bool has_first = diagnostics.attempt([&] { span.first = ends[0].integer(kPositionSchema); });
+  const bool has_last = diagnostics.attempt([&] { span.last = ends[1].integer(kPositionSchema); });
   if (!has_first || !has_last) throw AlreadyReported();
   if (span.first > span.last) field.fail("ends before it begins; expected the lower position first");
   return span;
@@ -93,9 +93,9 @@ IndexSetup read_index(const YamlFields& index, const Model& model, int pulses_pe
                       Diagnostics& diagnostics) {
   const Keys keys(index, kIndexKeys, diagnostics);
   IndexSetup setup{.period = pulses_per_revolution};
-  keys.read("at", [&](const YamlFields& field) { setup.at = field.integer(kPositionForm); });
-  keys.read("width", [&](const YamlFields& field) { setup.width = field.integer(kWidthForm); });
-  keys.read("period", [&](const YamlFields& field) { setup.period = field.integer(kWidthForm); });
+  keys.read("at", [&](const YamlFields& field) { setup.at = field.integer(kPositionSchema); });
+  keys.read("width", [&](const YamlFields& field) { setup.width = field.integer(kWidthSchema); });
+  keys.read("period", [&](const YamlFields& field) { setup.period = field.integer(kWidthSchema); });
   keys.read("input", [&](const YamlFields& field) { setup.input = read_own_input(field, model); });
   diagnostics.attempt([&] {
     const bool is_known = setup.period > 0;  // else the encoder is complained of
@@ -111,7 +111,7 @@ void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& set
                   Diagnostics& diagnostics) {
   const Keys keys(encoder, kEncoderKeys, diagnostics);
   const auto per_revolution = [](const YamlFields& field) {
-    return static_cast<int>(field.integer(kPerRevolutionForm));
+    return static_cast<int>(field.integer(kPerRevolutionSchema));
   };
   keys.require("per_revolution",
                [&](const YamlFields& field) { setup.encoder_counts_per_revolution = per_revolution(field); });
@@ -148,11 +148,11 @@ SwitchSetup read_switch(const YamlFields& fields, const Model& model, Diagnostic
   SwitchSetup setup;
   std::int64_t at = 0;
   std::int64_t width = 1;
-  keys.require("at", [&](const YamlFields& field) { at = field.integer(kPositionForm); });
-  keys.require("width", [&](const YamlFields& field) { width = field.integer(kWidthForm); });
+  keys.require("at", [&](const YamlFields& field) { at = field.integer(kPositionSchema); });
+  keys.require("width", [&](const YamlFields& field) { width = field.integer(kWidthSchema); });
   setup.on = {at, at + width - 1};
   keys.read("hysteresis",
-            [&](const YamlFields& field) { setup.hysteresis_pulses = field.integer(kHysteresisForm); });
+            [&](const YamlFields& field) { setup.hysteresis_pulses = field.integer(kHysteresisSchema); });
   keys.read("contact", [&](const YamlFields& field) { setup.opens = read_word(field, "opens", "closes"); });
   keys.read("input", [&](const YamlFields& field) { setup.input = read_own_input(field, model); });
   return setup;
@@ -169,7 +169,7 @@ void read_home(const YamlFields& home, const Model& model, PlantSetup& setup, Di
 void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup, Diagnostics& diagnostics) {
   const Keys keys(limits, kLimitKeys, diagnostics);
   const auto read = [&](const std::string& side, std::optional<std::int64_t>& position, int& input) {
-    keys.read(side, [&](const YamlFields& field) { position = field.integer(kPositionForm); });
+    keys.read(side, [&](const YamlFields& field) { position = field.integer(kPositionSchema); });
     keys.read(side + "_input", [&](const YamlFields& field) {
       if (!limits.has(side)) {
         field.fail("there is no " + side + " limit switch; expected `" + side + "` as well");
@@ -184,8 +184,9 @@ void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup
       limits.fail("the lower limit is not below the upper one; expected it below");
     }
   });
-  keys.read("hysteresis",
-            [&](const YamlFields& field) { setup.limit_hysteresis_pulses = field.integer(kHysteresisForm); });
+  keys.read("hysteresis", [&](const YamlFields& field) {
+    setup.limit_hysteresis_pulses = field.integer(kHysteresisSchema);
+  });
   keys.read("contact",
             [&](const YamlFields& field) { setup.limits_open = read_word(field, "opens", "closes"); });
 }
@@ -197,7 +198,7 @@ PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis, 
   setup.pulses_per_revolution = model.axes[static_cast<std::size_t>(axis)].pulses_per_revolution;
   const Keys keys(fields, kMachineKeys, diagnostics);
   const bool knows_start = keys.read(
-      "position", [&](const YamlFields& field) { setup.position_pulses = field.integer(kPositionForm); });
+      "position", [&](const YamlFields& field) { setup.position_pulses = field.integer(kPositionSchema); });
   keys.read("travel", [&](const YamlFields& field) { read_travel(field, knows_start, setup, diagnostics); });
   keys.read("home", [&](const YamlFields& field) { read_home(field, model, setup, diagnostics); });
   keys.read("near_home",

@@ -157,14 +157,14 @@ void YamlFields::for_each_entry(Take take) const {
 
 void YamlFields::require_map() const { require_keys_of(nullptr); }
 
-void YamlFields::require_keys(std::span<const KeyRow> known) const { require_keys_of(&known); }
+void YamlFields::require_keys(std::span<const Key> known) const { require_keys_of(&known); }
 
-void YamlFields::require_keys_of(const std::span<const KeyRow>* known) const {
+void YamlFields::require_keys_of(const std::span<const Key>* known) const {
   Diagnostics diagnostics;
   std::set<std::string> seen;
   const auto is_known = [&](const std::string& key) {
     return known == nullptr ||
-           std::any_of(known->begin(), known->end(), [&](const KeyRow& row) { return row.key == key; });
+           std::any_of(known->begin(), known->end(), [&](const Key& row) { return row.key == key; });
   };
   diagnostics.require([&] {
     for_each_entry([&](const std::string& key, const YamlNode& value) {
@@ -177,10 +177,10 @@ void YamlFields::require_keys_of(const std::span<const KeyRow>* known) const {
   });
 }
 
-void YamlFields::refuse_key(const std::string& key, std::span<const KeyRow> known) const {
+void YamlFields::refuse_key(const std::string& key, std::span<const Key> known) const {
   std::vector<std::string> names;
   std::string list;
-  for (const KeyRow& row : known) {
+  for (const Key& row : known) {
     names.emplace_back(row.key);
     list += (list.empty() ? "" : ", ") + names.back();
   }

@@ -60,7 +60,7 @@ class YamlFields {
   /// Requires a map without duplicate keys. Throws all errors together.
   void require_map() const;
   /// Also requires that all keys are `known`.
-  void require_keys(std::span<const KeyRow> known) const;
+  void require_keys(std::span<const Key> known) const;
   /// find() returns nothing if the key is missing; at() throws.
   std::optional<YamlFields> find(std::string_view key) const;
   bool has(std::string_view key) const { return find(key).has_value(); }
@@ -74,7 +74,7 @@ class YamlFields {
   /// Returns a path in folder(), ready for opening.
   std::string path() const;
   std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
-  std::int64_t integer(const Form& form) const { return integer(form.lowest, form.highest); }
+  std::int64_t integer(const Schema& form) const { return integer(form.lowest, form.highest); }
   /// Reads "on" or "off" (or true, false, 1, 0).
   bool on_or_off() const;
   /// Reads a duration such as "120ms".
@@ -90,8 +90,8 @@ class YamlFields {
   /// Calls take(key, value) for each entry of a map.
   template <typename Take>
   void for_each_entry(Take take) const;
-  void require_keys_of(const std::span<const KeyRow>* known) const;
-  [[noreturn]] void refuse_key(const std::string& key, std::span<const KeyRow> known) const;
+  void require_keys_of(const std::span<const Key>* known) const;
+  [[noreturn]] void refuse_key(const std::string& key, std::span<const Key> known) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 
   // All nodes of the document share both.

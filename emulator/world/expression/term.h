@@ -9,7 +9,11 @@
 namespace understudy::emulator::world {
 
 struct Term {
-  enum class Form : std::uint8_t { other, comparison, negation } form = Form::other;  // without parentheses
+  enum class Schema : std::uint8_t {
+    other,
+    comparison,
+    negation
+  } form = Schema::other;  // without parentheses
   Unit unit = Unit::none;
   bool is_zero = false;  // a literal 0, which has every unit
   bool is_real = false;  // for certain; a name may turn out so

@@ -23,7 +23,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-using Form = FaultFieldRow::Form;
+using Schema = FaultFieldRow::Schema;
 using At = FaultKindRow::Place;
 
 constexpr std::array<std::string_view, 3> kSides{"reply", "request", "both"};  // in the order of Fault::Side
@@ -120,15 +120,15 @@ void set_place(const KnownDevices& devices, const FaultKindRow& row, const std::
 
 void set_field(const FaultFieldRow& row, const std::string& text, Fault& fault) {
   switch (row.form) {
-    case Form::number: fault.*row.number = field_number(row.name, text, row.lowest, row.highest); break;
-    case Form::level: fault.*row.number = field_level(row.name, text); break;
-    case Form::duration:
+    case Schema::number: fault.*row.number = field_number(row.name, text, row.lowest, row.highest); break;
+    case Schema::level: fault.*row.number = field_level(row.name, text); break;
+    case Schema::duration:
       fault.*row.number = field_duration(row.name, text, SimTime{row.lowest}).count();
       break;
-    case Form::ticks:
-    case Form::even_ticks: {
+    case Schema::ticks:
+    case Schema::even_ticks: {
       const SimTime time = field_duration(row.name, text, row.lowest * kTickLength);
-      const bool is_even = row.form == Form::even_ticks;
+      const bool is_even = row.form == Schema::even_ticks;
       if (time % ((is_even ? 2 : 1) * kTickLength) != SimTime{0}) {
         throw NameError(std::string(row.name) + ": " + quoted(text) + " is not possible; expected " +
                         (is_even ? "an even number of milliseconds" : "whole milliseconds"));
@@ -136,17 +136,17 @@ void set_field(const FaultFieldRow& row, const std::string& text, Fault& fault) 
       fault.*row.number = time / kTickLength;
       break;
     }
-    case Form::bytes: fault.*row.bytes = field_bytes(row.name, text); break;
-    case Form::side: fault.side = static_cast<Fault::Side>(field_word(row.name, text, kSides)); break;
+    case Schema::bytes: fault.*row.bytes = field_bytes(row.name, text); break;
+    case Schema::side: fault.side = static_cast<Fault::Side>(field_word(row.name, text, kSides)); break;
   }
 }
 
 std::string expected_of(const FaultFieldRow& row) {
   switch (row.form) {
-    case Form::level: return "on or off";
-    case Form::duration:
-    case Form::ticks:
-    case Form::even_ticks: return "a duration such as 250ms";
+    case Schema::level: return "on or off";
+    case Schema::duration:
+    case Schema::ticks:
+    case Schema::even_ticks: return "a duration such as 250ms";
     default: return std::to_string(row.lowest) + " to " + std::to_string(row.highest);
   }
 }
@@ -154,14 +154,14 @@ std::string expected_of(const FaultFieldRow& row) {
 /// Empty if the field says what its absence says.
 std::string text_of(const FaultFieldRow& row, const Fault& fault) {
   switch (row.form) {
-    case Form::number:
-    case Form::level: return std::to_string(fault.*row.number);
-    case Form::duration:
+    case Schema::number:
+    case Schema::level: return std::to_string(fault.*row.number);
+    case Schema::duration:
       return row.required || fault.*row.number != 0 ? format_duration(SimTime{fault.*row.number}) : "";
-    case Form::ticks:
-    case Form::even_ticks: return fault.*row.number != 0 ? format_duration(time_of(fault.*row.number)) : "";
-    case Form::bytes: return hex_text(fault.*row.bytes);
-    case Form::side: {
+    case Schema::ticks:
+    case Schema::even_ticks: return fault.*row.number != 0 ? format_duration(time_of(fault.*row.number)) : "";
+    case Schema::bytes: return hex_text(fault.*row.bytes);
+    case Schema::side: {
       const auto side = static_cast<std::size_t>(fault.side);
       return fault.side == Fault::Side::reply ? "" : std::string(kSides[side]);
     }

@@ -247,7 +247,7 @@ TEST(ModelReader, TakesAnAxisWithEveryKey) {
 
 /// Each key is read: what is no register, number, word or map anywhere is refused.
 TEST(ModelReader, ReadsEveryKeyOfAnAxis) {
-  for (const KeyRow& row : kAxisKeys) {
+  for (const Key& row : kAxisKeys) {
     const std::string came = diagnostic(axis(std::string(row.key) + ": '?'"));
     EXPECT_NE(came.find("axes.A." + std::string(row.key) + ": "), std::string::npos)
         << row.key << ": " << came;

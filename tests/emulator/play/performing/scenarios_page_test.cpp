@@ -96,7 +96,7 @@ TEST(ScenariosPage, EveryKindOfStepHasAnExample) {
   for (const std::string& example : examples()) all += "\n" + example;
   for (const StepRow& row : step_rows()) {
     EXPECT_NE(all.find("\n- " + std::string(row.key.key) + ":"), std::string::npos) << row.key.key;
-    for (const world::KeyRow& beside : row.beside) {
+    for (const world::Key& beside : row.beside) {
       EXPECT_NE(all.find("\n  " + std::string(beside.key) + ":"), std::string::npos) << beside.key;
     }
   }

@@ -206,7 +206,7 @@ TEST(FaultForm, HasEveryKindAndField) {
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   std::vector<std::string> told;
-  for (const KeyRow& row : kFaultKeys) told.emplace_back(row.key);
+  for (const Key& row : kFaultKeys) told.emplace_back(row.key);
   std::sort(told.begin(), told.end());
   EXPECT_EQ(told, known);
 }
