@@ -120,7 +120,7 @@ void Line::take_back_unsent() {
 void Line::nothing_more(SimTime now) {
   due_changed();
   if (!state_.input.empty()) return;  // the rest is still on the wire
-  for (Station* station : stations_) station->hear_nothing_more();
+  for (Station* station : stations_) station->on_idle();
   for (LineObserver* observer : observers_) observer->on_nothing_more();
   run(now);
 }
@@ -385,7 +385,7 @@ void Line::put_on_wire(const TimedByte& character, bool& has_collided) {
   }
 }
 
-void Line::hush(const Station& station, SimTime now) {
+void Line::discard_pending(const Station& station, SimTime now) {
   due_changed();
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (stations_[i] != &station) continue;

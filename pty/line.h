@@ -70,7 +70,7 @@ class Line {
   /// Adds a station, which must outlive the line. Stations receive and transmit in the order of attaching.
   void attach(Station& station);
   /// Drops the characters that a station has not begun to send, because it has lost its power.
-  void hush(const Station& station, SimTime now);
+  void discard_pending(const Station& station, SimTime now);
   /// Sets how the host is connected to the wire from now on.
   void set_adapter(const Adapter& adapter);
   bool is_unplugged() const { return state_.adapter.is_unplugged; }
@@ -97,7 +97,7 @@ class Line {
   void host_purged();
 
   /// The clock is stopped, and no byte has arrived for as long as a frame is waited for
-  /// (Station::hear_nothing_more). It has no effect while characters are on their way.
+  /// (Station::on_idle). It has no effect while characters are on their way.
   void nothing_more(SimTime now);
 
   /// A host opened the line. The previous host's settings are forgotten. A new line counts as opened.

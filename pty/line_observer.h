@@ -43,7 +43,7 @@ class LineObserver {
   virtual void on_start_bit(SimTime at) = 0;
   /// A character from the host is over. `is_heard` is true if at least one station received it.
   virtual void on_character(const TimedByte& character, bool is_heard) = 0;
-  /// No more characters have arrived for a while although the clock is stopped (Station::hear_nothing_more).
+  /// No more characters have arrived for a while although the clock is stopped (Station::on_idle).
   virtual void on_nothing_more() = 0;
 
   // These report the host's actions when they happen. `bytes` are those that the line takes.

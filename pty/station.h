@@ -58,7 +58,7 @@ class Station {
 
   /// No more characters have arrived for a while although the clock is stopped: the station gives up an
   /// incomplete request.
-  virtual void hear_nothing_more() {}
+  virtual void on_idle() {}
 
   /// Returns when run() wants to be called next, or nothing if the station only waits for bytes. If it
   /// changes for any other reason than a call from the line, the line must be told (Line::due_changed).

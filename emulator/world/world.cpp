@@ -434,7 +434,7 @@ void World::settle_power(std::size_t device) {
     for (const auto& station : line->stations) {
       if (&station->device() != devices_[device].get()) continue;
       station->reset();
-      line->line.hush(*station, now_);
+      line->line.discard_pending(*station, now_);
     }
     // A switch on its housing may have given it another speed; the wire takes that of the first station.
     const auto speaks = std::find_if(line->stations.begin(), line->stations.end(),

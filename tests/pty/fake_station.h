@@ -31,7 +31,7 @@ class FakeSlave : public Station {
     ++others;
     framer_.reset();
   }
-  void hear_nothing_more() override { framer_.give_up_waiting(); }
+  void on_idle() override { framer_.give_up_waiting(); }
   std::optional<SimTime> due() const override { return framer_.due(); }
   void run(SimTime now, Transmitter& out) override {
     const auto frame = framer_.take(now);

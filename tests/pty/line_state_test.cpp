@@ -23,7 +23,7 @@ class Echo final : public Station {
   void hear_start_bit(SimTime at) override { framer.start_bit(at); }
   void hear(const TimedByte& byte) override { framer.push(byte); }
   void hear_other_station() override { framer.reset(); }
-  void hear_nothing_more() override { framer.give_up_waiting(); }
+  void on_idle() override { framer.give_up_waiting(); }
   std::optional<SimTime> due() const override { return framer.due(); }
   void run(SimTime now, Transmitter& out) override {
     const auto frame = framer.take(now);

@@ -30,7 +30,7 @@ class RtuStation final : public LineStation {
     state_.framer.reset();
     wire_.forget_early_frame();
   }
-  void hear_nothing_more() override {
+  void on_idle() override {
     state_.framer.give_up_waiting();
     tell_errors(state_.framer);
   }
