@@ -34,7 +34,7 @@
 #include "emulator/world/bench_file/program_warnings.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/recording/recording_spool.h"
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 #include "emulator/world/trace/trace.h"
 #include "pty/line.h"
 #include "pty/line_settings.h"
@@ -119,7 +119,7 @@ void listen_as_wished(world::Bench& bench, const std::string& wish) {
     lines += (lines.empty() ? "" : ", ") + line.name;
     if (names_line ? line.name != name : bench.lines.size() > 1) continue;
     const Model& model = *bench.devices[line.stations.front().device].model;
-    if (address.protocol == world::TcpProtocol::modbus_tcp && world::speech_of(model).carries_text()) {
+    if (address.protocol == world::TcpProtocol::modbus_tcp && world::protocol_of(model).carries_text()) {
       throw UsageError("--listen: " + understudy::quoted(wish) + ": the line " + line.name +
                        " carries lines of text, not Modbus; expected rtu:// or rfc2217://, which carry any "
                        "bytes");

@@ -35,7 +35,7 @@ class ModbusStation;
 class NamedValues;
 class RegisterBank;
 class Terminals;
-class TextSpeaker;
+class TextProtocol;
 class UserProgram;
 
 class Device {
@@ -60,9 +60,9 @@ class Device {
   /// The device as a Modbus station (modbus/modbus_station.h).
   virtual ModbusStation* modbus() { return nullptr; }
   virtual const ModbusStation* modbus() const { return nullptr; }
-  /// The device's text protocol (text/text_speaker.h).
-  virtual TextSpeaker* speaker() { return nullptr; }
-  virtual const TextSpeaker* speaker() const { return nullptr; }
+  /// The device's text protocol (text/text_protocol.h).
+  virtual TextProtocol* speaker() { return nullptr; }
+  virtual const TextProtocol* speaker() const { return nullptr; }
   /// Values without a register (named_values.h).
   virtual NamedValues* named_values() { return nullptr; }
   virtual const NamedValues* named_values() const { return nullptr; }

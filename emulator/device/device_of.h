@@ -18,8 +18,8 @@ class DeviceOf : public Device {
   const RegisterBank* register_bank() const override { return facet<const RegisterBank>(*this); }
   ModbusStation* modbus() override { return facet<ModbusStation>(*this); }
   const ModbusStation* modbus() const override { return facet<const ModbusStation>(*this); }
-  TextSpeaker* speaker() override { return facet<TextSpeaker>(*this); }
-  const TextSpeaker* speaker() const override { return facet<const TextSpeaker>(*this); }
+  TextProtocol* speaker() override { return facet<TextProtocol>(*this); }
+  const TextProtocol* speaker() const override { return facet<const TextProtocol>(*this); }
   NamedValues* named_values() override { return facet<NamedValues>(*this); }
   const NamedValues* named_values() const override { return facet<const NamedValues>(*this); }
   KeptMemory* memory() override { return facet<KeptMemory>(*this); }

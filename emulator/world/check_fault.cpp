@@ -12,7 +12,7 @@
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/probe/probe_names.h"
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 #include "emulator/world/view/inventory.h"
 
 namespace understudy::emulator::world {
@@ -49,7 +49,7 @@ void check_fault(const Inventory& inventory, const Fault& fault) {
                     " has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
   }
   const KnownDevice& known = inventory.known()[fault.device];
-  speech_of(*known.model).require_possible(known.name, fault);
+  protocol_of(*known.model).require_possible(known.name, fault);
   if (fault.trigger.when.empty()) return;
   try {
     check_condition(inventory, fault.trigger.when);

@@ -14,7 +14,7 @@
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/faults/trigger.h"
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 #include "emulator/world/stations/frame_faults.h"
 #include "emulator/world/world.h"
 #include "pty/line_observer.h"
@@ -167,7 +167,7 @@ bool FaultWatch::is_at(const Fault& fault, const HeardFrame& frame) const {
 }
 
 bool FaultWatch::is_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame) {
-  const LineSpeech& speech = world_.line(frame.line).speech;
+  const LineProtocol& speech = world_.line(frame.line).speech;
   return strikes_frame(armed.fault.trigger, armed.course, speech.facts_of(frame), *this, stream(number));
 }
 

@@ -25,7 +25,7 @@
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/outside.h"
 #include "emulator/world/plant/plant.h"
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 #include "emulator/world/view/world_view.h"
 #include "pty/line.h"
 #include "pty/rtu_framer.h"
@@ -70,7 +70,7 @@ std::unique_ptr<WorldLine> made_line(const LineSetup& setup,
                                      .strict_framing = options.strict_framing,
                                      .patience = options.patience,
                                      .rest_patience = as_long_as(setup.byte_timeout, options.patience)};
-  const LineSpeech& speech = speech_of(devices[first.device]->model());
+  const LineProtocol& speech = protocol_of(devices[first.device]->model());
   auto line =
       std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), speech, {}, {}});
   for (const auto& [number, port] : setup.stations) {

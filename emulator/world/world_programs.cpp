@@ -8,7 +8,7 @@
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/refusal.h"
 #include "emulator/device/register_map/row.h"
-#include "emulator/device/text/text_speaker.h"
+#include "emulator/device/text/text_protocol.h"
 #include "emulator/world/outside.h"
 #include "emulator/world/world.h"
 
@@ -34,7 +34,7 @@ void World::load_program(std::size_t device, std::string_view text) {
 
 Objection World::command(std::size_t device, std::string_view text) {
   begin_act();
-  if (TextSpeaker* const speaker = devices_[device]->speaker()) {
+  if (TextProtocol* const speaker = devices_[device]->speaker()) {
     tell([&](OutsideListener& listener) { listener.on_command(device, text); });
     const DeviceAnswer answer = speaker->take_command(text);
     look_for_speech(now_);

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "emulator/device/model.h"
-#include "emulator/device/text/text_speaker.h"
+#include "emulator/device/text/text_protocol.h"
 
 namespace understudy::emulator {
 

@@ -20,7 +20,7 @@
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/terminals.h"
-#include "emulator/device/text/text_speaker.h"
+#include "emulator/device/text/text_protocol.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/slim/actions.h"
 #include "emulator/models/slim/chain.h"
@@ -73,7 +73,7 @@ struct State {
 };
 
 class Slim final : public DeviceOf<Slim>,
-                   public TextSpeaker,
+                   public TextProtocol,
                    public NamedValues,
                    public KeptMemory,
                    public UserProgram,

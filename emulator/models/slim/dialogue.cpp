@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "emulator/device/register_map/refusal.h"
-#include "emulator/device/text/text_speaker.h"
+#include "emulator/device/text/text_protocol.h"
 #include "emulator/models/slim/actions.h"
 #include "emulator/models/slim/device.h"
 #include "emulator/models/slim/errors.h"

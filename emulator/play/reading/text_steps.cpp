@@ -9,7 +9,7 @@
 #include "emulator/play/reading/steps_reader.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 #include "emulator/world/speech/text_lines_heard.h"
 
 namespace understudy::emulator::play {
@@ -48,7 +48,7 @@ std::size_t read_line_of_text(const StepsReader& reader, const world::YamlFields
   const std::size_t number = read_line_of(reader, value);
   const world::Bench& bench = reader.trial().bench();
   const world::LineSetup& line = bench.lines[number];
-  const world::LineSpeech& speech = world::speech_of(*bench.devices[line.stations.front().device].model);
+  const world::LineProtocol& speech = world::protocol_of(*bench.devices[line.stations.front().device].model);
   if (!speech.carries_text()) {
     value.fail("line '" + line.name + "' carries " + std::string(speech.messages()) +
                "; expected a line of text here, or `bytes`");

@@ -18,7 +18,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/serve/loop/event_loop.h"
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 #include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
 #include "pty/line.h"

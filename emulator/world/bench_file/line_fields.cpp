@@ -15,7 +15,7 @@
 #include "emulator/world/bench/listening.h"
 #include "emulator/world/bench_file/device_fields.h"
 #include "emulator/world/bench_file/yaml_fields.h"
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 #include "pty/line.h"
 
 namespace understudy::emulator::world {
@@ -76,8 +76,8 @@ void require_ports(const YamlFields& fields, const LineSetup& line, const Bench&
     fields.at("pty").fail("leaves the line without a port; expected `listen` as well");
   if (!line.has_pty && !line.link.empty())
     fields.at("link").fail("needs a pseudo-terminal, but `pty` is false; expected one of the two");
-  const bool is_text =
-      !line.stations.empty() && speech_of(*bench.devices[line.stations.front().device].model).carries_text();
+  const bool is_text = !line.stations.empty() &&
+                       protocol_of(*bench.devices[line.stations.front().device].model).carries_text();
   const bool has_modbus_tcp =
       std::ranges::find(line.tcp, TcpProtocol::modbus_tcp, &TcpAddress::protocol) != line.tcp.end();
   if (is_text && has_modbus_tcp)

@@ -14,7 +14,7 @@
 #include "base/state/state_bytes.h"
 #include "base/state/state_error.h"
 #include "emulator/device/device.h"
-#include "emulator/device/text/text_speaker.h"
+#include "emulator/device/text/text_protocol.h"
 #include "emulator/world/stations/faulty_wire.h"
 #include "emulator/world/stations/frame_faults.h"
 #include "emulator/world/stations/line_station.h"
@@ -52,7 +52,7 @@ HeardFrame frame_of(std::string_view text, std::uint64_t last_character, pty::Si
   return {.bytes = bytes_of(text), .last_character = last_character, .is_for_device = true, .now = now};
 }
 
-pty::TextLineRules rules_of(const TextSpeaker& speaker) {
+pty::TextLineRules rules_of(const TextProtocol& speaker) {
   const TextRules rules = speaker.text_rules();
   return {.longest = rules.longest_line,
           .echoes = rules.echo,
@@ -61,7 +61,7 @@ pty::TextLineRules rules_of(const TextSpeaker& speaker) {
           .echoed_end = rules.echoed_end};
 }
 
-TextSpeaker& speaker_of(Device& device) {
+TextProtocol& speaker_of(Device& device) {
   if (device.speaker() == nullptr) throw std::logic_error(device.name() + ": does not speak text");
   return *device.speaker();
 }

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/device/text/text_speaker.h"
+#include "emulator/device/text/text_protocol.h"
 #include "emulator/world/stations/line_station.h"
 #include "pty/text_lines.h"
 
@@ -74,7 +74,7 @@ class TextStation final : public LineStation {
   void send(pty::SimTime now, pty::Transmitter& out);
   std::size_t outgoing_size() const;
 
-  TextSpeaker& speaker_;
+  TextProtocol& speaker_;
   bool is_instant_;
   State state_;
 };

@@ -10,7 +10,7 @@
 #include "base/simulated_time.h"
 #include "emulator/device/device.h"
 #include "emulator/world/plant/plant.h"
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 #include "emulator/world/stations/line_station.h"
 #include "emulator/world/view/inventory.h"
 #include "pty/line.h"
@@ -21,7 +21,7 @@ namespace understudy::emulator::world {
 /// A line with its stations.
 struct WorldLine {
   pty::Line line;
-  const LineSpeech& speech;
+  const LineProtocol& speech;
   LineStations stations;
   pty::RtuFraming framing{};  // as its stations have it; the shortest of different silences
 

@@ -27,7 +27,7 @@
 #include "emulator/device/program_language.h"
 #include "emulator/device/terminals.h"
 #include "emulator/device/text/text_port.h"
-#include "emulator/device/text/text_speaker.h"
+#include "emulator/device/text/text_protocol.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/models.h"
 #include "emulator/world/bench/bench.h"
@@ -72,7 +72,7 @@ inline constexpr TerminalRow kEchoTerminals[] = {{TerminalRow::Kind::digital_in,
                                                  {TerminalRow::Kind::digital_out, "OUT_1"}};
 
 class EchoBox final : public DeviceOf<EchoBox>,
-                      public TextSpeaker,
+                      public TextProtocol,
                       public NamedValues,
                       public KeptMemory,
                       public UserProgram,

@@ -10,12 +10,12 @@
 
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
-#include "emulator/device/text/text_speaker.h"
+#include "emulator/device/text/text_protocol.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/faults/trigger.h"
 #include "emulator/world/names/names.h"
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 #include "emulator/world/speech/text_lines_heard.h"
 #include "emulator/world/stations/frame_faults.h"
 #include "emulator/world/stations/line_station.h"
@@ -28,7 +28,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-class TextSpeech final : public LineSpeech {
+class TextLineProtocol final : public LineProtocol {
  public:
   const Protocol& protocol() const override { return kTextLines; }
   std::string_view messages() const override { return "lines of text"; }
@@ -98,8 +98,8 @@ class TextSpeech final : public LineSpeech {
 
 }  // namespace
 
-const LineSpeech& text_speech() {
-  static const TextSpeech speech;
+const LineProtocol& text_protocol() {
+  static const TextLineProtocol speech;
   return speech;
 }
 

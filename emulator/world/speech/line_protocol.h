@@ -1,6 +1,6 @@
 // The protocol of a line: how devices are connected to it, how hosts behave there, what its messages mean.
 // All differences between protocols are behind this interface; a new protocol is one more object
-// (speech_of() lists them).
+// (protocol_of() lists them).
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ struct StationConditions {
   SimTime rest_patience{0};     // as long as LineSetup::byte_timeout, in simulated time
 };
 
-class LineSpeech {
+class LineProtocol {
  public:
   virtual const Protocol& protocol() const = 0;
   /// Returns "Modbus frames" or the like for messages.
@@ -77,14 +77,14 @@ class LineSpeech {
   virtual void require_possible(const std::string& /*device*/, const Fault& /*fault*/) const {}
 
  protected:
-  ~LineSpeech() = default;
+  ~LineProtocol() = default;
 };
 
-// Defined in modbus_speech.cpp and text_speech.cpp.
-const LineSpeech& modbus_speech();
-const LineSpeech& text_speech();
+// Defined in modbus_protocol.cpp and text_protocol.cpp.
+const LineProtocol& modbus_protocol();
+const LineProtocol& text_protocol();
 
 /// Returns the object for a model's protocol. Throws std::logic_error if there is none.
-const LineSpeech& speech_of(const Model& model);
+const LineProtocol& protocol_of(const Model& model);
 
 }  // namespace understudy::emulator::world

@@ -1,4 +1,4 @@
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 
 #include <array>
 #include <stdexcept>
@@ -7,8 +7,8 @@
 
 namespace understudy::emulator::world {
 
-const LineSpeech& speech_of(const Model& model) {
-  for (const LineSpeech* const speech : std::array{&modbus_speech(), &text_speech()}) {
+const LineProtocol& protocol_of(const Model& model) {
+  for (const LineProtocol* const speech : std::array{&modbus_protocol(), &text_protocol()}) {
     if (&speech->protocol() == &model.line.protocol) return *speech;
   }
   throw std::logic_error(std::string(model.name) + ": no line of a world carries " +

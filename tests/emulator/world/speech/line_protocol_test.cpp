@@ -1,5 +1,5 @@
 // What differs from one protocol to another is asked of one object.
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 
 #include <gtest/gtest.h>
 
@@ -7,38 +7,38 @@
 #include "tests/emulator/world/stations/echo_box.h"
 
 namespace understudy::emulator::world {
-namespace line_speech_test {
+namespace line_protocol_test {
 
-TEST(LineSpeech, IsThatOfItsModelsProtocol) {
+TEST(LineProtocol, IsThatOfItsModelsProtocol) {
   for (const Model* model : models_and_echo_box()) {
-    const LineSpeech& speech = speech_of(*model);
+    const LineProtocol& speech = protocol_of(*model);
     EXPECT_EQ(&speech.protocol(), &model->line.protocol) << model->name;
-    EXPECT_EQ(&speech, model->rtu ? &modbus_speech() : &text_speech()) << model->name;
+    EXPECT_EQ(&speech, model->rtu ? &modbus_protocol() : &text_protocol()) << model->name;
   }
 }
 
-TEST(LineSpeech, DiffersInAllThatHostsMeet) {
-  EXPECT_NE(modbus_speech().protocol().name, text_speech().protocol().name);
-  EXPECT_EQ(modbus_speech().messages(), "Modbus frames");
-  EXPECT_EQ(text_speech().messages(), "lines of text");
-  EXPECT_TRUE(modbus_speech().is_framed_by_silence());
-  EXPECT_FALSE(text_speech().is_framed_by_silence());
-  EXPECT_FALSE(modbus_speech().carries_text());
-  EXPECT_TRUE(text_speech().carries_text());
-  EXPECT_FALSE(modbus_speech().may_be_unasked());
-  EXPECT_TRUE(text_speech().may_be_unasked());
+TEST(LineProtocol, DiffersInAllThatHostsMeet) {
+  EXPECT_NE(modbus_protocol().protocol().name, text_protocol().protocol().name);
+  EXPECT_EQ(modbus_protocol().messages(), "Modbus frames");
+  EXPECT_EQ(text_protocol().messages(), "lines of text");
+  EXPECT_TRUE(modbus_protocol().is_framed_by_silence());
+  EXPECT_FALSE(text_protocol().is_framed_by_silence());
+  EXPECT_FALSE(modbus_protocol().carries_text());
+  EXPECT_TRUE(text_protocol().carries_text());
+  EXPECT_FALSE(modbus_protocol().may_be_unasked());
+  EXPECT_TRUE(text_protocol().may_be_unasked());
 }
 
-TEST(LineSpeech, KnowsARefusalWhereThereIsOne) {
+TEST(LineProtocol, KnowsARefusalWhereThereIsOne) {
   constexpr std::uint8_t kException[] = {0x01, 0x83, 0x02};
   constexpr std::uint8_t kAnswer[] = {0x01, 0x03, 0x02};
-  EXPECT_TRUE(modbus_speech().is_refusal(kException));
-  EXPECT_FALSE(modbus_speech().is_refusal(kAnswer));
-  EXPECT_FALSE(modbus_speech().is_refusal(std::span(kException).first(1)));
-  EXPECT_FALSE(text_speech().is_refusal(kException));
+  EXPECT_TRUE(modbus_protocol().is_refusal(kException));
+  EXPECT_FALSE(modbus_protocol().is_refusal(kAnswer));
+  EXPECT_FALSE(modbus_protocol().is_refusal(std::span(kException).first(1)));
+  EXPECT_FALSE(text_protocol().is_refusal(kException));
 }
 
-TEST(LineSpeech, IsRefusedWhereTheWorldHasNone) {
+TEST(LineProtocol, IsRefusedWhereTheWorldHasNone) {
   static constexpr Protocol kSmokeSigns{"smoke signs"};
   const Model model{.name = "chief",
                     .title = "",
@@ -52,7 +52,7 @@ TEST(LineSpeech, IsRefusedWhereTheWorldHasNone) {
                     .make = nullptr};
   std::string diagnostic;
   try {
-    speech_of(model);
+    protocol_of(model);
   } catch (const std::logic_error& error) {
     diagnostic = error.what();
   }
@@ -73,14 +73,14 @@ class Mute final : public Device {
   std::string own_difference(StateReader&, StateReader&) const override { return ""; }
 };
 
-TEST(LineSpeech, MakesAStationOnlyOfADeviceThatSpeaks) {
+TEST(LineProtocol, MakesAStationOnlyOfADeviceThatSpeaks) {
   Mute mute(echo_box(), {});
-  EXPECT_THROW(text_speech().make_station(mute, 0, {}), std::logic_error);
-  EXPECT_THROW(modbus_speech().make_station(mute, 0, {}), std::logic_error);
+  EXPECT_THROW(text_protocol().make_station(mute, 0, {}), std::logic_error);
+  EXPECT_THROW(modbus_protocol().make_station(mute, 0, {}), std::logic_error);
   EchoBox box(echo_box(), {});
-  EXPECT_NE(text_speech().make_station(box, 0, {}), nullptr);
-  EXPECT_THROW(modbus_speech().make_station(box, 0, {}), std::logic_error);
+  EXPECT_NE(text_protocol().make_station(box, 0, {}), nullptr);
+  EXPECT_THROW(modbus_protocol().make_station(box, 0, {}), std::logic_error);
 }
 
-}  // namespace line_speech_test
+}  // namespace line_protocol_test
 }  // namespace understudy::emulator::world

@@ -23,7 +23,7 @@ struct TextRules {
   std::string_view echoed_end = "\r\n";
 };
 
-class TextSpeaker {
+class TextProtocol {
  public:
   virtual TextRules text_rules() const { return {}; }
 
@@ -49,7 +49,7 @@ class TextSpeaker {
   virtual std::string take_speech() = 0;
 
  protected:
-  ~TextSpeaker() = default;
+  ~TextProtocol() = default;
 };
 
 }  // namespace understudy::emulator

@@ -13,7 +13,7 @@
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
 #include "emulator/world/faults/trigger.h"
-#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/line_protocol.h"
 #include "emulator/world/speech/modbus_words.h"
 #include "emulator/world/stations/frame_faults.h"
 #include "emulator/world/stations/line_station.h"
@@ -26,7 +26,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-class ModbusSpeech final : public LineSpeech {
+class ModbusLineProtocol final : public LineProtocol {
  public:
   const Protocol& protocol() const override { return kModbusRtu; }
   std::string_view messages() const override { return "Modbus frames"; }
@@ -108,8 +108,8 @@ class ModbusSpeech final : public LineSpeech {
 
 }  // namespace
 
-const LineSpeech& modbus_speech() {
-  static const ModbusSpeech speech;
+const LineProtocol& modbus_protocol() {
+  static const ModbusLineProtocol speech;
   return speech;
 }
 
