@@ -98,7 +98,7 @@ void Page::heard(BrowserId browser, std::string_view text) {
                                      [](const auto& one) { return one.second.is_known; });
     if (static_cast<std::size_t>(known) >= options_.browsers) return web_.close(browser, "too many browsers");
     whose.is_known = true;
-    web_.welcome(browser);
+    web_.authenticated(browser);
     return greet(browser);
   }
   try {

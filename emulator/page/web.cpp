@@ -84,31 +84,31 @@ Response refusal_of(const Request& request, http::status status, const std::stri
 }
 
 /// A stranger's place, until it is welcome or gone.
-class Seat {
+class PendingSlot {
  public:
-  explicit Seat(std::list<Seat*>& strangers) : strangers_(strangers) {
-    place_ = strangers_.insert(strangers_.end(), this);
+  explicit PendingSlot(std::list<PendingSlot*>& unauthenticated) : unauthenticated_(unauthenticated) {
+    place_ = unauthenticated_.insert(unauthenticated_.end(), this);
   }
-  ~Seat() { welcome(); }
-  Seat(const Seat&) = delete;
-  Seat& operator=(const Seat&) = delete;
+  ~PendingSlot() { authenticated(); }
+  PendingSlot(const PendingSlot&) = delete;
+  PendingSlot& operator=(const PendingSlot&) = delete;
 
-  void welcome() {
-    if (is_of_stranger_) strangers_.erase(place_);
-    is_of_stranger_ = false;
+  void authenticated() {
+    if (is_pending_) unauthenticated_.erase(place_);
+    is_pending_ = false;
   }
   /// How whoever sits there is sent away; nothing: it is on its way out.
   void set_end(std::function<void()> end) { end_ = std::move(end); }
   /// For another.
   void vacate() {
-    welcome();
+    authenticated();
     if (const auto end = std::exchange(end_, {})) end();
   }
 
  private:
-  std::list<Seat*>& strangers_;
-  std::list<Seat*>::iterator place_;
-  bool is_of_stranger_ = true;
+  std::list<PendingSlot*>& unauthenticated_;
+  std::list<PendingSlot*>::iterator place_;
+  bool is_pending_ = true;
   std::function<void()> end_;
 };
 
@@ -127,7 +127,7 @@ class Web::Inside {
   WebLimits limits;
   WebEvents& events;
   WebAccess access;
-  std::list<Seat*> strangers;  // the oldest first; outlives `io`, whose handlers hold seats
+  std::list<PendingSlot*> unauthenticated;  // the oldest first; outlives `io`, whose handlers hold seats
   BrowserId last_browser = 0;
   net::io_context io{1};
   net::basic_socket_acceptor<Tcp, Executor> acceptor{io};
@@ -137,15 +137,15 @@ class Web::Inside {
 /// A browser's WebSocket.
 class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
  public:
-  Browser(Inside& inside, TcpStream&& stream, std::shared_ptr<Seat> seat, BrowserId id)
-      : inside_(inside), seat_(std::move(seat)), socket_(std::move(stream)), id_(id) {
-    seat_->set_end([this] { cut(); });
+  Browser(Inside& inside, TcpStream&& stream, std::shared_ptr<PendingSlot> pending_slot, BrowserId id)
+      : inside_(inside), pending_slot_(std::move(pending_slot)), socket_(std::move(stream)), id_(id) {
+    pending_slot_->set_end([this] { cut(); });
   }
-  ~Browser() { seat_->set_end({}); }
+  ~Browser() { pending_slot_->set_end({}); }
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
 
-  void welcome() { seat_->welcome(); }
+  void authenticated() { pending_slot_->authenticated(); }
 
   void open(const Request& request) {
     websocket::stream_base::timeout timeout{};
@@ -229,7 +229,7 @@ class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
   }
 
   Inside& inside_;
-  std::shared_ptr<Seat> seat_;
+  std::shared_ptr<PendingSlot> pending_slot_;
   Socket socket_;
   BrowserId id_;
   beast::flat_buffer input_;
@@ -245,17 +245,17 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
  public:
   Visit(Inside& inside, net::basic_stream_socket<Tcp, Executor>&& socket)
       : inside_(inside),
-        seat_(std::make_shared<Seat>(inside.strangers)),
+        pending_slot_(std::make_shared<PendingSlot>(inside.unauthenticated)),
         stream_(std::move(socket)),
         input_(64 * 1024) {
-    seat_->set_end([this] { stream_.close(); });
+    pending_slot_->set_end([this] { stream_.close(); });
     parser_.header_limit(static_cast<std::uint32_t>(inside.limits.request_bytes));
     parser_.body_limit(0);
   }
 
   /// It may sit on as a browser.
   ~Visit() {
-    if (!is_browser_) seat_->set_end({});
+    if (!is_browser_) pending_slot_->set_end({});
   }
   Visit(const Visit&) = delete;
   Visit& operator=(const Visit&) = delete;
@@ -302,7 +302,7 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
       stream_.expires_never();
       is_browser_ = true;
       const auto browser =
-          std::make_shared<Browser>(inside_, std::move(stream_), seat_, ++inside_.last_browser);
+          std::make_shared<Browser>(inside_, std::move(stream_), pending_slot_, ++inside_.last_browser);
       return browser->open(request);
     }
     auto file = inside_.events.file(target.substr(0, target.find('?')));
@@ -320,7 +320,7 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
   }
 
   Inside& inside_;
-  std::shared_ptr<Seat> seat_;
+  std::shared_ptr<PendingSlot> pending_slot_;
   TcpStream stream_;
   beast::flat_buffer input_;
   http::request_parser<http::empty_body> parser_;
@@ -356,7 +356,7 @@ void Web::Inside::accept() {
       return rest->async_wait([this, rest](Error) { accept(); });
     }
     // Whoever holds places without a token would keep others out.
-    if (strangers.size() >= limits.strangers) strangers.front()->vacate();
+    if (unauthenticated.size() >= limits.unauthenticated) unauthenticated.front()->vacate();
     std::make_shared<Visit>(*this, std::move(socket))->begin();
     accept();
   });
@@ -387,9 +387,9 @@ void Web::run(bool watch_signals) {
 
 void Web::stop() { inside_->io.stop(); }
 
-void Web::welcome(BrowserId browser) {
+void Web::authenticated(BrowserId browser) {
   const auto found = inside_->browsers.find(browser);
-  if (found != inside_->browsers.end()) found->second->welcome();
+  if (found != inside_->browsers.end()) found->second->authenticated();
 }
 
 void Web::send(BrowserId browser, std::shared_ptr<const std::string> text) {

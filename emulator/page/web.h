@@ -48,7 +48,7 @@ class WebEvents {
 };
 
 struct WebLimits {
-  std::size_t strangers = 64;                 // connections of those who are not welcome yet
+  std::size_t unauthenticated = 64;           // connections of those who are not welcome yet
   std::size_t request_bytes = 8 * 1024;       // of a request's head; it has no body
   std::size_t message_bytes = 64 * 1024;      // of a browser's
   std::size_t waiting_bytes = 8 << 20;        // for a browser that does not read; it is closed then
@@ -85,7 +85,7 @@ class Web {
 
   /// Marks a browser as authenticated: its place can no longer be taken. At first every connection is
   /// unauthenticated; there is a bounded number of these, and the newest one takes the place of the oldest.
-  void welcome(BrowserId browser);
+  void authenticated(BrowserId browser);
   void send(BrowserId browser, std::shared_ptr<const std::string> text);
   /// Returns the number of bytes that are queued and not sent yet.
   std::size_t waiting(BrowserId browser) const;

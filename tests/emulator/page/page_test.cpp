@@ -201,13 +201,13 @@ TEST(PageConnections, ByTheThousandLeaveItAlive) {
 
 TEST(PageConnections, OfStrangersDoNotKeepOthersOut) {
   PageRig rig;  // a stranger may take its time: 5 s
-  std::vector<std::unique_ptr<TestBrowser>> strangers;
+  std::vector<std::unique_ptr<TestBrowser>> unauthenticated;
   const auto come = [&](int count) {
     for (int i = 0; i < count; ++i) {
-      strangers.push_back(std::make_unique<TestBrowser>(rig.page.port()));
-      if (i % 3 == 0) strangers.back()->write("GET / HTTP/1.1\r\nHost: 127");
+      unauthenticated.push_back(std::make_unique<TestBrowser>(rig.page.port()));
+      if (i % 3 == 0) unauthenticated.back()->write("GET / HTTP/1.1\r\nHost: 127");
       if (i % 3 == 1) {
-        EXPECT_TRUE(strangers.back()->open_socket(rig.page.port()));
+        EXPECT_TRUE(unauthenticated.back()->open_socket(rig.page.port()));
       }
     }
   };
@@ -221,8 +221,8 @@ TEST(PageConnections, OfStrangersDoNotKeepOthersOut) {
   EXPECT_EQ(rig.browser()->why(), "");
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(4)) << "nobody was waited for";
   // The oldest have made room, the newest are still there, and so is whoever had the token.
-  EXPECT_TRUE(is_closed(*strangers.front()));
-  EXPECT_FALSE(is_closed(*strangers.back()));
+  EXPECT_TRUE(is_closed(*unauthenticated.front()));
+  EXPECT_FALSE(is_closed(*unauthenticated.back()));
   owner->say({{"do", "nonsense"}});
   EXPECT_EQ(owner->hear()["is"], "error");
 }
