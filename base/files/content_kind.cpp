@@ -122,7 +122,7 @@ std::string the(ContentKind kind) {
 }
 
 ContentKind content_of(std::string_view head) {
-  head = head.substr(0, kTellingBytes);
+  head = head.substr(0, kReplyTaskBytes);
   for (const KindRow& row : kKinds) {
     if (fits(row, head)) return row.kind;
   }
@@ -131,7 +131,7 @@ ContentKind content_of(std::string_view head) {
 
 bool is_of_kind(ContentKind kind, std::string_view head) {
   if (head.empty()) return true;
-  head = head.substr(0, kTellingBytes);
+  head = head.substr(0, kReplyTaskBytes);
   for (const KindRow& row : kKinds) {
     if (row.kind == kind && (fits(row, head) || is_torn(row, head))) return true;
   }

@@ -54,7 +54,7 @@ void require_own_way(const fs::path& absolute) {
 
 /// Returns the beginning of an open file. Throws OutputError.
 std::string head_of(int file) {
-  std::string head(kTellingBytes, '\0');
+  std::string head(kReplyTaskBytes, '\0');
   const ssize_t size = ::pread(file, head.data(), head.size(), 0);
   if (size < 0) throw OutputError("it cannot be read: " + error_text(errno));
   head.resize(static_cast<std::size_t>(size));

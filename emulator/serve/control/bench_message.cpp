@@ -17,8 +17,8 @@
 #include "emulator/device/terminals.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_task.h"
 #include "emulator/serve/control/reply_text.h"
-#include "emulator/serve/control/telling.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/ports/port.h"
 #include "emulator/world/bench/bench.h"
@@ -199,7 +199,7 @@ Json terminal_of(const TerminalRow& row, const std::vector<std::string>& functio
 }
 
 /// A device of a bench, in all that an onlooker needs to show it.
-Telling device_message(Daemon& daemon, std::size_t number) {
+ReplyTask device_message(Daemon& daemon, std::size_t number) {
   const Pause pause(daemon);
   const world::World& world = daemon.world();
   const Device& device = world.device(number);
@@ -274,7 +274,7 @@ Json device_in_short(const Device& device) {
               {"axes", std::move(axes)},       {"program", device.model().language != nullptr}};
 }
 
-Telling whole_bench_message(Daemon& daemon) {
+ReplyTask whole_bench_message(Daemon& daemon) {
   const Pause pause(daemon);
   const world::World& world = daemon.world();
   ReplyText text;
@@ -313,7 +313,7 @@ Telling whole_bench_message(Daemon& daemon) {
 
 }  // namespace
 
-Telling bench_message(Daemon& daemon, Json message) {
+ReplyTask bench_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "device"});
   if (message.contains("device")) return device_message(daemon, require_device(daemon, message));
   return whole_bench_message(daemon);

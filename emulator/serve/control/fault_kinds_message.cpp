@@ -6,8 +6,8 @@
 
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_task.h"
 #include "emulator/serve/control/reply_text.h"
-#include "emulator/serve/control/telling.h"
 #include "emulator/world/bench_file/fault_form.h"
 #include "emulator/world/bench_file/form.h"
 #include "emulator/world/faults/fault.h"
@@ -88,7 +88,7 @@ Json kind_of(const world::FaultKindRow& kind) {
 
 }  // namespace
 
-Telling faults_message(Daemon& daemon, Json message) {
+ReplyTask faults_message(Daemon& daemon, Json message) {
   require_keys(message, {"do"});
   const Pause pause(daemon);
   ReplyText text;

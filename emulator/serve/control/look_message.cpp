@@ -15,9 +15,9 @@
 #include "emulator/serve/control/listing.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_task.h"
 #include "emulator/serve/control/reply_text.h"
 #include "emulator/serve/control/status_parts.h"
-#include "emulator/serve/control/telling.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/loop/pacer.h"
@@ -121,7 +121,7 @@ bool Listing::add_event(ReplyText& text) {
 namespace {
 
 /// Frames or events alone.
-Telling tell_listing(Daemon& daemon, Json message, Listing::What what) {
+ReplyTask tell_listing(Daemon& daemon, Json message, Listing::What what) {
   const Pause pause(daemon);
   daemon.catch_up();
   world::EventLog& events = daemon.onlookers().events;
@@ -140,12 +140,12 @@ Telling tell_listing(Daemon& daemon, Json message, Listing::What what) {
 
 }  // namespace
 
-Telling events_message(Daemon& daemon, Json message) {
+ReplyTask events_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "since", "last"});
   return tell_listing(daemon, std::move(message), Listing::What::events);
 }
 
-Telling frames_message(Daemon& daemon, Json message) {
+ReplyTask frames_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "since", "last", "raw"});
   return tell_listing(daemon, std::move(message), Listing::What::frames);
 }
@@ -178,7 +178,7 @@ std::optional<std::uint64_t> require_list(world::LookedNames& known, const Json&
 }  // namespace
 
 /// The values are of the moment that the reply says; frames and events have their own.
-Telling look_message(Daemon& daemon, Json message) {
+ReplyTask look_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "look", "names", "frames", "events", "status"});
   const std::uint64_t frames = message.contains("frames") ? require_count(message, "frames") : 0;
   const std::uint64_t events = message.contains("events") ? require_count(message, "events") : 0;

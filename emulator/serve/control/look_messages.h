@@ -3,30 +3,30 @@
 #pragma once
 
 #include "emulator/serve/control/message_fields.h"
-#include "emulator/serve/control/telling.h"
+#include "emulator/serve/control/reply_task.h"
 
 namespace understudy::emulator::serve {
 
 /// {"do":"look","names":[...],"frames":17,"events":3,"status":true}: everything that an observer wants at
 /// once, cheap enough for many requests a second. A name without a value is null. {"do":"look","look":5,...}
 /// refers to the names of an earlier look by its number.
-Telling look_message(Daemon& daemon, Json message);
+ReplyTask look_message(Daemon& daemon, Json message);
 
 /// {"do":"bench"}: lines, devices, wires. {"do":"bench","device":"feeder"}: that device's axes and
 /// terminals.
-Telling bench_message(Daemon& daemon, Json message);
+ReplyTask bench_message(Daemon& daemon, Json message);
 /// {"do":"registers","device":"feeder","section":2,"from":0,"find":"speed"}: rows of its tables, 200 at a
 /// time.
-Telling registers_message(Daemon& daemon, Json message);
+ReplyTask registers_message(Daemon& daemon, Json message);
 /// {"do":"get","device":"feeder","section":2,"from":0}: the values of a page of registers.
-Telling get_page_message(Daemon& daemon, Json message);
+ReplyTask get_page_message(Daemon& daemon, Json message);
 /// {"do":"choices","device":"feeder","from":0}
-Telling choices_message(Daemon& daemon, Json message);
+ReplyTask choices_message(Daemon& daemon, Json message);
 /// {"do":"faults"}: the kinds of faults, for a form.
-Telling faults_message(Daemon& daemon, Json message);
+ReplyTask faults_message(Daemon& daemon, Json message);
 
 /// {"do":"events","since":17}, {"do":"events","last":10}
-Telling events_message(Daemon& daemon, Json message);
+ReplyTask events_message(Daemon& daemon, Json message);
 
 /// {"do":"where","device":"feeder"}: the positions of its programs.
 Json where_message(Daemon& daemon, const Json& message);
@@ -34,7 +34,7 @@ Json where_message(Daemon& daemon, const Json& message);
 Json speed_message(Daemon& daemon, const Json& message);
 /// {"do":"scope","names":[...],"condition":"...","before":"1s","after":"1s"} arms the scope; without names
 /// it returns the progress; {"do":"scope","from":0} returns samples; {"do":"scope","off":true} disarms it.
-Telling scope_message(Daemon& daemon, Json message);
+ReplyTask scope_message(Daemon& daemon, Json message);
 /// {"do":"send","line":"rs485","bytes":"01 03 00 00 00 01","checksum":true}, or "text":"MA 100": sends to a
 /// line that has no host.
 Json send_message(Daemon& daemon, const Json& message);

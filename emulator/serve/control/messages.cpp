@@ -12,9 +12,9 @@
 #include "base/text/one_line.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_task.h"
 #include "emulator/serve/control/reply_text.h"
 #include "emulator/serve/control/server.h"
-#include "emulator/serve/control/telling.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/loop/event_loop.h"
@@ -33,7 +33,7 @@ struct Verb {
   std::string_view name;
   Json (*answer)(Daemon& daemon, const Json& message) = nullptr;
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
-  Telling (*tell)(Daemon& daemon, Json message) = nullptr;
+  ReplyTask (*tell)(Daemon& daemon, Json message) = nullptr;
 };
 constexpr std::array<Verb, 32> kVerbs{{{"status", nullptr, nullptr, status_message},
                                        {"identify", identify_message},
@@ -143,16 +143,16 @@ bool say_or_refuse(const ControlServer::Reply& reply, const Make& make) {
 }
 
 /// The first piece at once; the others when there is time for them.
-void tell(Daemon& daemon, Telling telling, const ControlServer::Reply& reply) {
-  const auto whole = std::make_shared<Telling>(std::move(telling));
-  const auto go_on = [whole, reply] {
+void tell(Daemon& daemon, ReplyTask telling, const ControlServer::Reply& reply) {
+  const auto whole = std::make_shared<ReplyTask>(std::move(telling));
+  const auto resume = [whole, reply] {
     const bool is_over = say_or_refuse(reply, [&]() -> std::optional<std::string> {
-      if (!whole->go_on()) return std::nullopt;
+      if (!whole->resume()) return std::nullopt;
       return whole->take_reply();
     });
     return !is_over;
   };
-  if (go_on()) daemon.loop().do_in_pieces(go_on);
+  if (resume()) daemon.loop().do_in_pieces(resume);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_task.h"
 #include "emulator/serve/control/reply_text.h"
-#include "emulator/serve/control/telling.h"
 #include "emulator/serve/daemon/daemon.h"
 
 namespace understudy::emulator::serve {
@@ -303,7 +303,7 @@ Json json_of_page_value(const PageValue& value) {
   return value.place->is_real() ? json_of(number_of(*value.place, value.raw)) : Json(value.raw);
 }
 
-Telling tell_rows(Daemon& daemon, WantedPage wanted) {
+ReplyTask tell_rows(Daemon& daemon, WantedPage wanted) {
   const Device& device = daemon.world().device(wanted.device);
   const Pause pause(daemon);
   PageWalk walk(device, wanted);
@@ -321,7 +321,7 @@ Telling tell_rows(Daemon& daemon, WantedPage wanted) {
   co_return text.take();
 }
 
-Telling tell_values(Daemon& daemon, WantedPage wanted) {
+ReplyTask tell_values(Daemon& daemon, WantedPage wanted) {
   const Pause pause(daemon);
   const Device& device = daemon.world().device(wanted.device);
   // Which they are takes long, their values do not: those are of one moment.
@@ -350,15 +350,15 @@ Telling tell_values(Daemon& daemon, WantedPage wanted) {
 
 }  // namespace
 
-Telling registers_message(Daemon& daemon, Json message) {
+ReplyTask registers_message(Daemon& daemon, Json message) {
   return tell_rows(daemon, wanted_page(daemon, message));
 }
 
-Telling get_page_message(Daemon& daemon, Json message) {
+ReplyTask get_page_message(Daemon& daemon, Json message) {
   return tell_values(daemon, wanted_page(daemon, message));
 }
 
-Telling choices_message(Daemon& daemon, Json message) {
+ReplyTask choices_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "device", "from"});
   const std::size_t from = message.contains("from") ? require_count(message, "from") : 0;
   const Device& device = daemon.world().device(require_device(daemon, message));

@@ -13,8 +13,8 @@
 #include "base/text/one_line.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_task.h"
 #include "emulator/serve/control/reply_text.h"
-#include "emulator/serve/control/telling.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/ports/port.h"
 #include "emulator/world/look/scope.h"
@@ -119,7 +119,7 @@ Json scope_reply(const world::Scope* scope) {
 }
 
 /// All of one moment, put into words in pieces.
-Telling samples_message(Daemon& daemon, std::uint64_t from) {
+ReplyTask samples_message(Daemon& daemon, std::uint64_t from) {
   const Pause pause(daemon);
   const world::Scope& scope = *daemon.onlookers().scope;
   const std::uint64_t count = scope.count();
@@ -145,11 +145,11 @@ Telling samples_message(Daemon& daemon, std::uint64_t from) {
 }
 
 /// In one piece.
-Telling told(Json reply) { co_return text_of(reply); }
+ReplyTask told(Json reply) { co_return text_of(reply); }
 
 }  // namespace
 
-Telling scope_message(Daemon& daemon, Json message) {
+ReplyTask scope_message(Daemon& daemon, Json message) {
   auto& scope = daemon.onlookers().scope;
   if (message.contains("names")) {
     world::ScopeSetup setup = scope_setup(message);

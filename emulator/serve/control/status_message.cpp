@@ -22,9 +22,9 @@
 #include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_task.h"
 #include "emulator/serve/control/reply_text.h"
 #include "emulator/serve/control/status_parts.h"
-#include "emulator/serve/control/telling.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/loop/event_loop.h"
@@ -214,7 +214,7 @@ void StatusParts::add_of_line(ReplyText& text) {
   is_in_line_ = false;
 }
 
-Telling status_message(Daemon& daemon, Json message) {
+ReplyTask status_message(Daemon& daemon, Json message) {
   require_keys(message, {"do"});
   const Pause pause(daemon);
   StatusParts parts(daemon);

@@ -19,8 +19,8 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_task.h"
 #include "emulator/serve/control/reply_text.h"
-#include "emulator/serve/control/telling.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/expression/expression.h"
@@ -164,7 +164,7 @@ void require_possible(const world::World& world,
 namespace {
 
 /// All that are named are looked up first, then read in one go.
-Telling get_names_message(Daemon& daemon, Json message) {
+ReplyTask get_names_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "names"});
   const Json& names = require(message, "names");
   if (!names.is_array() || names.empty()) throw is_not("names", names, "a list of names");
@@ -204,7 +204,7 @@ Telling get_names_message(Daemon& daemon, Json message) {
 
 }  // namespace
 
-Telling get_message(Daemon& daemon, Json message) {
+ReplyTask get_message(Daemon& daemon, Json message) {
   for (const char* key : {"device", "section", "find", "from"}) {
     if (message.contains(key)) return get_page_message(daemon, std::move(message));
   }

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/reply_task.h"
 #include "emulator/serve/control/server.h"
-#include "emulator/serve/control/telling.h"
 
 namespace understudy::emulator::serve {
 
@@ -19,15 +19,15 @@ inline constexpr std::string_view kControlProtocol = "1.0";
 /// reply comes later.
 void answer(const ControlServer::Reply& reply, const std::function<Json()>& make);
 
-Telling status_message(Daemon& daemon, Json message);
+ReplyTask status_message(Daemon& daemon, Json message);
 /// {"do":"identify"}: identifies the daemon.
 Json identify_message(Daemon& daemon, const Json& message);
 /// {"do":"frames","since":17}: frames on the lines from number 17 on; {"do":"frames","last":10}: the last
 /// ten.
-Telling frames_message(Daemon& daemon, Json message);
+ReplyTask frames_message(Daemon& daemon, Json message);
 
 /// {"do":"get","names":["feeder.Cord_A","feeder.A.position","time"]}: all names that conditions may use.
-Telling get_message(Daemon& daemon, Json message);
+ReplyTask get_message(Daemon& daemon, Json message);
 /// {"do":"eval","expression":"feeder.Cord_A / 3200"}
 Json eval_message(Daemon& daemon, const Json& message);
 /// {"do":"set","values":{"feeder.Aaxis_Speed":200}}

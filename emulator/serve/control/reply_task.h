@@ -24,13 +24,13 @@ namespace understudy::emulator::serve {
 
 class Daemon;
 
-class Telling {
+class ReplyTask {
  public:
   struct promise_type {
     // This constructor is declared so that it is not called with the coroutine's arguments, as an aggregate
     // would be.
     promise_type() = default;
-    Telling get_return_object() { return Telling(Handle::from_promise(*this)); }
+    ReplyTask get_return_object() { return ReplyTask(Handle::from_promise(*this)); }
     std::suspend_always initial_suspend() noexcept { return {}; }
     std::suspend_always final_suspend() noexcept { return {}; }
     void return_value(std::string text) { reply = std::move(text); }
@@ -40,17 +40,17 @@ class Telling {
     std::exception_ptr error;
   };
 
-  Telling(Telling&& other) noexcept : handle_(std::exchange(other.handle_, {})) {}
-  Telling& operator=(Telling&&) = delete;
-  Telling(const Telling&) = delete;
-  Telling& operator=(const Telling&) = delete;
-  ~Telling() {
+  ReplyTask(ReplyTask&& other) noexcept : handle_(std::exchange(other.handle_, {})) {}
+  ReplyTask& operator=(ReplyTask&&) = delete;
+  ReplyTask(const ReplyTask&) = delete;
+  ReplyTask& operator=(const ReplyTask&) = delete;
+  ~ReplyTask() {
     if (handle_) handle_.destroy();
   }
 
   /// Continues until it pauses or is done. Returns true if the reply is complete. Throws the exceptions of
   /// the verb.
-  bool go_on() {
+  bool resume() {
     handle_.resume();
     if (handle_.promise().error) std::rethrow_exception(handle_.promise().error);
     return handle_.done();
@@ -59,7 +59,7 @@ class Telling {
 
  private:
   using Handle = std::coroutine_handle<promise_type>;
-  explicit Telling(Handle handle) : handle_(handle) {}
+  explicit ReplyTask(Handle handle) : handle_(handle) {}
 
   Handle handle_;
 };

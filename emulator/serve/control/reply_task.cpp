@@ -1,4 +1,4 @@
-#include "emulator/serve/control/telling.h"
+#include "emulator/serve/control/reply_task.h"
 
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/loop/event_loop.h"
