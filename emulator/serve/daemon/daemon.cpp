@@ -412,7 +412,7 @@ void Daemon::wait() {
     const auto look = port->next_look(pacer_.standing());
     if (look && (!wake || *look < *wake)) wake = look;
   }
-  if (const auto look = memories_->next_look(); look && (!wake || *look < *wake)) wake = look;
+  if (const auto look = memories_->next_poll(); look && (!wake || *look < *wake)) wake = look;
   const bool can_be_late = !makes_time_go() && !behind_since_;
   loop_.wait(wake, can_be_late ? EventLoop::kLaterSlice : EventLoop::kLongSlice);
 }
@@ -436,7 +436,7 @@ void Daemon::run() {
       port->look(now, pacer_.standing());
       port->flush();
     }
-    memories_->look(now);
+    memories_->poll(now);
     if (recording_) recording_->look();
   }
   // A recording or a trace of a bench on which nothing happens ends now as well, and not when last something

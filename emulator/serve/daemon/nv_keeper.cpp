@@ -147,7 +147,7 @@ void NvKeeper::world_restored() {
   for (File& file : files_) file.written.reset();
 }
 
-void NvKeeper::look(WallTime now) {
+void NvKeeper::poll(WallTime now) {
   if (files_.empty()) return;
   looked_ = now;
   for (const std::string& news : writer_.take_news()) log_(news);
@@ -166,7 +166,7 @@ void NvKeeper::look(WallTime now) {
   due_.reset();
 }
 
-std::optional<WallTime> NvKeeper::next_look() const {
+std::optional<WallTime> NvKeeper::next_poll() const {
   // Also for news from the disk, which nothing else wakes anybody for.
   if (!due_ && !writer_.is_idle()) return looked_ + NvWriter::kCoalesce;
   return due_;

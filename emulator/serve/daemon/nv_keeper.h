@@ -29,9 +29,9 @@ class NvKeeper {
   NvKeeper& operator=(const NvKeeper&) = delete;
 
   /// Passes changes to the helper thread, at most once in NvWriter::kCoalesce.
-  void look(WallTime now);
+  void poll(WallTime now);
   /// Returns when look() must be called again, if there are changes to pass on or results to collect.
-  std::optional<WallTime> next_look() const;
+  std::optional<WallTime> next_poll() const;
   /// The world has another state: the files must be written again, whatever the revisions of its memories.
   void world_restored();
 

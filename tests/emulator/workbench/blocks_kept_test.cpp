@@ -66,7 +66,7 @@ TEST(KeptBlocks, AFileFollowsThemAndIsBegunWith) {
     serve::NvKeeper keeper(bench, world, [](const std::string&) {});
     ASSERT_EQ(blocks_of(world).put("files", "07", SharedText("one\ntwo\n")), "");
     EXPECT_EQ(blocks_of(world).put("recipes", "00", SharedText("salt")), "");
-    keeper.look(1s);
+    keeper.poll(1s);
     EXPECT_TRUE(eventually([&] {
       const auto image = read_nv_file(folder.path("it.json"));
       return image && image->blocks == blocks_of(world).all();

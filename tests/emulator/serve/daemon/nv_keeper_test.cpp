@@ -226,8 +226,8 @@ struct KeptBench {
   int look_until_quiet(WallTime from) {
     int looks = 0;
     EXPECT_TRUE(eventually([&] {
-      if (!keeper->next_look()) return true;
-      keeper->look(from + ++looks * 1ms);
+      if (!keeper->next_poll()) return true;
+      keeper->poll(from + ++looks * 1ms);
       return false;
     }));
     return looks;
@@ -271,10 +271,10 @@ TEST(NvKeeper, FollowsWhatTheEepromHasKeptNotWhatWaits) {
   kept.look_until_quiet(1s);
   kept.write("feeder.Parms_Speed1", 77);  // kept in tick 6
   kept.run(5);
-  kept.keeper->look(10s);
-  EXPECT_EQ(kept.keeper->next_look(), std::nullopt) << "nothing has been kept";
+  kept.keeper->poll(10s);
+  EXPECT_EQ(kept.keeper->next_poll(), std::nullopt) << "nothing has been kept";
   kept.run(1);
-  kept.keeper->look(11s);
+  kept.keeper->poll(11s);
   kept.look_until_quiet(11s);
   EXPECT_EQ(kept.in_file("Parms_Speed1"), 77);
   EXPECT_EQ(kept.in_file("Parms_Speed1", "turner"), 0);
@@ -286,14 +286,14 @@ TEST(NvKeeper, HandsOverOnceInATenthOfASecondAndTheLatest) {
   kept.look_until_quiet(1s);
   kept.write("feeder.PROG_MEM0", 1);
   kept.run(20);
-  kept.keeper->look(10s);  // handed over at once
+  kept.keeper->poll(10s);  // handed over at once
   for (int i = 2; i <= 30; ++i) {
     kept.write("feeder.PROG_MEM0", i);
     kept.run(20);
-    kept.keeper->look(10s + i * 1ms);
-    ASSERT_EQ(kept.keeper->next_look(), 10s + NvWriter::kCoalesce) << i;
+    kept.keeper->poll(10s + i * 1ms);
+    ASSERT_EQ(kept.keeper->next_poll(), 10s + NvWriter::kCoalesce) << i;
   }
-  kept.keeper->look(10s + NvWriter::kCoalesce);
+  kept.keeper->poll(10s + NvWriter::kCoalesce);
   kept.look_until_quiet(10s + NvWriter::kCoalesce);
   EXPECT_EQ(kept.in_file("PROG_MEM0"), 30);
 }
@@ -327,7 +327,7 @@ TEST(NvKeeper, ReportsAnUnwritableFileEvenInAQuietWorld) {
   kept.bench.devices[0].nv_path = kept.folder.path + "/gone/feeder.json";
   kept.start();
   // The world has nothing due; what wakes its owner is the keeper alone.
-  ASSERT_TRUE(kept.keeper->next_look()) << "it wants to hear what became of it";
+  ASSERT_TRUE(kept.keeper->next_poll()) << "it wants to hear what became of it";
   kept.look_until_quiet(1s);
   ASSERT_EQ(kept.log.size(), 1u);
   EXPECT_EQ(kept.log[0], kept.folder.path +
@@ -337,7 +337,7 @@ TEST(NvKeeper, ReportsAnUnwritableFileEvenInAQuietWorld) {
   fs::create_directory(kept.folder.path + "/gone");
   kept.write("feeder.PROG_MEM0", 9);
   kept.run(20);
-  kept.keeper->look(2s);
+  kept.keeper->poll(2s);
   kept.look_until_quiet(2s);
   ASSERT_EQ(kept.log.size(), 2u);
   EXPECT_EQ(read_nv_file(kept.folder.path + "/gone/feeder.json")->registers.front().second, 9);
@@ -349,8 +349,8 @@ TEST(NvKeeper, WithoutFilesWantsNothing) {
   read_memories(bench, "");
   world::World world(bench, {}, {});
   NvKeeper keeper(bench, world, [](const std::string&) {});
-  keeper.look(1s);
-  EXPECT_EQ(keeper.next_look(), std::nullopt);
+  keeper.poll(1s);
+  EXPECT_EQ(keeper.next_poll(), std::nullopt);
 }
 
 // --- one keeper ------------------------------------------------------------------------------------------
