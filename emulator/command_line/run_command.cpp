@@ -29,8 +29,8 @@
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/device/model.h"
 #include "emulator/play/lint/lint.h"
+#include "emulator/play/performing/case_list.h"
 #include "emulator/play/performing/onlooker.h"
-#include "emulator/play/performing/playbill.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/performing/suite.h"
 #include "emulator/play/reading/scenario_file.h"
@@ -63,7 +63,7 @@ struct SavedFile {
   std::string path;
   std::string scenario;  // its file
   std::size_t case_number;
-  bool is_varied;  // a playbill knows whether two such cases save one file
+  bool is_varied;  // a case list knows whether two such cases save one file
 };
 
 /// What is known of the scenarios before anything is played.
@@ -84,7 +84,7 @@ void warn(const play::Scenario& scenario, Known& known) {
 
 void note_saved(const play::Scenario& scenario, const RunArguments& arguments, Known& known) {
   ++known.cases;
-  if (!play::is_meant(arguments.filter, scenario.name, play::identity_of(scenario.which))) return;
+  if (!play::matches(arguments.filter, scenario.name, play::identity_of(scenario.which))) return;
   warn(scenario, known);
   for (const std::string& path : scenario.saved) {
     known.saved.push_back({path, scenario.file, known.cases, scenario.which.is_varied});
@@ -98,7 +98,7 @@ void note_saved(const play::Scenario& scenario, const RunArguments& arguments, K
 }
 
 /// Adds all files; what is wrong with each is told. False if anything is.
-bool add_all(play::Playbill& bill, const RunArguments& arguments, Known& known) {
+bool add_all(play::CaseList& case_list, const RunArguments& arguments, Known& known) {
   std::vector<std::string> files;
   bool is_well = true;
   const auto attempt = [&](const auto& act) {
@@ -117,7 +117,7 @@ bool add_all(play::Playbill& bill, const RunArguments& arguments, Known& known) 
   }
   for (const std::string& file : files) {
     attempt([&] {
-      bill.add(file, [&](const play::Scenario& scenario) {
+      case_list.add(file, [&](const play::Scenario& scenario) {
         known.claims.add(scenario.files);  // also by those that are not chosen
         note_saved(scenario, arguments, known);
       });
@@ -136,8 +136,8 @@ play::Shard shard_of(const RunArguments& arguments) {
   return *parsed;
 }
 
-void require_some(const play::Playbill& bill, const RunArguments& arguments) {
-  if (arguments.filter.empty() || play::Selection(bill, arguments.filter, {}).next()) return;
+void require_some(const play::CaseList& case_list, const RunArguments& arguments) {
+  if (arguments.filter.empty() || play::Selection(case_list, arguments.filter, {}).next()) return;
   throw UsageError("--filter: " + understudy::quoted(arguments.filter) +
                    " matches no scenario's name; expected a pattern such as '*move*'");
 }
@@ -196,23 +196,24 @@ class Stagehand {
     if (arguments.real_time) options_.make_stage = play::make_real_stage;
   }
 
-  std::vector<play::ScenarioResult> play(play::CaseReader& reader, const play::Ticket& ticket,
-                                         const play::Playbill& bill) const {
+  std::vector<play::ScenarioResult> play(play::CaseReader& reader, const play::CaseId& which_case,
+                                         const play::CaseList& case_list) const {
     try {
-      const auto scenario = reader.read(ticket);
+      const auto scenario = reader.read(which_case);
       play::RunOptions options = options_;
       // Pictures of cases without end are made when one is to be shown.
       if (!arguments_.report.empty() && !scenario->which.is_varied) options.onlookers.push_back(camera());
       add(options, files_.onlookers(*scenario));
       return play::run_scenario(*scenario, options);
     } catch (const FileError& error) {
-      return {unreadable(reader, ticket, bill, error)};
+      return {unreadable(reader, which_case, case_list, error)};
     }
   }
 
   /// Once more, with a recorder, and a camera if there is a page: in free time it comes to the same.
-  std::vector<play::ScenarioResult> play_again(play::CaseReader& reader, const play::Ticket& ticket) const {
-    const auto scenario = reader.read(ticket);
+  std::vector<play::ScenarioResult> play_again(play::CaseReader& reader,
+                                               const play::CaseId& which_case) const {
+    const auto scenario = reader.read(which_case);
     play::RunOptions options = options_;
     if (!arguments_.report.empty()) options.onlookers.push_back(camera());
     options.onlookers.push_back(files_.recorder(*scenario));
@@ -228,16 +229,16 @@ class Stagehand {
   }
 
   /// A case that was not among those that were checked beforehand, and that something is wrong with.
-  static play::ScenarioResult unreadable(play::CaseReader& reader, const play::Ticket& ticket,
-                                         const play::Playbill& bill, const FileError& error) {
+  static play::ScenarioResult unreadable(play::CaseReader& reader, const play::CaseId& which_case,
+                                         const play::CaseList& case_list, const FileError& error) {
     play::ScenarioResult result{.verdict = play::ScenarioResult::Verdict::failed,
-                                .name = bill.path(ticket.file),
-                                .file = bill.path(ticket.file)};
+                                .name = case_list.path(which_case.file),
+                                .file = case_list.path(which_case.file)};
     result.is_unreadable = true;
-    result.which.is_varied = bill.is_varied(ticket.file);
+    result.which.is_varied = case_list.is_varied(which_case.file);
     try {
-      result.which = reader.case_of(ticket);
-      result.name = reader.name_of(ticket);
+      result.which = reader.case_of(which_case);
+      result.name = reader.name_of(which_case);
     } catch (const FileError&) {
       // Then it has no better one.
     }
@@ -255,8 +256,8 @@ class Stagehand {
 };
 
 /// The program is part of what makes a result.
-std::uint64_t made_of(const play::Playbill& bill, std::size_t file, const std::string& version) {
-  return hash_of(std::as_bytes(std::span(version)), bill.made_of(file));
+std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const std::string& version) {
+  return hash_of(std::as_bytes(std::span(version)), case_list.made_of(file));
 }
 
 }  // namespace
@@ -270,10 +271,10 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
     throw UsageError("--resume: expected --results FILE as well, which lists the cases that ran");
   }
   const play::Shard shard = shard_of(arguments);
-  play::Playbill bill(models, {.save_below = arguments.save_below, .seed = arguments.seed});
+  play::CaseList case_list(models, {.save_below = arguments.save_below, .seed = arguments.seed});
   Known known;
-  if (!add_all(bill, arguments, known)) return kExitBadInput;
-  require_some(bill, arguments);
+  if (!add_all(case_list, arguments, known)) return kExitBadInput;
+  require_some(case_list, arguments);
   require_own_files(known, arguments);
   ResultFile junit("--junit", arguments.junit, ContentKind::junit);
   ResultFile report("--report", arguments.report, ContentKind::page);
@@ -283,35 +284,35 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   report.empty();
   account.begin();
   const Stagehand stagehand(arguments, files);
-  play::CaseReader reader(bill);  // of this thread
-  play::CaseReader next_reader(bill);
-  const std::uint64_t total = play::Selection::count(bill, arguments.filter, shard);
-  play::Selection selection(bill, arguments.filter, shard);
+  play::CaseReader reader(case_list);  // of this thread
+  play::CaseReader next_reader(case_list);
+  const std::uint64_t total = play::Selection::count(case_list, arguments.filter, shard);
+  play::Selection selection(case_list, arguments.filter, shard);
   {
     ProgressLine progress(total);
     const auto next = [&] {
-      std::optional<play::Ticket> ticket;
-      while ((ticket = selection.next())) {
+      std::optional<play::CaseId> which_case;
+      while ((which_case = selection.next())) {
         if (!arguments.resume) break;
         const bool was_played =
-            account.was_played({.file = bill.path(ticket->file),
-                                .identity = play::identity_of(next_reader.case_of(*ticket)),
-                                .made_of = made_of(bill, ticket->file, arguments.version)});
+            account.was_played({.file = case_list.path(which_case->file),
+                                .identity = play::identity_of(next_reader.case_of(*which_case)),
+                                .made_of = made_of(case_list, which_case->file, arguments.version)});
         if (!was_played) break;
         progress.one_left_out();
       }
-      return ticket;
+      return which_case;
     };
     const auto make_play = [&]() -> play::Play {
-      return [&, own = std::make_shared<play::CaseReader>(bill)](const play::Ticket& ticket) {
-        return stagehand.play(*own, ticket, bill);
+      return [&, own = std::make_shared<play::CaseReader>(case_list)](const play::CaseId& which_case) {
+        return stagehand.play(*own, which_case, case_list);
       };
     };
     const auto threads = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(jobs), total));
     play::run_suite(next, make_play, threads,
-                    [&](const play::Ticket& ticket, std::vector<play::ScenarioResult> results) {
-                      account.add(std::move(results), made_of(bill, ticket.file, arguments.version), files,
-                                  progress, [&] { return stagehand.play_again(reader, ticket); });
+                    [&](const play::CaseId& which_case, std::vector<play::ScenarioResult> results) {
+                      account.add(std::move(results), made_of(case_list, which_case.file, arguments.version),
+                                  files, progress, [&] { return stagehand.play_again(reader, which_case); });
                     });
   }
   account.finish();

@@ -26,7 +26,7 @@ constexpr std::size_t kAhead = 256;
 /// What the threads share.
 class Board {
  public:
-  explicit Board(const NextTicket& next) : next_(next) {}
+  explicit Board(const NextCase& next) : next_(next) {}
 
   void work(const std::function<Play()>& make_play) {
     const Play play = make_play();
@@ -34,7 +34,7 @@ class Board {
       std::vector<ScenarioResult> results;
       std::exception_ptr error = entry->error;
       try {
-        if (!error) results = play(entry->ticket);
+        if (!error) results = play(entry->which_case);
       } catch (...) {
         error = std::current_exception();
       }
@@ -47,7 +47,7 @@ class Board {
   }
 
   /// Waits for the first case that was not told; false after the last one.
-  bool tell_next(const std::function<void(const Ticket&, std::vector<ScenarioResult>)>& tell) {
+  bool tell_next(const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& tell) {
     std::unique_lock lock(mutex_);
     is_first_over_.wait(lock, [&] { return entries_.empty() ? is_last_taken_ : entries_.front().is_over; });
     if (entries_.empty()) return false;
@@ -56,7 +56,7 @@ class Board {
     has_room_.notify_one();
     lock.unlock();
     if (entry.error) std::rethrow_exception(entry.error);
-    tell(entry.ticket, std::move(entry.results));
+    tell(entry.which_case, std::move(entry.results));
     return true;
   }
 
@@ -69,7 +69,7 @@ class Board {
 
  private:
   struct Entry {
-    Ticket ticket;
+    CaseId which_case;
     bool is_over = false;
     std::vector<ScenarioResult> results{};
     std::exception_ptr error{};
@@ -82,14 +82,14 @@ class Board {
     if (is_last_taken_) return nullptr;
     Entry entry;
     try {
-      const auto ticket = next_();
-      if (!ticket) {
+      const auto which_case = next_();
+      if (!which_case) {
         is_last_taken_ = true;
         has_room_.notify_all();
         is_first_over_.notify_one();
         return nullptr;
       }
-      entry.ticket = *ticket;
+      entry.which_case = *which_case;
     } catch (...) {
       entry.error = std::current_exception();
       is_last_taken_ = true;
@@ -98,7 +98,7 @@ class Board {
     return &entries_.emplace_back(std::move(entry));
   }
 
-  const NextTicket& next_;
+  const NextCase& next_;
   std::mutex mutex_;
   std::condition_variable has_room_;
   std::condition_variable is_first_over_;
@@ -108,8 +108,8 @@ class Board {
 
 }  // namespace
 
-void run_suite(const NextTicket& next, const std::function<Play()>& make_play, int jobs,
-               const std::function<void(const Ticket&, std::vector<ScenarioResult>)>& tell) {
+void run_suite(const NextCase& next, const std::function<Play()>& make_play, int jobs,
+               const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& tell) {
   Board board(next);
   std::vector<std::jthread> threads;
   const auto stop_at_end = [&board](void*) { board.stop(); };

@@ -11,22 +11,22 @@
 
 namespace understudy::emulator::play {
 
-/// Identifies a case of a file of a playbill.
-struct Ticket {
+/// Identifies a case of a file of a case list.
+struct CaseId {
   std::size_t file = 0;
   std::uint64_t number = 0;
-  friend bool operator==(const Ticket&, const Ticket&) = default;
+  friend bool operator==(const CaseId&, const CaseId&) = default;
 };
 
 /// Returns the next case to run, or nothing. It may be called on any thread, one call at a time.
-using NextTicket = std::function<std::optional<Ticket>()>;
+using NextCase = std::function<std::optional<CaseId>()>;
 /// Runs a case.
-using Play = std::function<std::vector<ScenarioResult>(const Ticket&)>;
+using Play = std::function<std::vector<ScenarioResult>(const CaseId&)>;
 
 /// Runs all cases on `jobs` threads. Each thread makes its own Play. `tell` receives the results of each
 /// case, in order, on the calling thread. An exception of a Play is thrown here, after the results of all
 /// cases before that one.
-void run_suite(const NextTicket& next, const std::function<Play()>& make_play, int jobs,
-               const std::function<void(const Ticket&, std::vector<ScenarioResult>)>& tell);
+void run_suite(const NextCase& next, const std::function<Play()>& make_play, int jobs,
+               const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& tell);
 
 }  // namespace understudy::emulator::play

@@ -27,16 +27,16 @@ std::vector<Scenario> many() {
   return scenarios;
 }
 
-NextTicket each_of(const std::vector<Scenario>& scenarios) {
-  return [&, next = std::uint64_t{0}]() mutable -> std::optional<Ticket> {
+NextCase each_of(const std::vector<Scenario>& scenarios) {
+  return [&, next = std::uint64_t{0}]() mutable -> std::optional<CaseId> {
     if (next >= scenarios.size()) return std::nullopt;
-    return Ticket{.file = 0, .number = next++};
+    return CaseId{.file = 0, .number = next++};
   };
 }
 
 std::function<Play()> players(const std::vector<Scenario>& scenarios, const RunOptions& options) {
   return [&]() -> Play {
-    return [&](const Ticket& ticket) { return run_scenario(scenarios[ticket.number], options); };
+    return [&](const CaseId& which_case) { return run_scenario(scenarios[which_case.number], options); };
   };
 }
 
@@ -46,8 +46,8 @@ std::string told(const std::vector<Scenario>& scenarios, int jobs) {
   const RunOptions options{.with_hash = true};
   std::uint64_t number = 0;
   run_suite(each_of(scenarios), players(scenarios, options), jobs,
-            [&](const Ticket& ticket, const std::vector<ScenarioResult>& results) {
-              EXPECT_EQ(ticket.number, number++);
+            [&](const CaseId& which_case, const std::vector<ScenarioResult>& results) {
+              EXPECT_EQ(which_case.number, number++);
               for (const ScenarioResult& result : results) {
                 text += verdict_line(result) + " " + std::to_string(result.outcome_hash) + "\n" + why(result);
                 all.push_back(result);
@@ -77,7 +77,7 @@ TEST(Suite, ThatNoStageCanBeHadIsThrownAfterWhatCameBefore) {
     return make_free_stage(scenario);
   }};
   std::vector<std::string> names;
-  const auto tell = [&](const Ticket&, const std::vector<ScenarioResult>& results) {
+  const auto tell = [&](const CaseId&, const std::vector<ScenarioResult>& results) {
     names.push_back(results.front().name);
   };
   try {
@@ -95,23 +95,23 @@ TEST(Suite, ThreadsAreNeverFarAheadOfWhatIsTold) {
   std::uint64_t told = 0;
   std::uint64_t farthest = 0;
   std::mutex mutex;
-  const auto next = [&]() -> std::optional<Ticket> {
+  const auto next = [&]() -> std::optional<CaseId> {
     const std::lock_guard lock(mutex);
     if (taken == 20'000) return std::nullopt;
     farthest = std::max(farthest, taken - told);
-    return Ticket{.file = 0, .number = taken++};
+    return CaseId{.file = 0, .number = taken++};
   };
   const auto make_play = []() -> Play {
-    return [](const Ticket& ticket) {
+    return [](const CaseId& which_case) {
       std::vector<ScenarioResult> results(1);
-      results.front().name = std::to_string(ticket.number);
+      results.front().name = std::to_string(which_case.number);
       return results;
     };
   };
-  run_suite(next, make_play, 3, [&](const Ticket& ticket, const std::vector<ScenarioResult>& results) {
+  run_suite(next, make_play, 3, [&](const CaseId& which_case, const std::vector<ScenarioResult>& results) {
     const std::lock_guard lock(mutex);
-    EXPECT_EQ(results.front().name, std::to_string(ticket.number));
-    EXPECT_EQ(ticket.number, told++);
+    EXPECT_EQ(results.front().name, std::to_string(which_case.number));
+    EXPECT_EQ(which_case.number, told++);
   });
   EXPECT_EQ(told, 20'000U);
   EXPECT_LE(farthest, 300U);
@@ -119,16 +119,16 @@ TEST(Suite, ThreadsAreNeverFarAheadOfWhatIsTold) {
 
 TEST(Suite, WhatNextThrowsComesOutInItsTurn) {
   std::uint64_t taken = 0;
-  const auto next = [&]() -> std::optional<Ticket> {
+  const auto next = [&]() -> std::optional<CaseId> {
     if (taken == 7) throw std::runtime_error("the file is gone");
-    return Ticket{.file = 0, .number = taken++};
+    return CaseId{.file = 0, .number = taken++};
   };
   const auto make_play = []() -> Play {
-    return [](const Ticket&) { return std::vector<ScenarioResult>(1); };
+    return [](const CaseId&) { return std::vector<ScenarioResult>(1); };
   };
   std::uint64_t told = 0;
   try {
-    run_suite(next, make_play, 3, [&](const Ticket&, const std::vector<ScenarioResult>&) { ++told; });
+    run_suite(next, make_play, 3, [&](const CaseId&, const std::vector<ScenarioResult>&) { ++told; });
     ADD_FAILURE() << "expected it to throw";
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "the file is gone");

@@ -30,11 +30,11 @@ struct Shard {
 std::optional<Shard> parse_shard(std::string_view text);
 
 /// Returns true if the pattern (`*`, `?`, `[abc]`) matches the case's name, or is its identity.
-bool is_meant(const std::string& pattern, const std::string& name, std::uint64_t identity);
+bool matches(const std::string& pattern, const std::string& name, std::uint64_t identity);
 
-class Playbill {
+class CaseList {
  public:
-  Playbill(ModelList models, ReadingOptions options);
+  CaseList(ModelList models, ReadingOptions options);
 
   /// Adds a file, and passes the cases that are checked in advance to `look`. Throws FileError.
   void add(const std::string& path, const std::function<void(const Scenario&)>& look);
@@ -69,40 +69,40 @@ class Playbill {
   mutable std::unordered_map<std::uint64_t, std::uint64_t> saved_;
 };
 
-/// Reads the cases of a playbill. Each thread has its own reader.
+/// Reads the cases of a case list. Each thread has its own reader.
 class CaseReader {
  public:
-  explicit CaseReader(const Playbill& bill);
+  explicit CaseReader(const CaseList& case_list);
   /// Throws FileError for a case that is wrong but was not among the checked ones, or for a file that has
   /// changed.
-  std::shared_ptr<const Scenario> read(const Ticket& ticket);
+  std::shared_ptr<const Scenario> read(const CaseId& which_case);
   // Returns the name without reading all of the case.
-  std::string name_of(const Ticket& ticket);
-  Case case_of(const Ticket& ticket);
+  std::string name_of(const CaseId& which_case);
+  Case case_of(const CaseId& which_case);
 
  private:
   ScenarioFile& open(std::size_t file);
-  const Playbill& bill_;
+  const CaseList& case_list_;
   SharedReading shared_;
   std::size_t file_ = SIZE_MAX;  // that is open
   std::unique_ptr<ScenarioFile> open_;
 };
 
-/// The cases of a playbill that match a pattern, and of these one shard, in order.
+/// The cases of a case list that match a pattern, and of these one shard, in order.
 class Selection {
  public:
   /// An empty pattern matches all.
-  Selection(const Playbill& bill, std::string pattern, Shard shard);
-  std::optional<Ticket> next();
+  Selection(const CaseList& case_list, std::string pattern, Shard shard);
+  std::optional<CaseId> next();
   /// Returns how many cases next() gives in all. With a pattern they are counted one by one.
-  static std::uint64_t count(const Playbill& bill, const std::string& pattern, Shard shard);
+  static std::uint64_t count(const CaseList& case_list, const std::string& pattern, Shard shard);
 
  private:
-  const Playbill& bill_;
+  const CaseList& case_list_;
   std::string pattern_;
   Shard shard_;
   CaseReader reader_;
-  Ticket at_;
+  CaseId at_;
   std::uint64_t meant_ = 0;  // matches so far
 };
 

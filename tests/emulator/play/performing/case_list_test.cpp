@@ -1,6 +1,6 @@
 // Which cases of which files are played: patterns, identities, shards; and that each is read when its turn
 // comes.
-#include "emulator/play/performing/playbill.h"
+#include "emulator/play/performing/case_list.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "tests/emulator/play/performing/scenario_folder.h"
 
 namespace understudy::emulator::play {
-namespace playbill_test {
+namespace case_list_test {
 
 using Strings = std::vector<std::string>;
 
@@ -59,13 +59,13 @@ TEST(Patterns, MatchNamesOrAreAnIdentity) {
                                          {identity_text(identity), "a move", true},
                                          {identity_text(identity).substr(0, 8) + "*", "a move", false},
                                          {identity_text(identity + 1), "a move", false}}) {
-    EXPECT_EQ(is_meant(row.pattern, row.name, identity), row.matches) << row.pattern;
+    EXPECT_EQ(matches(row.pattern, row.name, identity), row.matches) << row.pattern;
   }
 }
 
-class PlaybillOf : public testing::Test {
+class CaseListOf : public testing::Test {
  protected:
-  PlaybillOf() {
+  CaseListOf() {
     std::string names;
     for (const char* name : {"a move", "home from anywhere", "a long move", "EEPROM busy", "move (n=1)"}) {
       names += std::string(names.empty() ? "" : ", ") + "{ n: \"" + name + "\" }";
@@ -79,18 +79,18 @@ class PlaybillOf : public testing::Test {
     folder_.write("one.yaml", "understudy: 1\nname: one\nbench: feeder.yaml\nsteps: [ advance: 1ms ]\n");
   }
 
-  Playbill& bill(const Strings& files, std::optional<std::uint64_t> seed = {}) {
-    bill_.emplace(models::all_models(), ReadingOptions{.save_below = "", .seed = seed});
-    for (const std::string& file : files) bill_->add(folder_.path(file), [](const Scenario&) {});
-    return *bill_;
+  CaseList& case_list(const Strings& files, std::optional<std::uint64_t> seed = {}) {
+    case_list_.emplace(models::all_models(), ReadingOptions{.save_below = "", .seed = seed});
+    for (const std::string& file : files) case_list_->add(folder_.path(file), [](const Scenario&) {});
+    return *case_list_;
   }
-  Strings names(const Playbill& of, const std::string& pattern, Shard shard) {
+  Strings names(const CaseList& of, const std::string& pattern, Shard shard) {
     Selection selection(of, pattern, shard);
     CaseReader reader(of);
     Strings found;
-    while (const auto ticket = selection.next()) {
-      found.push_back(reader.read(*ticket)->name);
-      EXPECT_EQ(reader.name_of(*ticket), found.back());
+    while (const auto which_case = selection.next()) {
+      found.push_back(reader.read(*which_case)->name);
+      EXPECT_EQ(reader.name_of(*which_case), found.back());
     }
     EXPECT_EQ(Selection::count(of, pattern, shard), found.size())
         << pattern << shard.number << "/" << shard.of;
@@ -98,11 +98,11 @@ class PlaybillOf : public testing::Test {
   }
 
   ScenarioFolder folder_;
-  std::optional<Playbill> bill_;
+  std::optional<CaseList> case_list_;
 };
 
-TEST_F(PlaybillOf, PatternsAndShardsChooseInOrder) {
-  const Playbill& five = bill({"five.yaml"});
+TEST_F(CaseListOf, PatternsAndShardsChooseInOrder) {
+  const CaseList& five = case_list({"five.yaml"});
   struct Row {
     const char* pattern;
     Shard shard;
@@ -123,8 +123,8 @@ TEST_F(PlaybillOf, PatternsAndShardsChooseInOrder) {
   }
 }
 
-TEST_F(PlaybillOf, FilesCaseByCaseOneAfterTheOther) {
-  const Playbill& all = bill({"one.yaml", "grid.yaml", "five.yaml"});
+TEST_F(CaseListOf, FilesCaseByCaseOneAfterTheOther) {
+  const CaseList& all = case_list({"one.yaml", "grid.yaml", "five.yaml"});
   EXPECT_EQ(all.cases(), 27U);
   const Strings found = names(all, "", {});
   ASSERT_EQ(found.size(), 27U);
@@ -135,8 +135,8 @@ TEST_F(PlaybillOf, FilesCaseByCaseOneAfterTheOther) {
   EXPECT_EQ(found[22], "a move");
 }
 
-TEST_F(PlaybillOf, EveryCaseIsInExactlyOneShard) {
-  const Playbill& all = bill({"one.yaml", "grid.yaml", "five.yaml"});
+TEST_F(CaseListOf, EveryCaseIsInExactlyOneShard) {
+  const CaseList& all = case_list({"one.yaml", "grid.yaml", "five.yaml"});
   const Strings whole = names(all, "", {});
   for (std::uint64_t of = 1; of < 31; ++of) {
     std::multiset<std::string> seen;
@@ -147,19 +147,19 @@ TEST_F(PlaybillOf, EveryCaseIsInExactlyOneShard) {
   }
 }
 
-TEST_F(PlaybillOf, ACaseIsFoundByItsIdentity) {
-  const Playbill& all = bill({"one.yaml", "grid.yaml"});
+TEST_F(CaseListOf, ACaseIsFoundByItsIdentity) {
+  const CaseList& all = case_list({"one.yaml", "grid.yaml"});
   const std::string identity = identity_text(identity_of(Case{.values = {{"b", "5"}, {"a", "2"}}}));
   EXPECT_EQ(names(all, identity, {}), Strings{"grid (a=2, b=5)"});
   EXPECT_EQ(names(all, "grid (a=2, b=5)", {}), Strings{"grid (a=2, b=5)"});
 }
 
-TEST_F(PlaybillOf, MoreThanCanBeHeldIsReadAgain) {
+TEST_F(CaseListOf, MoreThanCanBeHeldIsReadAgain) {
   std::string rows;
   for (int i = 0; i < 1500; ++i) rows += "  - { n: " + std::to_string(i) + " }\n";
   folder_.write("many.yaml", "understudy: 1\nname: \"many ${n}\"\nbench: feeder.yaml\ncases:\n" + rows +
                                  "steps: [ say: \"${n}\" ]\n");
-  const Playbill& all = bill({"one.yaml", "many.yaml"});
+  const CaseList& all = case_list({"one.yaml", "many.yaml"});
   const Strings found = names(all, "", {});
   ASSERT_EQ(found.size(), 1501U);
   EXPECT_EQ(found[1500], "many 1499");
@@ -169,9 +169,9 @@ TEST_F(PlaybillOf, MoreThanCanBeHeldIsReadAgain) {
   EXPECT_EQ(reader.read({.file = 0, .number = 0})->name, "one");
 }
 
-TEST_F(PlaybillOf, WhatAFileIsMadeOfIsKnown) {
+TEST_F(CaseListOf, WhatAFileIsMadeOfIsKnown) {
   const auto made_of = [&](std::optional<std::uint64_t> seed = {}) {
-    return bill({"grid.yaml"}, seed).made_of(0);
+    return case_list({"grid.yaml"}, seed).made_of(0);
   };
   const std::uint64_t before = made_of();
   EXPECT_EQ(made_of(), before);
@@ -182,13 +182,13 @@ TEST_F(PlaybillOf, WhatAFileIsMadeOfIsKnown) {
   EXPECT_EQ(made_of(), before);
 }
 
-TEST_F(PlaybillOf, TwoCasesNeverSaveOneFile) {
+TEST_F(CaseListOf, TwoCasesNeverSaveOneFile) {
   // Cases that are checked beforehand differ in it; others are found out when they are read.
   folder_.write(
       "save.yaml",
       "understudy: 1\nname: save\nbench: feeder.yaml\nvary: { a: { from: 0, to: 3999, step: 1 } }\n"
       "steps:\n  - say: \"${a}\"\n  - save: { feeder: \"after-${a / 3999 * 10000 + a % 1331}.json\" }\n");
-  const Playbill& all = bill({"save.yaml"});
+  const CaseList& all = case_list({"save.yaml"});
   CaseReader reader(all);
   const auto number_of_first = std::uint64_t{17};
   EXPECT_EQ(reader.read({.file = 0, .number = number_of_first})->saved.size(), 1U);
@@ -204,5 +204,5 @@ TEST_F(PlaybillOf, TwoCasesNeverSaveOneFile) {
   }
 }
 
-}  // namespace playbill_test
+}  // namespace case_list_test
 }  // namespace understudy::emulator::play

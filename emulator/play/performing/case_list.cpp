@@ -1,4 +1,4 @@
-#include "emulator/play/performing/playbill.h"
+#include "emulator/play/performing/case_list.h"
 
 #include <fnmatch.h>
 #include <malloc.h>
@@ -58,28 +58,28 @@ std::optional<Shard> parse_shard(std::string_view text) {
   return Shard{static_cast<std::uint64_t>(*number), static_cast<std::uint64_t>(*of)};
 }
 
-bool is_meant(const std::string& pattern, const std::string& name, std::uint64_t identity) {
+bool matches(const std::string& pattern, const std::string& name, std::uint64_t identity) {
   return pattern.empty() || fnmatch(pattern.c_str(), name.c_str(), 0) == 0 || pattern == name ||
          pattern == identity_text(identity);
 }
 
-Playbill::Playbill(ModelList models, ReadingOptions options)
+CaseList::CaseList(ModelList models, ReadingOptions options)
     : options_(std::move(options)), shared_{.models = models, .benches = {}, .included = {}} {}
 
-std::uint64_t Playbill::cases() const {
+std::uint64_t CaseList::cases() const {
   std::uint64_t sum = 0;
   for (const File& file : files_) sum += file.size;
   return sum;
 }
 
-std::uint64_t Playbill::hash_of_file(const std::string& path) {
+std::uint64_t CaseList::hash_of_file(const std::string& path) {
   const auto it = hashes_.find(path);
   if (it != hashes_.end()) return it->second;
   const auto text = read_text_file(path);
   return hashes_.emplace(path, text ? hash_of_text(*text, hash_of({})) : 0).first->second;
 }
 
-void Playbill::add(const std::string& path, const std::function<void(const Scenario&)>& look) {
+void CaseList::add(const std::string& path, const std::function<void(const Scenario&)>& look) {
   keep_few(shared_);
   ScenarioFile opened(path, options_, shared_);
   File file{.path = path, .size = opened.size(), .is_varied = opened.is_varied(), .made_of = 0, .held = {}};
@@ -101,7 +101,7 @@ void Playbill::add(const std::string& path, const std::function<void(const Scena
 }
 
 /// Of listed cases this was asked when they were checked.
-void Playbill::claim_saved(const Scenario& scenario) const {
+void CaseList::claim_saved(const Scenario& scenario) const {
   const std::uint64_t who = identity_of(scenario.which) ^ hash_of_text(scenario.file, hash_of({}));
   for (const std::string& path : scenario.saved) {
     const std::lock_guard lock(saved_mutex_);
@@ -112,66 +112,68 @@ void Playbill::claim_saved(const Scenario& scenario) const {
   }
 }
 
-CaseReader::CaseReader(const Playbill& bill)
-    : bill_(bill), shared_{.models = bill.shared_.models, .benches = {}, .included = {}} {}
+CaseReader::CaseReader(const CaseList& case_list)
+    : case_list_(case_list), shared_{.models = case_list.shared_.models, .benches = {}, .included = {}} {}
 
 ScenarioFile& CaseReader::open(std::size_t file) {
   if (file != file_) {
     keep_few(shared_);
     file_ = SIZE_MAX;
-    open_ = std::make_unique<ScenarioFile>(bill_.files_[file].path, bill_.options_, shared_);
+    open_ = std::make_unique<ScenarioFile>(case_list_.files_[file].path, case_list_.options_, shared_);
     file_ = file;
   }
   return *open_;
 }
 
-std::shared_ptr<const Scenario> CaseReader::read(const Ticket& ticket) {
-  const Playbill::File& file = bill_.files_[ticket.file];
-  if (!file.held.empty()) return file.held[ticket.number];
-  ScenarioFile& opened = open(ticket.file);
+std::shared_ptr<const Scenario> CaseReader::read(const CaseId& which_case) {
+  const CaseList::File& file = case_list_.files_[which_case.file];
+  if (!file.held.empty()) return file.held[which_case.number];
+  ScenarioFile& opened = open(which_case.file);
   if (opened.size() != file.size) {
     throw FileError(
         file.path +
         ": cases: their number has changed since the file was checked; expected an unchanged file");
   }
-  auto scenario = std::make_shared<const Scenario>(opened.read(ticket.number));
-  if (file.is_varied && !scenario->saved.empty()) bill_.claim_saved(*scenario);
+  auto scenario = std::make_shared<const Scenario>(opened.read(which_case.number));
+  if (file.is_varied && !scenario->saved.empty()) case_list_.claim_saved(*scenario);
   return scenario;
 }
 
-std::string CaseReader::name_of(const Ticket& ticket) {
-  const Playbill::File& file = bill_.files_[ticket.file];
-  return file.held.empty() ? open(ticket.file).name_of(ticket.number) : file.held[ticket.number]->name;
+std::string CaseReader::name_of(const CaseId& which_case) {
+  const CaseList::File& file = case_list_.files_[which_case.file];
+  return file.held.empty() ? open(which_case.file).name_of(which_case.number)
+                           : file.held[which_case.number]->name;
 }
 
-Case CaseReader::case_of(const Ticket& ticket) {
-  const Playbill::File& file = bill_.files_[ticket.file];
-  return file.held.empty() ? open(ticket.file).case_of(ticket.number) : file.held[ticket.number]->which;
+Case CaseReader::case_of(const CaseId& which_case) {
+  const CaseList::File& file = case_list_.files_[which_case.file];
+  return file.held.empty() ? open(which_case.file).case_of(which_case.number)
+                           : file.held[which_case.number]->which;
 }
 
-Selection::Selection(const Playbill& bill, std::string pattern, Shard shard)
-    : bill_(bill), pattern_(std::move(pattern)), shard_(shard), reader_(bill) {}
+Selection::Selection(const CaseList& case_list, std::string pattern, Shard shard)
+    : case_list_(case_list), pattern_(std::move(pattern)), shard_(shard), reader_(case_list) {}
 
-std::optional<Ticket> Selection::next() {
-  while (at_.file < bill_.files()) {
-    if (at_.number >= bill_.cases_of(at_.file)) {
+std::optional<CaseId> Selection::next() {
+  while (at_.file < case_list_.files()) {
+    if (at_.number >= case_list_.cases_of(at_.file)) {
       at_ = {.file = at_.file + 1, .number = 0};
       continue;
     }
-    const Ticket ticket = at_;
+    const CaseId which_case = at_;
     ++at_.number;
     if (!pattern_.empty() &&
-        !is_meant(pattern_, reader_.name_of(ticket), identity_of(reader_.case_of(ticket)))) {
+        !matches(pattern_, reader_.name_of(which_case), identity_of(reader_.case_of(which_case)))) {
       continue;
     }
-    if (meant_++ % shard_.of == shard_.number - 1) return ticket;
+    if (meant_++ % shard_.of == shard_.number - 1) return which_case;
   }
   return std::nullopt;
 }
 
-std::uint64_t Selection::count(const Playbill& bill, const std::string& pattern, Shard shard) {
-  if (pattern.empty()) return (bill.cases() + shard.of - shard.number) / shard.of;
-  Selection all(bill, pattern, shard);
+std::uint64_t Selection::count(const CaseList& case_list, const std::string& pattern, Shard shard) {
+  if (pattern.empty()) return (case_list.cases() + shard.of - shard.number) / shard.of;
+  Selection all(case_list, pattern, shard);
   std::uint64_t count = 0;
   while (all.next()) ++count;
   return count;
