@@ -28,7 +28,7 @@
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
-#include "emulator/play/stages/free_stage.h"
+#include "emulator/play/stages/free_executor.h"
 
 namespace understudy::emulator::command_line {
 

@@ -40,7 +40,7 @@
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/real_stage.h"
+#include "emulator/play/stages/real_executor.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/trace/trace.h"
 
@@ -193,7 +193,7 @@ class Stagehand {
     if (arguments.lint) {
       options_.onlookers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
     }
-    if (arguments.real_time) options_.make_stage = play::make_real_stage;
+    if (arguments.real_time) options_.make_executor = play::make_real_executor;
   }
 
   std::vector<play::ScenarioResult> play(play::CaseReader& reader, const play::CaseId& which_case,

@@ -24,16 +24,16 @@ inline void require_no_difference(emulator::world::World& world, const emulator:
 }
 
 /// A stage begins anew, obeys acts, runs for ticks and has a world.
-template <class Stage, class Act>
-void play(Stage& stage, std::span<const Act> acts, Tick ticks_after) {
+template <class Executor, class Act>
+void play(Executor& stage, std::span<const Act> acts, Tick ticks_after) {
   stage.begin_anew();
   for (const Act& act : acts) stage.obey(act);
   stage.run(ticks_after);
 }
 
 /// `stepped` goes by single ticks; `in_bulk` has played the acts already.
-template <class Stage, class Act>
-void require_same_by_single_ticks(Stage& stepped, Stage& in_bulk, std::span<const Act> acts,
+template <class Executor, class Act>
+void require_same_by_single_ticks(Executor& stepped, Executor& in_bulk, std::span<const Act> acts,
                                   Tick ticks_after) {
   namespace world = emulator::world;
   stepped.begin_anew();

@@ -16,7 +16,7 @@
 #include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/real_stage.h"
+#include "emulator/play/stages/real_executor.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/bench/bench.h"
 
@@ -89,12 +89,12 @@ Companion::Companion(const Scenario& scenario, serve::Daemon& daemon, std::funct
 void Companion::play_on(const Scenario& scenario, serve::Daemon& daemon) {
   try {
     RunOptions options;
-    options.make_stage = [&](const Scenario&) {
-      return std::make_unique<RealStage>(daemon,
-                                         RealStageOptions{.has_hosts = false, .given_up = &given_up_});
+    options.make_executor = [&](const Scenario&) {
+      return std::make_unique<RealExecutor>(daemon,
+                                            RealExecutorOptions{.has_hosts = false, .given_up = &given_up_});
     };
     results_ = run_scenario(scenario, options);
-  } catch (const StageGivenUp&) {
+  } catch (const ExecutionAborted&) {
     was_given_up_ = true;
   } catch (...) {
     error_ = std::current_exception();

@@ -12,7 +12,7 @@
 
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/real_stage.h"
+#include "emulator/play/stages/real_executor.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/bench/bench.h"
 

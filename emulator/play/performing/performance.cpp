@@ -17,7 +17,7 @@
 #include "emulator/play/performing/state_text.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/executor.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/tokens.h"
@@ -95,20 +95,20 @@ Performance::Eyes::Eyes(world::World& of, bool with_hash)
       frames(of),
       hash(with_hash ? std::make_unique<world::OutcomeHash>(of) : nullptr) {}
 
-Performance::Performance(const Scenario& scenario, std::unique_ptr<Stage> stage, bool with_hash)
-    : stage_(std::move(stage)), bench_(scenario.bench), lines_(scenario.bench.devices.size()) {
+Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> executor, bool with_hash)
+    : executor_(std::move(executor)), bench_(scenario.bench), lines_(scenario.bench.devices.size()) {
   for (std::size_t i = 0; i < bench_.lines.size(); ++i) {
     for (const world::StationSetup& station : bench_.lines[i].stations) lines_[station.device].push_back(i);
   }
   keeps_peaks_ = names_peaks(scenario.steps);
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     eyes_ = std::make_unique<Eyes>(world, with_hash);
     if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // before those who ask for them
   });
 }
 
 Performance::~Performance() {
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     world.remove_watcher(eyes_->peaks);
     world.remove_watcher(eyes_->spans);
     for (auto& [condition, history] : eyes_->histories) world.remove_watcher(history);
@@ -148,14 +148,14 @@ std::optional<Failure> Performance::play(std::span<const Step> steps) {
 
 void Performance::throw_if_broken() {
   bool is_broken = false;
-  stage_->with_world([&](world::World&) { is_broken = eyes_->spans.violation().has_value(); });
+  executor_->with_world([&](world::World&) { is_broken = eyes_->spans.violation().has_value(); });
   if (is_broken) throw StepError("");  // explain_failure() knows more
 }
 
 Failure Performance::explain_failure(const StepError& error) {
   Failure failure{
       .what = error.what(), .expected = error.expected, .came = error.came, .details = error.details};
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     failure.frames = eyes_->frames.last(kFramesTold);
     // A broken span comes first: it was there before whatever else is wrong.
     if (const auto& violation = eyes_->spans.violation()) {
@@ -177,8 +177,8 @@ Performance::Checkpoint Performance::save() {
   Checkpoint checkpoint;
   checkpoint.faults = faults_;
   checkpoint.last_write = last_write();
-  checkpoint.quiet_since = stage_->quiet_since();
-  stage_->with_world([&](world::World& world) {
+  checkpoint.quiet_since = executor_->quiet_since();
+  executor_->with_world([&](world::World& world) {
     checkpoint.world = world::save(world);
     checkpoint.spans = eyes_->spans.save();
     checkpoint.peaks = eyes_->peaks.save();
@@ -193,7 +193,7 @@ Performance::Checkpoint Performance::save() {
 void Performance::restore(const Checkpoint& checkpoint) {
   faults_ = checkpoint.faults;
   last_write_ = checkpoint.last_write;
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     world::restore(world, checkpoint.world);
     world.remove_watcher(eyes_->spans);
     if (!checkpoint.spans.empty()) world.add_watcher(eyes_->spans);
@@ -208,14 +208,14 @@ void Performance::restore(const Checkpoint& checkpoint) {
     eyes_->frames.begin_anew();
     if (eyes_->hash) eyes_->hash->restore(checkpoint.hash);
   });
-  stage_->set_quiet_since(checkpoint.quiet_since);
+  executor_->set_quiet_since(checkpoint.quiet_since);
   end_histories();
   for (const auto& [condition, past] : checkpoint.histories) begin_history(condition, past);
 }
 
 std::uint64_t Performance::outcome_hash() {
   std::uint64_t hash = 0;
-  stage_->with_world([&](world::World&) {
+  executor_->with_world([&](world::World&) {
     if (eyes_->hash) hash = eyes_->hash->value();
   });
   return hash;

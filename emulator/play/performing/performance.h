@@ -1,4 +1,4 @@
-// Executes a scenario's steps one by one on one stage, with all observers.
+// Executes a scenario's steps one by one on one executor, with all observers.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/requests.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/executor.h"
 #include "emulator/world/frames/frame_log.h"
 #include "emulator/world/outcome_hash.h"
 #include "emulator/world/probe/peaks.h"
@@ -51,7 +51,7 @@ class Performance {
   };
 
   /// The scenario must outlive it. `with_hash` keeps outcome_hash(), which takes time.
-  Performance(const Scenario& scenario, std::unique_ptr<Stage> stage, bool with_hash);
+  Performance(const Scenario& scenario, std::unique_ptr<Executor> executor, bool with_hash);
   ~Performance();
   Performance(const Performance&) = delete;
   Performance& operator=(const Performance&) = delete;
@@ -63,9 +63,9 @@ class Performance {
   Checkpoint save();
   void restore(const Checkpoint& checkpoint);
 
-  SimTime now() { return stage_->now(); }
+  SimTime now() { return executor_->now(); }
   /// See Stage::with_world().
-  void with_world(const std::function<void(world::World&)>& act) { stage_->with_world(act); }
+  void with_world(const std::function<void(world::World&)>& act) { executor_->with_world(act); }
   std::uint64_t outcome_hash();
 
  private:
@@ -137,7 +137,7 @@ class Performance {
   void throw_if_broken();
   Failure explain_failure(const StepError& error);
 
-  std::unique_ptr<Stage> stage_;
+  std::unique_ptr<Executor> executor_;
   const world::Bench& bench_;
   std::vector<std::vector<std::size_t>> lines_;  // the lines of each device
   std::unique_ptr<Eyes> eyes_;

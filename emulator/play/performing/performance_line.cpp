@@ -13,8 +13,8 @@
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/scenario/requests.h"
 #include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/executor.h"
 #include "emulator/play/stages/modbus_host.h"
-#include "emulator/play/stages/stage.h"
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/speech/modbus_words.h"
@@ -76,14 +76,14 @@ void Performance::require(const HostReply& reply, const Answer& answer, const st
 void Performance::require_silence(const Place& place, const std::vector<std::uint8_t>& request,
                                   SimTime within, const std::string& what) {
   moment_in(within);  // there is such a moment
-  const auto reply = stage_->exchange(place.line, request, SIZE_MAX, within);
+  const auto reply = executor_->exchange(place.line, request, SIZE_MAX, within);
   require(judge_reply(request, reply), {.silence = within}, what);
 }
 
 Performance::Place Performance::spoken_to(std::size_t device, const Via& via) {
   Place place{.line = via.value_or(lines_[device].front())};
   if (lines_[device].size() > 1) place.on_line = " on line " + bench_.lines[place.line].name;
-  stage_->with_world(
+  executor_->with_world(
       [&](world::World& world) { place.station = world.device(device).station_number().value_or(0); });
   return place;
 }
@@ -91,7 +91,7 @@ Performance::Place Performance::spoken_to(std::size_t device, const Via& via) {
 std::vector<Words> Performance::words_of_all(const std::vector<Target>& targets,
                                              std::vector<bool>& low_word_first) {
   std::vector<Words> words;
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     for (const Target& target : targets) {
       low_word_first.push_back(world.device(target.device).register_bank()->low_word_first());
       words.push_back(words_of(target, low_word_first.back()));
@@ -114,8 +114,8 @@ std::vector<std::vector<std::uint16_t>> Performance::read_over_line(const std::v
           *answer.silence, what);
       continue;
     }
-    const HostReply reply = stage_->read(place.line, place.station, request.words.table, request.words.first,
-                                         request.words.count);
+    const HostReply reply = executor_->read(place.line, place.station, request.words.table,
+                                            request.words.first, request.words.count);
     require(reply, answer, what);
     if (answer.exception) continue;
     for (const std::size_t entry : request.entries) {
@@ -130,7 +130,7 @@ void Performance::perform(const WriteStep& step) {
   std::vector<Target> targets;
   std::vector<Value> values;
   for (const WriteStep::Entry& entry : step.entries) targets.push_back(entry.target);
-  stage_->with_world([&](world::World&) {
+  executor_->with_world([&](world::World&) {
     for (const WriteStep::Entry& entry : step.entries) {
       const world::Number value =
           world::evaluate(world::parse_expression(entry.value, eyes_->probes), eyes_->probes);
@@ -146,14 +146,14 @@ void Performance::perform(const WriteStep& step) {
     for (const std::size_t entry : request.entries) {
       std::vector<std::uint16_t> present;
       if (is_bit(targets[entry])) {
-        const HostReply reply = stage_->read(place.line, place.station, request.words.table,
-                                             request.words.first, request.words.count);
+        const HostReply reply = executor_->read(place.line, place.station, request.words.table,
+                                                request.words.first, request.words.count);
         require(reply, {}, "read " + targets[entry].name + place.on_line + " to write it");
         present = reply.words;
       }
       // The order of words may be what an earlier request of this step has changed.
       bool is_low_first = low_word_first[entry];
-      stage_->with_world([&](world::World& world) {
+      executor_->with_world([&](world::World& world) {
         is_low_first = world.device(targets[entry].device).register_bank()->low_word_first();
       });
       const auto part = words_with(targets[entry], values[entry], is_low_first, present);
@@ -163,7 +163,7 @@ void Performance::perform(const WriteStep& step) {
       require_silence(place, write_request(place.station, request.words.table, request.words.first, brought),
                       *step.answer.silence, what);
     } else {
-      require(stage_->write(place.line, place.station, request.words.table, request.words.first, brought),
+      require(executor_->write(place.line, place.station, request.words.table, request.words.first, brought),
               step.answer, what);
     }
   }
@@ -174,7 +174,7 @@ void Performance::perform(const CommandStep& step) {
     const Place place = spoken_to(entry.device, step.via);
     WindowMessage message;
     std::string what;
-    stage_->with_world([&](world::World& world) {
+    executor_->with_world([&](world::World& world) {
       const Device& device = world.device(entry.device);
       message = window_message(device, entry.text);  // by the order of words at this moment
       what = "command " + device.name() + ": " + entry.text + place.on_line;
@@ -183,7 +183,7 @@ void Performance::perform(const CommandStep& step) {
       require_silence(place, message_request(place.station, message.first, message.words),
                       *step.answer.silence, what);
     } else {
-      require(stage_->write_message(place.line, place.station, message.first, message.words), step.answer,
+      require(executor_->write_message(place.line, place.station, message.first, message.words), step.answer,
               what);
     }
   }
@@ -211,7 +211,7 @@ void Performance::perform(const ExpectStep& step) {
       holds = entry.value.holds(value);
     };
     if (target.is_value) {
-      stage_->with_world([&](world::World&) {
+      executor_->with_world([&](world::World&) {
         look(world::evaluate(world::parse_expression(target.name, eyes_->probes), eyes_->probes));
       });
     } else {
@@ -233,10 +233,10 @@ void Performance::perform(const SendStep& step) {
   const bool wants_bytes = step.reply && !step.reply->empty();
   moment_in(step.within);  // there is such a moment
   const std::size_t wanted = wants_bytes ? step.reply->size() : SIZE_MAX;
-  const std::vector<std::uint8_t> reply = stage_->exchange(step.line, step.bytes, wanted, step.within);
+  const std::vector<std::uint8_t> reply = executor_->exchange(step.line, step.bytes, wanted, step.within);
   if (!step.reply || reply == *step.reply) return;
   std::vector<std::string> details;
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     details.push_back("that is: " + world.line(step.line).reply_text(step.bytes, reply));
   });
   if (reply.empty()) details.clear();

@@ -116,7 +116,7 @@ std::vector<std::string> differences(const NvImage& present, const NvImage& want
 }  // namespace
 
 void Performance::perform(const InputStep& step) {
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     for (const world::InputSetup& input : step.inputs) {
       world.set_external_input(input.device, input.terminal, input.level);
     }
@@ -124,18 +124,19 @@ void Performance::perform(const InputStep& step) {
 }
 
 void Performance::perform(const TurnStep& step) {
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     for (const world::Fault& turn : step.turns) world.inject(turn);
   });
 }
 
 void Performance::perform(const InjectStep& step) {
-  stage_->with_world([&](world::World& world) { faults_.emplace_back(step.name, world.inject(step.fault)); });
+  executor_->with_world(
+      [&](world::World& world) { faults_.emplace_back(step.name, world.inject(step.fault)); });
 }
 
 void Performance::perform(const ClearStep& step) {
   bool was_there = step.name.empty();
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     if (step.name.empty()) {
       world.clear_faults();
       faults_.clear();
@@ -150,7 +151,7 @@ void Performance::perform(const ClearStep& step) {
 }
 
 void Performance::perform(const PowerStep& step) {
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     for (const auto& [device, to] : step.devices) {
       if (to != PowerStep::To::on) world.switch_power(device, false);
       if (to != PowerStep::To::off) world.switch_power(device, true);
@@ -159,7 +160,7 @@ void Performance::perform(const PowerStep& step) {
 }
 
 void Performance::perform(const ProgramStep& step) {
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     const Device& device = world.device(step.device);
     if (!device.powered()) throw StepError(device.name() + " has no power; expected it to be on");
     try {
@@ -180,7 +181,7 @@ void Performance::perform(const ProgramStep& step) {
 void Performance::perform(const MemoryStep& step) {
   // The image is made here, not on the world's thread: that takes time where a memory is big.
   LateImage kept;
-  stage_->with_world([&](world::World& world) { kept = world.device(step.device).memory()->kept_now(); });
+  executor_->with_world([&](world::World& world) { kept = world.device(step.device).memory()->kept_now(); });
   const NvImage present = kept();
   if (step.what == MemoryStep::What::save) {
     const std::string why = replace_text_file(step.file, to_json(present), ContentKind::nv_image);

@@ -13,8 +13,8 @@ void Performance::perform(const TextStep& step) {
   const world::LinesWanted wanted{.lines = step.lines.value_or(std::vector<std::string>()),
                                   .is_answer = step.text.has_value()};
   // A line that nobody waits for an answer to is over when the device has heard it.
-  if (!step.lines) return stage_->say(step.line, *step.text);
-  std::vector<std::string> heard = stage_->converse(step.line, step.text, wanted, step.within);
+  if (!step.lines) return executor_->send_text(step.line, *step.text);
+  std::vector<std::string> heard = executor_->exchange_text(step.line, step.text, wanted, step.within);
   if (heard == wanted.lines) return;
   // One line too many is enough. On a busy machine more have come by the time that somebody listens.
   if (heard.size() > wanted.lines.size() + 1) heard.resize(wanted.lines.size() + 1);

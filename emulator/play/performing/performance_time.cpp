@@ -54,20 +54,20 @@ std::string place_of(const Step& step) { return step.file + ":" + std::to_string
 
 void Performance::pass_time(SimTime until) {
   bool has_spans = false;
-  stage_->with_world([&](world::World&) { has_spans = !eyes_->spans.is_empty(); });
+  executor_->with_world([&](world::World&) { has_spans = !eyes_->spans.is_empty(); });
   if (has_spans) {
-    stage_->run_until({.is_there = [this](world::World&) { return eyes_->spans.violation().has_value(); },
-                       .next_look = [this](Tick done) { return eyes_->spans.next_look(done); }},
-                      until);
+    executor_->run_until({.is_there = [this](world::World&) { return eyes_->spans.violation().has_value(); },
+                          .next_look = [this](Tick done) { return eyes_->spans.next_look(done); }},
+                         until);
     throw_if_broken();
-  } else if (until > stage_->now()) {
-    stage_->advance(until - stage_->now());
+  } else if (until > executor_->now()) {
+    executor_->advance(until - executor_->now());
   }
 }
 
 SimTime Performance::moment_in(SimTime duration) {
-  const SimTime rest = std::max(kHorizon - stage_->now(), SimTime{0});
-  if (duration <= rest) return stage_->now() + duration;
+  const SimTime rest = std::max(kHorizon - executor_->now(), SimTime{0});
+  if (duration <= rest) return executor_->now() + duration;
   throw StepError(format_duration(duration) +
                   " from now is beyond the end of simulated time; expected at most " + format_duration(rest));
 }
@@ -78,13 +78,13 @@ void Performance::perform(const AdvanceStep& step) { pass_time(moment_in(step.by
 
 /// By the tick that it acts from.
 Tick Performance::last_write() {
-  const Tick tick = stage_->tick_of_last_write();
+  const Tick tick = executor_->tick_of_last_write();
   return tick != 0 ? tick : last_write_;
 }
 
 /// What comes true while the reply to a write is still on the line has come true after that write.
 void Performance::begin_history(const std::string& condition, const ConditionHistory::State& past) {
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     const auto [history, is_new] = eyes_->histories.try_emplace(
         condition, world::parse_expression(condition, eyes_->probes), eyes_->probes);
     if (!is_new) return;
@@ -95,7 +95,7 @@ void Performance::begin_history(const std::string& condition, const ConditionHis
 
 void Performance::end_histories() {
   if (eyes_->histories.empty()) return;
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     for (auto& [condition, history] : eyes_->histories) world.remove_watcher(history);
     eyes_->histories.clear();
   });
@@ -117,7 +117,7 @@ Tick Performance::wait_for(const WaitStep& step) {
   const Tick earliest = last_write();
   std::optional<Tick> came_true;
   world::Expression condition;
-  stage_->with_world([&](world::World&) {
+  executor_->with_world([&](world::World&) {
     condition = world::parse_expression(step.until, eyes_->probes);
     if (const auto history = eyes_->histories.find(step.until); history != eyes_->histories.end()) {
       came_true = history->second.first_from(earliest);
@@ -136,12 +136,12 @@ Tick Performance::wait_for(const WaitStep& step) {
   const auto next_look = [&](Tick done) {
     return std::min(eyes_->probes.next_change(condition, done), eyes_->spans.next_look(done));
   };
-  const bool is_there = stage_->run_until({.is_there = is_over, .next_look = next_look}, deadline);
+  const bool is_there = executor_->run_until({.is_there = is_over, .next_look = next_look}, deadline);
   throw_if_broken();
   if (no_result) throw StepError(*no_result);
-  if (is_there) return std::max(tick_at(stage_->now()), earliest);
+  if (is_there) return std::max(tick_at(executor_->now()), earliest);
   std::string explained;
-  stage_->with_world([&](world::World&) { explained = world::explain(condition, eyes_->probes); });
+  executor_->with_world([&](world::World&) { explained = world::explain(condition, eyes_->probes); });
   const std::string text = world::to_text(condition);
   throw StepError("'" + text + "' did not become true within " + format_duration(step.within),
                   text + " within " + format_duration(step.within), explained);
@@ -149,11 +149,11 @@ Tick Performance::wait_for(const WaitStep& step) {
 
 Tick Performance::poll_for(const WaitStep& step) {
   world::KnownDevices known;
-  stage_->with_world([&](world::World& world) { known = world.known(); });
+  executor_->with_world([&](world::World& world) { known = world.known(); });
   PolledRegisters registers(known);
   const world::Expression condition = world::parse_expression(step.until, registers);
   const SimTime deadline = moment_in(step.within);
-  for (SimTime round = stage_->now();; round = std::max(round + *step.poll, stage_->now())) {
+  for (SimTime round = executor_->now();; round = std::max(round + *step.poll, executor_->now())) {
     if (round >= deadline) break;
     pass_time(round);
     registers.values.clear();
@@ -164,7 +164,7 @@ Tick Performance::poll_for(const WaitStep& step) {
     for (std::size_t i = 0; i < words.size(); ++i) {
       registers.values.push_back(value_in(registers.targets()[i], words[i], low_word_first[i]));
     }
-    if (world::is_true(condition, registers)) return std::max(tick_at(stage_->now()), last_write());
+    if (world::is_true(condition, registers)) return std::max(tick_at(executor_->now()), last_write());
   }
   const std::string text = world::to_text(condition);
   throw StepError("'" + text + "' did not become true within " + format_duration(step.within) +
@@ -177,7 +177,7 @@ Tick Performance::poll_for(const WaitStep& step) {
 void Performance::perform(const AssertStep& step) {
   std::vector<std::string> untrue;
   std::vector<std::string> explained;
-  stage_->with_world([&](world::World&) {
+  executor_->with_world([&](world::World&) {
     for (const std::string& text : step.expressions) {
       const world::Expression expression = world::parse_expression(text, eyes_->probes);
       if (world::is_true(expression, eyes_->probes)) continue;
@@ -191,7 +191,7 @@ void Performance::perform(const AssertStep& step) {
 }
 
 void Performance::perform(const SpanStep& step) {
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     world::Expression condition = world::parse_expression(step.expression, eyes_->probes);
     if (eyes_->spans.is_empty()) world.add_watcher(eyes_->spans);
     eyes_->spans.open({.name = step.name.empty() ? world::to_text(condition) : step.name,
@@ -203,7 +203,7 @@ void Performance::perform(const SpanStep& step) {
 
 void Performance::perform(const EndSpanStep& step) {
   bool was_open = false;
-  stage_->with_world([&](world::World& world) {
+  executor_->with_world([&](world::World& world) {
     was_open = eyes_->spans.close(step.name);
     if (eyes_->spans.is_empty()) world.remove_watcher(eyes_->spans);
   });
@@ -211,7 +211,7 @@ void Performance::perform(const EndSpanStep& step) {
 }
 
 void Performance::perform(const ResetPeaksStep&) {
-  stage_->with_world([&](world::World&) { eyes_->peaks.reset(); });
+  executor_->with_world([&](world::World&) { eyes_->peaks.reset(); });
 }
 
 }  // namespace understudy::emulator::play

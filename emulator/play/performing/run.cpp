@@ -15,8 +15,8 @@
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/free_stage.h"
-#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/executor.h"
+#include "emulator/play/stages/free_executor.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
@@ -74,7 +74,7 @@ class Run {
   void perform(const std::string& name, const Steps& steps, const Checkpoint& begin, Checkpoints known) {
     const std::size_t number = results_.size();
     results_.push_back(result_called(name));
-    Performance performance(scenario_, options_.make_stage(scenario_), options_.with_hash);
+    Performance performance(scenario_, options_.make_executor(scenario_), options_.with_hash);
     Onlookers onlookers(performance, options_.onlookers);
     if (begin) {
       performance.restore(*begin);
@@ -174,8 +174,8 @@ class Run {
 
 }  // namespace
 
-std::unique_ptr<Stage> make_free_stage(const Scenario& scenario) {
-  return std::make_unique<FreeStage>(scenario.bench, FreeStageOptions{.gap = scenario.gap});
+std::unique_ptr<Executor> make_free_executor(const Scenario& scenario) {
+  return std::make_unique<FreeExecutor>(scenario.bench, FreeExecutorOptions{.gap = scenario.gap});
 }
 
 std::vector<ScenarioResult> run_scenario(const Scenario& scenario, const RunOptions& options) {

@@ -1,4 +1,4 @@
-// Runs scenarios (docs/scenarios.md defines each step). Time is simulated on any stage.
+// Runs scenarios (docs/scenarios.md defines each step). Time is simulated on any executor.
 #pragma once
 
 #include <functional>
@@ -8,19 +8,19 @@
 #include "emulator/play/performing/onlooker.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/executor.h"
 
 namespace understudy::emulator::play {
 
-/// Makes a stage with the scenario's bench at its power-up. It may be called more than once, because each
-/// branch of a fork gets its own stage.
-using StageMaker = std::function<std::unique_ptr<Stage>(const Scenario&)>;
+/// Makes an executor with the scenario's bench at its power-up. It may be called more than once, because each
+/// branch of a fork gets its own executor.
+using ExecutorMaker = std::function<std::unique_ptr<Executor>(const Scenario&)>;
 
-/// Returns a stage in virtual time with the scenario's bench and gap.
-std::unique_ptr<Stage> make_free_stage(const Scenario& scenario);
+/// Returns an executor in virtual time with the scenario's bench and gap.
+std::unique_ptr<Executor> make_free_executor(const Scenario& scenario);
 
 struct RunOptions {
-  StageMaker make_stage = make_free_stage;
+  ExecutorMaker make_executor = make_free_executor;
   bool with_hash = false;  // ScenarioResult::outcome_hash
   std::vector<OnlookerMaker> onlookers{};
 };

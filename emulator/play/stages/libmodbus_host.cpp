@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "emulator/device/register_map/row.h"
-#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/executor.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/world/speech/text_lines_heard.h"
 #include "pty/line_settings.h"
@@ -185,7 +185,7 @@ world::LinesHeard LibmodbusHost::lines_heard() const {
   return world::lines_in({reinterpret_cast<const char*>(unread_.data()), unread_.size()});
 }
 
-void LibmodbusHost::say(const std::string& text) {
+void LibmodbusHost::send_text(const std::string& text) {
   keep_silence();
   tcflush(modbus_get_socket(context_.get()), TCIFLUSH);
   unread_.clear();
@@ -194,11 +194,11 @@ void LibmodbusHost::say(const std::string& text) {
   quiet_since_ = serve::wall_now();
 }
 
-std::vector<std::string> LibmodbusHost::converse(const std::optional<std::string>& text,
-                                                 const world::LinesWanted& wanted, serve::WallTime sending,
-                                                 serve::WallTime within) {
+std::vector<std::string> LibmodbusHost::exchange_text(const std::optional<std::string>& text,
+                                                      const world::LinesWanted& wanted,
+                                                      serve::WallTime sending, serve::WallTime within) {
   const serve::WallTime start = serve::wall_now();
-  if (text) say(*text);
+  if (text) send_text(*text);
   const serve::WallTime deadline = (text ? std::max(start + sending, serve::wall_now()) : start) + within;
   world::LinesHeard heard = lines_heard();
   while (!world::has_come(wanted, heard) && serve::wall_now() < deadline) {

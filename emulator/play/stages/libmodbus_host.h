@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/executor.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "pty/line_settings.h"
 
@@ -34,9 +34,10 @@ class LibmodbusHost {
                                      serve::WallTime sending, serve::WallTime within);
 
   /// Exchanges lines of text without libmodbus; see Stage::converse().
-  std::vector<std::string> converse(const std::optional<std::string>& text, const world::LinesWanted& wanted,
-                                    serve::WallTime sending, serve::WallTime within);
-  void say(const std::string& text);
+  std::vector<std::string> exchange_text(const std::optional<std::string>& text,
+                                         const world::LinesWanted& wanted, serve::WallTime sending,
+                                         serve::WallTime within);
+  void send_text(const std::string& text);
 
  private:
   void write_all(std::span<const std::uint8_t> bytes);

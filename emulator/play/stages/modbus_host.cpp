@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "emulator/device/register_map/row.h"
-#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/executor.h"
 #include "emulator/world/stations/server.h"
 #include "pty/rtu_crc.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/executor.h"
 
 namespace understudy::emulator::play {
 

@@ -12,7 +12,7 @@
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/stages/modbus_host.h"
-#include "emulator/play/stages/real_stage.h"
+#include "emulator/play/stages/real_executor.h"
 #include "emulator/world/bench/bench_text.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/recording/replay.h"
@@ -110,7 +110,7 @@ TEST(Plays, KnowEveryTableInFreeTime) {
 TEST(Plays, KnowEveryTableInRealTimeWithLibmodbus) {
   const Scenario scenario = parsed(kAllKinds + kMoves).front();
   RunOptions options;
-  options.make_stage = play::make_real_stage;
+  options.make_executor = play::make_real_executor;
   expect_passed(run_scenario(scenario, options), 3);
 }
 

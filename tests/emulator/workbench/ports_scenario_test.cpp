@@ -4,7 +4,7 @@
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result_text.h"
-#include "emulator/play/stages/real_stage.h"
+#include "emulator/play/stages/real_executor.h"
 #include "tests/emulator/workbench/two_lines.h"
 
 namespace understudy::emulator::workbench {
@@ -70,7 +70,7 @@ const std::string kBothLines =
 TEST(Via, ChoosesTheLineOfAStep) { EXPECT_EQ(failure_of(kBothLines), ""); }
 
 TEST(Via, ChoosesThePortInRealTimeToo) {
-  EXPECT_EQ(failure_of(kBothLines, {.make_stage = play::make_real_stage}), "");
+  EXPECT_EQ(failure_of(kBothLines, {.make_executor = play::make_real_executor}), "");
 }
 
 TEST(Via, IsToldInTheStepAndItsFailure) {

@@ -6,7 +6,7 @@
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/stages/modbus_host.h"
-#include "emulator/play/stages/real_stage.h"
+#include "emulator/play/stages/real_executor.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/frames/frame_log.h"
 #include "pty/rtu_crc.h"
@@ -71,7 +71,7 @@ TEST(WindowNames, AScenarioSendsCommandsByName) {
 
 TEST(WindowNames, TheSameInRealTimeWithLibmodbus) {
   play::RunOptions options;
-  options.make_stage = play::make_real_stage;
+  options.make_executor = play::make_real_executor;
   EXPECT_EQ(failure_of(kCommands, options), "");
 }
 

@@ -22,9 +22,9 @@ const std::string kDay = play::kServoOn + play::kExampleMove +
 
 std::uint64_t outcome(const std::string& steps, bool bulk_ticks = true, const std::string& more = "") {
   const play::RunOptions options{
-      .make_stage =
+      .make_executor =
           [&](const play::Scenario& scenario) {
-            auto stage = play::make_free_stage(scenario);
+            auto stage = play::make_free_executor(scenario);
             stage->with_world([&](World& world) { world.set_bulk_ticks(bulk_ticks); });
             return stage;
           },

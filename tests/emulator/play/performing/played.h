@@ -10,7 +10,7 @@
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result_text.h"
-#include "emulator/play/stages/free_stage.h"
+#include "emulator/play/stages/free_executor.h"
 
 namespace understudy::emulator::play {
 

@@ -1,5 +1,5 @@
 // What a scenario in real time hears and sees: the host's replies, and when a write was carried out.
-#include "emulator/play/stages/real_stage.h"
+#include "emulator/play/stages/real_executor.h"
 #include "emulator/play/stages/write_clock.h"
 #include "tests/emulator/play/performing/played.h"
 
@@ -8,7 +8,7 @@ namespace real_time_test {
 
 ScenarioResult played_in_real_time(const std::string& steps) {
   RunOptions options;
-  options.make_stage = make_real_stage;
+  options.make_executor = make_real_executor;
   return played(steps, "", options);
 }
 

@@ -5,17 +5,17 @@
 namespace understudy::emulator::play {
 namespace runner_line_test {
 
-/// A free stage whose host's requests are written down: "write 1 0x1002: 200 5", "read 1 0x0E04: 2".
-class WrittenDown final : public Stage {
+/// A free executor whose host's requests are written down: "write 1 0x1002: 200 5", "read 1 0x0E04: 2".
+class WrittenDown final : public Executor {
  public:
-  WrittenDown(std::unique_ptr<Stage> stage, std::vector<std::string>& requests)
-      : stage_(std::move(stage)), requests_(requests) {}
+  WrittenDown(std::unique_ptr<Executor> executor, std::vector<std::string>& requests)
+      : executor_(std::move(executor)), requests_(requests) {}
 
   HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) override {
     char text[64];
     std::snprintf(text, sizeof text, "read %d 0x%04X: %d", station, first, count);
     requests_.emplace_back(text);
-    return stage_->read(line, station, table, first, count);
+    return executor_->read(line, station, table, first, count);
   }
   HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
                   std::span<const std::uint16_t> words) override {
@@ -23,40 +23,40 @@ class WrittenDown final : public Stage {
     std::snprintf(text, sizeof text, "write %d 0x%04X:", station, first);
     requests_.emplace_back(text);
     for (const std::uint16_t word : words) requests_.back() += " " + std::to_string(word);
-    return stage_->write(line, station, table, first, words);
+    return executor_->write(line, station, table, first, words);
   }
   HostReply write_message(std::size_t line, int station, std::uint16_t first,
                           std::span<const std::uint16_t> words) override {
     requests_.push_back("message of " + std::to_string(words.size()));
-    return stage_->write_message(line, station, first, words);
+    return executor_->write_message(line, station, first, words);
   }
   std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                      std::size_t wanted, SimTime within) override {
     requests_.push_back("exchange " + std::to_string(bytes.size()));
-    return stage_->exchange(line, bytes, wanted, within);
+    return executor_->exchange(line, bytes, wanted, within);
   }
-  void say(std::size_t line, const std::string& text) override { stage_->say(line, text); }
-  std::vector<std::string> converse(std::size_t line, const std::optional<std::string>& text,
-                                    const world::LinesWanted& wanted, SimTime within) override {
-    return stage_->converse(line, text, wanted, within);
+  void send_text(std::size_t line, const std::string& text) override { executor_->send_text(line, text); }
+  std::vector<std::string> exchange_text(std::size_t line, const std::optional<std::string>& text,
+                                         const world::LinesWanted& wanted, SimTime within) override {
+    return executor_->exchange_text(line, text, wanted, within);
   }
-  void with_world(const std::function<void(world::World&)>& act) override { stage_->with_world(act); }
+  void with_world(const std::function<void(world::World&)>& act) override { executor_->with_world(act); }
   bool run_until(const Awaited& awaited, SimTime deadline) override {
-    return stage_->run_until(awaited, deadline);
+    return executor_->run_until(awaited, deadline);
   }
-  void advance(SimTime by) override { stage_->advance(by); }
-  SimTime now() override { return stage_->now(); }
-  Tick tick_of_last_write() override { return stage_->tick_of_last_write(); }
+  void advance(SimTime by) override { executor_->advance(by); }
+  SimTime now() override { return executor_->now(); }
+  Tick tick_of_last_write() override { return executor_->tick_of_last_write(); }
 
  private:
-  std::unique_ptr<Stage> stage_;
+  std::unique_ptr<Executor> executor_;
   std::vector<std::string>& requests_;
 };
 
 std::vector<std::string> requests_of(const std::string& steps) {
   std::vector<std::string> requests;
-  const RunOptions options{.make_stage = [&](const Scenario& scenario) {
-    return std::make_unique<WrittenDown>(make_free_stage(scenario), requests);
+  const RunOptions options{.make_executor = [&](const Scenario& scenario) {
+    return std::make_unique<WrittenDown>(make_free_executor(scenario), requests);
   }};
   const ScenarioResult result = played(steps, "", options);
   EXPECT_TRUE(has_passed(result)) << steps << why(result);

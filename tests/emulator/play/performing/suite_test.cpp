@@ -71,10 +71,10 @@ TEST(Suite, WithoutScenariosNothingIsTold) {
 TEST(Suite, ThatNoStageCanBeHadIsThrownAfterWhatCameBefore) {
   const auto scenarios = many();
   std::atomic<int> made = 0;
-  const RunOptions options{.make_stage = [&](const Scenario& scenario) -> std::unique_ptr<Stage> {
+  const RunOptions options{.make_executor = [&](const Scenario& scenario) -> std::unique_ptr<Executor> {
     ++made;
     if (scenario.name == "move 5") throw std::runtime_error("no port is free");
-    return make_free_stage(scenario);
+    return make_free_executor(scenario);
   }};
   std::vector<std::string> names;
   const auto tell = [&](const CaseId&, const std::vector<ScenarioResult>& results) {

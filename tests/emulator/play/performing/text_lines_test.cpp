@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "emulator/models/models.h"
-#include "emulator/play/stages/real_stage.h"
+#include "emulator/play/stages/real_executor.h"
 #include "emulator/world/speech/text_lines_heard.h"
 #include "tests/emulator/play/performing/played.h"
 #include "tests/emulator/world/bench_file/without_columns.h"
@@ -30,7 +30,7 @@ Outcome play_text(const std::string& steps, bool is_real, const std::string& tim
   const Scenario scenario =
       parse_scenarios(world::models_and_echo_box(), text_scenario(steps, timing), "test.yaml").front();
   RunOptions options;
-  if (is_real) options.make_stage = [](const Scenario& of) { return make_real_stage(of); };
+  if (is_real) options.make_executor = [](const Scenario& of) { return make_real_executor(of); };
   const ScenarioResult result = run_scenario(scenario, options).front();
   return {has_passed(result), result.failure ? result.failure->what : std::string()};
 }

@@ -1,6 +1,6 @@
-// A stage runs a scenario: it has a world whose time it advances, and a host on the lines. There are two:
-// one in virtual time on the line itself (free_stage.h), and one in real time over a real pty with libmodbus
-// as the host (real_stage.h). Scenarios must have the same verdicts on both.
+// An executor runs a scenario: it has a world whose time it advances, and a host on the lines. There are two:
+// one in virtual time on the line itself (free_executor.h), and one in real time over a real pty with
+// libmodbus as the host (real_executor.h). Scenarios must have the same verdicts on both.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +35,9 @@ struct Awaited {
   std::function<Tick(Tick)> next_look{};
 };
 
-class Stage {
+class Executor {
  public:
-  virtual ~Stage() = default;
+  virtual ~Executor() = default;
 
   // --- the host: as a master on a line, one request at a time, t3.5 and `gap` after whatever was on it
   // before. Each call lasts, in simulated time, until the reply has come or time runs out.
@@ -55,12 +55,12 @@ class Stage {
   // --- the host on a line of text
   /// Sends a line, with its line end added, as soon as the gap allows. Earlier received bytes are discarded.
   /// Returns when the device has received the line.
-  virtual void say(std::size_t line, const std::string& text) = 0;
+  virtual void send_text(std::size_t line, const std::string& text) = 0;
   /// Sends a line if `text` is given, and receives lines until the wanted ones, or others instead, have
   /// come, or `within` has passed. Later lines are left to the next call; an answer is everything that comes
   /// without a pause. The last line may be unfinished.
-  virtual std::vector<std::string> converse(std::size_t line, const std::optional<std::string>& text,
-                                            const world::LinesWanted& wanted, SimTime within) = 0;
+  virtual std::vector<std::string> exchange_text(std::size_t line, const std::optional<std::string>& text,
+                                                 const world::LinesWanted& wanted, SimTime within) = 0;
 
   // --- the world -------------------------------------------------------------------------------------
   /// Acts on the world between two ticks, or reads it. Exceptions of `act` are passed on.
@@ -77,7 +77,7 @@ class Stage {
   /// Returns since when each line has been quiet, as far as the host knows. This is not part of the world's
   /// state, but the host's next request depends on it. Empty for a host in real time, which cannot go back.
   virtual std::vector<SimTime> quiet_since() { return {}; }
-  /// Sets the times that another stage of this bench returned when its world was in the state that this
+  /// Sets the times that another executor of this bench returned when its world was in the state that this
   /// world was just put into.
   virtual void set_quiet_since(const std::vector<SimTime>&) {}
 };

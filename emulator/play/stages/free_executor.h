@@ -1,5 +1,5 @@
-// A stage in virtual time: simulated time passes as fast as it can, and the host is on the line itself. It
-// is a correct Modbus RTU master: it leaves a silence of t3.5 before each frame (plus the scenario's gap)
+// An executor in virtual time: simulated time passes as fast as it can, and the host is on the line itself.
+// It is a correct Modbus RTU master: it leaves a silence of t3.5 before each frame (plus the scenario's gap)
 // and no gap within one. A reply ends when it is complete, or when t3.5 of silence follow its last byte.
 #pragma once
 
@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/executor.h"
 
 namespace understudy::emulator::play {
 
-struct FreeStageOptions {
+struct FreeExecutorOptions {
   SimTime gap{0};                                    // beyond t3.5
   SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
   std::function<void(const std::string&)> log = {};  // receives messages of devices and lines
@@ -23,11 +23,11 @@ struct FreeStageOptions {
 /// Line V1.02, 2.5.1.1).
 SimTime silence_between_frames(const pty::LineSettings& settings);
 
-class FreeStage final : public Stage {
+class FreeExecutor final : public Executor {
  public:
   /// Makes a world at its power-up. Throws the exceptions of World.
-  FreeStage(const world::Bench& bench, FreeStageOptions options);
-  ~FreeStage() override;
+  FreeExecutor(const world::Bench& bench, FreeExecutorOptions options);
+  ~FreeExecutor() override;
 
   HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) override;
   HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
@@ -36,9 +36,9 @@ class FreeStage final : public Stage {
                           std::span<const std::uint16_t> words) override;
   std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                      std::size_t wanted, SimTime within) override;
-  void say(std::size_t line, const std::string& text) override;
-  std::vector<std::string> converse(std::size_t line, const std::optional<std::string>& text,
-                                    const world::LinesWanted& wanted, SimTime within) override;
+  void send_text(std::size_t line, const std::string& text) override;
+  std::vector<std::string> exchange_text(std::size_t line, const std::optional<std::string>& text,
+                                         const world::LinesWanted& wanted, SimTime within) override;
 
   void with_world(const std::function<void(world::World&)>& act) override;
   bool run_until(const Awaited& awaited, SimTime deadline) override;
@@ -53,11 +53,11 @@ class FreeStage final : public Stage {
 
   HostReply ask(Host& host, const std::vector<std::uint8_t>& request);
   void send(Host& host, std::span<const std::uint8_t> bytes);
-  void send_text(Host& host, const std::string& text);
+  void put_text(Host& host, const std::string& text);
   void advance_to_next(SimTime limit);
 
   world::World world_;
-  FreeStageOptions options_;
+  FreeExecutorOptions options_;
   std::vector<std::unique_ptr<Host>> hosts_;  // one a line
   const Host* writing_ = nullptr;             // the host whose write is being carried out
   std::uint64_t requests_before_ = 0;         // of its stations

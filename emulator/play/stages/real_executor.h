@@ -1,5 +1,5 @@
-// A stage in real time: the world of a daemon, which another thread runs, with libmodbus as the host on its
-// ports.
+// An executor in real time: the world of a daemon, which another thread runs, with libmodbus as the host on
+// its ports.
 #pragma once
 
 #include <atomic>
@@ -10,38 +10,38 @@
 #include <vector>
 
 #include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/executor.h"
 #include "emulator/play/stages/libmodbus_host.h"
-#include "emulator/play/stages/stage.h"
 #include "emulator/play/stages/write_clock.h"
 #include "emulator/serve/daemon/daemon_thread.h"
 
 namespace understudy::emulator::play {
 
 /// Thrown when the scenario has been abandoned.
-struct StageGivenUp : std::runtime_error {
-  StageGivenUp() : std::runtime_error("the run was aborted") {}
+struct ExecutionAborted : std::runtime_error {
+  ExecutionAborted() : std::runtime_error("the run was aborted") {}
 };
 
-struct RealStageOptions {
+struct RealExecutorOptions {
   SimTime gap{0};                                    // beyond t3.5
   SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
-  /// False: the hosts on its lines are other programs, and the stage has none.
+  /// False: the hosts on its lines are other programs, and the executor has none.
   bool has_hosts = true;
-  /// Once it is true, every wait throws StageGivenUp. Waits also throw it after the daemon has ended,
+  /// Once it is true, every wait throws ExecutionAborted. Waits also throw it after the daemon has ended,
   /// because time stops then. Null: the scenario is never abandoned.
   const std::atomic<bool>* given_up = nullptr;
 };
 
-class RealStage final : public Stage {
+class RealExecutor final : public Executor {
  public:
   /// Another thread runs the daemon. Once the daemon has ended, that thread must leave the world alone as
-  /// long as this stage lives. Throws pty::PortError.
-  RealStage(serve::Daemon& daemon, RealStageOptions options);
+  /// long as this executor lives. Throws pty::PortError.
+  RealExecutor(serve::Daemon& daemon, RealExecutorOptions options);
   /// Like the above, with a daemon of its own, which has been started.
-  RealStage(std::unique_ptr<serve::DaemonThread> thread, RealStageOptions options);
-  ~RealStage() override;
-  RealStage(const RealStage&) = delete;
-  RealStage& operator=(const RealStage&) = delete;
+  RealExecutor(std::unique_ptr<serve::DaemonThread> thread, RealExecutorOptions options);
+  ~RealExecutor() override;
+  RealExecutor(const RealExecutor&) = delete;
+  RealExecutor& operator=(const RealExecutor&) = delete;
 
   HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) override;
   HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
@@ -50,9 +50,9 @@ class RealStage final : public Stage {
                           std::span<const std::uint16_t> words) override;
   std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                      std::size_t wanted, SimTime within) override;
-  void say(std::size_t line, const std::string& text) override;
-  std::vector<std::string> converse(std::size_t line, const std::optional<std::string>& text,
-                                    const world::LinesWanted& wanted, SimTime within) override;
+  void send_text(std::size_t line, const std::string& text) override;
+  std::vector<std::string> exchange_text(std::size_t line, const std::optional<std::string>& text,
+                                         const world::LinesWanted& wanted, SimTime within) override;
 
   void with_world(const std::function<void(world::World&)>& act) override;
   bool run_until(const Awaited& awaited, SimTime deadline) override;
@@ -73,15 +73,15 @@ class RealStage final : public Stage {
 
   std::unique_ptr<serve::DaemonThread> own_;
   serve::Daemon& daemon_;
-  RealStageOptions options_;
+  RealExecutorOptions options_;
   std::unique_ptr<WriteClock> writes_;
   std::vector<pty::LineOptions> lines_;                // at the beginning; hosts do not follow a DIP switch
   std::vector<std::unique_ptr<LibmodbusHost>> hosts_;  // one a line
   std::optional<SimTime> found_at_;                    // by run_until(), and no time was let pass since
 };
 
-/// Makes a stage in real time with the scenario's bench and gap, and with ports of its own. The devices'
+/// Makes an executor in real time with the scenario's bench and gap, and with ports of its own. The devices'
 /// memories begin as their files, but those files are never written.
-std::unique_ptr<Stage> make_real_stage(const Scenario& scenario);
+std::unique_ptr<Executor> make_real_executor(const Scenario& scenario);
 
 }  // namespace understudy::emulator::play

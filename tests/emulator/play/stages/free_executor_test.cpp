@@ -1,6 +1,6 @@
-// The host of a free stage, by the nanosecond. At 19200 8E1 a character is 11 bits, 572,916.67 ns; times are
-// rounded down from the first character on. A Simple2-R3 answers 750 us after a request's end.
-#include "emulator/play/stages/free_stage.h"
+// The host of a free executor, by the nanosecond. At 19200 8E1 a character is 11 bits, 572,916.67 ns; times
+// are rounded down from the first character on. A Simple2-R3 answers 750 us after a request's end.
+#include "emulator/play/stages/free_executor.h"
 #include "emulator/models/models.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator::play {
-namespace free_stage_test {
+namespace free_executor_test {
 
 using Kind = HostReply::Kind;
 
@@ -22,16 +22,16 @@ constexpr const char* kAt115200 =
 
 SimTime ns(std::int64_t count) { return SimTime{count}; }
 
-/// A free stage, and what is heard on its only line: when each request's and each reply's first character
+/// A free executor, and what is heard on its only line: when each request's and each reply's first character
 /// begins.
 class HeardStage : public pty::LineObserver {
  public:
-  explicit HeardStage(const std::string& bench, FreeStageOptions options = {})
-      : stage(world::parse_bench(models::all_models(), bench, "bench.yaml", "."), std::move(options)) {
-    stage.with_world([&](world::World& world) { world.add_observer(0, *this); });
+  explicit HeardStage(const std::string& bench, FreeExecutorOptions options = {})
+      : executor(world::parse_bench(models::all_models(), bench, "bench.yaml", "."), std::move(options)) {
+    executor.with_world([&](world::World& world) { world.add_observer(0, *this); });
   }
   ~HeardStage() override {
-    stage.with_world([&](world::World& world) { world.remove_observer(0, *this); });
+    executor.with_world([&](world::World& world) { world.remove_observer(0, *this); });
   }
   void on_start_bit(SimTime at) override {
     if (starts.empty() || at - last_start > std::chrono::milliseconds(1)) starts.push_back(at);
@@ -43,14 +43,14 @@ class HeardStage : public pty::LineObserver {
   std::optional<SimTime> due() const override { return std::nullopt; }
   void run(SimTime) override {}
 
-  FreeStage stage;
+  FreeExecutor executor;
   std::vector<SimTime> starts;
   std::vector<SimTime> answers;
   std::vector<std::uint8_t> heard;
   SimTime last_start{0};
 };
 
-TEST(FreeStage, T35IsCountedInCharactersUpTo19200AndFixedAbove) {
+TEST(FreeExecutor, T35IsCountedInCharactersUpTo19200AndFixedAbove) {
   struct Case {
     int baud;
     pty::Parity parity;
@@ -67,9 +67,9 @@ TEST(FreeStage, T35IsCountedInCharactersUpTo19200AndFixedAbove) {
   }
 }
 
-TEST(FreeStage, AReadTakesItsFramesTimeAndTheNextOneWaitsForT35) {
+TEST(FreeExecutor, AReadTakesItsFramesTimeAndTheNextOneWaitsForT35) {
   HeardStage heard(kAt19200);
-  const HostReply code = heard.stage.read(0, 1, Table::holding, 0x0001, 1);  // HW_Code
+  const HostReply code = heard.executor.read(0, 1, Table::holding, 0x0001, 1);  // HW_Code
   EXPECT_EQ(code.kind, Kind::good);
   EXPECT_EQ(code.words, std::vector<std::uint16_t>{0xC001});
   // 01 03 00 01 00 01 D5 CA is the manual's request, 01 03 02 C0 01 29 84 its reply.
@@ -77,67 +77,67 @@ TEST(FreeStage, AReadTakesItsFramesTimeAndTheNextOneWaitsForT35) {
   EXPECT_EQ(code.bytes, (std::vector<std::uint8_t>{0x01, 0x03, 0x02, 0xC0, 0x01, 0x29, 0x84}));
   // 8 characters: 4,583,333; + 750,000; 7 characters: 4,010,416.
   EXPECT_EQ(heard.answers, std::vector{ns(5'333'333)});
-  EXPECT_EQ(heard.stage.now(), ns(9'343'749));
-  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
+  EXPECT_EQ(heard.executor.now(), ns(9'343'749));
+  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
   EXPECT_EQ(heard.starts, (std::vector{ns(0), ns(9'343'749 + 2'005'209)}));
-  EXPECT_EQ(heard.stage.now(), ns(11'348'958 + 9'343'749));
+  EXPECT_EQ(heard.executor.now(), ns(11'348'958 + 9'343'749));
 }
 
-TEST(FreeStage, TheSameAt115200Baud) {
+TEST(FreeExecutor, TheSameAt115200Baud) {
   HeardStage heard(kAt115200);
-  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
-  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
+  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
+  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
   // 11 bits are 95,486.11 ns: 8 of them 763,888, 7 of them 668,402.
   EXPECT_EQ(heard.answers[0], ns(763'888 + 750'000));
   EXPECT_EQ(heard.starts, (std::vector{ns(0), ns(1'513'888 + 668'402 + 1'750'000)}));
 }
 
-TEST(FreeStage, TheGapComesOnTopOfT35ButTimeThatHasPassedCounts) {
+TEST(FreeExecutor, TheGapComesOnTopOfT35ButTimeThatHasPassedCounts) {
   HeardStage heard(kAt19200, {.gap = std::chrono::milliseconds(5)});
-  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
-  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
+  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
+  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
   EXPECT_EQ(heard.starts[1], ns(9'343'749 + 2'005'209 + 5'000'000));
-  heard.stage.advance(std::chrono::seconds(1));
-  const SimTime now = heard.stage.now();
-  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
+  heard.executor.advance(std::chrono::seconds(1));
+  const SimTime now = heard.executor.now();
+  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
   EXPECT_EQ(heard.starts[2], now);
 }
 
-TEST(FreeStage, OneWordIsWrittenByFunction06AndMoreBy16) {
+TEST(FreeExecutor, OneWordIsWrittenByFunction06AndMoreBy16) {
   HeardStage heard(kAt19200);
-  EXPECT_EQ(heard.stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200}).kind,
+  EXPECT_EQ(heard.executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200}).kind,
             Kind::good);
   EXPECT_EQ(std::vector(heard.heard.begin(), heard.heard.begin() + 6),
             (std::vector<std::uint8_t>{0x01, 0x06, 0x10, 0x02, 0x00, 0xC8}));
   heard.heard.clear();
-  EXPECT_EQ(heard.stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200, 5}).kind,
+  EXPECT_EQ(heard.executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200, 5}).kind,
             Kind::good);
   EXPECT_EQ(std::vector(heard.heard.begin(), heard.heard.begin() + 11),
             (std::vector<std::uint8_t>{0x01, 0x10, 0x10, 0x02, 0x00, 0x02, 0x04, 0x00, 0xC8, 0x00, 0x05}));
-  EXPECT_EQ(heard.stage.read(0, 1, Table::holding, 0x1002, 2).words, (std::vector<std::uint16_t>{200, 5}));
+  EXPECT_EQ(heard.executor.read(0, 1, Table::holding, 0x1002, 2).words, (std::vector<std::uint16_t>{200, 5}));
 }
 
-TEST(FreeStage, AnExceptionIsTold) {
+TEST(FreeExecutor, AnExceptionIsTold) {
   HeardStage heard(kAt19200);
   const HostReply refused =
-      heard.stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{40'000});
+      heard.executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{40'000});
   EXPECT_EQ(refused.kind, Kind::exception);
   EXPECT_EQ(refused.exception, 3);  // beyond 32768
   // 8 characters, 750 us, 5 characters: 2,864,583.
-  EXPECT_EQ(heard.stage.now(), ns(5'333'333 + 2'864'583));
-  EXPECT_EQ(heard.stage.read(0, 1, Table::holding, 0x9999, 1).exception, 2);
+  EXPECT_EQ(heard.executor.now(), ns(5'333'333 + 2'864'583));
+  EXPECT_EQ(heard.executor.read(0, 1, Table::holding, 0x9999, 1).exception, 2);
 }
 
-TEST(FreeStage, WithoutAReplyItsTimeoutCountsFromTheRequestsEnd) {
+TEST(FreeExecutor, WithoutAReplyItsTimeoutCountsFromTheRequestsEnd) {
   HeardStage heard(kAt19200, {.timeout = std::chrono::milliseconds(70)});
-  EXPECT_EQ(heard.stage.read(0, 9, Table::holding, 0x0001, 1).kind, Kind::silence);  // nobody is station 9
-  EXPECT_EQ(heard.stage.now(), ns(4'583'333 + 70'000'000));
+  EXPECT_EQ(heard.executor.read(0, 9, Table::holding, 0x0001, 1).kind, Kind::silence);  // nobody is station 9
+  EXPECT_EQ(heard.executor.now(), ns(4'583'333 + 70'000'000));
   HeardStage patient(kAt19200);
-  EXPECT_EQ(patient.stage.read(0, 9, Table::holding, 0x0001, 1).kind, Kind::silence);
-  EXPECT_EQ(patient.stage.now(), ns(504'583'333));
+  EXPECT_EQ(patient.executor.read(0, 9, Table::holding, 0x0001, 1).kind, Kind::silence);
+  EXPECT_EQ(patient.executor.now(), ns(504'583'333));
 }
 
-TEST(FreeStage, APowerCutGarblesAReplyButNotTheNextRequest) {
+TEST(FreeExecutor, APowerCutGarblesAReplyButNotTheNextRequest) {
   /// Cuts the power while the reply is on the line.
   struct Cut final : world::TickWatcher {
     explicit Cut(world::World& of) : world(of) {}
@@ -148,91 +148,91 @@ TEST(FreeStage, APowerCutGarblesAReplyButNotTheNextRequest) {
   };
   HeardStage heard(kAt19200);
   std::unique_ptr<Cut> cut;
-  heard.stage.with_world([&](world::World& world) {
+  heard.executor.with_world([&](world::World& world) {
     cut = std::make_unique<Cut>(world);
     world.add_watcher(*cut);
   });
-  const HostReply reply = heard.stage.read(0, 1, Table::holding, 0x0001, 1);
+  const HostReply reply = heard.executor.read(0, 1, Table::holding, 0x0001, 1);
   EXPECT_EQ(reply.kind, Kind::garbled);
   // The reply begins at 5,333,333; at 7 ms its third character is on its way, which is over at 7,052,083.
   EXPECT_EQ(reply.bytes, (std::vector<std::uint8_t>{0x01, 0x03, 0x02}));
   // A character and t3.5 later it is plain that there is no more: + 572,916 + 2,005,209.
-  EXPECT_EQ(heard.stage.now(), ns(7'052'083 + 572'916 + 2'005'209));
-  heard.stage.with_world([&](world::World& world) {
+  EXPECT_EQ(heard.executor.now(), ns(7'052'083 + 572'916 + 2'005'209));
+  heard.executor.with_world([&](world::World& world) {
     world.remove_watcher(*cut);
     world.switch_power(0, true);
   });
-  EXPECT_EQ(heard.stage.read(0, 1, Table::holding, 0x0001, 1).kind, Kind::good);
+  EXPECT_EQ(heard.executor.read(0, 1, Table::holding, 0x0001, 1).kind, Kind::good);
 }
 
-TEST(FreeStage, ExchangeSendsWhatItIsGivenAndTakesWhatComes) {
+TEST(FreeExecutor, ExchangeSendsWhatItIsGivenAndTakesWhatComes) {
   HeardStage heard(kAt19200);
   const std::vector<std::uint8_t> request{0x01, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xCA};
   const std::vector<std::uint8_t> reply{0x01, 0x03, 0x02, 0xC0, 0x01, 0x29, 0x84};
   const SimTime within = std::chrono::milliseconds(100);
-  EXPECT_EQ(heard.stage.exchange(0, request, reply.size(), within), reply);
+  EXPECT_EQ(heard.executor.exchange(0, request, reply.size(), within), reply);
   // It looks for one more character.
-  EXPECT_EQ(heard.stage.now(), ns(9'343'749 + 572'916 + 1));
-  EXPECT_EQ(heard.stage.exchange(0, request, 3, within).size(),
+  EXPECT_EQ(heard.executor.now(), ns(9'343'749 + 572'916 + 1));
+  EXPECT_EQ(heard.executor.exchange(0, request, 3, within).size(),
             4U);  // the third, and one that follows at once
-  heard.stage.advance(std::chrono::seconds(1));
+  heard.executor.advance(std::chrono::seconds(1));
   std::vector<std::uint8_t> broken = request;
   broken.back() ^= 1;
-  const SimTime begin = heard.stage.now();
-  EXPECT_TRUE(heard.stage.exchange(0, broken, reply.size(), within).empty());
-  EXPECT_EQ(heard.stage.now(), begin + ns(4'583'333) + within);
+  const SimTime begin = heard.executor.now();
+  EXPECT_TRUE(heard.executor.exchange(0, broken, reply.size(), within).empty());
+  EXPECT_EQ(heard.executor.now(), begin + ns(4'583'333) + within);
 }
 
-TEST(FreeStage, MoreBytesThanTheLineTakesAtOnceGoOutWithoutAGap) {
+TEST(FreeExecutor, MoreBytesThanTheLineTakesAtOnceGoOutWithoutAGap) {
   HeardStage heard(kAt19200);
   const std::vector<std::uint8_t> noise(3000, 0x55);
-  heard.stage.exchange(0, noise, SIZE_MAX, std::chrono::milliseconds(10));
+  heard.executor.exchange(0, noise, SIZE_MAX, std::chrono::milliseconds(10));
   EXPECT_EQ(heard.heard.size(), noise.size());
   EXPECT_EQ(heard.starts.size(), 1U);
   // 3000 * 11 / 19200 = 1.71875 s
-  EXPECT_EQ(heard.stage.now(), ns(1'718'750'000 + 10'000'000));
+  EXPECT_EQ(heard.executor.now(), ns(1'718'750'000 + 10'000'000));
 }
 
-TEST(FreeStage, TheLastWriteActsFromTheTickAfterItIsCarriedOut) {
+TEST(FreeExecutor, TheLastWriteActsFromTheTickAfterItIsCarriedOut) {
   HeardStage heard(kAt19200);
-  FreeStage& stage = heard.stage;
-  EXPECT_EQ(stage.tick_of_last_write(), 0);
-  stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200});  // carried out at 5.333 ms
-  EXPECT_EQ(stage.tick_of_last_write(), 6);
-  stage.read(0, 1, Table::holding, 0x1002, 1);
-  EXPECT_EQ(stage.tick_of_last_write(), 6);
-  stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{40'000});  // refused
-  EXPECT_EQ(stage.tick_of_last_write(), 6);
-  stage.advance(std::chrono::milliseconds(100) - stage.now());
+  FreeExecutor& executor = heard.executor;
+  EXPECT_EQ(executor.tick_of_last_write(), 0);
+  executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200});  // carried out at 5.333 ms
+  EXPECT_EQ(executor.tick_of_last_write(), 6);
+  executor.read(0, 1, Table::holding, 0x1002, 1);
+  EXPECT_EQ(executor.tick_of_last_write(), 6);
+  executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{40'000});  // refused
+  EXPECT_EQ(executor.tick_of_last_write(), 6);
+  executor.advance(std::chrono::milliseconds(100) - executor.now());
   std::vector<std::uint8_t> broadcast =
       write_request(0, Table::holding, 0x1002, std::vector<std::uint16_t>{300});
-  stage.exchange(0, broadcast, SIZE_MAX, std::chrono::milliseconds(20));  // at 105.333 ms; nobody answers
-  EXPECT_EQ(stage.tick_of_last_write(), 106);
-  EXPECT_EQ(stage.read(0, 1, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{300});
+  executor.exchange(0, broadcast, SIZE_MAX, std::chrono::milliseconds(20));  // at 105.333 ms; nobody answers
+  EXPECT_EQ(executor.tick_of_last_write(), 106);
+  EXPECT_EQ(executor.read(0, 1, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{300});
 }
 
-TEST(FreeStage, RunUntilStopsAtTheVeryTick) {
+TEST(FreeExecutor, RunUntilStopsAtTheVeryTick) {
   HeardStage heard(kAt19200);
-  FreeStage& stage = heard.stage;
+  FreeExecutor& executor = heard.executor;
   int looks = 0;
   const auto at_7 = [&](world::World& world) {
     ++looks;
     return world.now() >= std::chrono::milliseconds(7);
   };
-  EXPECT_TRUE(stage.run_until({at_7}, std::chrono::seconds(1)));
-  EXPECT_EQ(stage.now(), std::chrono::milliseconds(7));
+  EXPECT_TRUE(executor.run_until({at_7}, std::chrono::seconds(1)));
+  EXPECT_EQ(executor.now(), std::chrono::milliseconds(7));
   EXPECT_EQ(looks, 8);  // at once, and at each tick
-  EXPECT_TRUE(stage.run_until({at_7}, std::chrono::seconds(1)));
-  EXPECT_EQ(stage.now(), std::chrono::milliseconds(7));
-  EXPECT_FALSE(stage.run_until({[](world::World&) { return false; }}, ns(9'500'000)));
-  EXPECT_EQ(stage.now(), ns(9'500'000));
+  EXPECT_TRUE(executor.run_until({at_7}, std::chrono::seconds(1)));
+  EXPECT_EQ(executor.now(), std::chrono::milliseconds(7));
+  EXPECT_FALSE(executor.run_until({[](world::World&) { return false; }}, ns(9'500'000)));
+  EXPECT_EQ(executor.now(), ns(9'500'000));
 }
 
 /// Where nothing happens it looks only where what it waits for says so, and stops there.
-TEST(FreeStage, RunUntilLooksOnlyWhereSomethingMayBeDifferent) {
+TEST(FreeExecutor, RunUntilLooksOnlyWhereSomethingMayBeDifferent) {
   HeardStage heard(kAt19200);
-  FreeStage& stage = heard.stage;
-  stage.advance(std::chrono::seconds(1));
+  FreeExecutor& executor = heard.executor;
+  executor.advance(std::chrono::seconds(1));
   int looks = 0;
   const Awaited in_an_hour{
       .is_there =
@@ -241,42 +241,43 @@ TEST(FreeStage, RunUntilLooksOnlyWhereSomethingMayBeDifferent) {
             return world.now() >= std::chrono::hours(1);
           },
       .next_look = [](Tick done) { return done < 3'600'000 ? Tick{3'600'000} : done + 1; }};
-  EXPECT_TRUE(stage.run_until(in_an_hour, std::chrono::hours(2)));
-  EXPECT_EQ(stage.now(), std::chrono::hours(1));
+  EXPECT_TRUE(executor.run_until(in_an_hour, std::chrono::hours(2)));
+  EXPECT_EQ(executor.now(), std::chrono::hours(1));
   EXPECT_LT(looks, 10);
   const Awaited never{.is_there = [&](world::World&) { return ++looks < 0; },
                       .next_look = [](Tick) { return kNever; }};
   looks = 0;
-  EXPECT_FALSE(stage.run_until(never, std::chrono::hours(3)));
-  EXPECT_EQ(stage.now(), std::chrono::hours(3));
+  EXPECT_FALSE(executor.run_until(never, std::chrono::hours(3)));
+  EXPECT_EQ(executor.now(), std::chrono::hours(3));
   EXPECT_LT(looks, 10);
 }
 
-TEST(FreeStage, FramingIsStrict) {
+TEST(FreeExecutor, FramingIsStrict) {
   HeardStage heard(kAt19200);
   const std::vector<std::uint8_t> request{0x01, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xCA};
   std::vector<std::uint8_t> two = request;
   two.insert(two.end(), request.begin(), request.end());
-  EXPECT_TRUE(heard.stage.exchange(0, two, SIZE_MAX, std::chrono::milliseconds(50)).empty());
-  EXPECT_FALSE(heard.stage.exchange(0, request, SIZE_MAX, std::chrono::milliseconds(50)).empty());
+  EXPECT_TRUE(heard.executor.exchange(0, two, SIZE_MAX, std::chrono::milliseconds(50)).empty());
+  EXPECT_FALSE(heard.executor.exchange(0, request, SIZE_MAX, std::chrono::milliseconds(50)).empty());
 }
 
-TEST(FreeStage, LinesHaveHostsOfTheirOwn) {
-  FreeStage stage(world::parse_bench(
-                      models::all_models(),
-                      "understudy: 1\n"
-                      "lines:\n"
-                      "  one: { baud: 19200, stations: [ { name: a, model: simple2-r3, address: 1 } ] }\n"
-                      "  two: { baud: 115200, stations: [ { name: b, model: simple2-r3, address: 2 } ] }\n",
-                      "bench.yaml", "."),
-                  {});
-  EXPECT_EQ(stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{11}).kind, Kind::good);
-  const SimTime begin = stage.now();
-  EXPECT_EQ(stage.write(1, 2, Table::holding, 0x1002, std::vector<std::uint16_t>{22}).kind, Kind::good);
-  EXPECT_EQ(stage.now(), begin + ns(763'888 + 750'000 + 763'888));  // nothing was on that line before
-  EXPECT_EQ(stage.read(0, 1, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{11});
-  EXPECT_EQ(stage.read(1, 2, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{22});
-  EXPECT_EQ(stage.read(0, 2, Table::holding, 0x1002, 1).kind, Kind::silence);
+TEST(FreeExecutor, LinesHaveHostsOfTheirOwn) {
+  FreeExecutor executor(
+      world::parse_bench(
+          models::all_models(),
+          "understudy: 1\n"
+          "lines:\n"
+          "  one: { baud: 19200, stations: [ { name: a, model: simple2-r3, address: 1 } ] }\n"
+          "  two: { baud: 115200, stations: [ { name: b, model: simple2-r3, address: 2 } ] }\n",
+          "bench.yaml", "."),
+      {});
+  EXPECT_EQ(executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{11}).kind, Kind::good);
+  const SimTime begin = executor.now();
+  EXPECT_EQ(executor.write(1, 2, Table::holding, 0x1002, std::vector<std::uint16_t>{22}).kind, Kind::good);
+  EXPECT_EQ(executor.now(), begin + ns(763'888 + 750'000 + 763'888));  // nothing was on that line before
+  EXPECT_EQ(executor.read(0, 1, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{11});
+  EXPECT_EQ(executor.read(1, 2, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{22});
+  EXPECT_EQ(executor.read(0, 2, Table::holding, 0x1002, 1).kind, Kind::silence);
 }
 
 TEST(ModbusHost, JudgesReplies) {
@@ -317,5 +318,5 @@ TEST(ModbusHost, JudgesReplies) {
   for (const Case& c : cases) EXPECT_EQ(judge_reply(c.request, c.reply).kind, c.kind) << c.name;
 }
 
-}  // namespace free_stage_test
+}  // namespace free_executor_test
 }  // namespace understudy::emulator::play

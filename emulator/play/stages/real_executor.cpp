@@ -1,4 +1,4 @@
-#include "emulator/play/stages/real_stage.h"
+#include "emulator/play/stages/real_executor.h"
 
 #include <algorithm>
 #include <chrono>
@@ -21,9 +21,9 @@
 #include "base/simulated_time.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/free_stage.h"
+#include "emulator/play/stages/executor.h"
+#include "emulator/play/stages/free_executor.h"
 #include "emulator/play/stages/libmodbus_host.h"
-#include "emulator/play/stages/stage.h"
 #include "emulator/play/stages/write_clock.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/daemon/daemon_thread.h"
@@ -46,7 +46,7 @@ constexpr serve::WallTime kLongestSleep = std::chrono::milliseconds(50);
 }  // namespace
 
 /// Watches, on the daemon's thread, for what another thread waits for.
-class RealStage::Look final : public world::TickWatcher {
+class RealExecutor::Look final : public world::TickWatcher {
  public:
   Look(const std::function<bool(world::World&)>& is_there, SimTime deadline)
       : is_there_(is_there), deadline_(deadline) {}
@@ -91,7 +91,8 @@ class RealStage::Look final : public world::TickWatcher {
   std::exception_ptr error_;
 };
 
-RealStage::RealStage(serve::Daemon& daemon, RealStageOptions options) : daemon_(daemon), options_(options) {
+RealExecutor::RealExecutor(serve::Daemon& daemon, RealExecutorOptions options)
+    : daemon_(daemon), options_(options) {
   std::vector<bool> has_silences;
   with_world([&](world::World& world) {
     for (std::size_t i = 0; i < world.line_count(); ++i) {
@@ -108,16 +109,16 @@ RealStage::RealStage(serve::Daemon& daemon, RealStageOptions options) : daemon_(
   with_world([this](world::World& world) { writes_ = std::make_unique<WriteClock>(world); });
 }
 
-RealStage::RealStage(std::unique_ptr<serve::DaemonThread> thread, RealStageOptions options)
-    : RealStage(thread->daemon(), options) {
+RealExecutor::RealExecutor(std::unique_ptr<serve::DaemonThread> thread, RealExecutorOptions options)
+    : RealExecutor(thread->daemon(), options) {
   own_ = std::move(thread);
 }
 
-RealStage::~RealStage() {
+RealExecutor::~RealExecutor() {
   with_world([this](world::World&) { writes_.reset(); });
 }
 
-void RealStage::with_world(const std::function<void(world::World&)>& act) {
+void RealExecutor::with_world(const std::function<void(world::World&)>& act) {
   const auto act_now = [&] {
     world::World& world = daemon_.world();
     const SimTime before = world.now();
@@ -146,12 +147,12 @@ void RealStage::with_world(const std::function<void(world::World&)>& act) {
   if (was_dropped) act_now();
 }
 
-void RealStage::throw_if_given_up() const {
+void RealExecutor::throw_if_given_up() const {
   const bool is_given_up = options_.given_up != nullptr && *options_.given_up;
-  if (is_given_up || daemon_.is_over()) throw StageGivenUp();
+  if (is_given_up || daemon_.is_over()) throw ExecutionAborted();
 }
 
-std::optional<serve::WallTime> RealStage::wall_time_until(SimTime time) {
+std::optional<serve::WallTime> RealExecutor::wall_time_until(SimTime time) {
   std::optional<serve::WallTime> there;
   with_world([&](world::World& world) {
     there = world.now() >= time ? serve::WallTime{0} : daemon_.pacer().wall_time_of(time);
@@ -160,20 +161,20 @@ std::optional<serve::WallTime> RealStage::wall_time_until(SimTime time) {
   return std::max(*there - serve::wall_now(), serve::WallTime{1});
 }
 
-bool RealStage::run_until(const Awaited& awaited, SimTime deadline) {
+bool RealExecutor::run_until(const Awaited& awaited, SimTime deadline) {
   throw_if_given_up();
   found_at_.reset();
   Look look(awaited.is_there, deadline);
   struct Watching {
-    Watching(RealStage& of, Look& watcher) : stage(of), look(watcher) {
-      stage.with_world([&](world::World& world) { look.begin(world); });
+    Watching(RealExecutor& of, Look& watcher) : executor(of), look(watcher) {
+      executor.with_world([&](world::World& world) { look.begin(world); });
     }
     ~Watching() {
-      stage.with_world([&](world::World& world) { look.end(world); });
+      executor.with_world([&](world::World& world) { look.end(world); });
     }
     Watching(const Watching&) = delete;
     Watching& operator=(const Watching&) = delete;
-    RealStage& stage;
+    RealExecutor& executor;
     Look& look;
   };
   const Watching watching(*this, look);
@@ -190,7 +191,7 @@ bool RealStage::run_until(const Awaited& awaited, SimTime deadline) {
   }
 }
 
-void RealStage::advance(SimTime by) {
+void RealExecutor::advance(SimTime by) {
   const SimTime target = now() + by;
   found_at_.reset();
   while (true) {
@@ -201,20 +202,20 @@ void RealStage::advance(SimTime by) {
   }
 }
 
-SimTime RealStage::now() {
+SimTime RealExecutor::now() {
   if (found_at_) return *found_at_;
   SimTime present{0};
   with_world([&](world::World& world) { present = world.now(); });
   return present;
 }
 
-Tick RealStage::tick_of_last_write() {
+Tick RealExecutor::tick_of_last_write() {
   Tick tick = 0;
   with_world([&](world::World&) { tick = writes_->tick_of_last_write(); });
   return tick;
 }
 
-LibmodbusHost& RealStage::host(std::size_t line) {
+LibmodbusHost& RealExecutor::host(std::size_t line) {
   throw_if_given_up();
   if (!options_.has_hosts) {
     throw std::logic_error("this stage has no host of its own; expected only steps that use no line");
@@ -223,22 +224,22 @@ LibmodbusHost& RealStage::host(std::size_t line) {
   return *hosts_[line];
 }
 
-HostReply RealStage::read(std::size_t line, int station, Table table, std::uint16_t first, int count) {
+HostReply RealExecutor::read(std::size_t line, int station, Table table, std::uint16_t first, int count) {
   return host(line).read(station, table, first, count);
 }
 
-HostReply RealStage::write(std::size_t line, int station, Table table, std::uint16_t first,
-                           std::span<const std::uint16_t> words) {
+HostReply RealExecutor::write(std::size_t line, int station, Table table, std::uint16_t first,
+                              std::span<const std::uint16_t> words) {
   return host(line).write(station, table, first, words);
 }
 
-HostReply RealStage::write_message(std::size_t line, int station, std::uint16_t first,
-                                   std::span<const std::uint16_t> words) {
+HostReply RealExecutor::write_message(std::size_t line, int station, std::uint16_t first,
+                                      std::span<const std::uint16_t> words) {
   return host(line).write_message(station, first, words);
 }
 
-std::vector<std::uint8_t> RealStage::exchange(std::size_t line, std::span<const std::uint8_t> bytes,
-                                              std::size_t wanted, SimTime within) {
+std::vector<std::uint8_t> RealExecutor::exchange(std::size_t line, std::span<const std::uint8_t> bytes,
+                                                 std::size_t wanted, SimTime within) {
   LibmodbusHost& on_line = host(line);
   const pty::LineOptions& options = lines_[line];
   const SimTime sending = options.timing == pty::Timing::instant
@@ -247,7 +248,7 @@ std::vector<std::uint8_t> RealStage::exchange(std::size_t line, std::span<const 
   return on_line.exchange(bytes, wanted, sending, within);
 }
 
-void RealStage::say(std::size_t line, const std::string& text) {
+void RealExecutor::send_text(std::size_t line, const std::string& text) {
   LibmodbusHost& on_line = host(line);
   const auto requests = [&] {
     std::uint64_t sum = 0;
@@ -258,7 +259,7 @@ void RealStage::say(std::size_t line, const std::string& text) {
   };
   const std::uint64_t before = requests();
   const SimTime sending = time_to_send(line, text);
-  on_line.say(text);
+  on_line.send_text(text);
   // A line that is too long, or that a fault swallows, is never carried out.
   const serve::WallTime limit = serve::wall_now() + sending + options_.timeout;
   while (requests() == before && serve::wall_now() < limit) {
@@ -267,18 +268,18 @@ void RealStage::say(std::size_t line, const std::string& text) {
   }
 }
 
-std::vector<std::string> RealStage::converse(std::size_t line, const std::optional<std::string>& text,
-                                             const world::LinesWanted& wanted, SimTime within) {
-  return host(line).converse(text, wanted, text ? time_to_send(line, *text) : SimTime{0}, within);
+std::vector<std::string> RealExecutor::exchange_text(std::size_t line, const std::optional<std::string>& text,
+                                                     const world::LinesWanted& wanted, SimTime within) {
+  return host(line).exchange_text(text, wanted, text ? time_to_send(line, *text) : SimTime{0}, within);
 }
 
-SimTime RealStage::time_to_send(std::size_t line, const std::string& text) const {
+SimTime RealExecutor::time_to_send(std::size_t line, const std::string& text) const {
   const pty::LineOptions& options = lines_[line];
   if (options.timing == pty::Timing::instant) return SimTime{0};
   return options.settings.duration_of(static_cast<std::int64_t>(text.size()) + 1);
 }
 
-std::unique_ptr<Stage> make_real_stage(const Scenario& scenario) {
+std::unique_ptr<Executor> make_real_executor(const Scenario& scenario) {
   world::Bench bench = scenario.bench;
   for (world::LineSetup& line : bench.lines) {
     line.link.clear();  // other runs may be at it
@@ -290,7 +291,7 @@ std::unique_ptr<Stage> make_real_stage(const Scenario& scenario) {
   options.watch_signals = false;
   auto thread = std::make_unique<serve::DaemonThread>(bench, options, [](const std::string&) {});
   thread->start();
-  return std::make_unique<RealStage>(std::move(thread), RealStageOptions{.gap = scenario.gap});
+  return std::make_unique<RealExecutor>(std::move(thread), RealExecutorOptions{.gap = scenario.gap});
 }
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-#include "emulator/play/stages/free_stage.h"
+#include "emulator/play/stages/free_executor.h"
 
 #include <algorithm>
 #include <chrono>
@@ -14,8 +14,8 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/play/stages/executor.h"
 #include "emulator/play/stages/modbus_host.h"
-#include "emulator/play/stages/stage.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/speech/modbus_words.h"
 #include "emulator/world/speech/text_lines_heard.h"
@@ -35,7 +35,7 @@ SimTime silence_between_frames(const pty::LineSettings& settings) {
 }
 
 /// The master on one line: knows when something was last said on it, and takes what is said to it.
-class FreeStage::Host final : public pty::LineObserver {
+class FreeExecutor::Host final : public pty::LineObserver {
  public:
   Host(world::World& world, std::size_t number)
       : world_(world), number_(number), settings_(line().options().settings) {
@@ -48,7 +48,7 @@ class FreeStage::Host final : public pty::LineObserver {
   Host& operator=(const Host&) = delete;
 
   const pty::Line& line() const { return world_.line(number_).line; }
-  void say(std::span<const std::uint8_t> bytes) { world_.receive(number_, bytes); }
+  void send_text(std::span<const std::uint8_t> bytes) { world_.receive(number_, bytes); }
   SimTime silence() const { return silence_between_frames(settings_); }
   /// The longest time between two bytes of one reply: the next may begin just before t3.5 are over.
   SimTime longest_pause() const { return silence() + duration_of(1); }
@@ -103,16 +103,16 @@ class FreeStage::Host final : public pty::LineObserver {
   SimTime quiet_since_ = kEver;
 };
 
-FreeStage::FreeStage(const world::Bench& bench, FreeStageOptions options)
+FreeExecutor::FreeExecutor(const world::Bench& bench, FreeExecutorOptions options)
     : world_(bench, world::WorldOptions{.strict_framing = true}, options.log), options_(std::move(options)) {
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     hosts_.push_back(std::make_unique<Host>(world_, i));
   }
 }
 
-FreeStage::~FreeStage() = default;
+FreeExecutor::~FreeExecutor() = default;
 
-void FreeStage::with_world(const std::function<void(world::World&)>& act) {
+void FreeExecutor::with_world(const std::function<void(world::World&)>& act) {
   const SimTime before = world_.now();
   act(world_);
   if (world_.now() == before) return;
@@ -121,17 +121,17 @@ void FreeStage::with_world(const std::function<void(world::World&)>& act) {
   tick_of_last_write_ = 0;
 }
 
-std::vector<SimTime> FreeStage::quiet_since() {
+std::vector<SimTime> FreeExecutor::quiet_since() {
   std::vector<SimTime> since;
   for (const auto& host : hosts_) since.push_back(host->quiet_since());
   return since;
 }
 
-void FreeStage::set_quiet_since(const std::vector<SimTime>& since) {
+void FreeExecutor::set_quiet_since(const std::vector<SimTime>& since) {
   for (std::size_t i = 0; i < hosts_.size() && i < since.size(); ++i) hosts_[i]->set_quiet_since(since[i]);
 }
 
-bool FreeStage::run_until(const Awaited& awaited, SimTime deadline) {
+bool FreeExecutor::run_until(const Awaited& awaited, SimTime deadline) {
   struct Look final : world::TickWatcher {
     Look(world::World& of, const Awaited& what) : world(of), awaited(what) { world.add_watcher(*this); }
     ~Look() override { world.remove_watcher(*this); }
@@ -154,21 +154,21 @@ bool FreeStage::run_until(const Awaited& awaited, SimTime deadline) {
   return look.is_over;
 }
 
-HostReply FreeStage::read(std::size_t line, int station, Table table, std::uint16_t first, int count) {
+HostReply FreeExecutor::read(std::size_t line, int station, Table table, std::uint16_t first, int count) {
   return ask(*hosts_[line], read_request(station, table, first, count));
 }
 
-HostReply FreeStage::write(std::size_t line, int station, Table table, std::uint16_t first,
-                           std::span<const std::uint16_t> words) {
+HostReply FreeExecutor::write(std::size_t line, int station, Table table, std::uint16_t first,
+                              std::span<const std::uint16_t> words) {
   return ask(*hosts_[line], write_request(station, table, first, words));
 }
 
-HostReply FreeStage::write_message(std::size_t line, int station, std::uint16_t first,
-                                   std::span<const std::uint16_t> words) {
+HostReply FreeExecutor::write_message(std::size_t line, int station, std::uint16_t first,
+                                      std::span<const std::uint16_t> words) {
   return ask(*hosts_[line], message_request(station, first, words));
 }
 
-HostReply FreeStage::ask(Host& host, const std::vector<std::uint8_t>& request) {
+HostReply FreeExecutor::ask(Host& host, const std::vector<std::uint8_t>& request) {
   const Tick written_before = tick_of_last_write_;
   send(host, request);
   std::vector<std::uint8_t> reply;
@@ -186,8 +186,8 @@ HostReply FreeStage::ask(Host& host, const std::vector<std::uint8_t>& request) {
   return judged;
 }
 
-std::vector<std::uint8_t> FreeStage::exchange(std::size_t line, std::span<const std::uint8_t> bytes,
-                                              std::size_t wanted, SimTime within) {
+std::vector<std::uint8_t> FreeExecutor::exchange(std::size_t line, std::span<const std::uint8_t> bytes,
+                                                 std::size_t wanted, SimTime within) {
   Host& host = *hosts_[line];
   const Tick written_before = tick_of_last_write_;
   send(host, bytes);
@@ -208,21 +208,21 @@ std::vector<std::uint8_t> FreeStage::exchange(std::size_t line, std::span<const 
   return reply;
 }
 
-void FreeStage::say(std::size_t line, const std::string& text) {
+void FreeExecutor::send_text(std::size_t line, const std::string& text) {
   Host& host = *hosts_[line];
   const std::uint64_t before = host.requests();
-  send_text(host, text);
+  put_text(host, text);
   // A line that is too long, or that a fault swallows, is never carried out.
   const SimTime limit = host.quiet_since() + options_.timeout;
   while (host.requests() == before && world_.now() < limit) advance_to_next(limit);
 }
 
-std::vector<std::string> FreeStage::converse(std::size_t line, const std::optional<std::string>& text,
-                                             const world::LinesWanted& wanted, SimTime within) {
+std::vector<std::string> FreeExecutor::exchange_text(std::size_t line, const std::optional<std::string>& text,
+                                                     const world::LinesWanted& wanted, SimTime within) {
   Host& host = *hosts_[line];
   SimTime deadline = world_.now() + within;
   if (text) {
-    send_text(host, *text);
+    put_text(host, *text);
     deadline = host.quiet_since() + within;
   }
   world::LinesHeard heard = host.lines();
@@ -249,7 +249,7 @@ std::vector<std::string> FreeStage::converse(std::size_t line, const std::option
 }
 
 /// After the gap; on return all of it is on the line, though not over.
-void FreeStage::send_text(Host& host, const std::string& text) {
+void FreeExecutor::put_text(Host& host, const std::string& text) {
   writing_ = nullptr;
   world_.advance_to(world_.now());  // what an act at this moment has made it say comes first
   if (options_.gap > SimTime{0} && host.quiet_since() + options_.gap > world_.now()) {
@@ -261,11 +261,11 @@ void FreeStage::send_text(Host& host, const std::string& text) {
   const std::string line = text + '\r';
   const std::vector<std::uint8_t> bytes(line.begin(), line.end());
   host.keep_busy(world_.now() + host.duration_of(bytes.size()));
-  host.say(bytes);
+  host.send_text(bytes);
 }
 
 /// After t3.5 and the gap; on return all of it is on the line, though not over.
-void FreeStage::send(Host& host, std::span<const std::uint8_t> bytes) {
+void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
   writing_ = nullptr;
   for (SimTime start{0}; start = host.quiet_since() + host.silence() + options_.gap, world_.now() < start;) {
     world_.advance_to(start);  // a station may say something late
@@ -278,7 +278,7 @@ void FreeStage::send(Host& host, std::span<const std::uint8_t> bytes) {
   host.keep_busy(world_.now() + host.duration_of(bytes.size()));
   while (true) {
     const auto part = bytes.first(std::min(bytes.size(), host.line().room()));
-    host.say(part);
+    host.send_text(part);
     bytes = bytes.subspan(part.size());
     if (bytes.empty()) break;
     advance_to_next(host.quiet_since());
@@ -286,7 +286,7 @@ void FreeStage::send(Host& host, std::span<const std::uint8_t> bytes) {
 }
 
 /// To whatever happens next, at most to `limit`; a write is carried out at such a moment.
-void FreeStage::advance_to_next(SimTime limit) {
+void FreeExecutor::advance_to_next(SimTime limit) {
   world_.advance_to(std::min(world_.next_due().value_or(limit), limit));
   if (writing_ == nullptr || writing_->requests() == requests_before_) return;
   requests_before_ = writing_->requests();
