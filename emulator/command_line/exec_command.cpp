@@ -24,7 +24,7 @@
 #include "emulator/command_line/terminal.h"
 #include "emulator/device/model.h"
 #include "emulator/play/lint/lint.h"
-#include "emulator/play/performing/companion.h"
+#include "emulator/play/performing/side_scenario.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/scenario/scenario.h"
@@ -128,14 +128,14 @@ std::optional<serve::WallTime> timeout_of(const ExecArguments& arguments) {
 }
 
 /// The exit code that the scenario asks for.
-int tell_of(const play::Companion& companion, const play::Scenario& scenario) {
-  if (companion.was_given_up()) {
+int tell_of(const play::SideScenario& side_scenario, const play::Scenario& scenario) {
+  if (side_scenario.was_given_up()) {
     std::fprintf(stderr, "understudy: exec: %s: was not played to its end\n",
                  one_line(scenario.file).c_str());
     return kExitFailed;
   }
   int code = kExitWell;
-  for (const play::ScenarioResult& result : companion.results()) {
+  for (const play::ScenarioResult& result : side_scenario.results()) {
     std::fprintf(stderr, "%s\n",
                  coloured_verdict(play::verdict_line(result), wants_colour(STDERR_FILENO)).c_str());
     for (const std::string& line : play::failure_lines(result))
@@ -157,45 +157,45 @@ int play(const ExecArguments& arguments, const Serving& serving,
   std::optional<play::Lint> lint;
   if (arguments.serve.lint) lint.emplace(daemon.world());
   std::optional<serve::Child> child;
-  std::optional<play::Companion> companion;
+  std::optional<play::SideScenario> side_scenario;
   bool child_is_over = false;
-  bool companion_is_over = !scenario;
+  bool side_scenario_is_over = !scenario;
   bool timed_out = false;
-  const auto give_up_companion = [&] {
-    if (companion) companion->give_up();
+  const auto give_up_side_scenario = [&] {
+    if (side_scenario) side_scenario->give_up();
   };
   const auto stop_if_over = [&] {
-    if (child_is_over && companion_is_over) daemon.stop();
+    if (child_is_over && side_scenario_is_over) daemon.stop();
   };
   child.emplace(daemon.loop(), signals, command_for(arguments, daemon), [&] {
     child_is_over = true;
     // Nobody is left who would let time go on.
-    if (child->was_ended() || daemon.pacer().standing()) give_up_companion();
+    if (child->was_ended() || daemon.pacer().standing()) give_up_side_scenario();
     stop_if_over();
   });
   signals.watch(daemon.loop(), [&](int signal_number) {
     if (signal_number == SIGCHLD) return child->look_after_children();
     child->end_with(signal_number);
-    if (child_is_over) give_up_companion();
+    if (child_is_over) give_up_side_scenario();
   });
   std::optional<Alarm> alarm;
   if (timeout) {
     alarm.emplace(daemon.loop(), *timeout, [&] {
       timed_out = true;
       child->end_with(SIGTERM);
-      if (child_is_over) give_up_companion();
+      if (child_is_over) give_up_side_scenario();
     });
   }
   if (scenario) {
-    companion.emplace(*scenario, daemon, [&] {
-      companion_is_over = true;
+    side_scenario.emplace(*scenario, daemon, [&] {
+      side_scenario_is_over = true;
       stop_if_over();
     });
   }
   daemon.run();
   signals.unwatch(daemon.loop());
   if (lint) print_findings(lint->findings());
-  const int scenario_code = companion ? tell_of(*companion, *scenario) : kExitWell;
+  const int scenario_code = side_scenario ? tell_of(*side_scenario, *scenario) : kExitWell;
   if (timed_out) {
     std::fprintf(stderr, "understudy: exec: %s: ended, as it took longer than %s\n",
                  one_line(arguments.command[0]).c_str(), arguments.timeout.c_str());
@@ -230,7 +230,7 @@ int execute(ModelList models, const ExecArguments& arguments) {
   require_variables(serving.bench);
   std::optional<play::Scenario> scenario;
   if (!arguments.with.empty()) {
-    scenario = play::load_companion(models, arguments.with, serving.bench, arguments.save_below);
+    scenario = play::load_side_scenario(models, arguments.with, serving.bench, arguments.save_below);
     require_apart(*scenario, arguments.serve, serving.options.files);
   }
   serve::remove_left_overs();

@@ -1,4 +1,4 @@
-#include "emulator/play/performing/companion.h"
+#include "emulator/play/performing/side_scenario.h"
 
 #include <algorithm>
 #include <exception>
@@ -59,8 +59,8 @@ bool is_same_bench(const world::Bench& one, const world::Bench& other) {
 
 }  // namespace
 
-Scenario load_companion(ModelList models, const std::string& path, const world::Bench& bench,
-                        const std::string& save_below) {
+Scenario load_side_scenario(ModelList models, const std::string& path, const world::Bench& bench,
+                            const std::string& save_below) {
   SharedReading shared{.models = models, .benches = {}, .included = {}};
   ScenarioFile file(path, {.save_below = save_below, .seed = {}}, shared);
   if (file.size() != 1) {
@@ -80,13 +80,13 @@ Scenario load_companion(ModelList models, const std::string& path, const world::
   return scenario;
 }
 
-Companion::Companion(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over)
+SideScenario::SideScenario(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over)
     : thread_([this, &scenario, &daemon, over = std::move(over)] {
         play_on(scenario, daemon);
         daemon.post(over);
       }) {}
 
-void Companion::play_on(const Scenario& scenario, serve::Daemon& daemon) {
+void SideScenario::play_on(const Scenario& scenario, serve::Daemon& daemon) {
   try {
     RunOptions options;
     options.make_executor = [&](const Scenario&) {
@@ -101,7 +101,7 @@ void Companion::play_on(const Scenario& scenario, serve::Daemon& daemon) {
   }
 }
 
-const std::vector<ScenarioResult>& Companion::results() const {
+const std::vector<ScenarioResult>& SideScenario::results() const {
   if (error_) std::rethrow_exception(error_);
   return results_;
 }

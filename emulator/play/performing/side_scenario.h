@@ -20,18 +20,18 @@ namespace understudy::emulator::play {
 
 /// Loads the only scenario of a file for that bench. Throws FileError, also if a step belongs to the host
 /// because it uses a line, or would disturb the world of another program because it goes back in time.
-Scenario load_companion(ModelList models, const std::string& path, const world::Bench& bench,
-                        const std::string& save_below = "");
+Scenario load_side_scenario(ModelList models, const std::string& path, const world::Bench& bench,
+                            const std::string& save_below = "");
 
-class Companion {
+class SideScenario {
  public:
   /// Starts when the daemon runs. `over` is called at the end, on the daemon's thread; if the daemon ends
   /// first, the scenario is abandoned. The scenario must outlive this object, and the world must not be used
   /// elsewhere while it exists.
-  Companion(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over);
-  ~Companion() { thread_.join(); }
-  Companion(const Companion&) = delete;
-  Companion& operator=(const Companion&) = delete;
+  SideScenario(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over);
+  ~SideScenario() { thread_.join(); }
+  SideScenario(const SideScenario&) = delete;
+  SideScenario& operator=(const SideScenario&) = delete;
 
   /// Asks the scenario to end soon.
   void give_up() { given_up_ = true; }

@@ -1,5 +1,5 @@
 // A play beside a daemon whose loop ends: it is given up, and nobody waits for ever.
-#include "emulator/play/performing/companion.h"
+#include "emulator/play/performing/side_scenario.h"
 
 #include <gtest/gtest.h>
 #include <sys/eventfd.h>
@@ -12,7 +12,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace companion_test {
+namespace side_scenario_test {
 
 using namespace std::chrono_literals;
 
@@ -55,7 +55,7 @@ void end_beside(const std::string& steps, bool by_failure) {
   const auto daemon = make_daemon(scenario);
   const Trap trap(*daemon);
   bool was_over = false;
-  Companion companion(scenario, *daemon, [&] { was_over = true; });
+  SideScenario side_scenario(scenario, *daemon, [&] { was_over = true; });
   // It is in the midst of its play by then, or has not got that far: the end is the same.
   std::thread springs([&] {
     std::this_thread::sleep_for(30ms);
@@ -73,7 +73,7 @@ void end_beside(const std::string& steps, bool by_failure) {
   EXPECT_FALSE(was_over);
 }
 
-TEST(Companion, IsGivenUpWhereTheDaemonEnds) {
+TEST(SideScenario, IsGivenUpWhereTheDaemonEnds) {
   for (const bool by_failure : {true, false}) {
     end_beside("  - advance: 1h\n", by_failure);
     end_beside("  - wait: { until: feeder.STATUS == 1, within: 1h }\n", by_failure);
@@ -81,12 +81,12 @@ TEST(Companion, IsGivenUpWhereTheDaemonEnds) {
   }
 }
 
-TEST(Companion, IsGivenUpWhereTheDaemonFailsAtOnce) {
+TEST(SideScenario, IsGivenUpWhereTheDaemonFailsAtOnce) {
   const Scenario scenario = scenario_of("  - always: feeder.power\n  - advance: 1h\n");
   const auto daemon = make_daemon(scenario);
   const Trap trap(*daemon);
   trap.spring();
-  Companion companion(scenario, *daemon, [] { ADD_FAILURE() << "it has ended"; });
+  SideScenario side_scenario(scenario, *daemon, [] { ADD_FAILURE() << "it has ended"; });
   EXPECT_THROW(daemon->run(), LoopError);
 }
 
@@ -102,5 +102,5 @@ TEST(Daemon, DropsWhatWasPostedTooLate) {
   EXPECT_EQ(held.use_count(), 1);
 }
 
-}  // namespace companion_test
+}  // namespace side_scenario_test
 }  // namespace understudy::emulator::play
