@@ -12,7 +12,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/output_paths.h"
-#include "emulator/play/report/camera.h"
+#include "emulator/play/report/run_logger.h"
 #include "emulator/play/results/result.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/recording/event_text.h"
@@ -46,7 +46,7 @@ ReplayLooks::ReplayLooks(world::World& world, const ReplayArguments& arguments, 
   if (capture_) capture_->begin();
   if (trace_) trace_->begin();
   if (arguments.report.empty()) return;
-  camera_ = std::make_unique<play::Camera>(world);
+  run_logger_ = std::make_unique<play::RunLogger>(world);
   seen_.file = arguments.recording;
   begin_step("the recording begins", 1);
 }
@@ -64,16 +64,16 @@ void ReplayLooks::begin_step(std::string text, std::size_t line_number) {
 }
 
 void ReplayLooks::happened(const world::RecordedEvent& event, std::size_t line_number) {
-  if (!camera_) return;
+  if (!run_logger_) return;
   if (std::string text = world::text_of(event, world_); !text.empty())
     begin_step(std::move(text), line_number);
 }
 
 void ReplayLooks::ended() {
-  if (camera_) {
+  if (run_logger_) {
     seen_.steps.back().end = world_.now();
     seen_.simulated = world_.now() - seen_.steps.front().begin;
-    camera_->finish(seen_);
+    run_logger_->finish(seen_);
   }
   for (const std::string& failure :
        {trace_ ? trace_->finish() : std::string(), capture_ ? capture_->finish() : std::string()}) {

@@ -7,7 +7,7 @@
 
 #include "base/files/file_claims.h"
 #include "emulator/command_line/commands.h"
-#include "emulator/play/report/camera.h"
+#include "emulator/play/report/run_logger.h"
 #include "emulator/play/results/result.h"
 #include "emulator/world/recording/replay.h"
 #include "emulator/world/trace/trace_file.h"
@@ -37,7 +37,7 @@ class ReplayLooks final : public world::ReplayWatcher {
   play::ScenarioResult& seen_;
   std::unique_ptr<world::WorldCapture> capture_;
   std::unique_ptr<world::TraceFile> trace_;
-  std::unique_ptr<play::Camera> camera_;  // of a page
+  std::unique_ptr<play::RunLogger> run_logger_;  // of a page
 };
 
 /// Returns the result for the page. `seen` is what the looks have collected.

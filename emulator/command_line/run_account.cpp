@@ -103,7 +103,7 @@ bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, Progress
     for (play::ScenarioResult& other : again()) {
       if (other.branch == result.branch) {
         result.recording = std::exchange(other.recording, {});
-        result.footage = other.footage;
+        result.run_log = other.run_log;
       } else if (!other.recording.empty()) {
         files.settle(other, false);
       }

@@ -35,7 +35,7 @@
 #include "emulator/play/performing/suite.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/reading/scenario_warnings.h"
-#include "emulator/play/report/camera.h"
+#include "emulator/play/report/run_logger.h"
 #include "emulator/play/results/junit.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/case.h"
@@ -202,7 +202,7 @@ class Stagehand {
       const auto scenario = reader.read(which_case);
       play::RunOptions options = options_;
       // Pictures of cases without end are made when one is to be shown.
-      if (!arguments_.report.empty() && !scenario->which.is_varied) options.onlookers.push_back(camera());
+      if (!arguments_.report.empty() && !scenario->which.is_varied) options.onlookers.push_back(run_logger());
       add(options, files_.onlookers(*scenario));
       return play::run_scenario(*scenario, options);
     } catch (const FileError& error) {
@@ -215,14 +215,14 @@ class Stagehand {
                                                const play::CaseId& which_case) const {
     const auto scenario = reader.read(which_case);
     play::RunOptions options = options_;
-    if (!arguments_.report.empty()) options.onlookers.push_back(camera());
+    if (!arguments_.report.empty()) options.onlookers.push_back(run_logger());
     options.onlookers.push_back(files_.recorder(*scenario));
     return play::run_scenario(*scenario, options);
   }
 
  private:
-  static play::OnlookerMaker camera() {
-    return [](world::World& world) { return std::make_unique<play::Camera>(world); };
+  static play::OnlookerMaker run_logger() {
+    return [](world::World& world) { return std::make_unique<play::RunLogger>(world); };
   }
   static void add(play::RunOptions& options, std::vector<play::OnlookerMaker> more) {
     for (play::OnlookerMaker& maker : more) options.onlookers.push_back(std::move(maker));

@@ -11,9 +11,9 @@
 
 #include "base/simulated_time.h"
 #include "emulator/play/report/axis_scale.h"
-#include "emulator/play/report/footage.h"
 #include "emulator/play/report/page_parts.h"
 #include "emulator/play/report/picture.h"
+#include "emulator/play/report/run_log.h"
 #include "emulator/play/results/junit.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/results/result_text.h"
@@ -99,10 +99,10 @@ std::string arrow(const char* sign, const char* meaning) {
   return std::string("<span role=\"img\" aria-label=\"") + meaning + "\">" + sign + "</span>";
 }
 
-/// Those of a scene that began in [from, to).
-std::string frames_text(const Scene& scene, SimTime from, SimTime to, bool is_open) {
+/// Those of a stretch that began in [from, to).
+std::string frames_text(const Stretch& stretch, SimTime from, SimTime to, bool is_open) {
   const auto begins_before = [](const SeenFrame& frame, SimTime time) { return frame.time < time; };
-  const auto& all = scene.frames;
+  const auto& all = stretch.frames;
   const auto first = std::lower_bound(all.begin(), all.end(), from, begins_before);
   const auto last = std::lower_bound(first, all.end(), to, begins_before);
   if (first == last) return "";
@@ -110,8 +110,8 @@ std::string frames_text(const Scene& scene, SimTime from, SimTime to, bool is_op
   std::size_t left_out = 0;
   for (auto frame = first; frame != last; ++frame) {
     const auto number = static_cast<std::size_t>(frame - all.begin());
-    if (number == scene.left_out_at && scene.frames_left_out > 0) {
-      left_out = scene.frames_left_out;
+    if (number == stretch.left_out_at && stretch.frames_left_out > 0) {
+      left_out = stretch.frames_left_out;
       rows += "<tr><td></td><td colspan=\"3\" class=\"dim\">" + counted(left_out, "frame") +
               " omitted here</td></tr>\n";
     }
@@ -128,7 +128,7 @@ std::string frames_text(const Scene& scene, SimTime from, SimTime to, bool is_op
          "</summary><table class=\"frames\">\n" + rows + "</table></details>";
 }
 
-std::string steps_text(std::span<const StepResult> steps, std::size_t first_number, const Scene* scene) {
+std::string steps_text(std::span<const StepResult> steps, std::size_t first_number, const Stretch* stretch) {
   if (steps.empty()) return "";
   std::string text =
       "<h3 class=\"unseen\">steps</h3>\n<div class=\"scroll\"><table class=\"steps\">\n"
@@ -137,16 +137,16 @@ std::string steps_text(std::span<const StepResult> steps, std::size_t first_numb
       "<th scope=\"col\" class=\"place\">where</th></tr>\n";
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StepResult& step = steps[i];
-    // Time that goes back belongs to the next scene.
+    // Time that goes back belongs to the next stretch.
     const SimTime takes = std::max(step.end - step.begin, SimTime{0});
     text += std::string("<tr") + (step.has_failed ? " class=\"failed\"" : "") + "><td class=\"time\">" +
             std::to_string(first_number + i) + "</td>" + time_cell(step.begin) + time_cell(takes) + "<td>" +
             in("code", xml_escaped(step.text));
     if (step.has_failed) text += " <b class=\"bad\">failed</b>";
-    if (scene != nullptr) {
-      const SimTime from = i == 0 ? scene->begin : step.begin;
+    if (stretch != nullptr) {
+      const SimTime from = i == 0 ? stretch->begin : step.begin;
       const SimTime to = i + 1 < steps.size() ? steps[i + 1].begin : kForever;
-      text += frames_text(*scene, from, to, step.has_failed);
+      text += frames_text(*stretch, from, to, step.has_failed);
     }
     text += "</td><td class=\"place dim\">" + xml_escaped(step.file) + ":" + std::to_string(step.line) +
             "</td></tr>\n";
@@ -155,27 +155,27 @@ std::string steps_text(std::span<const StepResult> steps, std::size_t first_numb
 }
 
 /// What was on all the time, which no picture shows.
-std::string always_on(const Scene& scene) {
+std::string always_on(const Stretch& stretch) {
   std::string names;
-  for (const SeenSignal& signal : scene.signals) {
+  for (const SeenSignal& signal : stretch.signals) {
     const bool is_on = signal.kind == SeenSignal::Kind::bit && !signal.varies() && signal.least != 0;
     if (is_on) names += (names.empty() ? "" : ", ") + signal.name;
   }
   return names.empty() ? "" : "<p class=\"dim\">on throughout: <code>" + xml_escaped(names) + "</code></p>\n";
 }
 
-std::string scene_text(const ScenarioResult& result, const Scene& scene, std::size_t first, std::size_t end,
-                       bool is_last) {
+std::string stretch_text(const ScenarioResult& result, const Stretch& stretch, std::size_t first,
+                         std::size_t end, bool is_last) {
   const auto steps = std::span(result.steps).subspan(first, end - first);
   PictureMarks marks{.steps = steps, .first_number = first + 1, .failed_at = {}, .of = result.name};
   if (result.failure && is_last) marks.failed_at = result.failure->at;
-  const std::string drawn = picture(scene, marks);
+  const std::string drawn = picture(stretch, marks);
   const std::string text =
       drawn.empty() ? "<p class=\"dim\">Nothing moved or switched.</p>\n"
                     : "<div class=\"scene\"><div class=\"scroll\" role=\"group\" aria-label=\"picture\" "
                       "tabindex=\"0\">" +
                           drawn + "</div><pre class=\"values\" aria-hidden=\"true\"></pre></div>\n";
-  return text + always_on(scene) + steps_text(steps, first + 1, &scene);
+  return text + always_on(stretch) + steps_text(steps, first + 1, &stretch);
 }
 
 std::string body_of(const ScenarioResult& result) {
@@ -185,16 +185,17 @@ std::string body_of(const ScenarioResult& result) {
     text += "<p>to run this again: " + in("code", xml_escaped("understudy replay " + result.recording)) +
             "</p>\n";
   }
-  if (!result.footage || result.footage->scenes.empty()) {
+  if (!result.run_log || result.run_log->stretches.empty()) {
     text += steps_text(result.steps, 1, nullptr);
   } else {
-    const std::vector<Scene>& scenes = result.footage->scenes;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      if (i > 0) text += "<h3>after step " + std::to_string(scenes[i].first_step) + "</h3>\n";
-      const bool is_last = i + 1 == scenes.size();
-      const std::size_t first = i == 0 ? 0 : scenes[i].first_step;  // a scene without any time is not there
-      const std::size_t end = is_last ? result.steps.size() : scenes[i + 1].first_step;
-      text += scene_text(result, scenes[i], first, end, is_last);
+    const std::vector<Stretch>& stretches = result.run_log->stretches;
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      if (i > 0) text += "<h3>after step " + std::to_string(stretches[i].first_step) + "</h3>\n";
+      const bool is_last = i + 1 == stretches.size();
+      const std::size_t first =
+          i == 0 ? 0 : stretches[i].first_step;  // a stretch without any time is not there
+      const std::size_t end = is_last ? result.steps.size() : stretches[i + 1].first_step;
+      text += stretch_text(result, stretches[i], first, end, is_last);
     }
   }
   if (!result.manners.empty()) {

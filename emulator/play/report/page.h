@@ -10,7 +10,7 @@
 namespace understudy::emulator::play {
 
 /// Returns the results as one HTML page that needs neither files nor a network: a list of the scenarios,
-/// then for each one the reason of its failure, pictures of motion and signals (if the result has footage),
+/// then for each one the reason of its failure, pictures of motion and signals (if the result has a run log),
 /// and its steps with their times and frames. Equal results make equal pages. `version` is the program's.
 /// `all` counts the results of which these are a part.
 std::string report_page(std::span<const ScenarioResult> results, std::string_view version,

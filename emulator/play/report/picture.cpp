@@ -8,8 +8,8 @@
 
 #include "base/simulated_time.h"
 #include "emulator/play/report/axis_scale.h"
-#include "emulator/play/report/footage.h"
 #include "emulator/play/report/picture_words.h"
+#include "emulator/play/report/run_log.h"
 #include "emulator/play/results/junit.h"
 
 namespace understudy::emulator::play {
@@ -84,18 +84,18 @@ bool run_alike(const SeenSignal& a, const SeenSignal& b) {
 
 /// Position and pulses of the axes that did anything (or of all), the speeds of those that did, duties and
 /// analog inputs that varied.
-std::vector<Panel> panels_of(const Scene& scene, bool with_still_axes) {
+std::vector<Panel> panels_of(const Stretch& stretch, bool with_still_axes) {
   Panel positions{.title = "position [pulses]", .height = 190, .curves = {}};
   Panel speeds{.title = "speed [pulses/s]", .height = 120, .marks = 4, .has_zero = true, .curves = {}};
   Panel duties{.title = "PWM duty [%]", .height = 90, .marks = 3, .has_zero = true, .curves = {}};
   Panel voltages{.title = "analog inputs [V]", .height = 90, .marks = 3, .curves = {}};
   Panel levels{.title = "analog inputs", .height = 90, .marks = 3, .curves = {}};
   std::size_t axis = 0;
-  for (std::size_t i = 0; i + 2 < scene.signals.size(); ++i) {
-    const SeenSignal& position = scene.signals[i];
+  for (std::size_t i = 0; i + 2 < stretch.signals.size(); ++i) {
+    const SeenSignal& position = stretch.signals[i];
     if (position.kind != SignalKind::position) continue;
-    const SeenSignal& pulses = scene.signals[i + 1];
-    const SeenSignal& speed = scene.signals[i + 2];
+    const SeenSignal& pulses = stretch.signals[i + 1];
+    const SeenSignal& speed = stretch.signals[i + 2];
     const std::size_t colour = axis++ % kColours;
     const bool is_still = !position.varies() && !pulses.varies() && !speed.varies();
     if (is_still && !with_still_axes) continue;
@@ -113,7 +113,7 @@ std::vector<Panel> panels_of(const Scene& scene, bool with_still_axes) {
       default: return nullptr;
     }
   };
-  for (const SeenSignal& signal : scene.signals) {
+  for (const SeenSignal& signal : stretch.signals) {
     Panel* const found = panel_of(signal.kind);
     if (found == nullptr || !signal.varies()) continue;
     Panel& panel = *found;
@@ -128,7 +128,7 @@ std::vector<Panel> panels_of(const Scene& scene, bool with_still_axes) {
 
 class Drawing {
  public:
-  explicit Drawing(const Scene& scene) : begin_ms_(ms_of(scene.begin)), end_ms_(ms_of(scene.end)) {
+  explicit Drawing(const Stretch& stretch) : begin_ms_(ms_of(stretch.begin)), end_ms_(ms_of(stretch.end)) {
     if (end_ms_ <= begin_ms_) end_ms_ = begin_ms_ + 1;
   }
 
@@ -234,12 +234,12 @@ class Drawing {
                      "failed at " + format_duration(*marks.failed_at));
   }
 
-  std::string finish(const Scene& scene, const PictureMarks& marks) const {
+  std::string finish(const Stretch& stretch, const PictureMarks& marks) const {
     return "<svg class=\"picture\"" + attribute("viewBox", "0 0 " + number(kWidth) + " " + number(y_)) +
            attribute("data-begin", plain_number(begin_ms_)) + attribute("data-end", plain_number(end_ms_)) +
            attribute("data-left", number(kLeft)) + attribute("data-right", number(kRight)) + " role=\"img\"" +
-           attribute("aria-label", xml_escaped(picture_name(scene, marks.of))) + ">\n<desc>" +
-           xml_escaped(picture_words(scene, marks.failed_at)) + "</desc>\n" + body_ +
+           attribute("aria-label", xml_escaped(picture_name(stretch, marks.of))) + ">\n<desc>" +
+           xml_escaped(picture_words(stretch, marks.failed_at)) + "</desc>\n" + body_ +
            line_between(kLeft, kTop, kLeft, bottom_, "pointer") + "</svg>\n";
   }
 
@@ -259,7 +259,7 @@ class Drawing {
     std::string text;
     const SeenSignal::Point* before = nullptr;
     for (const SeenSignal::Point& point : signal.points) {
-      // The first tick may be that before the scene's beginning.
+      // The first tick may be that before the stretch's beginning.
       const std::string x = at(std::max(ms_of(time_of(point.tick)), begin_ms_));
       if (is_stepped && before != nullptr && before->value != point.value) {
         text += " " + x + "," + plain_number(before->value - base);
@@ -310,23 +310,23 @@ class Drawing {
 
 }  // namespace
 
-std::string picture(const Scene& scene, const PictureMarks& marks) {
-  std::vector<Panel> panels = panels_of(scene, false);
+std::string picture(const Stretch& stretch, const PictureMarks& marks) {
+  std::vector<Panel> panels = panels_of(stretch, false);
   std::vector<const SeenSignal*> bits;
-  for (const SeenSignal& signal : scene.signals) {
+  for (const SeenSignal& signal : stretch.signals) {
     if (signal.kind == SignalKind::bit && signal.varies()) bits.push_back(&signal);
   }
   if (panels.empty() && bits.empty()) {
     if (!marks.failed_at) return "";
-    panels = panels_of(scene, true);
+    panels = panels_of(stretch, true);
   }
-  Drawing drawing(scene);
+  Drawing drawing(stretch);
   for (const Panel& panel : panels) drawing.add(panel);
   drawing.add_bits(bits);
   drawing.add_time();
-  drawing.add_strikes(scene.frames);
+  drawing.add_strikes(stretch.frames);
   drawing.add_marks(marks);
-  return drawing.finish(scene, marks);
+  return drawing.finish(stretch, marks);
 }
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// Draws a scene: positions, speeds and digital signals over time.
+// Draws a stretch: positions, speeds and digital signals over time.
 #pragma once
 
 #include <optional>
@@ -6,21 +6,21 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/play/report/footage.h"
+#include "emulator/play/report/run_log.h"
 #include "emulator/play/results/result.h"
 
 namespace understudy::emulator::play {
 
 struct PictureMarks {
-  std::span<const StepResult> steps;  // those of the scene
+  std::span<const StepResult> steps;  // those of the stretch
   std::size_t first_number = 1;       // of them
   std::optional<SimTime> failed_at;
   std::string_view of;  // the scenario's name, for screen readers
 };
 
-/// Returns an SVG element with the classes that page_parts.h styles. Empty if nothing in the scene varies,
+/// Returns an SVG element with the classes that page_parts.h styles. Empty if nothing in the stretch varies,
 /// unless it failed. Each line has its data in `points`, as milliseconds since `data-begin` of the whole and
 /// amounts beyond its own `data-base`, so that the value shown under the pointer is exact.
-std::string picture(const Scene& scene, const PictureMarks& marks);
+std::string picture(const Stretch& stretch, const PictureMarks& marks);
 
 }  // namespace understudy::emulator::play

@@ -6,7 +6,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/play/report/axis_scale.h"
-#include "emulator/play/report/footage.h"
+#include "emulator/play/report/run_log.h"
 
 namespace understudy::emulator::play {
 
@@ -41,14 +41,14 @@ std::string words_of(const SeenSignal& signal) {
 
 }  // namespace
 
-std::string picture_name(const Scene& scene, std::string_view of) {
-  return std::string(of) + ": motion and signals, from " + format_duration(scene.begin) + " to " +
-         format_duration(scene.end);
+std::string picture_name(const Stretch& stretch, std::string_view of) {
+  return std::string(of) + ": motion and signals, from " + format_duration(stretch.begin) + " to " +
+         format_duration(stretch.end);
 }
 
-std::string picture_words(const Scene& scene, std::optional<SimTime> failed_at) {
+std::string picture_words(const Stretch& stretch, std::optional<SimTime> failed_at) {
   std::string words;
-  for (const SeenSignal& signal : scene.signals) {
+  for (const SeenSignal& signal : stretch.signals) {
     if (!signal.varies() || signal.points.empty()) continue;
     words += (words.empty() ? "" : "; ") + words_of(signal);
   }

@@ -5,14 +5,14 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/play/report/footage.h"
+#include "emulator/play/report/run_log.h"
 
 namespace understudy::emulator::play {
 
 /// Returns one line: "a move: what moved and switched, from 0s to 3.2s".
-std::string picture_name(const Scene& scene, std::string_view of);
+std::string picture_name(const Stretch& stretch, std::string_view of);
 
 /// Returns each signal that varies, with its extremes and its last value, and the time of a failure.
-std::string picture_words(const Scene& scene, std::optional<SimTime> failed_at);
+std::string picture_words(const Stretch& stretch, std::optional<SimTime> failed_at);
 
 }  // namespace understudy::emulator::play

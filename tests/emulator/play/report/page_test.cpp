@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "emulator/play/report/camera.h"
+#include "emulator/play/report/run_logger.h"
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
@@ -16,7 +16,7 @@ namespace page_test {
 
 RunOptions filmed() {
   RunOptions options;
-  options.onlookers.push_back([](world::World& world) { return std::make_unique<Camera>(world); });
+  options.onlookers.push_back([](world::World& world) { return std::make_unique<RunLogger>(world); });
   return options;
 }
 
@@ -92,7 +92,7 @@ TEST(ReportPage, IsWellFormedWhateverHasHappened) {
   EXPECT_EQ(diagnostics_of_a_parser(page_of("  - assert: 1 == 2\n" + kDay)), "");
   EXPECT_EQ(diagnostics_of_a_parser(report_page({}, "1.2.3")), "");
   EXPECT_EQ(diagnostics_of_a_parser(report_page(run_scenario(scenario_of(kDay)), "1.2.3")),
-            "");  // without footage
+            "");  // without a run log
 }
 
 TEST(ReportPage, NeedsNothingFromElsewhere) {

@@ -1,4 +1,4 @@
-// Records the footage of a scenario's run.
+// Records the run log of a scenario's run.
 #pragma once
 
 #include <memory>
@@ -7,18 +7,18 @@
 
 #include "emulator/play/performing/onlooker.h"
 #include "emulator/play/report/envelope.h"
-#include "emulator/play/report/footage.h"
+#include "emulator/play/report/run_log.h"
 #include "emulator/world/probe/probes.h"
 #include "pty/capture_frames.h"
 
 namespace understudy::emulator::play {
 
-class Camera final : public Onlooker, private world::TickWatcher {
+class RunLogger final : public Onlooker, private world::TickWatcher {
  public:
-  explicit Camera(world::World& world);
-  ~Camera() override;
-  Camera(const Camera&) = delete;
-  Camera& operator=(const Camera&) = delete;
+  explicit RunLogger(world::World& world);
+  ~RunLogger() override;
+  RunLogger(const RunLogger&) = delete;
+  RunLogger& operator=(const RunLogger&) = delete;
 
   void world_restored(std::size_t steps) override;
   /// Writes ScenarioResult::footage.
@@ -38,7 +38,7 @@ class Camera final : public Onlooker, private world::TickWatcher {
   Tick next_look(Tick done) const override;
   void on_rest(Tick last) override;
   void add(const pty::CapturedPacket& packet);
-  void end_scene();
+  void end_stretch();
 
   world::World& world_;
   world::Probes probes_;
@@ -46,8 +46,8 @@ class Camera final : public Onlooker, private world::TickWatcher {
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line
   std::vector<std::vector<std::uint8_t>>
       requests_;  // by line: the requests, which are needed to decode replies
-  Scene scene_;
-  Footage footage_;
+  Stretch stretch_;
+  RunLog run_log_;
 };
 
 }  // namespace understudy::emulator::play

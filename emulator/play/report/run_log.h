@@ -25,7 +25,7 @@ struct SeenSignal {
     Tick tick = 0;
     double value = 0;
   };
-  std::vector<Point> points{};  // the first and the last of the scene among them
+  std::vector<Point> points{};  // the first and the last of the stretch among them
   double least = 0;
   double greatest = 0;
   bool varies() const { return least != greatest; }
@@ -42,7 +42,7 @@ struct SeenFrame {
 };
 
 /// A part of the run in which time only goes forward. Each `restore` begins another one.
-struct Scene {
+struct Stretch {
   std::size_t first_step = 0;  // of the result's
   SimTime begin{0};
   SimTime end{0};
@@ -52,8 +52,8 @@ struct Scene {
   std::size_t left_out_at = 0;  // before this one
 };
 
-struct Footage {
-  std::vector<Scene> scenes;
+struct RunLog {
+  std::vector<Stretch> stretches;
 };
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-#include "emulator/play/report/camera.h"
+#include "emulator/play/report/run_logger.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/model.h"
 #include "emulator/device/terminals.h"
-#include "emulator/play/report/footage.h"
+#include "emulator/play/report/run_log.h"
 #include "emulator/play/results/result.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/plant/plant.h"
@@ -25,13 +25,13 @@ namespace {
 
 using SignalKind = SeenSignal::Kind;
 
-// A scene keeps this many frames from its beginning, and as many from its end.
+// A stretch keeps this many frames from its beginning, and as many from its end.
 constexpr std::size_t kFramesKept = 300;
 constexpr double kMillivolts = 1000;
 
 }  // namespace
 
-Camera::Camera(world::World& world) : world_(world), probes_(world) {
+RunLogger::RunLogger(world::World& world) : world_(world), probes_(world) {
   for (std::size_t d = 0; d < world.device_count(); ++d) {
     const world::KnownDevice& device = world.known()[d];
     for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
@@ -63,16 +63,16 @@ Camera::Camera(world::World& world) : world_(world), probes_(world) {
   world_restored(0);
 }
 
-Camera::~Camera() {
+RunLogger::~RunLogger() {
   world_.remove_watcher(*this);
   ignore_lines();
 }
 
-void Camera::add_sight(const std::string& name, SignalKind kind) {
+void RunLogger::add_sight(const std::string& name, SignalKind kind) {
   sights_.push_back({kind, name, probes_.resolve(name).handle, Envelope()});
 }
 
-void Camera::watch_lines() {
+void RunLogger::watch_lines() {
   requests_.assign(world_.line_count(), {});
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     framers_.push_back(world_.line(i).packets(i, [this](const pty::CapturedPacket& packet) { add(packet); }));
@@ -80,40 +80,40 @@ void Camera::watch_lines() {
   }
 }
 
-void Camera::ignore_lines() {
+void RunLogger::ignore_lines() {
   for (std::size_t i = 0; i < framers_.size(); ++i) world_.remove_observer(i, *framers_[i]);
   framers_.clear();
 }
 
-void Camera::world_restored(std::size_t steps) {
+void RunLogger::world_restored(std::size_t steps) {
   ignore_lines();  // what they were hearing is gone
-  end_scene();
+  end_stretch();
   watch_lines();
-  scene_.first_step = steps;
-  scene_.begin = scene_.end = world_.now();
+  stretch_.first_step = steps;
+  stretch_.begin = stretch_.end = world_.now();
   on_tick(tick_at(world_.now()));
 }
 
-void Camera::on_tick(Tick tick) {
+void RunLogger::on_tick(Tick tick) {
   for (Sight& sight : sights_) {
     const double value = probes_.value(sight.handle).real();
     sight.values.add(tick, sight.kind == SignalKind::voltage ? value / kMillivolts : value);
   }
-  scene_.end = std::max(scene_.end, time_of(tick));
+  stretch_.end = std::max(stretch_.end, time_of(tick));
 }
 
-Tick Camera::next_look(Tick done) const {
+Tick RunLogger::next_look(Tick done) const {
   Tick next = kNever;
   for (const Sight& sight : sights_) next = std::min(next, probes_.next_change(sight.handle, done));
   return next;
 }
 
-void Camera::on_rest(Tick last) {
+void RunLogger::on_rest(Tick last) {
   for (Sight& sight : sights_) sight.values.stay(last);
-  scene_.end = std::max(scene_.end, time_of(last));
+  stretch_.end = std::max(stretch_.end, time_of(last));
 }
 
-void Camera::add(const pty::CapturedPacket& packet) {
+void RunLogger::add(const pty::CapturedPacket& packet) {
   const bool is_from_host = packet.way == pty::Way::from_host;
   const bool is_frame = !packet.bytes.empty();
   const world::WorldLine& line = world_.line(packet.line);
@@ -132,16 +132,16 @@ void Camera::add(const pty::CapturedPacket& packet) {
   } else if (is_frame) {
     request.clear();
   }
-  scene_.frames.push_back(std::move(frame));
+  stretch_.frames.push_back(std::move(frame));
   // In lumps, so that a long run does not move them for each one that comes.
-  if (scene_.frames.size() < 4 * kFramesKept) return;
-  const auto first = scene_.frames.begin() + kFramesKept;
-  scene_.frames.erase(first, scene_.frames.end() - kFramesKept);
-  scene_.frames_left_out += 2 * kFramesKept;
+  if (stretch_.frames.size() < 4 * kFramesKept) return;
+  const auto first = stretch_.frames.begin() + kFramesKept;
+  stretch_.frames.erase(first, stretch_.frames.end() - kFramesKept);
+  stretch_.frames_left_out += 2 * kFramesKept;
 }
 
-void Camera::end_scene() {
-  Scene scene = std::exchange(scene_, {});
+void RunLogger::end_stretch() {
+  Stretch stretch = std::exchange(stretch_, {});
   std::vector<Sight> sights = std::exchange(sights_, {});
   for (const Sight& sight : sights) {
     SeenSignal signal{.name = sight.name,
@@ -151,28 +151,28 @@ void Camera::end_scene() {
     for (const Envelope::Point& point : sight.values.points()) {
       signal.points.push_back({point.tick, point.value});
     }
-    scene.signals.push_back(std::move(signal));
+    stretch.signals.push_back(std::move(signal));
     sights_.push_back({sight.kind, sight.name, sight.handle, Envelope()});
   }
-  if (scene.frames.size() > 2 * kFramesKept) {
-    const std::size_t more = scene.frames.size() - 2 * kFramesKept;
-    const auto first = scene.frames.begin() + kFramesKept;
-    scene.frames.erase(first, first + static_cast<std::ptrdiff_t>(more));
-    scene.frames_left_out += more;
+  if (stretch.frames.size() > 2 * kFramesKept) {
+    const std::size_t more = stretch.frames.size() - 2 * kFramesKept;
+    const auto first = stretch.frames.begin() + kFramesKept;
+    stretch.frames.erase(first, first + static_cast<std::ptrdiff_t>(more));
+    stretch.frames_left_out += more;
   }
-  scene.left_out_at = kFramesKept;
+  stretch.left_out_at = kFramesKept;
   // What was not a frame is given once that is plain, which may be after the next one.
-  std::stable_sort(scene.frames.begin(), scene.frames.end(),
+  std::stable_sort(stretch.frames.begin(), stretch.frames.end(),
                    [](const SeenFrame& a, const SeenFrame& b) { return a.time < b.time; });
-  const bool is_empty = scene.begin == scene.end && scene.frames.empty();
-  if (!is_empty) footage_.scenes.push_back(std::move(scene));
+  const bool is_empty = stretch.begin == stretch.end && stretch.frames.empty();
+  if (!is_empty) run_log_.stretches.push_back(std::move(stretch));
 }
 
-void Camera::finish(ScenarioResult& result) {
+void RunLogger::finish(ScenarioResult& result) {
   for (const auto& framer : framers_) framer->finish();
-  scene_.end = std::max(scene_.end, world_.now());
-  end_scene();
-  result.footage = std::make_shared<const Footage>(std::move(footage_));
+  stretch_.end = std::max(stretch_.end, world_.now());
+  end_stretch();
+  result.run_log = std::make_shared<const RunLog>(std::move(run_log_));
 }
 
 }  // namespace understudy::emulator::play
