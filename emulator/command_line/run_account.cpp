@@ -26,8 +26,8 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr std::size_t kMaxShown = 1000;    // on a page, besides the first failures of each kind
-constexpr std::size_t kMaxManners = 1000;  // lines
+constexpr std::size_t kMaxShown = 1000;         // on a page, besides the first failures of each kind
+constexpr std::size_t kMaxLintFindings = 1000;  // lines
 
 using RunVerdict = play::ScenarioResult::Verdict;
 
@@ -120,15 +120,15 @@ bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, Progress
   }
   tally_.add(result);
   if (junit_) junit_->add(result);
-  note_manners(result);
+  note_lint_findings(result);
   return is_new;
 }
 
-void RunAccount::note_manners(const play::ScenarioResult& result) {
-  for (const std::string& finding : result.manners) {
-    if (result.which.is_varied && !known_manners_.insert(result.file + ": " + finding).second) continue;
-    if (manners_.size() < kMaxManners)
-      manners_.push_back(one_line(result.file + ": " + result.name + ": " + finding));
+void RunAccount::note_lint_findings(const play::ScenarioResult& result) {
+  for (const std::string& finding : result.lint_findings) {
+    if (result.which.is_varied && !known_lint_findings_.insert(result.file + ": " + finding).second) continue;
+    if (lint_findings_.size() < kMaxLintFindings)
+      lint_findings_.push_back(one_line(result.file + ": " + result.name + ": " + finding));
   }
 }
 
@@ -148,7 +148,7 @@ void RunAccount::finish() {
                  left_out_failed_);
   }
   std::fprintf(told_, "%s\n", play::summary_line(tally_).c_str());
-  for (const std::string& line : manners_) std::fprintf(stderr, "lint: %s\n", line.c_str());
+  for (const std::string& line : lint_findings_) std::fprintf(stderr, "lint: %s\n", line.c_str());
 }
 
 std::string RunAccount::report() const { return play::report_page(shown_, arguments_.version, &tally_); }

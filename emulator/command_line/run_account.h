@@ -47,7 +47,7 @@ class RunAccount {
   /// Returns true if it is the first failure of its kind.
   bool add_one(play::ScenarioResult& result, RunFiles& files, ProgressLine& progress,
                const std::function<std::vector<play::ScenarioResult>()>& again);
-  void note_manners(const play::ScenarioResult& result);
+  void note_lint_findings(const play::ScenarioResult& result);
 
   const RunArguments& arguments_;
   std::FILE* told_;
@@ -57,9 +57,9 @@ class RunAccount {
   play::Tally tally_;
   play::FailureKinds kinds_;
   std::optional<play::Junit> junit_;
-  std::vector<play::ScenarioResult> shown_;  // on the page
-  std::vector<std::string> manners_;         // lines
-  std::set<std::string> known_manners_;      // of cases that `vary` made
+  std::vector<play::ScenarioResult> shown_;    // on the page
+  std::vector<std::string> lint_findings_;     // lines
+  std::set<std::string> known_lint_findings_;  // of cases that `vary` made
 };
 
 }  // namespace understudy::emulator::command_line

@@ -21,7 +21,7 @@ constexpr const char* kScenario =
     "  - send: { bytes: 09 03 00 01 00 01 +crc, reply: nothing, within: 20ms }\n"
     "  - wait: { until: STATUS.4 == 0, within: 4s }\n"
     "  - expect: { Cord_A: 3200 }\n";
-constexpr const char* kManners = "rs485: 1 request to station 9, which does not exist; first at ";
+constexpr const char* kLintRules = "rs485: 1 request to station 9, which does not exist; first at ";
 
 std::string contents(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -59,10 +59,11 @@ TEST(Lint, OfScenariosIsToldAtTheEndAndInJunit) {
   const std::string scenario = folder.write("move.yaml", kScenario);
   const Finished finished = understudy({"run", scenario, "--lint", "--junit", folder / "junit.xml"});
   EXPECT_EQ(finished.exit_code, 0);
-  EXPECT_TRUE(finished.errors.starts_with("lint: " + scenario + ": a move: " + kManners)) << finished.errors;
+  EXPECT_TRUE(finished.errors.starts_with("lint: " + scenario + ": a move: " + kLintRules))
+      << finished.errors;
   EXPECT_EQ(lines_of(finished.errors).size(), 1U);
   const std::string junit = contents(folder / "junit.xml");
-  EXPECT_NE(junit.find(std::string("lint: ") + kManners), std::string::npos) << junit;
+  EXPECT_NE(junit.find(std::string("lint: ") + kLintRules), std::string::npos) << junit;
   EXPECT_NE(junit.find("failures=\"0\""), std::string::npos);
   EXPECT_EQ(understudy({"run", scenario}).errors, "");
 }
@@ -94,7 +95,7 @@ TEST(Lint, OfACommandsMannersIsToldWhenItIsOver) {
                   std::string(UNDERSTUDY_BINARY) +
                       " poll $UNDERSTUDY_PORT 0x0001 --station 9 --timeout 100ms 2>/dev/null; true"});
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
-  EXPECT_NE(finished.errors.find(std::string("\nlint: ") + kManners), std::string::npos) << finished.errors;
+  EXPECT_NE(finished.errors.find(std::string("\nlint: ") + kLintRules), std::string::npos) << finished.errors;
 }
 
 /// A trace of a short move.

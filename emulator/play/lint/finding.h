@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::play {
 
-enum class Manner : std::uint8_t {
+enum class LintRule : std::uint8_t {
   too_soon,     // a request began before the line had been silent long enough
   not_waited,   // a request began before the answer to the one before came
   gap,          // a pause within a frame
@@ -37,6 +37,6 @@ struct Finding {
 };
 
 /// Findings by rule and subject: a station's number, or a register's name; empty for the whole line.
-using Findings = std::map<std::pair<Manner, std::string>, Finding>;
+using Findings = std::map<std::pair<LintRule, std::string>, Finding>;
 
 }  // namespace understudy::emulator::play

@@ -10,7 +10,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/play/lint/finding.h"
-#include "emulator/play/lint/line_manners.h"
+#include "emulator/play/lint/host_lint.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
@@ -54,28 +54,27 @@ std::optional<SimTime> life_of(const Finding& changes) {
 }
 
 /// Without the line and the moment; empty if it is not worth telling.
-std::string text_of(const LineManners& line, Manner manner, const std::string& subject,
-                    const Finding& finding) {
+std::string text_of(const HostLint& line, LintRule rule, const std::string& subject, const Finding& finding) {
   const std::uint64_t count = finding.count;
-  switch (manner) {
-    case Manner::too_soon: {
+  switch (rule) {
+    case LintRule::too_soon: {
       const bool overlaps = finding.extreme < SimTime{0};
       return counted(count, "request", "requests") + " began before the line had been silent for " +
              format_duration(line.silence()) + " (" +
              (overlaps ? "while a station was sending" : "after " + format_duration(finding.extreme)) +
              " at worst)";
     }
-    case Manner::not_waited:
+    case LintRule::not_waited:
       return counted(count, "request", "requests") + " began before the reply to the previous request";
-    case Manner::gap:
+    case LintRule::gap:
       return counted(count, "request", "requests") + " had gaps of more than " +
              format_duration(line.longest_gap()) + " between two bytes (" + format_duration(finding.extreme) +
              " at worst)";
-    case Manner::absent:
+    case LintRule::absent:
       return counted(count, "request", "requests") + " to station " + subject + ", which does not exist";
-    case Manner::read_only:
+    case LintRule::read_only:
       return counted(count, "write", "writes") + " to " + subject + ", which is read-only";
-    case Manner::eeprom_wear: {
+    case LintRule::eeprom_wear: {
       const auto life = life_of(finding);
       if (!life) return "";
       return std::to_string(count) + " changes of " + subject +
@@ -90,7 +89,7 @@ std::string text_of(const LineManners& line, Manner manner, const std::string& s
 
 Lint::Lint(world::World& world) : world_(world) {
   for (std::size_t i = 0; i < world.line_count(); ++i) {
-    lines_.push_back(std::make_unique<LineManners>(world, i));
+    lines_.push_back(std::make_unique<HostLint>(world, i));
   }
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/play/lint/line_manners.h"
+#include "emulator/play/lint/host_lint.h"
 #include "emulator/play/performing/onlooker.h"
 
 namespace understudy::emulator::play {
@@ -22,11 +22,11 @@ class Lint final : public Onlooker {
 
   void world_restored(std::size_t steps) override;
   /// Writes ScenarioResult::manners.
-  void finish(ScenarioResult& result) override { result.manners = findings(); }
+  void finish(ScenarioResult& result) override { result.lint_findings = findings(); }
 
  private:
   world::World& world_;
-  std::vector<std::unique_ptr<LineManners>> lines_;
+  std::vector<std::unique_ptr<HostLint>> lines_;
 };
 
 }  // namespace understudy::emulator::play

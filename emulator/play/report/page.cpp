@@ -198,9 +198,10 @@ std::string body_of(const ScenarioResult& result) {
       text += stretch_text(result, stretches[i], first, end, is_last);
     }
   }
-  if (!result.manners.empty()) {
+  if (!result.lint_findings.empty()) {
     text += "<h3>protocol violations by the host</h3>\n<ul>\n";
-    for (const std::string& line : result.manners) text += in("li", in("code", xml_escaped(line))) + "\n";
+    for (const std::string& line : result.lint_findings)
+      text += in("li", in("code", xml_escaped(line))) + "\n";
     text += "</ul>\n";
   }
   return text;

@@ -67,7 +67,7 @@ std::string case_text(const ScenarioResult& result) {
             tag.substr(0, tag.find(' ')) + ">\n";
   }
   std::string output = is_one_of_many ? "" : lines_text(step_lines(result));
-  for (const std::string& finding : result.manners) output += "lint: " + finding + "\n";
+  for (const std::string& finding : result.lint_findings) output += "lint: " + finding + "\n";
   if (!output.empty()) text += "      <system-out>" + xml_escaped(output) + "</system-out>\n";
   return text + "    </testcase>\n";
 }

@@ -43,13 +43,13 @@ struct ScenarioResult {
   } verdict = Verdict::passed;
   std::string name{};  // "a move takes its time"; for a branch "a move takes its time / with a stall"
   std::string file{};
-  std::vector<StepResult> steps{};          // the failed step is the last; a branch has only its own steps
-  std::optional<Failure> failure{};         // if it failed
-  SimTime simulated{0};                     // how long it was played; for a branch, from its fork on
-  std::uint64_t outcome_hash = 0;           // of all output, if that was asked for (outcome_hash.h)
-  std::shared_ptr<const RunLog> run_log{};  // of a report, if one was asked for
-  std::vector<std::string> manners{};       // findings of a lint, if it was requested; single lines
-  std::string recording{};                  // its path, if one was made; of a trace and a capture as well
+  std::vector<StepResult> steps{};           // the failed step is the last; a branch has only its own steps
+  std::optional<Failure> failure{};          // if it failed
+  SimTime simulated{0};                      // how long it was played; for a branch, from its fork on
+  std::uint64_t outcome_hash = 0;            // of all output, if that was asked for (outcome_hash.h)
+  std::shared_ptr<const RunLog> run_log{};   // of a report, if one was asked for
+  std::vector<std::string> lint_findings{};  // findings of a lint, if it was requested; single lines
+  std::string recording{};                   // its path, if one was made; of a trace and a capture as well
   std::string trace{};
   std::string capture{};
   Case which{};  // of its file

@@ -155,7 +155,7 @@ TEST(Plays, AreLinted) {
   const auto results = run_scenario(scenario, options);
   expect_passed(results, 1);
   std::string all;
-  for (const std::string& finding : results.front().manners) all += finding + "\n";
+  for (const std::string& finding : results.front().lint_findings) all += finding + "\n";
   for (const char* wanted :
        {"1 write to it.Servo_X, which is read-only", "1 write to it.Servo_Y, which is read-only",
         "1 write to it.Servo_Z, which is read-only", "changes of it.Gain_X, which is stored in EEPROM"}) {

@@ -195,9 +195,9 @@ RunOptions with_lint(bool with_hash = false) {
 const std::string kAbsent = "  - send: { bytes: 05 03 00 01 00 01 +crc, reply: nothing, within: 20ms }\n";
 
 TEST(LintOfScenarios, IsInTheirResults) {
-  EXPECT_EQ(played(kServoOn + kExampleMove, "", with_lint()).manners, Texts{});
+  EXPECT_EQ(played(kServoOn + kExampleMove, "", with_lint()).lint_findings, Texts{});
   const ScenarioResult result = played(kAbsent + kServoOn + kAbsent, "", with_lint());
-  EXPECT_EQ(result.manners, Texts{"rs485: 2 requests to station 5, which does not exist; first at 0s"});
+  EXPECT_EQ(result.lint_findings, Texts{"rs485: 2 requests to station 5, which does not exist; first at 0s"});
 }
 
 TEST(LintOfScenarios, GoesOnBehindARestoreWithoutTakingItForHaste) {
@@ -205,7 +205,7 @@ TEST(LintOfScenarios, GoesOnBehindARestoreWithoutTakingItForHaste) {
       "  - snapshot: begin\n" + kServoOn + "  - advance: 1s\n" + kServoOn + "  - restore: begin\n" + kServoOn,
       "", with_lint());
   EXPECT_TRUE(has_passed(result));
-  EXPECT_EQ(result.manners, Texts{});
+  EXPECT_EQ(result.lint_findings, Texts{});
 }
 
 TEST(LintOfScenarios, ChangesNothing) {

@@ -110,7 +110,7 @@ TEST(ReportPage, ShowsNamesAsTheyAre) {
                            .file = "a<b>.yaml",
                            .steps = {{"a<b>.yaml", 3, "say </code>", SimTime{0}, SimTime{0}, true}},
                            .failure = Failure{.what = "x < y", .frames = {"<b>"}, .state = {"</pre>"}},
-                           .manners = {"<i>"}};
+                           .lint_findings = {"<i>"}};
   const std::string page = report_page({&odd, 1}, "1.2.3");
   EXPECT_EQ(diagnostics_of_a_parser(page), "");
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);

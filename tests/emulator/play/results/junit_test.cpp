@@ -49,7 +49,7 @@ const std::vector<ScenarioResult> kResults = {
      .file = "b.yaml",
      .steps = {{"b.yaml", 5, "write a=1", SimTime{0}, SimTime{9'916'666}}},
      .simulated = SimTime{3'075'000'000},
-     .manners = {"rs485: 2 requests <soon>"}},
+     .lint_findings = {"rs485: 2 requests <soon>"}},
     {.verdict = Verdict::failed,
      .name = "it's \"<odd>\" & more",
      .file = "a.yaml",

@@ -1,4 +1,4 @@
-#include "emulator/play/lint/line_manners.h"
+#include "emulator/play/lint/host_lint.h"
 
 #include <algorithm>
 #include <chrono>
@@ -37,8 +37,8 @@ SimTime one_and_a_half_characters(const pty::LineSettings& settings) {
 int number_at(std::span<const std::uint8_t> bytes, std::size_t at) { return bytes[at] << 8 | bytes[at + 1]; }
 
 /// The words or bits that a request writes; none if it is not a write, or is not whole.
-LineManners::Written written(std::span<const std::uint8_t> frame) {
-  LineManners::Written made;
+HostLint::Written written(std::span<const std::uint8_t> frame) {
+  HostLint::Written made;
   if (frame.size() < 8) return made;
   const auto* const row =
       std::find_if(std::begin(world::kModbusFunctions), std::end(world::kModbusFunctions),
@@ -65,7 +65,7 @@ LineManners::Written written(std::span<const std::uint8_t> frame) {
 
 }  // namespace
 
-LineManners::LineManners(world::World& world, std::size_t line)
+HostLint::HostLint(world::World& world, std::size_t line)
     : world_(world),
       number_(line),
       options_(world.line(line).line.options()),
@@ -90,9 +90,9 @@ LineManners::LineManners(world::World& world, std::size_t line)
   world_.add_observer(number_, *this);
 }
 
-LineManners::~LineManners() { world_.remove_observer(number_, *this); }
+HostLint::~HostLint() { world_.remove_observer(number_, *this); }
 
-void LineManners::begin_anew() {
+void HostLint::begin_anew() {
   framer_.reset();
   waiting_.clear();
   under_way_.reset();
@@ -101,7 +101,7 @@ void LineManners::begin_anew() {
   last_number_ = 0;
 }
 
-void LineManners::on_character(const pty::TimedByte& character, bool is_heard) {
+void HostLint::on_character(const pty::TimedByte& character, bool is_heard) {
   const bool follows = last_number_ == 0 || character.number == last_number_ + 1;
   if (!follows || !is_heard) begin_anew();  // a host that nobody hears has other troubles
   last_number_ = character.number;
@@ -114,9 +114,9 @@ void LineManners::on_character(const pty::TimedByte& character, bool is_heard) {
   framer_.push(character);
 }
 
-void LineManners::on_speech(const pty::Speech& speech) {
+void HostLint::on_speech(const pty::Speech& speech) {
   const auto next = waiting_.empty() ? under_way_ : std::optional(waiting_.front().start);
-  if (asked_ && next && *next < speech.start) find(Manner::not_waited).add(*next, asked_->command);
+  if (asked_ && next && *next < speech.start) find(LintRule::not_waited).add(*next, asked_->command);
   const bool is_answer = asked_ && speech.bytes.size() > 1 && speech.bytes[0] == asked_->station;
   if (is_answer && speech.bytes[1] == asked_->function) carried_out(*asked_);
   asked_.reset();
@@ -125,7 +125,7 @@ void LineManners::on_speech(const pty::Speech& speech) {
   busy_until_ = std::max(end, busy_until_.value_or(end));
 }
 
-void LineManners::run(SimTime now) {
+void HostLint::run(SimTime now) {
   while (const auto frame = framer_.take_due(now)) {
     const auto last = std::find_if(waiting_.begin(), waiting_.end(), [&](const Character& character) {
       return character.number == frame->last_character;
@@ -143,23 +143,23 @@ void LineManners::run(SimTime now) {
   }
 }
 
-void LineManners::judge_times(std::span<const Character> frame, const std::string& command) {
+void HostLint::judge_times(std::span<const Character> frame, const std::string& command) {
   if (!has_time()) return;
   const Character& first = frame.front();
   if (first.idle < silence_) {
-    Finding& finding = find(Manner::too_soon);
+    Finding& finding = find(LintRule::too_soon);
     finding.extreme = finding.count == 0 ? first.idle : std::min(finding.extreme, first.idle);
     finding.add(first.start, command);
   }
   SimTime longest{0};
   for (const Character& character : frame.subspan(1)) longest = std::max(longest, character.idle);
   if (longest <= longest_gap_) return;
-  Finding& finding = find(Manner::gap);
+  Finding& finding = find(LintRule::gap);
   finding.extreme = std::max(finding.extreme, longest);
   finding.add(first.start, command);
 }
 
-void LineManners::judge_request(std::span<const std::uint8_t> frame, SimTime at, const std::string& command) {
+void HostLint::judge_request(std::span<const std::uint8_t> frame, SimTime at, const std::string& command) {
   const std::uint8_t station = frame[0];
   asked_ = Asked{.station = station, .function = frame[1], .at = at, .command = command, .worn = {}};
   const Written write = written(frame);
@@ -174,13 +174,13 @@ void LineManners::judge_request(std::span<const std::uint8_t> frame, SimTime at,
     will_be_answered = will_be_answered || addressing == Addressing::obey_and_reply;
     if (!write.values.empty() && device.powered()) judge_write(device, write, at);
   }
-  if (!is_there) find(Manner::absent, std::to_string(station)).add(at);
+  if (!is_there) find(LintRule::absent, std::to_string(station)).add(at);
   if (will_be_answered) return;
   if (is_there) carried_out(*asked_);
   asked_.reset();
 }
 
-void LineManners::judge_write(const Device& device, const Written& write, SimTime at) {
+void HostLint::judge_write(const Device& device, const Written& write, SimTime at) {
   const RegisterBank& bank = *device.register_bank();
   const RegisterRow* last_row = nullptr;
   int last_index = 0;
@@ -194,7 +194,7 @@ void LineManners::judge_write(const Device& device, const Written& write, SimTim
     last_row = place.row;
     last_index = place.index;
     if (place.row->access == Access::read) {
-      if (!is_second_word) find(Manner::read_only, name).add(at);
+      if (!is_second_word) find(LintRule::read_only, name).add(at);
       continue;
     }
     if (!bank.keeps(*place.row) || place.slot == Place::kNoSlot) continue;
@@ -205,8 +205,8 @@ void LineManners::judge_write(const Device& device, const Written& write, SimTim
   }
 }
 
-void LineManners::carried_out(const Asked& asked) {
-  for (const std::string& name : asked.worn) find(Manner::eeprom_wear, name).add(asked.at);
+void HostLint::carried_out(const Asked& asked) {
+  for (const std::string& name : asked.worn) find(LintRule::eeprom_wear, name).add(asked.at);
 }
 
 }  // namespace understudy::emulator::play

@@ -12,12 +12,12 @@
 
 namespace understudy::emulator::play {
 
-class LineManners final : public pty::LineObserver {
+class HostLint final : public pty::LineObserver {
  public:
-  LineManners(world::World& world, std::size_t line);
-  ~LineManners() override;
-  LineManners(const LineManners&) = delete;
-  LineManners& operator=(const LineManners&) = delete;
+  HostLint(world::World& world, std::size_t line);
+  ~HostLint() override;
+  HostLint(const HostLint&) = delete;
+  HostLint& operator=(const HostLint&) = delete;
 
   /// The line was put into another state: forgets the traffic so far.
   void begin_anew();
@@ -60,7 +60,7 @@ class LineManners final : public pty::LineObserver {
   };
 
   bool has_time() const { return options_.timing == pty::Timing::wire; }
-  Finding& find(Manner manner, std::string subject = {}) { return findings_[{manner, std::move(subject)}]; }
+  Finding& find(LintRule rule, std::string subject = {}) { return findings_[{rule, std::move(subject)}]; }
   /// `command` is the meaning of the frame, if it has a name.
   void judge_times(std::span<const Character> frame, const std::string& command);
   void judge_request(std::span<const std::uint8_t> frame, SimTime at, const std::string& command);
