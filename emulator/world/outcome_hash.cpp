@@ -17,14 +17,14 @@
 namespace understudy::emulator::world {
 
 /// What is said on one line.
-class OutcomeHash::Ear final : public pty::LineObserver {
+class OutcomeHash::LineHasher final : public pty::LineObserver {
  public:
-  Ear(OutcomeHash& hash, std::size_t line) : hash_(hash), line_(line) {
+  LineHasher(OutcomeHash& hash, std::size_t line) : hash_(hash), line_(line) {
     hash_.world_.add_observer(line_, *this);
   }
-  ~Ear() override { hash_.world_.remove_observer(line_, *this); }
-  Ear(const Ear&) = delete;
-  Ear& operator=(const Ear&) = delete;
+  ~LineHasher() override { hash_.world_.remove_observer(line_, *this); }
+  LineHasher(const LineHasher&) = delete;
+  LineHasher& operator=(const LineHasher&) = delete;
 
   void on_start_bit(SimTime) override {}
   void on_character(const pty::TimedByte& character, bool is_heard) override {
@@ -52,7 +52,7 @@ class OutcomeHash::Ear final : public pty::LineObserver {
 
 OutcomeHash::OutcomeHash(World& world) : world_(world), hash_(hash_of({})) {
   for (std::size_t i = 0; i < world.line_count(); ++i) {
-    ears_.push_back(std::make_unique<Ear>(*this, i));
+    line_hashers_.push_back(std::make_unique<LineHasher>(*this, i));
   }
   for (std::size_t d = 0; d < world.device_count(); ++d) {
     outputs_.push_back(outputs_of(world.device(d).model()));

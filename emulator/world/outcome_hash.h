@@ -25,7 +25,7 @@ class OutcomeHash final : public TickWatcher {
   void restore(std::uint64_t value) { hash_ = value; }
 
  private:
-  class Ear;
+  class LineHasher;
   /// Neighbouring outputs in a model's table.
   struct Outputs {
     TerminalRow::Kind kind = TerminalRow::Kind::digital_out;
@@ -37,8 +37,8 @@ class OutcomeHash final : public TickWatcher {
   void add_outputs(const Device& device, const std::vector<Outputs>& outputs);
 
   World& world_;
-  std::vector<std::unique_ptr<Ear>> ears_;     // one a line
-  std::vector<std::vector<Outputs>> outputs_;  // by device
+  std::vector<std::unique_ptr<LineHasher>> line_hashers_;  // one a line
+  std::vector<std::vector<Outputs>> outputs_;              // by device
   std::uint64_t hash_;
 };
 

@@ -25,16 +25,16 @@ namespace understudy::emulator::world {
 using What = RecordedEvent::What;
 
 /// Hears one line.
-class Recorder::LineEar final : public pty::LineObserver {
+class Recorder::LineRecorder final : public pty::LineObserver {
  public:
-  LineEar(Recorder& recorder, std::size_t number) : recorder_(recorder), number_(number) {
+  LineRecorder(Recorder& recorder, std::size_t number) : recorder_(recorder), number_(number) {
     recorder_.world_.add_observer(number_, *this);
     // What a host set before the recording began is not in a snapshot of a world that is new.
     if (const auto& set = recorder_.world_.line(number_).line.settings_of_host()) on_host_settings(set);
   }
-  ~LineEar() override { recorder_.world_.remove_observer(number_, *this); }
-  LineEar(const LineEar&) = delete;
-  LineEar& operator=(const LineEar&) = delete;
+  ~LineRecorder() override { recorder_.world_.remove_observer(number_, *this); }
+  LineRecorder(const LineRecorder&) = delete;
+  LineRecorder& operator=(const LineRecorder&) = delete;
 
   void on_start_bit(SimTime) override {}
   void on_character(const pty::TimedByte&, bool) override {}
@@ -78,7 +78,8 @@ class Recorder::LineEar final : public pty::LineObserver {
 Recorder::Recorder(World& world, const RecordingHeader& header, std::function<void(std::string_view)> take)
     : world_(world), take_(std::move(take)) {
   take_(to_line(header) + "\n");
-  for (std::size_t i = 0; i < world.line_count(); ++i) ears_.push_back(std::make_unique<LineEar>(*this, i));
+  for (std::size_t i = 0; i < world.line_count(); ++i)
+    line_recorders_.push_back(std::make_unique<LineRecorder>(*this, i));
   world_.add_listener(*this);
 }
 

@@ -25,7 +25,7 @@ class Recorder final : private OutsideListener {
   void finish(std::string failed = {});
 
  private:
-  class LineEar;
+  class LineRecorder;
   void end_with(std::string state, std::string failed);
   void take(RecordedEvent event);
 
@@ -40,7 +40,7 @@ class Recorder final : private OutsideListener {
 
   World& world_;
   std::function<void(std::string_view)> take_;
-  std::vector<std::unique_ptr<LineEar>> ears_;
+  std::vector<std::unique_ptr<LineRecorder>> line_recorders_;
   bool is_finished_ = false;
 };
 

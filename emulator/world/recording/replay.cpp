@@ -43,12 +43,12 @@ class Speeches {
 
   explicit Speeches(World& world) : world_(world) {
     for (std::size_t i = 0; i < world.line_count(); ++i) {
-      ears_.push_back(std::make_unique<Ear>(*this, i));
-      world.add_observer(i, *ears_.back());
+      line_collectors_.push_back(std::make_unique<LineCollector>(*this, i));
+      world.add_observer(i, *line_collectors_.back());
     }
   }
   ~Speeches() {
-    for (std::size_t i = 0; i < ears_.size(); ++i) world_.remove_observer(i, *ears_[i]);
+    for (std::size_t i = 0; i < line_collectors_.size(); ++i) world_.remove_observer(i, *line_collectors_[i]);
   }
   Speeches(const Speeches&) = delete;
   Speeches& operator=(const Speeches&) = delete;
@@ -56,9 +56,9 @@ class Speeches {
   std::deque<Speech>& waiting() { return waiting_; }
 
  private:
-  class Ear final : public pty::LineObserver {
+  class LineCollector final : public pty::LineObserver {
    public:
-    Ear(Speeches& all, std::size_t line) : all_(all), line_(line) {}
+    LineCollector(Speeches& all, std::size_t line) : all_(all), line_(line) {}
     void on_start_bit(SimTime) override {}
     void on_character(const pty::TimedByte&, bool) override {}
     void on_nothing_more() override {}
@@ -75,7 +75,7 @@ class Speeches {
   };
 
   World& world_;
-  std::vector<std::unique_ptr<Ear>> ears_;
+  std::vector<std::unique_ptr<LineCollector>> line_collectors_;
   std::deque<Speech> waiting_;
 };
 
