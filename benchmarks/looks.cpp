@@ -1,4 +1,4 @@
-// How long the devices of a bench of fifteen stations wait for an onlooker at a time: each message that may
+// How long the devices of a bench of fifteen stations wait for an observer at a time: each message that may
 // be long, as the control socket gets it, and the longest piece of the work that it makes, in processor time.
 #include <algorithm>
 #include <chrono>

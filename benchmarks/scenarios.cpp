@@ -75,9 +75,9 @@ Played play_all(const std::vector<std::string>& files, OptionsFor options_for) {
 }
 
 /// Writes down everything, into a string.
-class RecordingOnlooker final : public emulator::play::Onlooker {
+class RecordingObserver final : public emulator::play::Observer {
  public:
-  RecordingOnlooker(World& world, const emulator::world::RecordingHeader& header)
+  RecordingObserver(World& world, const emulator::world::RecordingHeader& header)
       : recorder_(world, header, [this](std::string_view line) { text_ += line; }) {}
   void world_restored(std::size_t) override {}
   void finish(ScenarioResult&) override {}
@@ -89,13 +89,13 @@ class RecordingOnlooker final : public emulator::play::Onlooker {
 
 emulator::play::RunOptions recorded(const Scenario& scenario) {
   emulator::play::RunOptions options;
-  options.onlookers.push_back([&](World& world) {
+  options.observers.push_back([&](World& world) {
     const emulator::world::RecordingHeader header{.version = "",
                                                   .bench = emulator::world::to_text(scenario.bench),
                                                   .options = {},
                                                   .seed = 0,
                                                   .snapshot = {}};
-    return std::make_unique<RecordingOnlooker>(world, header);
+    return std::make_unique<RecordingObserver>(world, header);
   });
   return options;
 }

@@ -30,7 +30,7 @@
 #include "emulator/device/model.h"
 #include "emulator/play/lint/lint.h"
 #include "emulator/play/performing/case_list.h"
-#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/observer.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/performing/suite.h"
 #include "emulator/play/reading/scenario_file.h"
@@ -191,7 +191,7 @@ class Stagehand {
     // Rows of results have the hash.
     options_.with_hash = arguments.hash || (!arguments.results.empty() && !arguments.real_time);
     if (arguments.lint) {
-      options_.onlookers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
+      options_.observers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
     }
     if (arguments.real_time) options_.make_executor = play::make_real_executor;
   }
@@ -202,8 +202,8 @@ class Stagehand {
       const auto scenario = reader.read(which_case);
       play::RunOptions options = options_;
       // Pictures of cases without end are made when one is to be shown.
-      if (!arguments_.report.empty() && !scenario->which.is_varied) options.onlookers.push_back(run_logger());
-      add(options, files_.onlookers(*scenario));
+      if (!arguments_.report.empty() && !scenario->which.is_varied) options.observers.push_back(run_logger());
+      add(options, files_.observers(*scenario));
       return play::run_scenario(*scenario, options);
     } catch (const FileError& error) {
       return {unreadable(reader, which_case, case_list, error)};
@@ -215,17 +215,17 @@ class Stagehand {
                                                const play::CaseId& which_case) const {
     const auto scenario = reader.read(which_case);
     play::RunOptions options = options_;
-    if (!arguments_.report.empty()) options.onlookers.push_back(run_logger());
-    options.onlookers.push_back(files_.recorder(*scenario));
+    if (!arguments_.report.empty()) options.observers.push_back(run_logger());
+    options.observers.push_back(files_.recorder(*scenario));
     return play::run_scenario(*scenario, options);
   }
 
  private:
-  static play::OnlookerMaker run_logger() {
+  static play::ObserverMaker run_logger() {
     return [](world::World& world) { return std::make_unique<play::RunLogger>(world); };
   }
-  static void add(play::RunOptions& options, std::vector<play::OnlookerMaker> more) {
-    for (play::OnlookerMaker& maker : more) options.onlookers.push_back(std::move(maker));
+  static void add(play::RunOptions& options, std::vector<play::ObserverMaker> more) {
+    for (play::ObserverMaker& maker : more) options.observers.push_back(std::move(maker));
   }
 
   /// A case that was not among those that were checked beforehand, and that something is wrong with.

@@ -27,7 +27,7 @@
 #include "base/files/output_file.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
-#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/observer.h"
 #include "emulator/play/performing/performance_recorder.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/case.h"
@@ -74,7 +74,7 @@ constexpr std::array<FileKind, 4> kFolders{kRecording, kTrace, kCapture, kFailur
 
 /// A file about a play. Such a file has one course: where the play goes back to an earlier state, or is a
 /// branch that begins in one, it begins anew.
-class PlayFile final : public play::Onlooker {
+class PlayFile final : public play::Observer {
  public:
   /// What ends the file, and returns why it has ended early.
   using Finish = std::function<std::string()>;
@@ -240,7 +240,7 @@ std::string RunFiles::next_spool(const std::string& ending) {
   return spool_ + "/" + std::to_string(++count_) + ending;
 }
 
-play::OnlookerMaker RunFiles::recorder(const play::Scenario& scenario) {
+play::ObserverMaker RunFiles::recorder(const play::Scenario& scenario) {
   return [this, &scenario](world::World& world) {
     world::RecordingHeader header{.version = version_,
                                   .bench = world::to_text(scenario.bench),
@@ -253,8 +253,8 @@ play::OnlookerMaker RunFiles::recorder(const play::Scenario& scenario) {
   };
 }
 
-std::vector<play::OnlookerMaker> RunFiles::onlookers(const play::Scenario& scenario) {
-  std::vector<play::OnlookerMaker> makers;
+std::vector<play::ObserverMaker> RunFiles::observers(const play::Scenario& scenario) {
+  std::vector<play::ObserverMaker> makers;
   // Of cases without end most recordings would be thrown away; in free time a failure can be played again.
   if (!scenario.which.is_varied || real_time_ || !folders_.recordings.empty()) {
     makers.push_back(recorder(scenario));

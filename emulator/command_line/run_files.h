@@ -11,7 +11,7 @@
 
 #include "base/files/descriptor.h"
 #include "base/files/file_claims.h"
-#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/observer.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/ports/private_folder.h"
 
@@ -41,8 +41,8 @@ class RunFiles {
 
   /// Returns observers that make the files for a scenario's run, or for one of its branches. May be called
   /// on any thread.
-  std::vector<play::OnlookerMaker> onlookers(const play::Scenario& scenario);
-  play::OnlookerMaker recorder(const play::Scenario& scenario);
+  std::vector<play::ObserverMaker> observers(const play::Scenario& scenario);
+  play::ObserverMaker recorder(const play::Scenario& scenario);
   /// Keeps the files under the result's name, or removes them, and stores their paths in the result. It is
   /// called in the order of the results, which decides between equal names. `is_new` tells that it is the
   /// first failure of its kind.

@@ -187,7 +187,7 @@ class Bench:
 
     def look(self, *names: str, frames: Optional[int] = None, events: Optional[int] = None,
              status: bool = False) -> Dict[str, Any]:
-        """All that an onlooker wants at once: values in the names' order, frames and events from these numbers on."""
+        """All that an observer wants at once: values in the names' order, frames and events from these numbers on."""
         asked = {"names": list(names) or None, "frames": frames, "events": events, "status": status or None}
         return self.ask("look", **_given(asked))
 

@@ -1,4 +1,4 @@
-// Where its macros are, for onlookers.
+// Where its macros are, for observers.
 #include <cstddef>
 #include <string>
 #include <string_view>

@@ -1,4 +1,4 @@
-// Where its program is, for onlookers.
+// Where its program is, for observers.
 #include <algorithm>
 #include <cstddef>
 #include <string>

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "emulator/play/lint/host_lint.h"
-#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/observer.h"
 
 namespace understudy::emulator::play {
 
-class Lint final : public Onlooker {
+class Lint final : public Observer {
  public:
   /// The world must outlive it.
   explicit Lint(world::World& world);

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/observer.h"
 #include "emulator/world/recording/recording_spool.h"
 
 namespace understudy::emulator::play {
@@ -12,7 +12,7 @@ namespace understudy::emulator::play {
 /// A recording cannot go back in time. When the scenario returns to an earlier state, or is a branch that
 /// begins in one, the recording starts again from that state's snapshot. So it always leads from there to
 /// the end.
-class PerformanceRecorder final : public Onlooker {
+class PerformanceRecorder final : public Observer {
  public:
   /// Begins with the header for the world's power-up. The caller removes the file. Throws GrowingFileError.
   PerformanceRecorder(world::World& world, world::RecordingHeader header, std::string path);

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/observer.h"
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
@@ -29,41 +29,41 @@ using Checkpoints = std::map<std::string, Checkpoint>;
 constexpr std::string_view kBranch = " / ";  // between a name and a branch's
 
 /// Those who look on at one performance.
-class Onlookers {
+class Observers {
  public:
-  Onlookers(Performance& performance, const std::vector<OnlookerMaker>& makers) : performance_(performance) {
+  Observers(Performance& performance, const std::vector<ObserverMaker>& makers) : performance_(performance) {
     if (makers.empty()) return;
     performance_.with_world([&](world::World& world) {
-      for (const OnlookerMaker& make : makers) onlookers_.push_back(make(world));
+      for (const ObserverMaker& make : makers) observers_.push_back(make(world));
     });
   }
-  ~Onlookers() {
-    if (onlookers_.empty()) return;
-    performance_.with_world([&](world::World&) { onlookers_.clear(); });
+  ~Observers() {
+    if (observers_.empty()) return;
+    performance_.with_world([&](world::World&) { observers_.clear(); });
   }
-  Onlookers(const Onlookers&) = delete;
-  Onlookers& operator=(const Onlookers&) = delete;
+  Observers(const Observers&) = delete;
+  Observers& operator=(const Observers&) = delete;
 
   void world_restored(std::size_t steps) {
-    tell([&](Onlooker& onlooker) { onlooker.world_restored(steps); });
+    tell([&](Observer& observer) { observer.world_restored(steps); });
   }
   void step_over() {
-    tell([](Onlooker& onlooker) { onlooker.step_over(); });
+    tell([](Observer& observer) { observer.step_over(); });
   }
   void finish(ScenarioResult& result) {
-    tell([&](Onlooker& onlooker) { onlooker.finish(result); });
+    tell([&](Observer& observer) { observer.finish(result); });
   }
 
  private:
-  void tell(const std::function<void(Onlooker&)>& what) {
-    if (onlookers_.empty()) return;
+  void tell(const std::function<void(Observer&)>& what) {
+    if (observers_.empty()) return;
     performance_.with_world([&](world::World&) {
-      for (const auto& onlooker : onlookers_) what(*onlooker);
+      for (const auto& observer : observers_) what(*observer);
     });
   }
 
   Performance& performance_;
-  std::vector<std::unique_ptr<Onlooker>> onlookers_;
+  std::vector<std::unique_ptr<Observer>> observers_;
 };
 
 class Run {
@@ -75,10 +75,10 @@ class Run {
     const std::size_t number = results_.size();
     results_.push_back(result_called(name));
     Performance performance(scenario_, options_.make_executor(scenario_), options_.with_hash);
-    Onlookers onlookers(performance, options_.onlookers);
+    Observers observers(performance, options_.observers);
     if (begin) {
       performance.restore(*begin);
-      onlookers.world_restored(0);
+      observers.world_restored(0);
     }
 
     struct Fork {
@@ -103,7 +103,7 @@ class Run {
         known[snapshot->name] = save();
       } else if (const auto* const restored = std::get_if<RestoreStep>(&step.what)) {
         restore(performance, known, *restored, result);
-        onlookers.world_restored(result.steps.size());
+        observers.world_restored(result.steps.size());
       } else if (fork != nullptr) {
         forks.push_back({.step = fork, .begin = save(), .known = known});
       } else {
@@ -113,11 +113,11 @@ class Run {
       played.has_failed = result.failure.has_value();
       const bool is_restored = std::holds_alternative<RestoreStep>(step.what);
       if (!is_restored) result.simulated += played.end - played.begin;
-      onlookers.step_over();
+      observers.step_over();
     }
     if (result.failure) result.verdict = ScenarioResult::Verdict::failed;
     if (options_.with_hash) result.outcome_hash = performance.outcome_hash();
-    onlookers.finish(result);
+    observers.finish(result);
     results_[number] = std::move(result);
 
     for (const Fork& fork : forks) {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/observer.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/executor.h"
@@ -22,7 +22,7 @@ std::unique_ptr<Executor> make_free_executor(const Scenario& scenario);
 struct RunOptions {
   ExecutorMaker make_executor = make_free_executor;
   bool with_hash = false;  // ScenarioResult::outcome_hash
-  std::vector<OnlookerMaker> onlookers{};
+  std::vector<ObserverMaker> observers{};
 };
 
 /// Returns the scenario's own result, then those of its branches in the order of the file. A step that fails

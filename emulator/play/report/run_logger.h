@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/observer.h"
 #include "emulator/play/report/envelope.h"
 #include "emulator/play/report/run_log.h"
 #include "emulator/world/probe/probes.h"
@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::play {
 
-class RunLogger final : public Onlooker, private world::TickWatcher {
+class RunLogger final : public Observer, private world::TickWatcher {
  public:
   explicit RunLogger(world::World& world);
   ~RunLogger() override;

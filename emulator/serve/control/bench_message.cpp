@@ -1,4 +1,4 @@
-// What there is on a bench: for onlookers who know none of its models.
+// What there is on a bench: for observers who know none of its models.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -198,7 +198,7 @@ Json terminal_of(const TerminalRow& row, const std::vector<std::string>& functio
   return terminal;
 }
 
-/// A device of a bench, in all that an onlooker needs to show it.
+/// A device of a bench, in all that an observer needs to show it.
 ReplyTask device_message(Daemon& daemon, std::size_t number) {
   const Pause pause(daemon);
   const world::World& world = daemon.world();

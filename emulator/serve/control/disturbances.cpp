@@ -213,11 +213,11 @@ void program_message(Daemon& daemon, const Json& message, const ControlServer::R
   if (text.size() <= kMaxAtOnce) return answer(reply, [&] { return load_program(daemon, number, text); });
   // What is no program is found out aside: a device holds far less than a message, and takes its own soon.
   daemon.do_aside([&daemon, &model = device.model(), settings = device.settings(), number, text,
-                   author = daemon.onlookers().events.author(), reply]() -> std::function<void()> {
+                   author = daemon.observers().events.author(), reply]() -> std::function<void()> {
     std::vector<ProgramMistake> mistakes = check_program(model, text, settings);
     return [&daemon, number, text, author, reply, mistakes = std::move(mistakes)] {
       answer(reply, [&] {
-        daemon.onlookers().events.set_author(author);
+        daemon.observers().events.set_author(author);
         return mistakes.empty() ? load_program(daemon, number, text) : refusal_of(mistakes);
       });
     };

@@ -94,7 +94,7 @@ bool Listing::add_frame(ReplyText& text) {
 }
 
 bool Listing::add_event(ReplyText& text) {
-  world::EventLog& events = daemon_.onlookers().events;
+  world::EventLog& events = daemon_.observers().events;
   if (events.collect(1)) return true;  // of many frames nothing but what they say may come
   const auto some = events.since(next_, 1);
   if (some.empty()) {
@@ -124,7 +124,7 @@ namespace {
 ReplyTask tell_listing(Daemon& daemon, Json message, Listing::What what) {
   const Pause pause(daemon);
   daemon.catch_up();
-  world::EventLog& events = daemon.onlookers().events;
+  world::EventLog& events = daemon.observers().events;
   const bool are_events = what == Listing::What::events;
   while (are_events && events.collect(1)) co_await pause;
   const std::uint64_t next = are_events ? events.next_number() : daemon.frames().next_number();
@@ -183,7 +183,7 @@ ReplyTask look_message(Daemon& daemon, Json message) {
   const std::uint64_t frames = message.contains("frames") ? require_count(message, "frames") : 0;
   const std::uint64_t events = message.contains("events") ? require_count(message, "events") : 0;
   const Pause pause(daemon);
-  world::LookedNames& known = daemon.onlookers().names;
+  world::LookedNames& known = daemon.observers().names;
   const auto list = require_list(known, message);
   if (list) known.begin(*list);
   while (list && known.look_up_next(*list)) co_await pause;
@@ -196,7 +196,7 @@ ReplyTask look_message(Daemon& daemon, Json message) {
   ReplyText text;
   text.member("pid", getpid());
   text.member("simulated_time_ns", daemon.world().now().count());
-  text.member("restores", daemon.onlookers().restores);
+  text.member("restores", daemon.observers().restores);
   text.member("paused", daemon.pacer().paused());
   text.member("speed", format_speed(daemon.pacer().speed()));
   text.member("advancing", daemon.is_advancing());

@@ -81,7 +81,7 @@ const Verb& require_verb(const Json& message) {
   throw MessageError(understudy::quoted(word) + " is not a command; expected one of " + names);
 }
 
-/// Whom onlookers are told: whoever asks may say that it is a page.
+/// Whom observers are told: whoever asks may say that it is a page.
 std::string take_author(Json& message) {
   if (!message.contains("as")) return "control";
   const std::string author = require_text(message, "as");
@@ -171,7 +171,7 @@ namespace {
 Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
   const Verb& verb = require_verb(message);
   const std::string author = take_author(message);
-  daemon.onlookers().events.set_author(author);
+  daemon.observers().events.set_author(author);
   if (verb.answer != nullptr) return verb.answer(daemon, message);
   if (verb.tell != nullptr) {
     tell(daemon, verb.tell(daemon, std::move(message)), reply);

@@ -77,7 +77,7 @@ Json speed_message(Daemon& daemon, const Json& message) {
                        " is not a speed; expected real, free, manual or a factor");
   }
   if (!daemon.set_speed(*speed)) throw MessageError("time is being advanced; expected `speed` after that");
-  daemon.onlookers().events.note("speed", format_speed(*speed));
+  daemon.observers().events.note("speed", format_speed(*speed));
   Json reply = time_of_now(daemon);
   reply["speed"] = format_speed(*speed);
   return reply;
@@ -97,7 +97,7 @@ void step_message(Daemon& daemon, const Json& message, const ControlServer::Repl
 
 Json snapshots_message(Daemon& daemon, const Json& message) {
   require_keys(message, {"do", "drop"});
-  auto& kept = daemon.onlookers().snapshots;
+  auto& kept = daemon.observers().snapshots;
   if (message.contains("drop") && kept.erase(require_text(message, "drop")) == 0) {
     throw MessageError("drop: there is no snapshot of that name");
   }
@@ -108,19 +108,19 @@ Json snapshots_message(Daemon& daemon, const Json& message) {
 
 Json snapshot_by_name(Daemon& daemon, const Json& message) {
   const std::string name = require_name(message);
-  auto& kept = daemon.onlookers().snapshots;
-  if (kept.size() >= Onlookers::kMaxSnapshots && !kept.contains(name)) {
+  auto& kept = daemon.observers().snapshots;
+  if (kept.size() >= Observers::kMaxSnapshots && !kept.contains(name)) {
     throw MessageError("name: there are " + std::to_string(kept.size()) +
                        " snapshots already; expected one to be dropped first");
   }
   daemon.catch_up();
-  kept.insert_or_assign(name, Onlookers::Kept{daemon.world().now(), world::save(daemon.world())});
+  kept.insert_or_assign(name, Observers::Kept{daemon.world().now(), world::save(daemon.world())});
   return time_of_now(daemon);
 }
 
 Json restore_by_name(Daemon& daemon, const Json& message) {
   const std::string name = require_name(message);
-  const auto& kept = daemon.onlookers().snapshots;
+  const auto& kept = daemon.observers().snapshots;
   const auto found = kept.find(name);
   if (found == kept.end()) {
     throw MessageError("name: " + understudy::quoted(name) +

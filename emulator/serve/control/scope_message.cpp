@@ -121,7 +121,7 @@ Json scope_reply(const world::Scope* scope) {
 /// All of one moment, put into words in pieces.
 ReplyTask samples_message(Daemon& daemon, std::uint64_t from) {
   const Pause pause(daemon);
-  const world::Scope& scope = *daemon.onlookers().scope;
+  const world::Scope& scope = *daemon.observers().scope;
   const std::uint64_t count = scope.count();
   const std::uint64_t end = std::min<std::uint64_t>(count, from + kMaxSamples);
   std::vector<std::vector<double>> samples(scope.setup().names.size());
@@ -150,7 +150,7 @@ ReplyTask told(Json reply) { co_return text_of(reply); }
 }  // namespace
 
 ReplyTask scope_message(Daemon& daemon, Json message) {
-  auto& scope = daemon.onlookers().scope;
+  auto& scope = daemon.observers().scope;
   if (message.contains("names")) {
     world::ScopeSetup setup = scope_setup(message);
     daemon.catch_up();

@@ -140,7 +140,7 @@ class Travel {
       moments_.push_back(told.time);
       next_frame_ = told.number + 1;
     }
-    for (const auto& event : daemon_.onlookers().events.since(next_event_, SIZE_MAX)) {
+    for (const auto& event : daemon_.observers().events.since(next_event_, SIZE_MAX)) {
       next_event_ = event.number + 1;
       if (event.what != "restored") stretch.events.push_back(event);  // that was to begin with
       if (!is_mark(event.what)) continue;

@@ -84,7 +84,7 @@ Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
       world_(bench, world_options(options), log_),
       frames_(world_, kFramesKept),
       missing_stations_(world_, log_),
-      onlookers_(world_, frames_),
+      observers_(world_, frames_),
       bench_path_(options.bench_path),
       bench_hash_(world::bench_hash(bench)),
       files_(options.files),
@@ -380,15 +380,15 @@ std::string_view Daemon::why_no_restore() const {
 
 void Daemon::tell_anew(std::vector<world::FrameLog::Frame> frames, std::vector<world::Event> events) {
   frames_.begin_anew_after(std::move(frames));
-  onlookers_.events.restored_after(std::move(events));
+  observers_.events.restored_after(std::move(events));
 }
 
 void Daemon::restore(const world::WorldState& state) {
   world::restore(world_, state);
   frames_.begin_anew();
-  onlookers_.events.restored();
-  ++onlookers_.restores;
-  if (onlookers_.scope) onlookers_.scope->begin_anew();
+  observers_.events.restored();
+  ++observers_.restores;
+  if (observers_.scope) observers_.scope->begin_anew();
   planned_.reset();
   behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());

@@ -14,7 +14,7 @@
 #include "emulator/serve/daemon/door.h"
 #include "emulator/serve/daemon/missing_stations.h"
 #include "emulator/serve/daemon/nv_keeper.h"
-#include "emulator/serve/daemon/onlookers.h"
+#include "emulator/serve/daemon/observers.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/pacer.h"
 #include "emulator/serve/ports/port.h"
@@ -82,7 +82,7 @@ class Daemon {
   /// The last frames on the lines.
   const world::FrameLog& frames() const { return frames_; }
   /// Data for observers.
-  Onlookers& onlookers() { return onlookers_; }
+  Observers& observers() { return observers_; }
 
   /// Pauses the clock. An advance in progress ends.
   void pause();
@@ -136,7 +136,7 @@ class Daemon {
   world::World world_;
   world::FrameLog frames_;
   MissingStations missing_stations_;
-  Onlookers onlookers_;
+  Observers observers_;
   std::string bench_path_;
   std::uint64_t bench_hash_;
   FileClaims files_;

@@ -66,7 +66,7 @@ void FrameLog::add(const pty::CapturedPacket& packet) {
   frame.comment.clear();
   if (pty::has_comment(packet)) frame.comment = pty::comment_of(packet);
   ++next_number_;
-  if (onlooker_) onlooker_(packet);
+  if (observer_) observer_(packet);
 }
 
 const FrameLog::Frame* FrameLog::request_before(std::size_t reply) const {

@@ -24,8 +24,8 @@ class FrameLog {
   FrameLog(const FrameLog&) = delete;
   FrameLog& operator=(const FrameLog&) = delete;
 
-  /// Passes each frame to `onlooker` as well.
-  void tell(std::function<void(const pty::CapturedPacket&)> onlooker) { onlooker_ = std::move(onlooker); }
+  /// Passes each frame to `observer` as well.
+  void tell(std::function<void(const pty::CapturedPacket&)> observer) { observer_ = std::move(observer); }
 
   /// Returns the last `most` frames, the oldest first: "3.0512s rs485 <- feeder.Cord_A = 32000".
   std::vector<std::string> last(std::size_t most);
@@ -78,7 +78,7 @@ class FrameLog {
 
   World& world_;
   std::size_t kept_;
-  std::function<void(const pty::CapturedPacket&)> onlooker_;
+  std::function<void(const pty::CapturedPacket&)> observer_;
   std::uint64_t next_number_ = 1;
   std::deque<Frame> frames_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line

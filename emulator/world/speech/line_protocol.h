@@ -53,7 +53,7 @@ class LineProtocol {
   /// Returns true if an answer tells that nothing was changed.
   virtual bool is_refusal(std::span<const std::uint8_t> /*answer*/) const { return false; }
 
-  // --- onlookers ---------------------------------------------------------------------------------
+  // --- observers ---------------------------------------------------------------------------------
   /// Makes packets of the traffic on the line with that number.
   virtual std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
                                                       pty::CaptureFrames::Sink sink) const = 0;

@@ -120,7 +120,7 @@ TEST(Plays, AreRecordedAndReplayed) {
   const Scenario scenario = parsed(kAllKinds + kMoves + kBack).front();
   RunOptions options;
   int count = 0;
-  options.onlookers.push_back([&](world::World& world) {
+  options.observers.push_back([&](world::World& world) {
     world::RecordingHeader header{.version = "1.2.3",
                                   .bench = world::to_text(scenario.bench),
                                   .options = {.strict_framing = true},
@@ -151,7 +151,7 @@ TEST(Plays, AreLinted) {
           "  - repeat: { times: 20, as: n, steps: [ write: { it.Gain_X: \"${n % 2}.5\" } ] }\n")
           .front();
   RunOptions options;
-  options.onlookers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
+  options.observers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
   const auto results = run_scenario(scenario, options);
   expect_passed(results, 1);
   std::string all;

@@ -257,7 +257,7 @@ TEST(FaultOfALine, ThatSpoilsARequestIsAReceiveErrorThere) {
   }
 }
 
-// --- onlookers -----------------------------------------------------------------------------------
+// --- observers -----------------------------------------------------------------------------------
 
 TEST(PortsOnLines, AreToldApartAmongTheFrames) {
   TwoLines two;

@@ -1,5 +1,5 @@
 // Terminals of every kind and in hundreds: what is counted, analog outputs, short pulses, groups; and what
-// onlookers see of them.
+// observers see of them.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

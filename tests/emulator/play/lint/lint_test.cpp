@@ -188,7 +188,7 @@ TEST_F(InstantLintTest, WhereBytesTakeNoTimeTheHostIsNotHeldToAny) {
 
 RunOptions with_lint(bool with_hash = false) {
   RunOptions options{.with_hash = with_hash};
-  options.onlookers.push_back([](world::World& world) { return std::make_unique<Lint>(world); });
+  options.observers.push_back([](world::World& world) { return std::make_unique<Lint>(world); });
   return options;
 }
 

@@ -17,7 +17,7 @@ namespace performance_recorder_test {
 std::vector<ScenarioResult> recorded(const Scenario& scenario, const ScenarioFolder& folder) {
   RunOptions options;
   int count = 0;
-  options.onlookers.push_back([&](world::World& world) {
+  options.observers.push_back([&](world::World& world) {
     world::RecordingHeader header{.version = "1.2.3",
                                   .bench = world::to_text(scenario.bench),
                                   .options = {.strict_framing = true},

@@ -16,7 +16,7 @@ namespace page_test {
 
 RunOptions filmed() {
   RunOptions options;
-  options.onlookers.push_back([](world::World& world) { return std::make_unique<RunLogger>(world); });
+  options.observers.push_back([](world::World& world) { return std::make_unique<RunLogger>(world); });
   return options;
 }
 

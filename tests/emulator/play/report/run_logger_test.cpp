@@ -8,7 +8,7 @@ namespace run_logger_test {
 
 RunOptions filmed(bool with_hash = false) {
   RunOptions options{.with_hash = with_hash};
-  options.onlookers.push_back([](world::World& world) { return std::make_unique<RunLogger>(world); });
+  options.observers.push_back([](world::World& world) { return std::make_unique<RunLogger>(world); });
   return options;
 }
 

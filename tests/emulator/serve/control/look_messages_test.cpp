@@ -1,4 +1,4 @@
-// What onlookers ask for: what there is on a bench, how it is doing, what has happened.
+// What observers ask for: what there is on a bench, how it is doing, what has happened.
 #include "pty/rtu_crc.h"
 #include "tests/emulator/serve/control/daemon_rig.h"
 
@@ -341,7 +341,7 @@ TEST(LookMessage, KeepsNamesForTheirNumber) {
     }
   }
   EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", number}}.dump())["ok"], true);
-  EXPECT_EQ(rig.daemon.onlookers().names.lists(), world::LookedNames::kMaxLists);
+  EXPECT_EQ(rig.daemon.observers().names.lists(), world::LookedNames::kMaxLists);
   for (int i = 0; i < 70; ++i) rig.ask(Json{{"do", "look"}, {"names", {"m" + std::to_string(i)}}}.dump());
   EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", number}}.dump())["ok"], false);
 }
@@ -357,7 +357,7 @@ TEST(LookMessage, KeepsABoundedNumberOfNames) {
     EXPECT_EQ(reply["values"][599], 0);
     numbers.push_back(reply["look"]);
   }
-  EXPECT_EQ(rig.daemon.onlookers().names.lists(), world::LookedNames::kMaxKept / 600);
+  EXPECT_EQ(rig.daemon.observers().names.lists(), world::LookedNames::kMaxKept / 600);
   EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", numbers.back()}}.dump())["ok"], true);
   EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", numbers.front()}}.dump())["ok"], false);
 }

@@ -1,4 +1,4 @@
-// What onlookers are told of faults that act on messages: each kind, on replies and on requests, as a capture
+// What observers are told of faults that act on messages: each kind, on replies and on requests, as a capture
 // has it.
 #include "emulator/models/models.h"
 #include "emulator/world/faults/kinds.h"

@@ -32,7 +32,7 @@ std::uint64_t number_from(const char* name, std::uint64_t usual) {
 }
 
 /// How the other world is kept awake.
-enum class Waker : std::uint8_t { single_ticks, waiting_fault, onlooker, odd_steps, what_is_due };
+enum class Waker : std::uint8_t { single_ticks, waiting_fault, observer, odd_steps, what_is_due };
 constexpr const char* kWakers[] = {"by single ticks", "beside a fault that waits", "before an onlooker",
                                    "by odd steps", "by what is due"};
 
@@ -165,9 +165,9 @@ class Pair {
       : waker_(static_cast<Waker>(seed % 5)), plain_(course.bench, {}, {}), awake_(course.bench, {}, {}) {
     if (waker_ == Waker::waiting_fault) {
       awake_.inject(find_fault(awake_.known(), {"drop", "b", {{"when", "time < 0s"}}}));
-    } else if (waker_ == Waker::onlooker) {
-      onlooker_.emplace(awake_);
-      awake_.add_watcher(*onlooker_);
+    } else if (waker_ == Waker::observer) {
+      observer_.emplace(awake_);
+      awake_.add_watcher(*observer_);
     } else if (waker_ == Waker::odd_steps) {
       step_ = by_odd_steps(seed);
     } else if (waker_ == Waker::what_is_due) {
@@ -181,7 +181,7 @@ class Pair {
     }
   }
   ~Pair() {
-    if (onlooker_) awake_.remove_watcher(*onlooker_);
+    if (observer_) awake_.remove_watcher(*observer_);
   }
 
   const char* waker() const { return kWakers[static_cast<std::size_t>(waker_)]; }
@@ -202,7 +202,7 @@ class Pair {
   Waker waker_;
   World plain_;
   World awake_;
-  std::optional<OutcomeHash> onlooker_;
+  std::optional<OutcomeHash> observer_;
   Stepping step_ = [](World& world, SimTime to) { world.advance_to(to); };
 };
 

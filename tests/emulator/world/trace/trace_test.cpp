@@ -16,9 +16,9 @@ namespace understudy::emulator::world {
 namespace trace_test {
 
 /// Traces while a scenario is played.
-class TracingOnlooker final : public play::Onlooker {
+class TracingObserver final : public play::Observer {
  public:
-  TracingOnlooker(World& world, std::string& csv, std::string& vcd)
+  TracingObserver(World& world, std::string& csv, std::string& vcd)
       : csv_(world, trace_signals(world, kAlso),
              csv_format([&csv](std::string_view lines) { csv += lines; })),
         vcd_(world, trace_signals(world, kAlso),
@@ -33,7 +33,7 @@ class TracingOnlooker final : public play::Onlooker {
 };
 
 /// Some values at the end of every tick.
-class Witness final : public play::Onlooker, private TickWatcher {
+class Witness final : public play::Observer, private TickWatcher {
  public:
   using Rows = std::vector<std::pair<Tick, std::vector<double>>>;
   static inline const std::vector<std::string> kNames{"feeder.A.position", "feeder.A.speed", "feeder.DIN_10",
@@ -67,10 +67,10 @@ struct Traced {
 Traced traced() {
   Traced traced;
   play::RunOptions options;
-  options.onlookers.push_back([&](World& world) -> std::unique_ptr<play::Onlooker> {
-    return std::make_unique<TracingOnlooker>(world, traced.csv, traced.vcd);
+  options.observers.push_back([&](World& world) -> std::unique_ptr<play::Observer> {
+    return std::make_unique<TracingObserver>(world, traced.csv, traced.vcd);
   });
-  options.onlookers.push_back([&](World& world) -> std::unique_ptr<play::Onlooker> {
+  options.observers.push_back([&](World& world) -> std::unique_ptr<play::Observer> {
     return std::make_unique<Witness>(world, traced.rows);
   });
   const std::string steps =

@@ -16,10 +16,10 @@
 
 namespace understudy::emulator::serve {
 
-struct Onlookers {
+struct Observers {
   static constexpr std::size_t kMaxSnapshots = 16;
 
-  Onlookers(world::World& world, const world::FrameLog& frames) : events(world, frames), names(world) {}
+  Observers(world::World& world, const world::FrameLog& frames) : events(world, frames), names(world) {}
 
   world::EventLog events;
   std::uint64_t restores =

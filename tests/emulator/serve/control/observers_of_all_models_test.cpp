@@ -1,10 +1,10 @@
-// What onlookers are told of every model alike: where a move will end, how programs are started and stopped,
+// What observers are told of every model alike: where a move will end, how programs are started and stopped,
 // what the memory has been given.
 #include "emulator/device/program_language.h"
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
-namespace onlookers_of_all_models_test {
+namespace observers_of_all_models_test {
 
 /// One device, called d, whose clock stands.
 struct OneDevice {
@@ -266,5 +266,5 @@ TEST(KeptWrites, AreCountedWhenTheyAreDone) {
   EXPECT_EQ(writes(), before + 3);
 }
 
-}  // namespace onlookers_of_all_models_test
+}  // namespace observers_of_all_models_test
 }  // namespace understudy::emulator::serve

@@ -12,9 +12,9 @@
 namespace understudy::emulator::play {
 
 /// All its functions are called on the thread that runs the world, between two ticks.
-class Onlooker {
+class Observer {
  public:
-  virtual ~Onlooker() = default;
+  virtual ~Observer() = default;
   /// The world was put into another state, after this many steps: time may have gone back, and the state of
   /// the lines has changed.
   virtual void world_restored(std::size_t steps) = 0;
@@ -24,6 +24,6 @@ class Onlooker {
 };
 
 /// Called for each scenario and each branch. The world outlives the result.
-using OnlookerMaker = std::function<std::unique_ptr<Onlooker>(world::World&)>;
+using ObserverMaker = std::function<std::unique_ptr<Observer>(world::World&)>;
 
 }  // namespace understudy::emulator::play
