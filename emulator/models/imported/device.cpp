@@ -65,7 +65,7 @@ ImportedDevice::ImportedDevice(const ImportedModel& model, const DeviceSettings&
   state_ = state_at_power_up();
   for (const Following& following : description().followings) {
     const double period_s = static_cast<double>(following.every) / motion::kTicksPerSecond;
-    shares_.push_back(share_of_way(period_s, following.time_constant_s));
+    shares_.push_back(lag_fraction(period_s, following.time_constant_s));
   }
 }
 

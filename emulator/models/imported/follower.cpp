@@ -22,7 +22,7 @@ double by_series(double x) {
 
 }  // namespace
 
-double share_of_way(double time_s, double time_constant_s) {
+double lag_fraction(double time_s, double time_constant_s) {
   if (!(time_constant_s > 0)) return 1;
   double x = time_s / time_constant_s;
   if (!(x < 50)) return 1;
@@ -34,7 +34,7 @@ double share_of_way(double time_s, double time_constant_s) {
   return share;
 }
 
-double come_nearer(double value, double goal, double share, double most) {
+double approach(double value, double goal, double share, double most) {
   double step = share * (goal - value);
   if (most > 0) step = std::clamp(step, -most, most);
   const double next = value + step;

@@ -8,11 +8,11 @@ namespace understudy::emulator::models::imported {
 /// Returns the share of the distance to its goal that a first-order lag covers in a time: 1 - exp(-time /
 /// time_constant). It uses only + - * /, so the result has the same bits everywhere; the relative error is
 /// below 1e-14. The share is 1 for a time constant of 0.
-double share_of_way(double time_s, double time_constant_s);
+double lag_fraction(double time_s, double time_constant_s);
 
 /// Returns the value at the end of one period, in which it covers `share` of the distance to `goal`, and at
 /// most `most` if that is above 0. A remaining distance of less than a thousand millionth of the goal (or of
 /// 1) is dropped at once, since it would never end.
-double come_nearer(double value, double goal, double share, double most);
+double approach(double value, double goal, double share, double most);
 
 }  // namespace understudy::emulator::models::imported

@@ -91,7 +91,7 @@ void ImportedDevice::renew_followed(Tick tick) {
     if (tick % following.every != 0) continue;
     const double most = following.most_per_s * static_cast<double>(following.every) / motion::kTicksPerSecond;
     const double before = state_.followed[i];
-    state_.followed[i] = come_nearer(before, goal_of(following), shares_[i], most);
+    state_.followed[i] = approach(before, goal_of(following), shares_[i], most);
     if (state_.followed[i] != before && !state_.axes.empty()) state_.touched = true;  // it may be a speed
   }
 }

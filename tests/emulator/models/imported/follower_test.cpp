@@ -13,18 +13,18 @@ TEST(Follower, GoesTheShareOfAnExponential) {
   for (const double time : {1e-3, 0.01, 0.1, 1.0, 60.0}) {
     for (const double constant : {1e-4, 0.003, 0.1, 0.5, 1.0, 30.0, 1e5, 1e9}) {
       const double expected = -std::expm1(-time / constant);
-      EXPECT_NEAR(share_of_way(time, constant), expected, 1e-14 * expected) << time << " " << constant;
+      EXPECT_NEAR(lag_fraction(time, constant), expected, 1e-14 * expected) << time << " " << constant;
     }
   }
-  EXPECT_EQ(share_of_way(0.1, 0), 1);
+  EXPECT_EQ(lag_fraction(0.1, 0), 1);
 }
 
 TEST(Follower, ComesNearerNoFasterThanItMay) {
-  EXPECT_EQ(come_nearer(0, 100, 1, 0), 100);
-  EXPECT_EQ(come_nearer(0, 100, 0.25, 0), 25);
-  EXPECT_EQ(come_nearer(0, 100, 0.25, 10), 10);
-  EXPECT_EQ(come_nearer(0, -100, 0.25, 10), -10);
-  EXPECT_EQ(come_nearer(99.99999999, 100, 0.25, 10), 100) << "a rest has an end";
+  EXPECT_EQ(approach(0, 100, 1, 0), 100);
+  EXPECT_EQ(approach(0, 100, 0.25, 0), 25);
+  EXPECT_EQ(approach(0, 100, 0.25, 10), 10);
+  EXPECT_EQ(approach(0, -100, 0.25, 10), -10);
+  EXPECT_EQ(approach(99.99999999, 100, 0.25, 10), 100) << "a rest has an end";
 }
 
 /// Whatever its period, at every renewal: goal + (start - goal) exp(-t / constant), rounded.
