@@ -73,7 +73,7 @@ void Device::switch_power(bool on) {
   }
 }
 
-void Device::mention_unmodelled(std::string_view what, std::string_view why) const {
+void Device::warn_not_implemented(std::string_view what, std::string_view why) const {
   if (!log_ || mentioned_.contains(what)) return;
   mentioned_.emplace(what);
   log_(name() + ": " + std::string(what) + " is not modelled: " + std::string(why));

@@ -149,7 +149,7 @@ class Device {
 
   // --- log -----------------------------------------------------------------------------------
   /// Warns the user, once for each item, that a register, a command or a parameter is not modelled.
-  void mention_unmodelled(std::string_view what, std::string_view why) const;
+  void warn_not_implemented(std::string_view what, std::string_view why) const;
   void set_log(std::function<void(const std::string&)> log) { log_ = std::move(log); }
 
  protected:

@@ -47,7 +47,7 @@ struct NamedParameterRow {
   std::string_view unit{};
   std::string factory{};
   std::string_view meaning{};
-  std::string_view unmodelled{};  // what is missing, if it is only stored
+  std::string_view not_implemented{};  // what is missing, if it is only stored
 };
 
 /// A section of a manual that is not in English: a model's rows name it as the manual does, by its title or

@@ -122,7 +122,7 @@ Sheet registers(const Model& model, SheetFormat format) {
       if (for_people) {
         cells.push_back(row.since == 0 ? "" : version_text(row.since));
         cells.push_back(section_for_people(model, row.section));
-        cells.emplace_back(row.unmodelled);
+        cells.emplace_back(row.not_implemented);
       }
       if (has_reals) cells.emplace_back(row.type == Type::f32 ? "1" : "0");
       if (has_fields) cells.push_back(fields_of(row));
@@ -151,7 +151,7 @@ Sheet parameters(const Model& model) {
     sheet.rows.push_back({std::string(row.number), std::string(row.name), "", std::to_string(row.width),
                           row.persistent ? "1" : "0"});
     for (const std::string_view cell : {std::string_view(row.least), std::string_view(row.most), row.unit,
-                                        std::string_view(row.factory), row.meaning, row.unmodelled}) {
+                                        std::string_view(row.factory), row.meaning, row.not_implemented}) {
       sheet.rows.back().emplace_back(cell);
     }
   }

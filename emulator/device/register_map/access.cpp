@@ -212,7 +212,7 @@ void store(RegisterBank& bank, Change& change) {
 void take_effect(RegisterBank& bank, const Change& change) {
   const RegisterRow& row = *change.place.row;
   if (change.bits == 0 && !row.acts_on_zero) return;
-  if (!row.unmodelled.empty()) bank.mention_unmodelled(row);
+  if (!row.not_implemented.empty()) bank.warn_not_implemented(row);
   if (row.effect != nullptr) {
     Cell cell = cell_of(change.place);
     cell.high_half = !is_32_bit(row.type) || change.high;

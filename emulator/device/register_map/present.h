@@ -36,8 +36,8 @@ inline std::uint16_t word_of(std::uint32_t bits, Place::Part part) {
 /// Warns about an unmodelled register that the controller itself should set. Reading back a written value
 /// needs no warning.
 inline void mention_if_missed(const RegisterBank& bank, const Place& place) {
-  if (!place.row->unmodelled.empty() && place.row->access == Access::read)
-    bank.mention_unmodelled(*place.row);
+  if (!place.row->not_implemented.empty() && place.row->access == Access::read)
+    bank.warn_not_implemented(*place.row);
 }
 
 inline Objection objection(Refusal refusal, Cause cause, std::size_t address) {

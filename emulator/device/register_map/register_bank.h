@@ -79,7 +79,7 @@ class RegisterBank {
   /// Called after a write request has been stored and all its effects have run.
   virtual void registers_written() {}
   /// Warns the user, once for each row, that it is not modelled.
-  virtual void mention_unmodelled(const RegisterRow& row) const = 0;
+  virtual void warn_not_implemented(const RegisterRow& row) const = 0;
 
  protected:
   RegisterBank(const RegisterMap& map, Firmware firmware) : map_(map), map_firmware_(firmware) {}

@@ -44,7 +44,7 @@ constexpr std::array<std::pair<std::string_view, Table>, 4> kTables{{{"holding",
 
 /// Whether reading it asks for nothing but its value, in every firmware.
 bool reads_plainly(const RegisterRow& row) {
-  return row.since == 0 && row.unmodelled.empty() && row.fields.empty() && row.access != Access::write &&
+  return row.since == 0 && row.not_implemented.empty() && row.fields.empty() && row.access != Access::write &&
          row.message == nullptr;
 }
 

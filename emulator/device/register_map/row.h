@@ -191,10 +191,10 @@ struct RegisterRow {
   bool is_view = false;  // shows other state: no slot in the image, not persistent; without a reader its
                          // value is `factory`
   std::span<const BitField> fields{};
-  Message message = nullptr;    // a window: takes what one request writes from its first word on,
-  int least_words = 1;          // this many words or more, as one message
-  bool acts_on_zero = true;     // false: a trigger, for which a written 0 has no effect
-  std::string_view unmodelled;  // if the register only stores and reads back: what is missing
+  Message message = nullptr;         // a window: takes what one request writes from its first word on,
+  int least_words = 1;               // this many words or more, as one message
+  bool acts_on_zero = true;          // false: a trigger, for which a written 0 has no effect
+  std::string_view not_implemented;  // if the register only stores and reads back: what is missing
 
   // --- how a row is written down ---------------------------------------------------------------
   constexpr RegisterRow& also(std::string_view other_spelling) {
@@ -315,7 +315,7 @@ struct RegisterRow {
     return not_modelled(what_is_missing);
   }
   constexpr RegisterRow& not_modelled(std::string_view what_is_missing) {
-    unmodelled = what_is_missing;
+    not_implemented = what_is_missing;
     return *this;
   }
 };

@@ -229,7 +229,7 @@ void ImportedDevice::attempt(std::size_t axis, Act act) {
   try {
     act();
   } catch (const motion::BadMotion& error) {
-    Device::mention_unmodelled(description().axes[axis].name, error.what());
+    Device::warn_not_implemented(description().axes[axis].name, error.what());
   }
 }
 

@@ -54,8 +54,8 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override;
   void register_written(const RegisterRow& row, std::size_t slot) override;
   void registers_written() override;
-  void mention_unmodelled(const RegisterRow& row) const override {
-    Device::mention_unmodelled(row.name, row.unmodelled);
+  void warn_not_implemented(const RegisterRow& row) const override {
+    Device::warn_not_implemented(row.name, row.not_implemented);
   }
   /// Returns what a register holds now, by its type.
   Value value_of_register(std::size_t number) const;

@@ -60,8 +60,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void exception_answered(const RefusedRequest& request) override;
   bool keeps(const RegisterRow& row) const override;
   void register_written(const RegisterRow& row, std::size_t slot) override;
-  void mention_unmodelled(const RegisterRow& row) const override {
-    Device::mention_unmodelled(row.name, row.unmodelled);
+  void warn_not_implemented(const RegisterRow& row) const override {
+    Device::warn_not_implemented(row.name, row.not_implemented);
   }
   Addressing addressing(std::uint8_t address) const override;
 

@@ -5,9 +5,9 @@
 #include "emulator/device/device.h"
 #include "emulator/models/rs_m8194h/commands.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/not_implemented.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/state.h"
-#include "emulator/models/rs_m8194h/unmodelled.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/verbs.h"
@@ -58,8 +58,8 @@ void RsM8194h::run_fifo(int& steps) {
 }
 
 Took RsM8194h::carry_out(const lang::Command& command) {
-  for (const UnmodelledRow& row : kUnmodelledRows) {
-    if (is_meant(row, command)) Device::mention_unmodelled(row.what, row.why);
+  for (const NotImplementedRow& row : kNotImplementedRows) {
+    if (is_meant(row, command)) Device::warn_not_implemented(row.what, row.why);
   }
   return action_of(command.verb())(*this, command);
 }

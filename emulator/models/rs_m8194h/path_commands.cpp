@@ -12,11 +12,11 @@
 #include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/not_implemented.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/path_rows.h"
 #include "emulator/models/rs_m8194h/paths.h"
 #include "emulator/models/rs_m8194h/state.h"
-#include "emulator/models/rs_m8194h/unmodelled.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/commands.h"
 #include "motion/axis.h"
@@ -157,7 +157,7 @@ Took RsM8194h::begin_path(const HeldPath& path) {
     draw(path, joins);
   } catch (const motion::BadMotion& bad) {
     if (bad.refusal() == motion::Refusal::out_of_range)
-      Device::mention_unmodelled(kLongHelix, kWhyNoLongHelix);
+      Device::warn_not_implemented(kLongHelix, kWhyNoLongHelix);
     module_error();  // no such arc, for example
   }
   return Took::done;

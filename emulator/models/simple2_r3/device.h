@@ -137,8 +137,8 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
     state_.touched = true;
     was_saving_.reset();
   }
-  void mention_unmodelled(const RegisterRow& row) const override {
-    Device::mention_unmodelled(row.name, row.unmodelled);
+  void warn_not_implemented(const RegisterRow& row) const override {
+    Device::warn_not_implemented(row.name, row.not_implemented);
   }
 
   bool keeps(const RegisterRow& row) const override;

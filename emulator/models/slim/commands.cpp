@@ -82,7 +82,7 @@ struct SlimActions {
   // --- one motor ---
 
   static Error thrust(Order& order) {
-    order.slim.mention_unmodelled("FT", "it has no load to push");
+    order.slim.warn_not_implemented("FT", "it has no load to push");
     return order.chain.thrust(order.module, whole(order, 0));
   }
 

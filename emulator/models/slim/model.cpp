@@ -114,7 +114,7 @@ std::vector<NamedParameterRow> parameter_rows() {
                     .unit = row.unit,
                     .factory = text_of_real(row.factory),
                     .meaning = row.meaning,
-                    .unmodelled = row.unmodelled});
+                    .not_implemented = row.not_implemented});
   }
   return rows;
 }

@@ -25,7 +25,7 @@ struct ParameterDefinition {
   std::string_view unit;
   bool host_only = false;  // one for the whole chain, stored in T0
   std::string_view meaning;
-  std::string_view unmodelled{};  // what is missing, if the parameter is only stored
+  std::string_view not_implemented{};  // what is missing, if the parameter is only stored
 };
 
 inline constexpr double kMaxReal = 3.4028234663852886e38;  // float32

@@ -153,7 +153,7 @@ struct SlimQueries {
     }
     /// Not modelled; kGaps says so.
     Error electrical(double value) const {
-      slim.mention_unmodelled(command.name, "nothing electrical is; the value is always the same");
+      slim.warn_not_implemented(command.name, "nothing electrical is; the value is always the same");
       return whole(value);
     }
   };
@@ -197,7 +197,7 @@ struct SlimQueries {
                                                      : q.words(time_text(seconds));
   }
   static Error following_error(const Question& q) {
-    q.slim.mention_unmodelled(q.command.name, "the servo follows without error");
+    q.slim.warn_not_implemented(q.command.name, "the servo follows without error");
     return q.whole(0);
   }
   static Error parameter_value(const Question& q) {

@@ -113,7 +113,8 @@ Error Slim::set_parameter(int module, std::string_view given_name, double value)
     }
     return Error::none;
   }
-  if (!row.unmodelled.empty() && !is_of_user_unit(*number)) mention_unmodelled(row.name, row.unmodelled);
+  if (!row.not_implemented.empty() && !is_of_user_unit(*number))
+    warn_not_implemented(row.name, row.not_implemented);
   const Error error = apply_parameter(module, *number, *fits);
   if (error == Error::none) state_.ram.parameters[at(module)][*number] = *fits;
   if (error == Error::none && *number == parameter("PN50")) {

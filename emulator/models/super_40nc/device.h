@@ -63,7 +63,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void register_written(const RegisterRow& row, std::size_t slot) override;
   bool keeps(const RegisterRow& row) const override;
   void registers_written() override { state_.touched = true; }
-  void mention_unmodelled(const RegisterRow& row) const override;
+  void warn_not_implemented(const RegisterRow& row) const override;
   const MapPolicy& map_policy() const override { return map_policy_; }
   Addressing addressing(std::uint8_t address) const override;
   bool knows(std::uint8_t function) const override;

@@ -120,9 +120,9 @@ void Super40nc::register_written(const RegisterRow& row, std::size_t slot) {
   if (keeps(row)) state_.eeprom.write(slot, state_.image[slot], 0, now());
 }
 
-void Super40nc::mention_unmodelled(const RegisterRow& row) const {
+void Super40nc::warn_not_implemented(const RegisterRow& row) const {
   const std::string name = RegisterMap::name_of(row, 0);
-  Device::mention_unmodelled(name, row.unmodelled);
+  Device::warn_not_implemented(name, row.not_implemented);
 }
 
 std::function<void(NvImage&)> Super40nc::memory_writer() const {

@@ -142,7 +142,7 @@ MadeParameters make_parameters() {
                          .unit = row.unit,
                          .factory = std::to_string(factory),
                          .meaning = meaning,
-                         .unmodelled = has_register ? "" : "the panel's own"});
+                         .not_implemented = has_register ? "" : "the panel's own"});
   };
   for (const PanelParameter& row : kBase) add(row, "C", row.d9);
   for (int axis = 0; axis < kAxisCount; ++axis) {

@@ -140,7 +140,7 @@ Json json_of_row(const Device& device, const RegisterRow& row, int index, int se
       entry["bits"].push_back({{"bit", field.bit}, {"width", field.width}, {"name", field.name}});
     }
   }
-  if (!row.unmodelled.empty()) entry["not_modelled"] = row.unmodelled;
+  if (!row.not_implemented.empty()) entry["not_modelled"] = row.not_implemented;
   if (row.message != nullptr) entry["window"] = true;
   if (Json about = choices_about(device.model(), row, index); !about.empty())
     entry["choices"] = std::move(about);
@@ -264,7 +264,7 @@ Json json_of_parameter(const NamedParameterRow& row) {
   Json entry{{"name", row.name},       {"number", row.number},  {"access", "R/W"}, {"section", 0},
              {"kept", row.persistent}, {"min", row.least},      {"max", row.most}, {"unit", row.unit},
              {"factory", row.factory}, {"meaning", row.meaning}};
-  if (!row.unmodelled.empty()) entry["not_modelled"] = row.unmodelled;
+  if (!row.not_implemented.empty()) entry["not_modelled"] = row.not_implemented;
   return entry;
 }
 

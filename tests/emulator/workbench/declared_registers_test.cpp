@@ -78,7 +78,7 @@ class Declared final : public DeviceOf<Declared>, public RegisterBankOf<Declared
   std::span<std::uint32_t> image() override { return stored; }
   std::span<const std::uint32_t> image() const override { return stored; }
   void register_written(const RegisterRow&, std::size_t) override {}
-  void mention_unmodelled(const RegisterRow&) const override {}
+  void warn_not_implemented(const RegisterRow&) const override {}
   bool same_state(const Device&) const override { return false; }
 
   std::vector<std::uint32_t> stored;

@@ -155,7 +155,7 @@ TEST(Each, CountsAxesAsTheDeviceDoes) {
     std::span<std::uint32_t> image() override { return {}; }
     std::span<const std::uint32_t> image() const override { return {}; }
     void register_written(const RegisterRow&, std::size_t) override {}
-    void mention_unmodelled(const RegisterRow&) const override {}
+    void warn_not_implemented(const RegisterRow&) const override {}
   };
   DeviceSettings settings;
   settings.name = "it";
@@ -185,7 +185,7 @@ TEST(Firmware, ARowThatItLacksIsAHoleToWritesOfAllKinds) {
       std::span<std::uint32_t> image() override { return stored; }
       std::span<const std::uint32_t> image() const override { return stored; }
       void register_written(const RegisterRow&, std::size_t) override {}
-      void mention_unmodelled(const RegisterRow&) const override {}
+      void warn_not_implemented(const RegisterRow&) const override {}
       std::array<std::uint32_t, 4> stored{};
     };
     Bank bank(map);

@@ -140,8 +140,8 @@ class Workbench final : public DeviceOf<Workbench>,
   void register_written(const RegisterRow& row, std::size_t slot) override {
     if (keeps(row)) state.kept.eeprom.write(slot, stored(slot), kWriteTime, now());
   }
-  void mention_unmodelled(const RegisterRow& row) const override {
-    Device::mention_unmodelled(row.name, row.unmodelled);
+  void warn_not_implemented(const RegisterRow& row) const override {
+    Device::warn_not_implemented(row.name, row.not_implemented);
   }
   Addressing addressing(std::uint8_t address) const override {
     if (address == stored(station_)) return Addressing::obey_and_reply;

@@ -298,7 +298,7 @@ TEST(Policy, TheHighWordMayComeFirst) {
   EXPECT_EQ(toy.device.events.at(toy.device.events.size() - 2), "2[0]=9 first=5 low");
 }
 
-TEST(Unmodelled, IsMentionedOnceForEachRow) {
+TEST(NotImplemented, IsMentionedOnceForEachRow) {
   const RegisterRow rows[] = {
       reg(0x10, "Gone{}", Type::u16, Access::read_write).times(2, 1, 0).not_modelled("it only stores"),
       reg(0x12, "Fine", Type::u16, Access::read_write),
@@ -317,7 +317,7 @@ TEST(Unmodelled, IsMentionedOnceForEachRow) {
 }
 
 /// What the controller should say by itself, by a word and by a bit, beside what it does say.
-TEST(Unmodelled, IsMentionedToWhoReadsIt) {
+TEST(NotImplemented, IsMentionedToWhoReadsIt) {
   const RegisterRow rows[] = {reg(0x10, "Fine", Type::u16, Access::read),
                               reg(0x11, "Word", Type::u16, Access::read).not_modelled("no word"),
                               reg(0x12, "Pair", Type::u32, Access::read).not_modelled("no pair"),
@@ -333,7 +333,7 @@ TEST(Unmodelled, IsMentionedToWhoReadsIt) {
     EXPECT_NE(log.find(missing), std::string::npos) << log;
 }
 
-TEST(Unmodelled, IsMentionedToWhoReadsItByName) {
+TEST(NotImplemented, IsMentionedToWhoReadsItByName) {
   const RegisterRow rows[] = {reg(0x10, "Set", Type::u16, Access::read_write).not_modelled("no use"),
                               reg(0x11, "Told", Type::u16, Access::read).not_modelled("no word")};
   Toy toy(rows);

@@ -41,8 +41,8 @@ class ToyDevice final : public DeviceOf<ToyDevice>, public RegisterBankOf<ToyDev
   bool low_word_first() const override { return is_low_word_first; }
   void register_written(const RegisterRow&, std::size_t) override {}
   void registers_written() override { events.push_back("written"); }
-  void mention_unmodelled(const RegisterRow& row) const override {
-    Device::mention_unmodelled(row.name, row.unmodelled);
+  void warn_not_implemented(const RegisterRow& row) const override {
+    Device::warn_not_implemented(row.name, row.not_implemented);
   }
   bool same_state(const Device&) const override { return false; }
   bool takes_whole(const RegisterRequest& request) const override {

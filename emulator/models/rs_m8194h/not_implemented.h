@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-struct UnmodelledRow {
+struct NotImplementedRow {
   interpreter::rs_m8194h::Verb verb;
   std::size_t parameter;  // the row applies if this parameter is below `least`
   std::uint32_t least;
@@ -21,7 +21,7 @@ struct UnmodelledRow {
 inline constexpr std::string_view kShortPulses = "PulseWidth below 1 ms";
 inline constexpr std::string_view kWhyNoShortPulses =
     "the levels of OUT_X and OUT_Y are those of ticks; such a pulse is counted, and has no length";
-inline constexpr UnmodelledRow kUnmodelledRows[] = {
+inline constexpr NotImplementedRow kNotImplementedRows[] = {
     {interpreter::rs_m8194h::Verb::set_filter, 2, 3, "a filter below 1.024 ms",
      "inputs change at ticks, and edges of a machine lie at pulses; it does not delay, or a tick by the "
      "choice "
@@ -35,7 +35,7 @@ inline constexpr std::string_view kLongHelix =
 inline constexpr std::string_view kWhyNoLongHelix =
     "arcs end at 1,000,000 rad; it is void, with the module's error (RINT bit 7)";
 
-constexpr bool is_meant(const UnmodelledRow& row, const interpreter::rs_m8194h::Command& command) {
+constexpr bool is_meant(const NotImplementedRow& row, const interpreter::rs_m8194h::Command& command) {
   // A filter of no input does not delay any.
   const bool is_used = row.verb != interpreter::rs_m8194h::Verb::set_filter || command.values[1] != 0;
   return row.verb == command.verb() && is_used && command.values[row.parameter] < row.least;
