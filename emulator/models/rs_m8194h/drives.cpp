@@ -1,4 +1,4 @@
-// Drives of single axes: whether they begin, wait, are held or void (meetings.h), and how they begin.
+// Drives of single axes: whether they begin, wait, are held or void (transitions.h), and how they begin.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -7,10 +7,10 @@
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
-#include "emulator/models/rs_m8194h/meetings.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/paths.h"
 #include "emulator/models/rs_m8194h/state.h"
+#include "emulator/models/rs_m8194h/transitions.h"
 #include "motion/axis.h"
 #include "motion/environment.h"
 #include "motion/homing.h"

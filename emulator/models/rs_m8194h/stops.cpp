@@ -1,4 +1,4 @@
-// Stops, locks and holds, and what takes them away (7.5): by the rows of meetings.h.
+// Stops, locks and holds, and what takes them away (7.5): by the rows of transitions.h.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,9 +9,9 @@
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
-#include "emulator/models/rs_m8194h/meetings.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/paths.h"
+#include "emulator/models/rs_m8194h/transitions.h"
 #include "interpreter/rs_m8194h/verbs.h"
 #include "motion/axis.h"
 #include "motion/environment.h"
@@ -50,7 +50,7 @@ void RsM8194h::leave_path(std::size_t axis, Halt halt) {
   }
 }
 
-/// What the axis had left to be done, as far as this takes it away (meetings.h).
+/// What the axis had left to be done, as far as this takes it away (transitions.h).
 void RsM8194h::take_off(std::size_t axis, WayOut way) {
   AxisUnit& unit = state_.units[axis];
   if (takes_off(way, Mark::paused_drive)) unit.paused_drive = {};

@@ -6,7 +6,7 @@
 
 #include "base/prefetch.h"
 #include "base/simulated_time.h"
-#include "emulator/models/simple2_r3/reactions.h"
+#include "emulator/models/simple2_r3/transitions.h"
 #include "motion/axis.h"
 #include "motion/environment.h"
 #include "motion/following.h"

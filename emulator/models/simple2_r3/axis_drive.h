@@ -7,7 +7,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/clear_travel.h"
-#include "emulator/models/simple2_r3/reactions.h"
+#include "emulator/models/simple2_r3/transitions.h"
 #include "motion/axis.h"
 #include "motion/homing_tables.h"
 
@@ -46,7 +46,7 @@ struct alignas(64) AxisState {
   motion::Environment signals;  // inputs that affect the motor, by their functions
 
   // The targets of velocity and PWM mode. A target waits while a limit or an alarm forbids it; a target that
-  // does not wait is set to 0 (reactions.h).
+  // does not wait is set to 0 (transitions.h).
   std::int64_t target_urpm = 0;  // 1000 for each mRPM
   std::int64_t speed_urpm = 0;
   std::int64_t velocity_phase = 0;        // phase of the current pulse, in 1 / kVelocityPhase
@@ -94,7 +94,7 @@ int heading(const AxisState& axis);
 Phase phase_of(const AxisState& axis, Tick now);
 
 /// Runs velocity mode towards `target_mrpm`, from the present speed if it runs already. The caller checks
-/// with reactions.h whether it may; likewise for the next two functions.
+/// with transitions.h whether it may; likewise for the next two functions.
 void run_velocity(AxisState& axis, std::int64_t target_mrpm);
 /// Runs at the wanted velocity, if nothing forbids it.
 void resume_velocity(AxisState& axis);

@@ -10,8 +10,8 @@
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "emulator/models/simple2_r3/options.h"
-#include "emulator/models/simple2_r3/reactions.h"
 #include "emulator/models/simple2_r3/registers.h"
+#include "emulator/models/simple2_r3/transitions.h"
 #include "interpreter/simple2/execution/execution.h"
 #include "motion/axis.h"
 #include "motion/following.h"
@@ -341,7 +341,7 @@ void Simple2R3::stop(int axis_number, Stopping how) {
   }
   const Mode mode = axis.mode;
   stop_drive(axis);
-  if (mode != Mode::sync && chose(reactions::kModeStays)) axis.mode = mode;
+  if (mode != Mode::sync && chose(transitions::kModeStays)) axis.mode = mode;
 }
 
 void Simple2R3::switch_servo(int axis_number, bool on) {

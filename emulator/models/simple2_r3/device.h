@@ -205,7 +205,7 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   void start_move(int axis_number, Command command, const MoveParameters& move);
   /// Starts homing, with the axis's Home_Speed, Home_AccTime and GoHome_DIR. Homing is dropped as moves are.
   void go_home(int axis_number, bool by_trigger = false);
-  /// Start the other modes. reactions.h says what each command does to the present motion.
+  /// Start the other modes. transitions.h says what each command does to the present motion.
   void run_velocity(int axis_number, std::int64_t milli_rpm);
   void output_pwm(int axis_number, std::uint8_t percent);
   void follow_encoder(int axis_number);

@@ -1,11 +1,11 @@
-// What limits and alarms do to velocity, PWM and sync mode, by the table in reactions.h. Position moves and
+// What limits and alarms do to velocity, PWM and sync mode, by the table in transitions.h. Position moves and
 // homing meet them in motion/, by AxisSettings and the homing's own table.
 #include <cstddef>
 
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "emulator/models/simple2_r3/options.h"
-#include "emulator/models/simple2_r3/reactions.h"
+#include "emulator/models/simple2_r3/transitions.h"
 #include "motion/axis.h"
 #include "motion/environment.h"
 
@@ -51,10 +51,10 @@ void meet_in_pwm(AxisState& axis, Outcome outcome) {
 
 Outcome Simple2R3::reaction(int axis_number, Event event) const {
   const AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  const bool needs_servo = has(reactions::kCommands, event) &&
-                           !(has(reactions::kDuties, event) && chose(reactions::kPwmNeedsNoServo));
+  const bool needs_servo = has(transitions::kCommands, event) &&
+                           !(has(transitions::kDuties, event) && chose(transitions::kPwmNeedsNoServo));
   const bool is_held = needs_servo && lacks_servo(axis_number);
-  const ReactionRow* row =
+  const Transition* row =
       reaction_row(activity(axis), is_held ? Phase::servo_off : phase_of(axis, now()), event);
   if (row == nullptr) return Outcome::goes_on;
   for (const OtherOutcome& other : {row->other, row->another}) {

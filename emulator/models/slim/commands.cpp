@@ -10,9 +10,9 @@
 #include "emulator/models/slim/device.h"
 #include "emulator/models/slim/errors.h"
 #include "emulator/models/slim/jobs.h"
-#include "emulator/models/slim/meetings.h"
 #include "emulator/models/slim/module.h"
 #include "emulator/models/slim/options.h"
+#include "emulator/models/slim/transitions.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/commands.h"
@@ -368,7 +368,7 @@ lang::Outcome::Program Slim::program_after_stop(From from) const {
   using Program = lang::Outcome::Program;
   if (chose(option("emergency_stop_program", "ends_also_by_its_own_line"))) return Program::ends;
   if (chose(option("emergency_stop_program", "goes_on"))) return Program::goes_on;
-  switch (outcome_of(Doing::program_runs, Meeting::stop, from)) {
+  switch (outcome_of(Doing::program_runs, Event::stop, from)) {
     case Outcome::ends: return Program::ends;
     case Outcome::ends_after_routine: return Program::forgets_what_it_interrupted;
     case Outcome::comes_to_a_stand:

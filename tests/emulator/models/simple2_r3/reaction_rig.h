@@ -1,11 +1,11 @@
-// A rig that brings axis A into each phase of each mode, and makes each event of reactions.h.
+// A rig that brings axis A into each phase of each mode, and makes each event of transitions.h.
 #pragma once
 
 #include <numeric>
 
 #include "emulator/device/axes.h"
 #include "emulator/models/simple2_r3/device.h"
-#include "emulator/models/simple2_r3/reactions.h"
+#include "emulator/models/simple2_r3/transitions.h"
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {

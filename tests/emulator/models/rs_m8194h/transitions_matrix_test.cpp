@@ -10,7 +10,7 @@
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
 namespace understudy::emulator::models::rs_m8194h {
-namespace meetings_matrix_test {
+namespace transitions_matrix_test {
 
 using Commands = std::vector<std::string_view>;
 
@@ -187,5 +187,5 @@ TEST(RsM8194hMatrix, EachCellIsAsItsRowSays) {
   }
 }
 
-}  // namespace meetings_matrix_test
+}  // namespace transitions_matrix_test
 }  // namespace understudy::emulator::models::rs_m8194h

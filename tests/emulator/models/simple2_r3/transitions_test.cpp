@@ -1,13 +1,13 @@
-// Every cell of reactions.h against the running device: an axis is brought into the phase, the event comes,
+// Every cell of transitions.h against the running device: an axis is brought into the phase, the event comes,
 // and what leaves it is what the cell says; with each choice that makes something else of the cell, too.
-#include "emulator/models/simple2_r3/reactions.h"
+#include "emulator/models/simple2_r3/transitions.h"
 
 #include <algorithm>
 
 #include "tests/emulator/models/simple2_r3/reaction_rig.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace reactions_test {
+namespace transitions_test {
 
 // --- outcomes ----------------------------------------------------------------------------------------
 
@@ -227,7 +227,7 @@ int for_each_cell(Activity activity, Visit visit) {
 
 void walk(Activity activity) {
   const int cells = for_each_cell(activity, [&](Phase phase, Event event) {
-    const ReactionRow& row = *reaction_row(activity, phase, event);
+    const Transition& row = *reaction_row(activity, phase, event);
     std::map<std::string, std::string> choices;
     // Only so there is a servo that is off in these modes.
     if (phase == Phase::servo_off && activity != Activity::position) choices["mode_after_stop"] = "stays";
@@ -250,7 +250,7 @@ TEST(Reactions, OfPwmMode) { walk(Activity::pwm); }
 TEST(Reactions, OfSyncMode) { walk(Activity::sync); }
 
 TEST(Reactions, NameTheirChoicesOrTheManualsSections) {
-  for (const ReactionRow& row : reactions::kRows) {
+  for (const Transition& row : transitions::kRows) {
     const bool is_choice = std::any_of(std::begin(kChoices), std::end(kChoices),
                                        [&](const ChoiceRow& choice) { return choice.id == row.source; });
     const std::string_view section = row.source.substr(0, row.source.find(':'));
@@ -311,5 +311,5 @@ TEST(Reactions, ANewPolarityCountsNothing) {
   EXPECT_EQ(rig.get("ENCA"), 0);
 }
 
-}  // namespace reactions_test
+}  // namespace transitions_test
 }  // namespace understudy::emulator::models::simple2_r3

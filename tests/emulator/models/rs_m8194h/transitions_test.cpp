@@ -4,7 +4,7 @@
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
 namespace understudy::emulator::models::rs_m8194h {
-namespace meetings_test {
+namespace transitions_test {
 
 enum class Does : std::uint8_t {
   idles,
@@ -352,5 +352,5 @@ TEST(RsM8194hMeetings, TheEmergencyInputStopsAllThatMoves) {
   EXPECT_EQ(rsm.get("LP_Y"), 0);
 }
 
-}  // namespace meetings_test
+}  // namespace transitions_test
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -1,6 +1,6 @@
 // Every cell of meetings.h, brought about from the host, from a program's own line and from an event's
 // routine.
-#include "emulator/models/slim/meetings.h"
+#include "emulator/models/slim/transitions.h"
 #include "emulator/device/terminals.h"
 
 #include <gtest/gtest.h>
@@ -13,13 +13,13 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace meetings_test {
+namespace transitions_test {
 
 using Lines = std::vector<std::string>;
 
 const std::string kNames[kDoings] = {"line",      "move",       "homing",   "jog",     "thrust",
                                      "a program", "GETI waits", "WT waits", "DN waits"};
-const std::string kCommands[kMeetings] = {"TAPZ", "TAREDO", "TAUPZ", "TASTOP", "PZ", "REDO"};
+const std::string kCommands[kEvents] = {"TAPZ", "TAREDO", "TAUPZ", "TASTOP", "PZ", "REDO"};
 
 bool is_of_program(Doing doing) { return doing >= Doing::program_runs; }
 
@@ -51,19 +51,19 @@ Lines lines_of(Doing doing) {
 }
 
 /// The pause that a command ends; empty for others.
-std::string pause_before(Meeting meeting) {
-  switch (meeting) {
-    case Meeting::go_on:
-    case Meeting::give_up: return "TAPZ";
-    case Meeting::go_on_q: return "PZ";
+std::string pause_before(Event event) {
+  switch (event) {
+    case Event::go_on:
+    case Event::give_up: return "TAPZ";
+    case Event::go_on_q: return "PZ";
     default: return "";
   }
 }
 
 class Cell {
  public:
-  Cell(const MeetingRow& row, From from)
-      : row_(row), from_(from), command_(kCommands[static_cast<std::size_t>(row.meeting)]) {}
+  Cell(const Transition& row, From from)
+      : row_(row), from_(from), command_(kCommands[static_cast<std::size_t>(row.event)]) {}
 
   void check() {
     const Outcome expected = row_.outcomes[static_cast<std::size_t>(from_)];
@@ -73,8 +73,8 @@ class Cell {
     const double speed_pps = chain().speed_pps(0);
     enter_program();
     if (from_ == From::event_routine || (is_of_program(row_.doing) && from_ == From::host)) go();
-    if (!pause_before(row_.meeting).empty()) {
-      script_.type(pause_before(row_.meeting));
+    if (!pause_before(row_.event).empty()) {
+      script_.type(pause_before(row_.event));
       script_.pass(400);
     }
     const std::int64_t travel = chain().travel(0);
@@ -144,7 +144,7 @@ class Cell {
 
   /// Only where the motion that DN waits for is given up the program has something to say.
   std::string said_by(Outcome expected) const {
-    const bool is_over = row_.doing == Doing::program_waits_for_motion && row_.meeting == Meeting::give_up;
+    const bool is_over = row_.doing == Doing::program_waits_for_motion && row_.event == Event::give_up;
     return is_over && expected == Outcome::goes_on ? "B" : "(nothing)";
   }
 
@@ -161,7 +161,7 @@ class Cell {
     EXPECT_NE(level(), before);
   }
 
-  const MeetingRow& row_;
+  const Transition& row_;
   From from_;
   std::string command_;
   DialogueScript script_{2};
@@ -169,11 +169,11 @@ class Cell {
 
 TEST(SlimMeetings, ComeOutAsTheTableSays) {
   int cells = 0;
-  for (const MeetingRow& row : kMeetingTable) {
+  for (const Transition& row : kTransitions) {
     for (const From from : {From::host, From::program, From::event_routine}) {
       if (row.outcomes[static_cast<std::size_t>(from)] == Outcome::cannot_be) continue;
       SCOPED_TRACE(kNames[static_cast<std::size_t>(row.doing)] + ", " +
-                   kCommands[static_cast<std::size_t>(row.meeting)] + " from " +
+                   kCommands[static_cast<std::size_t>(row.event)] + " from " +
                    (from == From::host      ? "the host"
                     : from == From::program ? "a program"
                                             : "an event"));
@@ -182,16 +182,16 @@ TEST(SlimMeetings, ComeOutAsTheTableSays) {
     }
   }
   // A program that waits says nothing itself.
-  EXPECT_EQ(cells, static_cast<int>(kDoings * kMeetings * kSources - 3 * kMeetings));
+  EXPECT_EQ(cells, static_cast<int>(kDoings * kEvents * kSources - 3 * kEvents));
 }
 
 TEST(SlimMeetings, NameTheListOrARowOfTheChoices) {
-  for (const MeetingRow& row : kMeetingTable) {
+  for (const Transition& row : kTransitions) {
     const bool is_row = std::ranges::any_of(kChoices, [&](const ChoiceRow& c) { return c.id == row.by; });
     EXPECT_TRUE(is_row || row.by.starts_with("list, ")) << row.by;
   }
 }
 
-}  // namespace meetings_test
+}  // namespace transitions_test
 
 }  // namespace understudy::emulator::models::slim

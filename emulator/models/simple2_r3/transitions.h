@@ -89,7 +89,7 @@ constexpr bool has(Set set, T member) {
   return (set >> static_cast<unsigned>(member) & 1) != 0;
 }
 
-struct ReactionRow {
+struct Transition {
   Set activities, phases, events;
   Outcome outcome;
   /// The manual's section, or the choice, on which the cell is based.
@@ -97,7 +97,7 @@ struct ReactionRow {
   OtherOutcome other{}, another{};  // the first chosen one applies
 };
 
-namespace reactions {
+namespace transitions {
 
 using enum Phase;
 using enum Outcome;
@@ -141,7 +141,7 @@ inline constexpr OtherOutcome kForgotten{kAlarmResumes, ends};  // for motion th
 inline constexpr OtherOutcome kFromTheSpeed{option("move_in_other_mode", "goes_on_from_the_speed"), changes};
 
 // clang-format off
-inline constexpr ReactionRow kRows[] = {
+inline constexpr Transition kRows[] = {
     // --- limits ---
     {kPosition | kVelocity, kResting, set_of(E::limit_ahead), goes_on, "limit_reaction"},
     {kPosition, kGoing,           set_of(E::limit_ahead), stops, "limit_reaction"},
@@ -255,7 +255,7 @@ inline constexpr ReactionRow kRows[] = {
 };
 // clang-format on
 
-}  // namespace reactions
+}  // namespace transitions
 
 /// Returns true if a mode has this phase.
 constexpr bool is_phase_of(Activity activity, Phase phase) {
@@ -272,7 +272,7 @@ constexpr bool is_phase_of(Activity activity, Phase phase) {
 
 /// Returns true if an event can come in a phase.
 constexpr bool can_come(Phase phase, Event event) {
-  using namespace reactions;
+  using namespace transitions;
   if (phase == servo_off) return has(kCommands, event);
   switch (event) {
     case Event::limit_ahead: return true;  // while standing, any limit
@@ -304,11 +304,11 @@ inline constexpr auto kReactionOfCell = [] {
   for (auto& phases : cells) {
     for (auto& events : phases) events.fill(kNoRow);
   }
-  for (std::size_t i = 0; i < std::size(reactions::kRows); ++i) {
+  for (std::size_t i = 0; i < std::size(transitions::kRows); ++i) {
     for (std::size_t d = 0; d < kActivities; ++d) {
       for (std::size_t p = 0; p < kPhases; ++p) {
         for (std::size_t e = 0; e < kEvents; ++e) {
-          const ReactionRow& row = reactions::kRows[i];
+          const Transition& row = transitions::kRows[i];
           if (!has(row.activities, d) || !has(row.phases, p) || !has(row.events, e)) continue;
           std::uint8_t& cell = cells[d][p][e];
           cell = cell == kNoRow ? static_cast<std::uint8_t>(i) : std::uint8_t{254};
@@ -333,10 +333,10 @@ static_assert(
     }(),
     "each cell that there is has one row");
 
-constexpr const ReactionRow* reaction_row(Activity activity, Phase phase, Event event) {
+constexpr const Transition* reaction_row(Activity activity, Phase phase, Event event) {
   const std::uint8_t row = kReactionOfCell[static_cast<std::size_t>(activity)]
                                           [static_cast<std::size_t>(phase)][static_cast<std::size_t>(event)];
-  return row == kNoRow ? nullptr : &reactions::kRows[row];
+  return row == kNoRow ? nullptr : &transitions::kRows[row];
 }
 
 }  // namespace understudy::emulator::models::simple2_r3
