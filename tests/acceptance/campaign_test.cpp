@@ -73,8 +73,8 @@ TEST_F(Campaign, OnlyTheFirstFailureOfEachKindIsKept) {
   const Finished finished = understudy({"run", file(100), "--failures", folder_ / "failures", "--results",
                                         folder_ / "all.sqlite", "--report", folder_ / "page.html"});
   EXPECT_EQ(finished.exit_code, 1) << finished.errors;
-  EXPECT_NE(finished.output.find("8 failed alike: "), std::string::npos) << finished.output;
-  EXPECT_NE(finished.output.find("2 failed alike: "), std::string::npos);
+  EXPECT_NE(finished.output.find("8 failed in the same way: "), std::string::npos) << finished.output;
+  EXPECT_NE(finished.output.find("2 failed in the same way: "), std::string::npos);
   EXPECT_NE(finished.output.find("90 passed, 10 failed; "), std::string::npos);
   EXPECT_EQ(std::count(finished.output.begin(), finished.output.end(), '\n') < 60, true) << finished.output;
   const std::string page = contents(folder_ / "page.html");
@@ -217,7 +217,7 @@ TEST_F(Campaign, WhatHasChangedIsPlayedAgain) {
   const std::string scenario = file(20);
   const Words command{"run", scenario, "--results", folder_ / "rows.jsonl", "--resume"};
   understudy(command);
-  EXPECT_NE(understudy(command).output.find("20 left out"), std::string::npos);
+  EXPECT_NE(understudy(command).output.find("20 skipped"), std::string::npos);
   folder_.write("campaign.yaml", campaign(20) + "  - advance: 1ms\n");
   EXPECT_NE(understudy(command).output.find("18 passed, 2 failed; "), std::string::npos);
   EXPECT_EQ(rows("rows.jsonl").size(), 40U);
@@ -226,7 +226,7 @@ TEST_F(Campaign, WhatHasChangedIsPlayedAgain) {
   EXPECT_NE(understudy(seeded).output.find("18 passed, 2 failed; "), std::string::npos);
   // And more cases are only those that are new.
   folder_.write("campaign.yaml", campaign(20));
-  EXPECT_NE(understudy(command).output.find("20 left out"), std::string::npos);
+  EXPECT_NE(understudy(command).output.find("20 skipped"), std::string::npos);
 }
 
 TEST_F(Campaign, ACaseThatCannotBeReadIsToldAndTheOthersArePlayed) {

@@ -34,7 +34,8 @@ TEST_F(CampaignsPage, ItsCommandsComeToWhatItSays) {
   if (run({"sh", "-c", "command -v sqlite3"}).exit_code != 0) GTEST_SKIP() << "sqlite3 is not installed";
   const auto scripts = page_blocks("campaigns.md", "sh");
   const std::vector<Words> expected = {
-      {"campaign.yaml: 30 scenarios with ", "3 failed alike: campaign.yaml:20: ", "27 passed, 3 failed; "},
+      {"campaign.yaml: 30 scenarios with ",
+       "3 failed in the same way: campaign.yaml:20: ", "27 passed, 3 failed; "},
       {"6 passed, 0 failed; ", "1 passed, 0 failed; ", "hash a move past a bad line (speed="},
       {"speed  pulses  failed", "400    7000    3"},
       {"27 passed, 3 failed; ", ": the same: "},

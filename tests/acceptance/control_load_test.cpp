@@ -126,7 +126,7 @@ TEST(ControlLoad, ABadSnapshotCostsNoHostAReply) {
     std::string text;
     const char* error;
   };
-  for (const Case& bad : {Case{"nested", std::string(std::size_t{20} << 20, '['), "nested deeper"},
+  for (const Case& bad : {Case{"nested", std::string(std::size_t{20} << 20, '['), "nested too deeply"},
                           Case{"long", "{\"understudy\":\"" + std::string(std::size_t{60} << 20, 'x') + "\"}",
                                "understudy: is in another format"}}) {
     const std::string file = daemon->folder().write(bad.name, bad.text);

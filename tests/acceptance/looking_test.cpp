@@ -75,7 +75,7 @@ TEST(Lint, OfARunningBenchIsToldWhenItEnds) {
   EXPECT_EQ(asked.exit_code, 1);
   EXPECT_EQ(understudy({"poll", running.port(), "0x0001"}).exit_code, 0);
   const std::string at_once =
-      "understudy: line line: a host asks for station 9, which does not exist; device is 1\n";
+      "understudy: line line: a host asks for station 9, which does not exist; the line has 1 (device)\n";
   EXPECT_EQ(running.errors(), at_once);
   EXPECT_EQ(running.stop(SIGTERM), 0);
   const std::string errors = running.errors();

@@ -91,8 +91,8 @@ TEST_F(Poll, TellsWhoWasAskedWhereAndHow) {
   poll({"--station", "9", "--timeout", "100ms", "2"});
   EXPECT_TRUE(eventually([&] {
     return daemon_.errors().find(
-               "understudy: line line: a host asks for station 9, which does not exist; device is 1\n") !=
-           std::string::npos;
+               "understudy: line line: a host asks for station 9, which does not exist; the line has 1 "
+               "(device)\n") != std::string::npos;
   })) << daemon_.errors();
   EXPECT_EQ(daemon_.errors().find("station 9"), daemon_.errors().rfind("station 9"));
   EXPECT_NE(daemon_.errors().find("the host set 9600"), std::string::npos) << daemon_.errors();

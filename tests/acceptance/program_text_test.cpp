@@ -89,7 +89,7 @@ TEST(ProgramTexts, AreCheckedForAFirmwareAndForOptions) {
   }
   const Finished bench = with_workbench({"check", "--firmware", "1.00", file});
   EXPECT_EQ(bench.exit_code, 2);
-  EXPECT_NE(bench.errors.find("belong to --model"), std::string::npos) << bench.errors;
+  EXPECT_NE(bench.errors.find("need --model"), std::string::npos) << bench.errors;
 }
 
 TEST(ProgramTexts, BecomeNumbersAndTextAgain) {

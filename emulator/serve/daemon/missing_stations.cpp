@@ -18,21 +18,30 @@ namespace {
 
 constexpr std::size_t kMaxListed = 4;
 
-/// Who is there, for people; empty if somebody hears what is sent to that address, or may do so.
-std::string others_than(const world::WorldLine& line, std::uint8_t address) {
-  std::string numbers;
-  std::size_t count = 0;
-  for (const auto& station : line.stations) {
-    const Device& device = station->device();
-    const auto number = device.station_number();
-    const bool may_hear = device.modbus() == nullptr || !number || *number == address ||
-                          device.modbus()->addressing(address) != Addressing::ignore;
-    if (may_hear) return "";
-    if (++count > kMaxListed) continue;
-    numbers += (numbers.empty() ? "" : ", ") + device.name() + " is " + std::to_string(*number);
+/// Returns true if the station obeys a request to that address, or may obey one: a device without Modbus or
+/// without a number. Modbus is asked first: this is called for each request, and finding a number in a
+/// register takes longer.
+bool may_receive(const Device& device, std::uint8_t address) {
+  if (device.modbus() == nullptr || device.modbus()->addressing(address) != Addressing::ignore) return true;
+  const auto number = device.station_number();
+  return !number || *number == address;
+}
+
+bool may_receive(const world::WorldLine& line, std::uint8_t address) {
+  return std::any_of(line.stations.begin(), line.stations.end(),
+                     [&](const auto& station) { return may_receive(station->device(), address); });
+}
+
+/// Lists the stations of the line, each with its number, for the log.
+std::string stations_of(const world::WorldLine& line) {
+  std::string text;
+  const std::size_t count = line.stations.size();
+  for (std::size_t i = 0; i < std::min(count, kMaxListed); ++i) {
+    const Device& device = line.stations[i]->device();
+    text += (i == 0 ? "" : ", ") + std::to_string(device.station_number().value_or(0)) + " (" +
+            device.name() + ")";
   }
-  if (count > kMaxListed) numbers += ", and " + std::to_string(count - kMaxListed) + " more";
-  return numbers;
+  return count > kMaxListed ? text + ", and " + std::to_string(count - kMaxListed) + " more" : text;
 }
 
 }  // namespace
@@ -43,10 +52,9 @@ void MissingStations::look(const pty::CapturedPacket& packet) {
   if (!is_request) return;
   const world::WorldLine& line = world_.line(packet.line);
   const std::uint8_t address = packet.bytes.front();
-  const std::string others = others_than(line, address);
-  if (others.empty() || !is_new(packet.line, address)) return;
+  if (line.stations.empty() || may_receive(line, address) || !is_new(packet.line, address)) return;
   log_("line " + line.line.name() + ": a host asks for station " + std::to_string(address) +
-       ", which does not exist; " + others);
+       ", which does not exist; the line has " + stations_of(line));
 }
 
 bool MissingStations::is_new(std::size_t line, std::uint8_t address) {

@@ -127,7 +127,7 @@ constexpr std::array kPlainWords{
     PlainWords{"end of sequence flow not found", always,
                "a '[' before this is not closed; expected ',' or ']' here"},
     PlainWords{"illegal flow end", always,
-               "this bracket or brace has no matching '[' or '{'; expected one for each"},
+               "no '[' or '{' before this matches it; expected one"},
     PlainWords{"illegal block entry", always,
                "a list's '- ' is not allowed here; expected it at the beginning of a line"},
     PlainWords{"illegal EOF in scalar", always, "a quote is not closed; expected another at the text's end"},

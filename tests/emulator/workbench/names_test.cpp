@@ -126,9 +126,9 @@ TEST(Memory, NamesRealsAndRegistersOfSeveralTables) {
   EXPECT_EQ(read_registers(bank, again, 100),
             std::vector<std::uint32_t>(bank.image().begin(), bank.image().end()));
   const std::pair<NvImage, const char*> bad[] = {
-      {{.model = "workbench", .firmware = {}, .reals = {{"Speed_X", 1.5}}}, "reals: 'Speed_X' does not hold"},
+      {{.model = "workbench", .firmware = {}, .reals = {{"Speed_X", 1.5}}}, "reals: 'Speed_X' cannot hold"},
       {{.model = "workbench", .firmware = {}, .registers = {{"Position_X", 1}}}, "is in several tables"},
-      {{.model = "workbench", .firmware = {}, .registers = {{"holding.Position_X", 1}}}, "is not kept"},
+      {{.model = "workbench", .firmware = {}, .registers = {{"holding.Position_X", 1}}}, "is not persistent"},
       {{.model = "workbench", .firmware = {}, .reals = {{"Gain_X", 10.5}}},
        "reals: 'Gain_X': 10.5 does not fit; expected 0 to 10"},
       {{.model = "workbench", .firmware = {}, .registers = {{"Speed_X", 4001}}},

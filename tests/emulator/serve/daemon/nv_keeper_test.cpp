@@ -122,7 +122,7 @@ TEST(ReadMemories, RefusesWhatIsNoMemoryOfTheDeviceAndLeavesItAlone) {
       {image_text({}, "super-40nc"), "model: is the memory of a 'super-40nc'"},
       {image_text({{"Parms_Speed17", 5}}), "'Parms_Speed17'"},
       {image_text({{"Parms_Speed1", 70'000}}), "'Parms_Speed1': 70000 does not fit"},
-      {image_text({{"Cord_A", 1}}), "'Cord_A' is not kept"},
+      {image_text({{"Cord_A", 1}}), "'Cord_A' is not persistent"},
       {to_json({.model = "simple2-r3", .firmware = "9.99"}),
        "turner.json: firmware: '9.99' is unknown for simple2-r3; expected one of 1.39, "},
       {to_json({.model = "simple2-r3", .firmware = "new"}), "firmware: 'new' is unknown for simple2-r3"},

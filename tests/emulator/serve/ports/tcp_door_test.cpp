@@ -260,7 +260,7 @@ TEST(Gateway, GivesUnit255TheOnlyStation) {
     ASSERT_EQ(rig.log.size(), silent.empty() ? 0U : 1U) << settings;
     if (silent.empty()) continue;
     EXPECT_NE(rig.log.front().find("unit " + std::to_string(silent.front()) +
-                                   ", which is not on the line; there is "),
+                                   ", which is not on the line; the line has "),
               std::string::npos)
         << rig.log.front();
     EXPECT_NE(rig.log.front().find("(feeder)"), std::string::npos) << rig.log.front();
