@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <memory>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -47,21 +49,26 @@ void collect_commands(const Words& command, std::vector<Words>& all) {
   }
 }
 
+/// All its tests run in one process and look at one installation, which takes seconds to make.
 class Installation : public testing::Test {
  protected:
+  static void SetUpTestSuite() { shared_folder = std::make_unique<PrivateFolder>(); }
+  static void TearDownTestSuite() { shared_folder.reset(); }
+
   void SetUp() override {
+    if (fs::exists(prefix())) return;
     const Finished installed = run({CMAKE_PROGRAM, "--install", BUILD_FOLDER, "--prefix", prefix()});
     ASSERT_EQ(installed.exit_code, 0) << installed.output << installed.errors;
   }
 
-  std::string prefix() const { return folder_ / "prefix"; }
+  std::string prefix() const { return folder() / "prefix"; }
   std::string program() const { return prefix() + "/bin/understudy"; }
   std::string page() const { return prefix() + "/share/man/man1/understudy.1.gz"; }
   std::string unit() const { return contents(prefix() + "/lib/systemd/system/understudy@.service"); }
-  const PrivateFolder& folder() const { return folder_; }
+  const PrivateFolder& folder() const { return *shared_folder; }
 
  private:
-  PrivateFolder folder_;
+  static inline std::unique_ptr<PrivateFolder> shared_folder;
 };
 
 TEST_F(Installation, RunsFromWhereItIs) {

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
 #include "base/state/difference.h"
 #include "base/state/state_error.h"
 #include "motion/state_fields.h"
@@ -140,8 +145,10 @@ std::vector<std::byte> saved_run() {
   return save(run);
 }
 
-/// The first byte of a field in that.
+/// Returns the first byte of a field in that.
 std::size_t place_of(const std::string& field) {
+  static std::map<std::string, std::size_t> known;  // a search reads the whole state once for each byte
+  if (const auto it = known.find(field); it != known.end()) return it->second;
   const std::vector<std::byte> bytes = saved_run();
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     std::vector<std::byte> changed = bytes;
@@ -149,7 +156,7 @@ std::size_t place_of(const std::string& field) {
     StateReader before(bytes);
     StateReader after(changed);
     try {
-      if (difference_of_saved<PathRun>(before, after).starts_with(field + ":")) return i;
+      if (difference_of_saved<PathRun>(before, after).starts_with(field + ":")) return known[field] = i;
     } catch (const StateError&) {
     }
   }
