@@ -17,9 +17,9 @@ install(TARGETS understudy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS understudy_tty_shim LIBRARY DESTINATION lib/understudy)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/ DESTINATION ${scenarios_folder} USE_SOURCE_PERMISSIONS
   PATTERN "*.port" EXCLUDE)
-install(FILES ${packaging}/vscode/settings.json DESTINATION ${CMAKE_INSTALL_DATADIR}/understudy/vscode)
-install(DIRECTORY ${packaging}/campaign DESTINATION ${CMAKE_INSTALL_DATADIR}/understudy USE_SOURCE_PERMISSIONS
-  PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples ${PROJECT_SOURCE_DIR}/recipes
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/understudy USE_SOURCE_PERMISSIONS
+  PATTERN "__pycache__" EXCLUDE PATTERN ".pytest_cache" EXCLUDE PATTERN "*.port" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
         ${PROJECT_SOURCE_DIR}/SECURITY.md ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # What the pages lead to stands beside them as in the source: links from a page to it hold.
@@ -27,9 +27,6 @@ foreach(linked benchmarks/README.md emulator/play/README.md third_party/README.m
   cmake_path(GET linked PARENT_PATH folder)
   install(FILES ${PROJECT_SOURCE_DIR}/${linked} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "__pycache__" EXCLUDE
-  PATTERN "*.port" EXCLUDE)
-install(DIRECTORY ${packaging}/ci DESTINATION ${CMAKE_INSTALL_DOCDIR}/packaging)
 
 # link_installed(PLACE FOLDER): below the prefix, a link at PLACE to the FOLDER that is installed elsewhere.
 function(link_installed place folder)
@@ -43,8 +40,8 @@ function(link_installed place folder)
 endfunction()
 set(shared ${CMAKE_INSTALL_DATADIR}/understudy)
 link_installed(${CMAKE_INSTALL_DOCDIR}/scenarios ${scenarios_folder})
-link_installed(${CMAKE_INSTALL_DOCDIR}/packaging/campaign ${shared}/campaign)
-link_installed(${CMAKE_INSTALL_DOCDIR}/packaging/vscode ${shared}/vscode)
+link_installed(${CMAKE_INSTALL_DOCDIR}/examples ${shared}/examples)
+link_installed(${CMAKE_INSTALL_DOCDIR}/recipes ${shared}/recipes)
 link_installed(${shared}/docs ${CMAKE_INSTALL_DOCDIR}/docs)  # a scenario's page leads to ../docs
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 file(GLOB licences CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/third_party/*/LICENSE)

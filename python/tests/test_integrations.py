@@ -31,7 +31,7 @@ def run_as_ci(command, folder, **environment):
 
 
 def test_the_action_of_github(tmp_path):
-    action = yaml.safe_load((PROJECT / "packaging/ci/github/action.yml").read_text())
+    action = yaml.safe_load((PROJECT / "recipes/ci/github/action.yml").read_text())
     step = action["runs"]["steps"][1]
     values = {name: text["default"] for name, text in action["inputs"].items()}
     environment = {name: values[value.split("inputs.")[1].rstrip(" }")] for name, value in step["env"].items()}
@@ -39,7 +39,7 @@ def test_the_action_of_github(tmp_path):
 
 
 def test_the_component_of_gitlab(tmp_path):
-    spec, jobs = yaml.safe_load_all((PROJECT / "packaging/ci/gitlab.yml").read_text())
+    spec, jobs = yaml.safe_load_all((PROJECT / "recipes/ci/gitlab.yml").read_text())
     (command,) = jobs["understudy"]["script"]
     for name, said in spec["spec"]["inputs"].items():
         command = command.replace(f"$[[ inputs.{name} ]]", str(said["default"]))

@@ -307,7 +307,7 @@ TEST_F(Campaign, ProgressIsForTerminalsOnly) {
 }
 
 TEST_F(Campaign, RecipesComeToTheSameAsOneRun) {
-  const std::string script = std::string(PROJECT_FOLDER) + "/packaging/campaign/try_all.sh";
+  const std::string script = std::string(PROJECT_FOLDER) + "/recipes/campaign/try_all.sh";
   for (const char* recipe : {"gitlab", "github", "parallel"}) {
     Process process({script, UNDERSTUDY_BINARY, recipe});
     const auto exit_code = process.wait(4 * kPatience);  // eight shards, one after the other

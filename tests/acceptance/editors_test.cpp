@@ -239,7 +239,7 @@ TEST(EditorsPage, ItsCommandsRunAsTheyStand) {
 }
 
 TEST(EditorsPage, ItsSettingsAreTheShippedOnes) {
-  std::ifstream file(PROJECT_FOLDER "/packaging/vscode/settings.json");
+  std::ifstream file(PROJECT_FOLDER "/recipes/vscode/settings.json");
   std::ostringstream text;
   text << file.rdbuf();
   ASSERT_EQ(blocks("json").size(), 1U);

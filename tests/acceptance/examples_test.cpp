@@ -1,4 +1,4 @@
-// The examples of scenarios/examples, run as their pages say, with the tools they are for.
+// The examples of examples, run as their pages say, with the tools they are for.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -16,7 +16,7 @@ constexpr Wait kBuilding{180'000};  // of a small program, on a machine that is 
 
 /// In the example's folder, with this understudy on PATH.
 Finished in_example(const std::string& name, const std::string& command, Wait patience = kPatience) {
-  const std::string folder = std::string(PROJECT_FOLDER) + "/scenarios/examples/" + name;
+  const std::string folder = std::string(PROJECT_FOLDER) + "/examples/" + name;
   const char* const path = std::getenv("PATH");
   const std::string programs = fs::path(UNDERSTUDY_BINARY).parent_path().string();
   const Environment environment = {{"PATH", programs + ":" + (path == nullptr ? "/usr/bin:/bin" : path)},
@@ -28,7 +28,7 @@ Finished in_example(const std::string& name, const std::string& command, Wait pa
 
 /// The command after "$ " or without it must be on the example's page, or the page tells another story.
 void expect_on_page(const std::string& name, const std::string& command) {
-  std::ifstream file(std::string(PROJECT_FOLDER) + "/scenarios/examples/" + name + "/README.md");
+  std::ifstream file(std::string(PROJECT_FOLDER) + "/examples/" + name + "/README.md");
   std::ostringstream page;
   page << file.rdbuf();
   EXPECT_NE(page.str().find("\n" + command + "\n"), std::string::npos) << command;
@@ -36,13 +36,14 @@ void expect_on_page(const std::string& name, const std::string& command) {
 
 TEST(Examples, AShellScriptWithMbpoll) {
   if (run({"mbpoll", "-V"}).exit_code == 127) GTEST_SKIP() << "mbpoll is not installed";
-  const std::string well = "understudy exec ../../benches/slide.yaml -- ./feed.sh";
+  const std::string well = "understudy exec ../../scenarios/benches/slide.yaml -- ./feed.sh";
   expect_on_page("mbpoll", well);
   const Finished fed = in_example("mbpoll", well);
   EXPECT_EQ(fed.exit_code, 0) << fed.errors;
   EXPECT_EQ(fed.output, "feed.sh: axis A is at 3200\n");
 
-  const std::string ill = "understudy exec ../../benches/slide.yaml --with limit_stuck.yaml -- ./feed.sh";
+  const std::string ill =
+      "understudy exec ../../scenarios/benches/slide.yaml --with limit_stuck.yaml -- ./feed.sh";
   expect_on_page("mbpoll", ill);
   const Finished stuck = in_example("mbpoll", ill);
   EXPECT_EQ(stuck.exit_code, 1);
@@ -60,7 +61,7 @@ TEST(Examples, APythonScriptWithPymodbus) {
   for (const char* const module : {"pymodbus", "serial"}) {
     if (!fs::exists(packages / module)) GTEST_SKIP() << "python3-" << module << " is not installed";
   }
-  const std::string command = "understudy exec ../../benches/slide.yaml --tty-shim -- ./feed.py";
+  const std::string command = "understudy exec ../../scenarios/benches/slide.yaml --tty-shim -- ./feed.py";
   expect_on_page("pymodbus", command);
   const Finished fed = in_example("pymodbus", command);
   EXPECT_EQ(fed.exit_code, 0) << fed.errors;

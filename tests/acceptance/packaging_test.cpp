@@ -162,7 +162,7 @@ TEST_F(Installation, BringsSchemasForEditors) {
     const std::string schema = prefix() + "/share/understudy/schemas/" + kind + ".schema.json";
     EXPECT_EQ(contents(schema), understudy({"schema", kind}).output) << kind;
   }
-  EXPECT_TRUE(fs::exists(prefix() + "/share/understudy/vscode/settings.json"));
+  EXPECT_TRUE(fs::exists(prefix() + "/share/understudy/recipes/vscode/settings.json"));
 }
 
 TEST_F(Installation, HasAManPageWithEveryCommandAndFlagThatHelpTellsOf) {
