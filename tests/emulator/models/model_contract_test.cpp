@@ -1,0 +1,168 @@
+// What every model promises whoever runs it, asked of all that are listed: a new one is tried without a word
+// here. Beside this: restored_states_test.cpp (flipped bytes, changed images), world/sleepers/ (single ticks
+// against long advances).
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "emulator/device/device.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/models/models.h"
+
+namespace understudy::emulator::models {
+namespace model_contract_test {
+
+class ModelContract : public testing::TestWithParam<const Model*> {
+ protected:
+  static const Model& model() { return *GetParam(); }
+  static std::unique_ptr<Device> make(Firmware firmware) {
+    DeviceSettings settings;
+    settings.name = "d";
+    settings.firmware = firmware;
+    return make_device(model(), settings);
+  }
+};
+
+/// Returns a value that the register does not hold and its row allows, or the same one if there is no other.
+Value another_value(const RegisterRow& row, Value present) {
+  const TypeLimits limits = row.ranged ? TypeLimits{row.min, row.max} : limits_of(row.type);
+  for (const Value value : {present + 1, present - 1, limits.lowest, limits.highest}) {
+    const bool is_allowed = value >= limits.lowest && value <= limits.highest;
+    const bool is_stored = (static_cast<std::uint32_t>(value) & ~row.stored_bits) == 0;
+    if (value != present && is_allowed && is_stored) return value;
+  }
+  return present;
+}
+
+TEST_P(ModelContract, KeepsEachPersistentRegisterOverAPowerCut) {
+  if (model().registers == nullptr) return;  // it has no registers
+  int kept = 0;
+  for (const Firmware firmware : model().firmwares) {
+    const std::unique_ptr<Device> fresh = make(firmware);
+    const std::vector<std::byte> at_first = fresh->save_state();
+    for (const RegisterRow& row : model().registers->rows()) {
+      RegisterBank& bank = *fresh->register_bank();
+      const bool is_plain = row.access != Access::read && row.message == nullptr && !row.is_view;
+      if (!is_plain || !bank.has_row(row) || !bank.keeps(row)) continue;
+      for (const int index : std::set<int>{0, row.count - 1}) {
+        const std::string name = bank.map().unique_name(row, index);
+        const auto place = bank.find(name);
+        ASSERT_TRUE(place) << name;
+        if (write_value(bank, *place, another_value(row, read_value(bank, *place))) != Refusal::none)
+          continue;
+        const Value written = read_value(bank, *place);
+        KeptMemory& memory = *fresh->memory();
+        const NvImage before = memory.nv_image();
+        memory.settle_memory();
+        const NvImage stored = memory.nv_image();
+        if (!row.needs_no_time) {
+          EXPECT_FALSE(holds_the_same(before, stored)) << name << " is not stored";
+        }
+        fresh->switch_power(false);
+        EXPECT_TRUE(holds_the_same(memory.nv_image(), stored)) << name;
+        fresh->switch_power(true);
+        // A row with a reader may show something else after the power cut: a password is locked again.
+        if (row.reader == nullptr) {
+          EXPECT_EQ(read_value(bank, *place), written) << name << " of firmware " << firmware;
+        }
+        ++kept;
+        // Its memory as it was: what one register does to another is not the question.
+        const std::unique_ptr<Device> other = make(firmware);
+        fresh->restore_state(other->save_state());
+      }
+    }
+    EXPECT_EQ(fresh->save_state(), at_first);
+  }
+  EXPECT_GT(kept, 0);
+}
+
+TEST_P(ModelContract, NeverAnswersABroadcast) {
+  for (const Firmware firmware : model().firmwares) {
+    const std::unique_ptr<Device> device = make(firmware);
+    if (device->modbus() == nullptr) return;      // it does not speak Modbus
+    if (device->station_number() == 0) continue;  // 0 is a number of its own for some
+    EXPECT_NE(device->modbus()->addressing(0), Addressing::obey_and_reply) << firmware;
+  }
+}
+
+TEST_P(ModelContract, HasASectionForEachRegister) {
+  if (model().registers == nullptr) return;  // it has no registers
+  for (const RegisterRow& row : model().registers->rows()) EXPECT_FALSE(row.section.empty()) << row.name;
+}
+
+TEST_P(ModelContract, CallsTerminalsByNamesOfTheirOwn) {
+  std::set<std::string_view> names;
+  for (const TerminalRow& row : model().terminals) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name << " stands twice";
+    // Conditions name them without brackets.
+    EXPECT_FALSE(row.name.empty() || std::isdigit(static_cast<unsigned char>(row.name.front())) != 0)
+        << row.name;
+    for (const char c : row.name)
+      EXPECT_TRUE(std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') << row.name;
+    EXPECT_LE(row.lowest, row.highest) << row.name;
+  }
+}
+
+TEST_P(ModelContract, WiresItsAxesToTerminalsOfTheRightKind) {
+  ASSERT_FALSE(model().axes.empty());
+  const auto is_that = [](int terminal, bool input) {
+    return terminal < 0 || (static_cast<std::size_t>(terminal) < model().terminals.size() &&
+                            is_input(model().terminals[static_cast<std::size_t>(terminal)].kind) == input);
+  };
+  for (const AxisRow& axis : model().axes) {
+    for (const int input : {axis.upper_limit_input, axis.lower_limit_input, axis.home_input, axis.alarm_input,
+                            axis.ready_input, axis.near_home_input, axis.mark_input, axis.index_input}) {
+      EXPECT_TRUE(is_that(input, true)) << axis.name << ": " << input;
+    }
+    for (const int output : {axis.servo_output, axis.alarm_clear_output})
+      EXPECT_TRUE(is_that(output, false)) << axis.name << ": " << output;
+    EXPECT_GE(axis.home_input, 0) << axis.name << ": a machine's home switch would be seen by nobody";
+  }
+}
+
+TEST_P(ModelContract, StartsTheSameWheneverItIsMade) {
+  for (const Firmware firmware : model().firmwares) {
+    const std::unique_ptr<Device> one = make(firmware);
+    const std::unique_ptr<Device> other = make(firmware);
+    EXPECT_TRUE(one->powered());
+    EXPECT_TRUE(one->same_state(*other)) << firmware;
+    EXPECT_EQ(one->state_hash(), other->state_hash()) << firmware;
+    other->restore_state(one->save_state());
+    EXPECT_TRUE(one->same_state(*other)) << firmware;
+    EXPECT_EQ(one->state_difference(one->save_state(), other->save_state()), "") << firmware;
+  }
+}
+
+TEST_P(ModelContract, HasWhatBeginnersNeed) {
+  ASSERT_NE(model().first_files, nullptr) << "`understudy init` has nothing to write";
+  EXPECT_NE(model().first_files->bench.find(model().name), std::string_view::npos);
+  EXPECT_FALSE(model().first_files->steps.empty());
+  EXPECT_FALSE(model().title.empty());
+  EXPECT_FALSE(model().sections.empty() && model().registers != nullptr);
+}
+
+std::vector<const Model*> listed() {
+  std::vector<const Model*> models;
+  for (const Model* const model : all_models()) models.push_back(model);
+  return models;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ModelContract, testing::ValuesIn(listed()), [](const auto& instance) {
+  std::string name;
+  for (const char c : instance.param->name)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
+  return name;
+});
+
+}  // namespace model_contract_test
+}  // namespace understudy::emulator::models
