@@ -21,10 +21,10 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/clear_travel.h"
-#include "emulator/models/slim/chain_options.h"
-#include "emulator/models/slim/errors.h"
 #include "emulator/models/slim/module.h"
-#include "emulator/models/slim/pauses.h"
+#include "emulator/models/slim/rules/chain_options.h"
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/rules/pauses.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
 

@@ -6,10 +6,10 @@
 #include <span>
 
 #include "emulator/models/slim/chain.h"
-#include "emulator/models/slim/errors.h"
 #include "emulator/models/slim/jobs.h"
 #include "emulator/models/slim/module.h"
-#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/rules/options.h"
 #include "motion/bad_motion.h"
 #include "motion/path.h"
 

@@ -6,11 +6,11 @@
 
 #include "base/simulated_time.h"
 #include "emulator/models/slim/chain.h"
-#include "emulator/models/slim/errors.h"
 #include "emulator/models/slim/module.h"
-#include "emulator/models/slim/options.h"
 #include "emulator/models/slim/outputs.h"
 #include "emulator/models/slim/parameters.h"
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/rules/options.h"
 #include "motion/axis.h"
 #include "motion/bad_motion.h"
 #include "motion/environment.h"

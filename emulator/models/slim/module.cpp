@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "emulator/models/slim/chain_options.h"
-#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/rules/chain_options.h"
+#include "emulator/models/slim/rules/options.h"
 #include "motion/move.h"
 #include "motion/ramp.h"
 

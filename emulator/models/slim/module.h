@@ -5,11 +5,11 @@
 #include <array>
 #include <cstdint>
 
-#include "emulator/models/slim/chain_options.h"
-#include "emulator/models/slim/errors.h"
 #include "emulator/models/slim/fifo.h"
 #include "emulator/models/slim/jobs.h"
 #include "emulator/models/slim/outputs.h"
+#include "emulator/models/slim/rules/chain_options.h"
+#include "emulator/models/slim/rules/errors.h"
 #include "motion/move.h"
 #include "motion/unit_scale.h"
 

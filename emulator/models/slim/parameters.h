@@ -9,7 +9,7 @@
 #include <optional>
 #include <string_view>
 
-#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/rules/errors.h"
 #include "interpreter/slim/command.h"
 
 namespace understudy::emulator::models::slim {

@@ -1,12 +1,12 @@
 // Every cell of pauses.h, as each option has it, with a path, a move and a jog under way.
-#include "emulator/models/slim/pauses.h"
+#include "emulator/models/slim/rules/pauses.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "emulator/models/slim/choices.h"
+#include "emulator/models/slim/rules/choices.h"
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {

@@ -1,6 +1,6 @@
 // Every cell of meetings.h, brought about from the host, from a program's own line and from an event's
 // routine.
-#include "emulator/models/slim/transitions.h"
+#include "emulator/models/slim/rules/transitions.h"
 #include "emulator/device/terminals.h"
 
 #include <gtest/gtest.h>

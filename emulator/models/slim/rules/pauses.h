@@ -16,7 +16,7 @@
 #include <optional>
 #include <string_view>
 
-#include "emulator/models/slim/chain_options.h"
+#include "emulator/models/slim/rules/chain_options.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <iterator>
 
-#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/rules/options.h"
 
 namespace understudy::emulator::models::slim {
 

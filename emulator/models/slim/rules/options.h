@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "emulator/models/slim/choices.h"
+#include "emulator/models/slim/rules/choices.h"
 
 namespace understudy::emulator::models::slim {
 
