@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain/chain.h"
 #include "interpreter/slim/machine.h"
 
 namespace understudy::emulator::models::slim {

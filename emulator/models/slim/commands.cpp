@@ -6,10 +6,10 @@
 
 #include "base/complete_table.h"
 #include "emulator/models/slim/actions.h"
-#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain/chain.h"
 #include "emulator/models/slim/device.h"
-#include "emulator/models/slim/jobs.h"
-#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/motor/jobs.h"
+#include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/rules/errors.h"
 #include "emulator/models/slim/rules/options.h"
 #include "emulator/models/slim/rules/transitions.h"

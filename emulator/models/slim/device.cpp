@@ -22,11 +22,11 @@
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
-#include "emulator/models/slim/chain.h"
-#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/chain/chain.h"
 #include "emulator/models/slim/memory.h"
 #include "emulator/models/slim/model.h"
-#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/motor/jobs.h"
+#include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/parameters.h"
 #include "emulator/models/slim/rules/chain_options.h"
 #include "emulator/models/slim/rules/errors.h"
@@ -149,7 +149,7 @@ void Slim::power_up() {
   state_.touched = true;
   for (int m = 0; m < kModules; ++m) state_.inputs[static_cast<std::size_t>(m)] = input_levels(m);
   for (int m = 0; m < kModules; ++m) {
-    state_.chain.set_pulses_per_revolution(m, chosen_number(numbers("pulses_per_revolution")));
+    state_.chain.settings().set_pulses_per_revolution(m, chosen_number(numbers("pulses_per_revolution")));
   }
   apply_all_parameters();
   const int map = static_cast<int>(state_.ram.parameters[0][parameter("PN37")]);
@@ -321,7 +321,7 @@ bool Slim::sees_something_new() const {
   for (int m = 0; m < kModules; ++m) {
     if (input_levels(m) != state_.inputs[static_cast<std::size_t>(m)]) return true;
     const bool sees_horg = level(m, kHorg) == state_.chain.horg(m);
-    if (!sees_horg || Device::input(terminal(m, kAnalog)) != state_.chain.analog(m)) return true;
+    if (!sees_horg || Device::input(terminal(m, kAnalog)) != state_.chain.module_at(m).analog) return true;
   }
   return false;
 }

@@ -1,5 +1,5 @@
 // SLIM: a chain of integrated servos behind one RS232 line. The host types commands and queries at module T0,
-// or lets it run a stored program; both act on the chain (chain.h).
+// or lets it run a stored program; both act on the chain (chain/chain.h).
 //
 //   a line ──> dialogue.cpp ──> an editor's line, a number for GETI, or a command
 //                                            └─> commands.cpp, queries.cpp ──> chain, memory, program
@@ -23,7 +23,7 @@
 #include "emulator/device/text/text_protocol.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/slim/actions.h"
-#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain/chain.h"
 #include "emulator/models/slim/memory.h"
 #include "emulator/models/slim/numbers.h"
 #include "emulator/models/slim/rules/options.h"
@@ -125,9 +125,11 @@ class Slim final : public DeviceOf<Slim>,
   bool output_moves(int /*terminal*/) const override {
     return false;
   }  // outputs that change by position or time have ticks of their own
-  std::int64_t pulses_this_tick(int axis) const override { return state_.chain.pulses(axis); }
+  std::int64_t pulses_this_tick(int axis) const override { return state_.chain.module_at(axis).sent_pulses; }
   double speed_pps(int axis) const override { return state_.chain.speed_pps(axis); }
-  std::optional<bool> servo_on(int axis) const override { return powered() && state_.chain.servo_on(axis); }
+  std::optional<bool> servo_on(int axis) const override {
+    return powered() && state_.chain.axis(axis).servo_on;
+  }
   std::int64_t pulses_to_come(int axis) const override { return state_.chain.pulses_to_come(axis); }
   void set_encoder(int axis, std::int64_t counts) override;
 
@@ -215,7 +217,7 @@ class Slim final : public DeviceOf<Slim>,
   Error set_variable(const lang::Operand& variable, double value);
   /// Returns the parameter's canonical name: PR4 is another name of PR3, unless it is a speed of its own.
   std::string_view meant(std::string_view parameter) const {
-    return parameter == "PR4" && !state_.chain.lines_have_own_speed() ? "PR3" : parameter;
+    return parameter == "PR4" && !state_.chain.options().lines_have_own_speed() ? "PR3" : parameter;
   }
   /// The user unit, by parameter numbers: this many pulses are this many user units.
   struct UserUnit {

@@ -14,7 +14,7 @@
 #include "emulator/models/slim/device.h"
 #include "emulator/models/slim/first_files.h"
 #include "emulator/models/slim/language.h"
-#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/numbers.h"
 #include "emulator/models/slim/parameters.h"
 #include "emulator/models/slim/rules/choices.h"

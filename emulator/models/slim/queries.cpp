@@ -16,9 +16,9 @@
 #include "emulator/device/device.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/models/slim/actions.h"
-#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain/chain.h"
 #include "emulator/models/slim/device.h"
-#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/numbers.h"
 #include "emulator/models/slim/parameters.h"
 #include "emulator/models/slim/rules/errors.h"
@@ -205,9 +205,9 @@ struct SlimQueries {
     const auto found = find_parameter(q.slim.meant(q.command.name), q.slim.memory_form().speed_names);
     if (!found || (kParameters[*found].host_only && q.module != 0)) return Error::syntax;
     const double held = q.state().ram.parameters[static_cast<std::size_t>(q.module)][*found];
-    if (*found == parameter("VM") && q.chain().analog_speed(q.module) &&
+    if (*found == parameter("VM") && q.chain().module_at(q.module).analog_speed &&
         q.chose(option("working_speed_shown", "as_the_analog_input_leaves_it"))) {
-      return q.real(held * q.chain().analog(q.module) / kFullAnalog);
+      return q.real(held * q.chain().module_at(q.module).analog / kFullAnalog);
     }
     return kParameters[*found].type == ParameterDefinition::Type::integer ? q.whole(held) : q.real(held);
   }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/state/fields.h"
-#include "emulator/models/slim/chain_fields.h"
+#include "emulator/models/slim/chain/chain_fields.h"
 #include "emulator/models/slim/device.h"
 #include "interpreter/slim/state_fields.h"
 

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "emulator/device/device.h"
-#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain/chain.h"
+#include "emulator/models/slim/chain/chain_state.h"
 #include "emulator/models/slim/device.h"
-#include "emulator/models/slim/jobs.h"
 #include "emulator/models/slim/memory.h"
-#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/motor/jobs.h"
+#include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/numbers.h"
 #include "emulator/models/slim/parameters.h"
 #include "emulator/models/slim/rules/errors.h"
@@ -19,12 +20,6 @@
 #include "interpreter/slim/command_row.h"
 
 namespace understudy::emulator::models::slim {
-
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
 
 double Slim::value(const lang::Operand& operand) const {
   using Kind = lang::Operand::Kind;
@@ -107,7 +102,7 @@ Error Slim::set_parameter(int module, std::string_view given_name, double value)
   const ParameterDefinition& row = kParameters[*number];
   const auto fits = fitted(row, value);
   if (name == "TVM" && module == 0) {  // of all linked modules at once
-    if (const Error error = state_.chain.set_tvm(*fits); error != Error::none) return error;
+    if (const Error error = state_.chain.settings().set_tvm(*fits); error != Error::none) return error;
     for (int m = 0; m < kModules; ++m) {
       if (state_.chain.linked(m)) state_.ram.parameters[at(m)][*number] = *fits;
     }
@@ -131,26 +126,28 @@ Error Slim::set_scale(int module, std::size_t number, double value) {
   const auto of = [&](std::size_t one) {
     return static_cast<std::int64_t>(one == number ? value : all[one]);
   };
-  return state_.chain.set_scale(module, of(unit.pulses), of(unit.units));
+  return state_.chain.settings().set_scale(module, of(unit.pulses), of(unit.units));
 }
 
 /// What a parameter means to the chain, before it is stored.
 Error Slim::apply_parameter(int module, std::size_t number, double value) {
   Chain& chain = state_.chain;
   switch (number) {
-    case parameter("VM"): return chain.set_working_speed(module, value);
-    case parameter("VJ"): return chain.set_jog_speed(module, value);
-    case parameter("FU"): return chain.set_speed_unit(module, value == 0 ? SpeedUnit::rpm : SpeedUnit::rps);
-    case parameter("VA"): return chain.set_acceleration(module, value);
+    case parameter("VM"): return chain.settings().set_working_speed(module, value);
+    case parameter("VJ"): return chain.settings().set_jog_speed(module, value);
+    case parameter("FU"):
+      return chain.settings().set_speed_unit(module, value == 0 ? SpeedUnit::rpm : SpeedUnit::rps);
+    case parameter("VA"): return chain.settings().set_acceleration(module, value);
     case parameter("PN44"):
     case parameter("PN45"):
     case parameter("PN46"): return set_scale(module, number, value);
-    case parameter("PR2"): return chain.set_path_acceleration(module, value);
-    case parameter("PR3"): return chain.set_path_speed(module, value);
-    case parameter("PR4"): return chain.set_line_speed(module, value);
-    case parameter("PR7"): return chain.set_smooth_corner(module, value);
+    case parameter("PR2"): return chain.settings().set_path_acceleration(module, value);
+    case parameter("PR3"): return chain.settings().set_path_speed(module, value);
+    case parameter("PR4"): return chain.settings().set_line_speed(module, value);
+    case parameter("PR7"): return chain.settings().set_smooth_corner(module, value);
     case parameter("PN50"):
-      for (int m = 1; m < kModules; ++m) chain.set_linked(m, ((static_cast<int>(value) >> m) & 1) != 0);
+      for (int m = 1; m < kModules; ++m)
+        chain.settings().set_linked(m, ((static_cast<int>(value) >> m) & 1) != 0);
       return Error::none;
     default: return Error::none;
   }

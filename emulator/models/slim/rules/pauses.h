@@ -6,7 +6,7 @@
 //
 // Both pauses can be in force; motion continues when neither is left. Each cell has the outcome, the pause
 // that is left, the source (the list's line, or a row of choices.h), and the results under other options.
-// chain_stops.cpp and chain_commands.cpp look it up; pauses_test.cpp checks every cell.
+// chain/stops.cpp and chain/refusals.cpp look it up; pauses_test.cpp checks every cell.
 #pragma once
 
 #include <array>

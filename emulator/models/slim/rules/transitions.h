@@ -2,7 +2,7 @@
 // cell has its outcome and the source for it: the list's line, or a row of choices.h, whose first option it
 // is.
 //
-// The code follows this table (chain_stops.cpp for motions; dialogue.cpp and commands.cpp for programs), and
+// The code follows this table (chain/stops.cpp for motions; dialogue.cpp and commands.cpp for programs), and
 // transitions_test.cpp checks every cell.
 #pragma once
 

@@ -1,4 +1,4 @@
-#include "emulator/models/slim/outputs.h"
+#include "emulator/models/slim/motor/outputs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // A restored chain must be one whose ticks can neither leave a table nor run away.
-#include "emulator/models/slim/chain_fields.h"
+#include "emulator/models/slim/chain/chain_fields.h"
 
 #include <cmath>
 #include <cstddef>
@@ -7,12 +7,11 @@
 
 #include "base/state/state_bytes.h"
 #include "base/state/state_error.h"
-#include "emulator/models/slim/chain.h"
-#include "emulator/models/slim/fifo.h"
-#include "emulator/models/slim/jobs.h"
-#include "emulator/models/slim/module.h"
-#include "emulator/models/slim/outputs.h"
-#include "emulator/models/slim/parameters.h"
+#include "emulator/models/slim/chain/chain.h"
+#include "emulator/models/slim/motor/fifo.h"
+#include "emulator/models/slim/motor/jobs.h"
+#include "emulator/models/slim/motor/module.h"
+#include "emulator/models/slim/motor/outputs.h"
 
 namespace understudy {
 
@@ -31,7 +30,7 @@ void require_speed(double value) {
 
 }  // namespace
 
-void StateOf<Chain::Group>::write(const Chain::Group& group, StateWriter& writer) {
+void StateOf<Group>::write(const Group& group, StateWriter& writer) {
   const auto& [motion, paths, end] = group;
   writer.write(motion.engaged);
   if (!motion.engaged) return;  // it is as new
@@ -40,7 +39,7 @@ void StateOf<Chain::Group>::write(const Chain::Group& group, StateWriter& writer
   writer.write(end);
 }
 
-void StateOf<Chain::Group>::read(Chain::Group& group, StateReader& reader) {
+void StateOf<Group>::read(Group& group, StateReader& reader) {
   auto& [motion, paths, end] = group;
   bool engaged = false;
   group = {};
@@ -135,7 +134,7 @@ void StateOf<Module>::check(const Module& module) {
   }
 }
 
-void StateOf<Chain>::check(const Chain& chain) {
+void StateOf<ChainState>::check(const ChainState& chain) {
   const auto& [options, modules, axes, environment, groups, map, continuous, paused, pz, number, now] = chain;
   for (const std::int8_t module : map) require_within(module, kNoModule, kMappable - 1);
   require_reach(now);
@@ -148,7 +147,7 @@ void StateOf<Chain>::check(const Chain& chain) {
     require_state(in_group == (chain.group_of(module) != nullptr),
                   "a module is in no group, or in one unawares");
   }
-  for (const Chain::Group& group : groups) {
+  for (const Group& group : groups) {
     if (!group.motion.engaged) continue;
     require_state(group.motion.axis_of[0] >= 0, "a group must have a module at X");
     for (const std::int8_t member : group.motion.axis_of) {

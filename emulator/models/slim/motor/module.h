@@ -1,15 +1,17 @@
 // One module of the chain: a motor with its own units, speeds, outputs and FIFO. The axis itself and its
-// environment are kept with those of the other modules (chain.h), because coordinated motion takes arrays.
+// environment are kept with those of the other modules (chain/chain_state.h), because coordinated motion
+// takes arrays.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-#include "emulator/models/slim/fifo.h"
-#include "emulator/models/slim/jobs.h"
-#include "emulator/models/slim/outputs.h"
+#include "emulator/models/slim/motor/fifo.h"
+#include "emulator/models/slim/motor/jobs.h"
+#include "emulator/models/slim/motor/outputs.h"
 #include "emulator/models/slim/rules/chain_options.h"
 #include "emulator/models/slim/rules/errors.h"
+#include "motion/axis.h"
 #include "motion/move.h"
 #include "motion/unit_scale.h"
 
@@ -19,6 +21,10 @@ inline constexpr int kModules = 8;
 inline constexpr int kOutputs = 4;
 inline constexpr std::size_t kFifoLength = 32;
 inline constexpr int kFullAnalog = 1000;
+/// Speeds and accelerations outside these limits belong to no machine, and may be impossible to plan. (1e-6
+/// is the value that 32 bits hold.)
+inline constexpr double kMinSpeed = 1e-6F;
+inline constexpr double kMaxSpeed = 1e9;
 
 /// FU: the unit of VM and VJ, and of VA for each second.
 enum class SpeedUnit : std::uint8_t { rpm = 0, rps = 1 };
@@ -75,6 +81,17 @@ struct Module {
 
   /// Returns true if a pause has stopped a jog or thrust.
   bool holds_jog() const { return held_jog_direction != 0 || held_thrust != 0; }
+  bool jogs_or_pushes() const { return activity == Activity::jog || activity == Activity::thrust; }
+  /// Returns true if the module does something, or a command waits for it.
+  bool busy() const { return activity != Activity::idle || !fifo.empty() || holds_jog(); }
+  /// Returns the activity of the module, or the activity that a pause holds.
+  Activity activity_or_held() const;
+
+  // ---- With its axis
+  double coordinate(const motion::Axis& axis) const { return units_of(axis.travel_pulses - zero_pulses); }
+  /// Both return what will be so after all commands in the FIFO; `number` is the module's own.
+  bool servo_expected(const motion::Axis& axis) const;
+  double end_expected(int number, const motion::Axis& axis) const;
 
   /// Converts to pulses, rounded half away from zero.
   std::int64_t pulses_of(double units) const;

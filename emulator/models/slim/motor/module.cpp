@@ -1,11 +1,14 @@
-#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/motor/module.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
+#include "emulator/models/slim/motor/jobs.h"
 #include "emulator/models/slim/rules/chain_options.h"
 #include "emulator/models/slim/rules/options.h"
+#include "motion/axis.h"
 #include "motion/move.h"
 #include "motion/ramp.h"
 
@@ -58,6 +61,30 @@ bool Module::reaches(double units) const {
   constexpr double kFarthest_units = 1e12;
   return std::abs(units) <= kFarthest_units &&
          std::abs(units) * settings.scale.pulses_per_unit() <= kFarthest_pulses;
+}
+
+Activity Module::activity_or_held() const {
+  if (activity != Activity::idle) return activity;
+  if (held_thrust != 0) return Activity::thrust;
+  if (held_jog_direction != 0) return Activity::jog;
+  if (fifo.empty() || !fifo[0].begun) return Activity::idle;
+  return fifo[0].kind == Job::Kind::home ? Activity::home : Activity::move;
+}
+
+bool Module::servo_expected(const motion::Axis& axis) const {
+  for (std::size_t i = fifo.size(); i-- > 0;) {
+    if (fifo[i].kind == Job::Kind::servo) return fifo[i].servo_on;
+  }
+  return axis.servo_on;
+}
+
+double Module::end_expected(int number, const motion::Axis& axis) const {
+  for (std::size_t i = fifo.size(); i-- > 0;) {
+    const Job& job = fifo[i];
+    if (!job.moves() && job.kind != Job::Kind::set_coordinate) continue;
+    return job.ends[static_cast<std::size_t>(job.letter_of(number))];
+  }
+  return activity == Activity::idle ? place_units : coordinate(axis);
 }
 
 double Module::analog_factor() const {

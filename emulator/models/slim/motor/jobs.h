@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "emulator/models/slim/outputs.h"
+#include "emulator/models/slim/motor/outputs.h"
 #include "motion/path.h"
 #include "motion/path_run.h"
 

@@ -3,7 +3,7 @@
 
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
-#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain/chain.h"
 #include "interpreter/slim/state_fields.h"
 #include "motion/state_fields.h"
 
@@ -152,8 +152,8 @@ struct StateOf<emulator::models::slim::Module> {
 };
 
 template <>
-struct StateOf<emulator::models::slim::Chain::Group> {
-  using Value = emulator::models::slim::Chain::Group;
+struct StateOf<emulator::models::slim::Group> {
+  using Value = emulator::models::slim::Group;
   static constexpr auto fields =
       FieldList{field("motion", &Value::motion), field("paths", &Value::paths), field("end", &Value::end)};
   // Writes the group only if it is in use.
@@ -162,25 +162,29 @@ struct StateOf<emulator::models::slim::Chain::Group> {
 };
 
 template <>
+struct StateOf<emulator::models::slim::ChainState> {
+  using Value = emulator::models::slim::ChainState;
+  static constexpr auto fields = FieldList{field("modules", &Value::modules),
+                                           field("axes", &Value::axes),
+                                           field("surroundings", &Value::environment),
+                                           field("groups", &Value::groups),
+                                           field("map", &Value::map),
+                                           field("continuous", &Value::continuous),
+                                           field("paused", &Value::paused),
+                                           field("queues_paused", &Value::queues_paused),
+                                           field("last_number", &Value::last_number),
+                                           field("now", &Value::now)};
+  static constexpr std::size_t apart = 1;  // the options, which belong to the bench
+  static void check(const Value& chain);
+};
+
+/// A chain is saved as its state.
+template <>
 struct StateOf<emulator::models::slim::Chain> {
   using Value = emulator::models::slim::Chain;
-  static constexpr auto fields = FieldList{field("modules", &Value::modules_),
-                                           field("axes", &Value::axes_),
-                                           field("surroundings", &Value::environment_),
-                                           field("groups", &Value::groups_),
-                                           field("map", &Value::map_),
-                                           field("continuous", &Value::continuous_),
-                                           field("paused", &Value::paused_),
-                                           field("queues_paused", &Value::queues_paused_),
-                                           field("last_number", &Value::last_number_),
-                                           field("now", &Value::now_)};
-  static constexpr std::size_t members = 11;
-  static constexpr std::size_t apart = 1;  // the options, which belong to the bench
-  static void name_all(Value& all) {       // does not compile if there are others
-    [[maybe_unused]] auto& [options, modules, axes, environment, groups, map, continuous, paused,
-                            queues_paused, last_number, now] = all;
-  }
-  static void check(const Value& chain);
+  static const emulator::models::slim::ChainState& told(const Value& chain) { return chain.state_; }
+  static void write(const Value& chain, StateWriter& writer) { writer.write(chain.state_); }
+  static void read(Value& chain, StateReader& reader) { reader.read(chain.state_); }
 };
 
 }  // namespace understudy

@@ -1,4 +1,4 @@
-#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/motor/jobs.h"
 
 #include <algorithm>
 #include <cmath>
