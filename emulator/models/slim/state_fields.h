@@ -5,7 +5,7 @@
 
 #include "base/state/fields.h"
 #include "emulator/models/slim/chain/chain_fields.h"
-#include "emulator/models/slim/device.h"
+#include "emulator/models/slim/state.h"
 #include "interpreter/slim/state_fields.h"
 
 namespace understudy {

@@ -61,20 +61,20 @@ void Slim::write_own_state(StateWriter& writer) const { writer.write(settled());
 std::function<void()> Slim::read_own_state(StateReader& reader) {
   const auto restored = std::make_shared<State>();
   reader.read(*restored);
-  settle_programs(*restored, flow_options_);
+  settle_programs(*restored, setup_.flow);
   // What else only this bench's choices tell.
   for (const Errors& errors : restored->errors) {
-    require_state(errors.history.size() <= history_length(), "too many errors are remembered");
+    require_state(errors.history.size() <= setup_.history_length(), "too many errors are remembered");
   }
   const auto check_integers = [&](const auto& integers) {
-    const int least = of_programs().dialect.integer_least;
+    const int least = setup_.of_programs().dialect.integer_least;
     for (const std::int16_t value : integers) require_within(value, least, lang::kIntegerMost);
   };
   for (const Memory* const memory : {&restored->ram, &restored->kept}) {
     check_integers(memory->integers);
     check_integers(memory->integer_array);
   }
-  restored->chain.set_options(chain_options());
+  restored->chain.set_options(setup_.options);
   return [this, restored] { state_ = *restored; };
 }
 
