@@ -12,10 +12,10 @@
 #include "base/simulated_time.h"
 #include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
-#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
+#include "emulator/device/stateful_device.h"
 #include "emulator/models/slim/actions.h"
 #include "emulator/models/slim/by_name.h"
 #include "emulator/models/slim/chain/chain.h"
@@ -38,7 +38,9 @@
 namespace understudy::emulator::models::slim {
 
 Slim::Slim(const DeviceSettings& settings)
-    : DeviceOf(slim::model(), settings), KeptMemory(slim::model().name, settings.firmware), setup_(*this) {
+    : StatefulDevice(slim::model(), settings),
+      KeptMemory(slim::model().name, settings.firmware),
+      setup_(*this) {
   state_.kept = setup_.factory();
   state_.ram = state_.kept;
   state_.chain.set_options(setup_.options);
@@ -170,11 +172,6 @@ State Slim::settled() const {
   State state = state_;
   state.chain.skip_to(now());
   return state;
-}
-
-bool Slim::same_state(const Device& other) const {
-  const auto* that = dynamic_cast<const Slim*>(&other);
-  return that != nullptr && that->now() == now() && that->settled() == settled();
 }
 
 // --- terminals and axes ----------------------------------------------------------------------------

@@ -20,9 +20,9 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
-#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/stateful_device.h"
 #include "emulator/device/terminals.h"
 #include "emulator/device/text/text_protocol.h"
 #include "emulator/device/user_program.h"
@@ -35,7 +35,7 @@
 
 namespace understudy::emulator::models::slim {
 
-class Slim final : public DeviceOf<Slim>,
+class Slim final : public StatefulDevice<Slim, State>,
                    public TextProtocol,
                    public NamedValues,
                    public KeptMemory,
@@ -79,7 +79,7 @@ class Slim final : public DeviceOf<Slim>,
   Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override;
   void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
                        std::span<std::int64_t> pulses) override;
-  bool same_state(const Device& other) const override;
+  State settled() const;
 
   // --- terminals and axes ---
   bool has_axis(int axis) const override { return axis < setup_.modules || state_.chain.linked(axis); }
@@ -96,14 +96,10 @@ class Slim final : public DeviceOf<Slim>,
   std::int64_t pulses_to_come(int axis) const override { return state_.chain.pulses_to_come(axis); }
   void set_encoder(int axis, std::int64_t counts) override;
 
-  const State& state() const { return state_; }
-
  protected:
   void power_up() override { slim::power_up(state_, setup_); }
   void power_down() override { slim::power_down(state_, setup_); }
-  void write_own_state(StateWriter& writer) const override;
-  std::function<void()> read_own_state(StateReader& reader) override;
-  std::string own_difference(StateReader& a, StateReader& b) const override;
+  void check_restored(State& restored) const override;
   std::function<void(NvImage&)> memory_writer() const override { return image_writer(state_, setup_); }
   void read_memory(const NvImage& image) override { read_image(state_, setup_, image); }
 
@@ -113,15 +109,12 @@ class Slim final : public DeviceOf<Slim>,
   double value(const lang::Operand& operand) const override;
   lang::Outcome carry_out(const lang::Command& command) override;
 
-  /// Returns the state as if all ticks up to now had been run one by one.
-  State settled() const;
   /// Something comes from outside, after ticks that may have been skipped.
   void wake();
 
   const Setup setup_;
   int failed_module_ = 0;  // within a step of the program: the module whose command carry_out() has refused
   mutable QueriesByName queries_{};  // not state, only a cache
-  State state_;
 };
 
 }  // namespace understudy::emulator::models::slim

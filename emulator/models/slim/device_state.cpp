@@ -2,14 +2,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "base/state/difference.h"
-#include "base/state/state_bytes.h"
 #include "base/state/state_error.h"
+#include "emulator/device/stateful_device_bytes.h"
 #include "emulator/models/slim/device.h"
 #include "emulator/models/slim/memory.h"
 #include "emulator/models/slim/parameters.h"
@@ -56,30 +53,24 @@ void settle_programs(State& state, const lang::FlowOptions& options) {
 
 }  // namespace
 
-void Slim::write_own_state(StateWriter& writer) const { writer.write(settled()); }
-
-std::function<void()> Slim::read_own_state(StateReader& reader) {
-  const auto restored = std::make_shared<State>();
-  reader.read(*restored);
-  settle_programs(*restored, setup_.flow);
+void Slim::check_restored(State& restored) const {
+  settle_programs(restored, setup_.flow);
   // What else only this bench's choices tell.
-  for (const Errors& errors : restored->errors) {
+  for (const Errors& errors : restored.errors) {
     require_state(errors.history.size() <= setup_.history_length(), "too many errors are remembered");
   }
   const auto check_integers = [&](const auto& integers) {
     const int least = setup_.of_programs().dialect.integer_least;
     for (const std::int16_t value : integers) require_within(value, least, lang::kIntegerMost);
   };
-  for (const Memory* const memory : {&restored->ram, &restored->kept}) {
+  for (const Memory* const memory : {&restored.ram, &restored.kept}) {
     check_integers(memory->integers);
     check_integers(memory->integer_array);
   }
-  restored->chain.set_options(setup_.options);
-  return [this, restored] { state_ = *restored; };
-}
-
-std::string Slim::own_difference(StateReader& a, StateReader& b) const {
-  return difference_of_saved<State>(a, b);
+  restored.chain.set_options(setup_.options);
 }
 
 }  // namespace understudy::emulator::models::slim
+
+template class understudy::emulator::StatefulDevice<understudy::emulator::models::slim::Slim,
+                                                    understudy::emulator::models::slim::State>;
