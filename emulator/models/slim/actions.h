@@ -6,18 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain/chain.h"
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/setup.h"
+#include "emulator/models/slim/state.h"
+#include "interpreter/slim/command.h"
 #include "interpreter/slim/machine.h"
+#include "interpreter/slim/verbs.h"
 
 namespace understudy::emulator::models::slim {
 
-namespace lang = interpreter::slim;
-
-class Slim;
-
 /// A command that is being executed. Its indices are resolved, and its module is linked.
 struct Order {
-  Slim& slim;
+  State& state;
+  const Setup& setup;
+  const lang::Machine& machine;
   Chain& chain;
   const lang::Command& command;
   int module = 0;                       // T0 without a prefix
@@ -40,5 +43,15 @@ struct VerbActions {
 
 /// Returns the actions of a verb. Queries have none: queries.cpp answers them.
 const VerbActions& actions_of(lang::Verb verb);
+
+Order order_of(State& state, const Setup& setup, const lang::Machine& machine, const lang::Command& command);
+/// Executes a typed command, or one of a program.
+Error perform(Order& order, Action action);
+/// Executes a line of a program. The program waits where a host is refused: for room in a buffer, and (unless
+/// chosen otherwise) for the end of a pause.
+lang::Outcome perform_stored(Order& order);
+
+/// Returns true for a move of a module that is busy. A command that is refused for another reason is none.
+bool would_wait(const State& state, const lang::Command& command);
 
 }  // namespace understudy::emulator::models::slim

@@ -6,13 +6,19 @@
 
 #include "base/complete_table.h"
 #include "emulator/models/slim/actions.h"
-#include "emulator/models/slim/chain.h"
-#include "emulator/models/slim/device.h"
-#include "emulator/models/slim/errors.h"
-#include "emulator/models/slim/jobs.h"
-#include "emulator/models/slim/module.h"
-#include "emulator/models/slim/options.h"
-#include "emulator/models/slim/transitions.h"
+#include "emulator/models/slim/chain/chain.h"
+#include "emulator/models/slim/motor/jobs.h"
+#include "emulator/models/slim/motor/module.h"
+#include "emulator/models/slim/numbers.h"
+#include "emulator/models/slim/parameters_set.h"
+#include "emulator/models/slim/power.h"
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/rules/options.h"
+#include "emulator/models/slim/rules/transitions.h"
+#include "emulator/models/slim/setup.h"
+#include "emulator/models/slim/speech.h"
+#include "emulator/models/slim/state.h"
+#include "emulator/models/slim/variables.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/commands.h"
@@ -65,14 +71,43 @@ constexpr std::array kCommandVerbs = [] {
   return verbs;
 }();
 
+/// A machine that has been stopped must not start again by itself: DN, or what an event has interrupted,
+/// would go on with the next move. A line of the program's own may have more to say.
+lang::Outcome::Program program_after_stop(const Setup& setup, From from) {
+  using Program = lang::Outcome::Program;
+  if (setup.chose(option("emergency_stop_program", "ends_also_by_its_own_line"))) return Program::ends;
+  if (setup.chose(option("emergency_stop_program", "goes_on"))) return Program::goes_on;
+  switch (outcome_of(Doing::program_runs, Event::stop, from)) {
+    case Outcome::ends: return Program::ends;
+    case Outcome::ends_after_routine: return Program::forgets_what_it_interrupted;
+    case Outcome::comes_to_a_stand:
+    case Outcome::does_as_before:
+    case Outcome::is_forgotten:
+    case Outcome::stops_at_once:
+    case Outcome::goes_on:
+    case Outcome::cannot_be: break;
+  }
+  return Program::goes_on;
+}
+
+/// DN, TpDN and XDN.
+bool is_done(const Chain& chain, const lang::Command& command) {
+  if (command.verb == Verb::axis_wait_done) return chain.done(chain.assigned(letter_of(command)));
+  if (command.module >= 0) return chain.done(command.module);
+  for (int m = 0; m < kModules; ++m) {
+    if (chain.linked(m) && !chain.done(m)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Error is_refused(Order&) { return Error::not_allowed; }
 
 /// The rows.
-struct SlimActions {
+struct Actions {
   static double amount(const Order& order, std::size_t operand) {
-    return order.slim.amount(order.command, operand);
+    return order.machine.value(order.command.operands[operand]);
   }
   static std::int32_t whole(const Order& order, std::size_t operand) {
     return static_cast<std::int32_t>(amount(order, operand));
@@ -82,16 +117,14 @@ struct SlimActions {
   // --- one motor ---
 
   static Error thrust(Order& order) {
-    order.slim.warn_not_implemented("FT", "it has no load to push");
+    order.setup.device.warn_not_implemented("FT", "it has no load to push");
     return order.chain.thrust(order.module, whole(order, 0));
   }
 
   static Error reset(Order& order) {
     const Error error = order.chain.reset(order.module);
-    Slim& slim = order.slim;
-    if (error == Error::none) {
-      slim.state_.errors[static_cast<std::size_t>(order.module)].present = Error::none;
-    }
+    if (error == Error::none)
+      order.state.errors[static_cast<std::size_t>(order.module)].present = Error::none;
     return error;
   }
 
@@ -117,7 +150,7 @@ struct SlimActions {
   // --- outputs ---
 
   static Error pwm(Order& order) {
-    const double unit_hz = order.slim.chose(option("pwm_units", "khz_and_percent")) ? 1000 : 1;
+    const double unit_hz = order.setup.chose(option("pwm_units", "khz_and_percent")) ? 1000 : 1;
     return order.chain.pwm(order.module, port(order), amount(order, 1) * unit_hz, amount(order, 2));
   }
   template <bool sets>
@@ -144,9 +177,8 @@ struct SlimActions {
   // --- several motors ---
 
   static Error map_axis(Order& order) {
-    Slim& slim = order.slim;
-    const Error error = slim.assign_axis(letter_of(order.command), whole(order, 0));
-    if (error == Error::none && slim.chose(option("axis_map_kept", "yes"))) slim.keep_axis_map();
+    const Error error = assign_axis(order.state, order.setup, letter_of(order.command), whole(order, 0));
+    if (error == Error::none && order.setup.chose(option("axis_map_kept", "yes"))) keep_axis_map(order.state);
     return error;
   }
   template <bool absolute>
@@ -163,7 +195,7 @@ struct SlimActions {
                   .centre_y_units = amount(order, 1),
                   .sweep_deg = amount(order, 2)};
     if (rises) what.height_units = amount(order, 3);
-    if (absolute && !rises && order.slim.chose(option("arc", "end_point_and_radius")))
+    if (absolute && !rises && order.setup.chose(option("arc", "end_point_and_radius")))
       what.radius_units = amount(order, 2);
     return order.chain.arc(what);
   }
@@ -193,14 +225,14 @@ struct SlimActions {
   // --- the whole chain ---
 
   static Error stop_from_program(Order& order) {
-    const bool in_routine = in_event_routine(order.slim.state_.execution);
-    order.outcome.program = order.slim.program_after_stop(in_routine ? From::event_routine : From::program);
+    const bool in_routine = in_event_routine(order.state.execution);
+    order.outcome.program = program_after_stop(order.setup, in_routine ? From::event_routine : From::program);
     order.chain.emergency_stop();
     return Error::none;
   }
   static Error stop_from_host(Order& order) {
-    Slim& slim = order.slim;
-    if (slim.program_after_stop(From::host) == lang::Outcome::Program::ends) stop(slim.state_.execution);
+    const bool ends = program_after_stop(order.setup, From::host) == lang::Outcome::Program::ends;
+    if (ends) stop(order.state.execution);
     return order.chain.emergency_stop();
   }
 
@@ -217,22 +249,25 @@ struct SlimActions {
   // --- numbers, parameters, memory ---
 
   static Error set_parameter(Order& order) {
-    Slim& slim = order.slim;
     const lang::Command& command = order.command;
-    if (command.name == "TM" && slim.chose(option("clock_assignment", "the_variable")) &&
+    if (command.name == "TM" && order.setup.chose(option("clock_assignment", "the_variable")) &&
         is_variable(command.operands[0].kind)) {
-      return slim.set_variable(command.operands[0], static_cast<double>(slim.clock_s()));
+      return set_variable(order.state, order.setup, command.operands[0],
+                          static_cast<double>(clock_s(order.state, order.setup)));
     }
-    return slim.set_parameter(order.module, command.name, amount(order, 0));
+    return slim::set_parameter(order.state, order.setup, order.module, command.name, amount(order, 0));
   }
   static std::string printed(const Order& order) {
     const lang::Operand& what = order.command.operands.front();
-    return what.kind == lang::Operand::Kind::text ? what.text : order.slim.text_of(what);
+    if (what.kind == lang::Operand::Kind::text) return what.text;
+    const double value = order.machine.value(what);
+    const bool is_integer = holds_integer(what.kind) || what.kind == lang::Operand::Kind::integer;
+    return is_integer ? text_of_integer(value) : text_of_real(value, order.setup.real_form());
   }
   /// A program is much faster than its line: it prints when there is room again.
   static Error print_from_program(Order& order) {
-    order.outcome.waits = !order.slim.has_room_to_speak();
-    if (!order.outcome.waits) order.slim.say(printed(order));
+    order.outcome.waits = !has_room_to_speak(order.state, order.setup);
+    if (!order.outcome.waits) say(order.state, order.setup, printed(order));
     return Error::none;
   }
   static Error print_from_host(Order& order) {
@@ -240,29 +275,37 @@ struct SlimActions {
     return Error::none;
   }
   static Error list_from_program(Order& order) {
-    for (const std::string& line : order.slim.parameter_list()) order.slim.say(line);
+    for (const std::string& line : parameter_list(order.state, order.setup)) {
+      say(order.state, order.setup, line);
+    }
     return Error::none;
   }
   static Error list_from_host(Order& order) {
-    order.lines = order.slim.parameter_list();
+    order.lines = parameter_list(order.state, order.setup);
     return Error::none;
   }
-  template <auto does>
+  template <void (*does)(State&)>
   static Error done(Order& order) {
-    (order.slim.*does)();
+    does(order.state);
+    return Error::none;
+  }
+  static Error reboot(Order& order) {
+    slim::reboot(order.state, order.setup);
     return Error::none;
   }
 
   static constexpr ActionRow kMemory[] = {
       {Verb::set_variable,
-       always([](Order& o) { return o.slim.set_variable(o.command.operands[0], amount(o, 1)); })},
+       always([](Order& o) { return set_variable(o.state, o.setup, o.command.operands[0], amount(o, 1)); })},
       {Verb::set_parameter, always(set_parameter)},
-      {Verb::set_path_speed, always([](Order& o) { return o.slim.set_parameter(0, "TVM", amount(o, 0)); })},
-      {Verb::default_parameters, always([](Order& o) { return o.slim.restore_factory_parameters(); })},
-      {Verb::save_data, always(done<&Slim::keep_data>)},
-      {Verb::save_parameters, always(done<&Slim::keep_parameters>)},
-      {Verb::save_program, always(done<&Slim::keep_program>)},
-      {Verb::reboot, always(done<&Slim::reboot>)},
+      {Verb::set_path_speed,
+       always([](Order& o) { return slim::set_parameter(o.state, o.setup, 0, "TVM", amount(o, 0)); })},
+      {Verb::default_parameters,
+       always([](Order& o) { return restore_factory_parameters(o.state, o.setup); })},
+      {Verb::save_data, always(done<keep_data>)},
+      {Verb::save_parameters, always(done<keep_parameters>)},
+      {Verb::save_program, always(done<keep_program>)},
+      {Verb::reboot, always(reboot)},
       {Verb::list_parameters, each(list_from_program, list_from_host)},
       {Verb::print, each(print_from_program, print_from_host)},
   };
@@ -270,7 +313,7 @@ struct SlimActions {
   // --- programs ---
 
   static Error wait_done(Order& order) {
-    order.outcome.waits = !order.slim.is_done(order.command);
+    order.outcome.waits = !is_done(order.chain, order.command);
     return Error::none;
   }
   static Error wait_axis_done(Order& order) {
@@ -278,18 +321,18 @@ struct SlimActions {
     return wait_done(order);
   }
   static Error run(Order& order) {
-    State& state = order.slim.state_;
+    State& state = order.state;
     const auto& operands = order.command.operands;
     return start(state.execution, state.program, operands.empty() ? nullptr : operands.data(),
-                 order.slim.flow_options_);
+                 order.setup.flow);
   }
   static Error define(Order& order) {
-    define_event(order.slim.state_.execution.events, order.command, order.slim.flow_options_.events);
+    define_event(order.state.execution.events, order.command, order.setup.flow.events);
     return Error::none;
   }
   static Error edit(Order& order) {
-    State& state = order.slim.state_;
-    return begin_edit(state.editor, state.program, order.command, order.slim.of_programs());
+    State& state = order.state;
+    return begin_edit(state.editor, state.program, order.command, order.setup.of_programs());
   }
 
   static constexpr ActionRow kPrograms[] = {
@@ -297,15 +340,15 @@ struct SlimActions {
       {Verb::axis_wait_done, stored_only(wait_axis_done)},
       {Verb::run, typed_only(run)},
       {Verb::exit, typed_only([](Order& o) {
-         stop(o.slim.state_.execution);
+         stop(o.state.execution);
          return Error::none;
        })},
       {Verb::program_list, typed_only([](Order& o) {
-         o.lines = o.slim.state_.program.listing(o.slim.of_programs());
+         o.lines = o.state.program.listing(o.setup.of_programs());
          return Error::none;
        })},
       {Verb::upload, typed_only([](Order& o) {
-         o.lines = o.slim.state_.program.upload();
+         o.lines = o.state.program.upload();
          return Error::none;
        })},
       of_editor(Verb::program_new, edit),
@@ -330,70 +373,36 @@ struct SlimActions {
   static const CompleteTable<Verb, VerbActions> kTable;
 };
 
-constexpr CompleteTable<Verb, VerbActions> SlimActions::kTable(kCommandVerbs, kOneMotor, kOutputs,
-                                                               kSeveralMotors, kWholeChain, kMemory,
-                                                               kPrograms);
+constexpr CompleteTable<Verb, VerbActions> Actions::kTable(kCommandVerbs, kOneMotor, kOutputs, kSeveralMotors,
+                                                           kWholeChain, kMemory, kPrograms);
 
-const VerbActions& actions_of(Verb verb) { return SlimActions::kTable[verb]; }
+const VerbActions& actions_of(Verb verb) { return Actions::kTable[verb]; }
 
-Error Slim::linked(int module) const { return state_.chain.linked(module) ? Error::none : Error::not_linked; }
+Order order_of(State& state, const Setup& setup, const lang::Machine& machine, const lang::Command& command) {
+  return {.state = state,
+          .setup = setup,
+          .machine = machine,
+          .chain = state.chain,
+          .command = command,
+          .module = module_of(command)};
+}
 
-bool Slim::input(int number) const { return ((state_.inputs[0] >> (number - 1)) & 1) != 0; }
-
-Error Slim::perform(Order& order, Action action) {
-  const Error error = linked(order.module);
+Error perform(Order& order, Action action) {
+  const Error error = linked(order.state, order.module);
   return error == Error::none ? action(order) : error;
 }
 
-Order Slim::order_of(const lang::Command& command) {
-  return {.slim = *this, .chain = state_.chain, .command = command, .module = module_of(command)};
-}
-
-/// A program waits where a host is refused: for room in a buffer, and (unless chosen otherwise) for the end
-/// of a pause.
-lang::Outcome Slim::carry_out(const lang::Command& command) {
-  Order order = order_of(command);
-  const Error error = perform(order, actions_of(command.verb).stored);
-  if (is_silence(error)) return lang::kDone;
-  const bool waits_for_pause = error == Error::paused && !chose(option("pause_in_program", "error_6"));
+lang::Outcome perform_stored(Order& order) {
+  const Error error = perform(order, actions_of(order.command.verb).stored);
+  if (order.setup.is_silence(error)) return lang::kDone;
+  const bool waits_for_pause =
+      error == Error::paused && !order.setup.chose(option("pause_in_program", "error_6"));
   if (error == Error::buffer_full || waits_for_pause) return lang::kWaits;
-  if (error == Error::none) return order.outcome;
-  failed_module_ = module_of(command);
-  return lang::failed(error);
+  return error == Error::none ? order.outcome : lang::failed(error);
 }
 
-/// A machine that has been stopped must not start again by itself: DN, or what an event has interrupted,
-/// would go on with the next move. A line of the program's own may have more to say.
-lang::Outcome::Program Slim::program_after_stop(From from) const {
-  using Program = lang::Outcome::Program;
-  if (chose(option("emergency_stop_program", "ends_also_by_its_own_line"))) return Program::ends;
-  if (chose(option("emergency_stop_program", "goes_on"))) return Program::goes_on;
-  switch (outcome_of(Doing::program_runs, Event::stop, from)) {
-    case Outcome::ends: return Program::ends;
-    case Outcome::ends_after_routine: return Program::forgets_what_it_interrupted;
-    case Outcome::comes_to_a_stand:
-    case Outcome::does_as_before:
-    case Outcome::is_forgotten:
-    case Outcome::stops_at_once:
-    case Outcome::goes_on:
-    case Outcome::cannot_be: break;
-  }
-  return Program::goes_on;
-}
-
-bool Slim::is_done(const lang::Command& command) const {
-  const Chain& chain = state_.chain;
-  if (command.verb == Verb::axis_wait_done) return chain.done(chain.assigned(letter_of(command)));
-  if (command.module >= 0) return chain.done(command.module);
-  for (int m = 0; m < kModules; ++m) {
-    if (chain.linked(m) && !chain.done(m)) return false;
-  }
-  return true;
-}
-
-/// Whether it is a move of a module that is busy. What is refused for another reason is none.
-bool Slim::would_wait(const lang::Command& command) const {
-  const Chain& chain = state_.chain;
+bool would_wait(const State& state, const lang::Command& command) {
+  const Chain& chain = state.chain;
   if (chain.paused()) return false;
   const auto letter_is_busy = [&](Letter letter) {
     const int module = chain.assigned(letter);

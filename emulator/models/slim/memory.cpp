@@ -12,7 +12,7 @@
 #include "base/text/one_line.h"
 #include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
-#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/numbers.h"
 #include "emulator/models/slim/parameters.h"
 #include "interpreter/slim/command_row.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "emulator/device/memory/nv_image.h"
-#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/parameters.h"
 #include "interpreter/slim/commands.h"
 

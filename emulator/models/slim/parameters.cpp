@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/rules/errors.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/parse.h"

@@ -9,7 +9,8 @@
 #include <optional>
 #include <string_view>
 
-#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/motor/module.h"
+#include "emulator/models/slim/rules/errors.h"
 #include "interpreter/slim/command.h"
 
 namespace understudy::emulator::models::slim {
@@ -29,10 +30,6 @@ struct ParameterDefinition {
 };
 
 inline constexpr double kMaxReal = 3.4028234663852886e38;  // float32
-/// Speeds and accelerations outside these limits belong to no machine, and may be impossible to plan. (1e-6
-/// is the value that 32 bits hold.)
-inline constexpr double kMinSpeed = 1e-6F;
-inline constexpr double kMaxSpeed = 1e9;
 
 /// All parameters, in the order in which ULC lists them.
 inline constexpr ParameterDefinition kParameters[] = {

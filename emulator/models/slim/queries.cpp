@@ -1,35 +1,36 @@
 // What SLIM's queries answer.
-#include <algorithm>
+#include "emulator/models/slim/queries.h"
+
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <limits>
-#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "base/complete_table.h"
 #include "base/simulated_time.h"
 #include "emulator/device/choices.h"
 #include "emulator/device/device.h"
+#include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
-#include "emulator/models/slim/actions.h"
-#include "emulator/models/slim/chain.h"
-#include "emulator/models/slim/device.h"
-#include "emulator/models/slim/errors.h"
-#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/chain/chain.h"
+#include "emulator/models/slim/error_log.h"
+#include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/numbers.h"
-#include "emulator/models/slim/options.h"
 #include "emulator/models/slim/parameters.h"
+#include "emulator/models/slim/parameters_set.h"
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/rules/options.h"
+#include "emulator/models/slim/setup.h"
+#include "emulator/models/slim/state.h"
+#include "emulator/models/slim/variables.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/commands.h"
 #include "interpreter/slim/editor.h"
-#include "interpreter/slim/events.h"
-#include "interpreter/slim/parse.h"
 #include "interpreter/slim/text_of.h"
+#include "interpreter/slim/verbs.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -75,37 +76,24 @@ const char* word_of(Mode mode) {
   return "";
 }
 
-}  // namespace
-
-std::string Slim::history_text(const Errors& errors) const {
-  std::string text;
-  for (const std::uint8_t error : errors.history) {
-    if (!text.empty()) text += ',';
-    text += std::to_string(code_of(static_cast<Error>(error)));
-  }
-  return text.empty() ? "0" : text;
-}
-
-std::uint16_t Slim::status_bits(int module) const {
-  const ModuleStatus status = state_.chain.status(module);
+unsigned status_bits(const State& state, int module) {
+  const ModuleStatus status = state.chain.status(module);
   unsigned bits = 0;
   const auto add = [&](unsigned bit, bool on) {
     if (on) bits |= bit;
   };
   add(kServoOn, status.servo_on);
   add(kMoving, status.moving);
-  add(kProgramRuns, state_.execution.running);
+  add(kProgramRuns, state.execution.running);
   add(kPaused, status.paused);
   add(kHomed, status.homed);
-  add(kErrorPresent, state_.errors[static_cast<std::size_t>(module)].present != Error::none);
-  add(kEditing, is_editing(state_.editor));
+  add(kErrorPresent, state.errors[static_cast<std::size_t>(module)].present != Error::none);
+  add(kEditing, is_editing(state.editor));
   add(kJogs, status.jog);
   add(kBufferNotEmpty, status.buffer_not_empty);
   add(kInBlend, status.in_blend);
-  return static_cast<std::uint16_t>(bits);
+  return bits;
 }
-
-namespace {
 
 constexpr std::array kQueryVerbs = [] {
   std::array<Verb, lang::kCommands.size()> verbs{};
@@ -120,17 +108,17 @@ constexpr std::array kQueryVerbs = [] {
 }  // namespace
 
 /// What each query answers.
-struct SlimQueries {
+struct Queries {
   struct Question {
-    const Slim& slim;
+    const State& state;
+    const Setup& setup;
     const lang::Command& command;
     int module;
-    Slim::Answer& answer;
+    Answer& answer;
 
-    const State& state() const { return slim.state_; }
-    const Chain& chain() const { return slim.state_.chain; }
-    const Errors& errors() const { return slim.state_.errors[static_cast<std::size_t>(module)]; }
-    bool chose(const Option& option) const { return slim.chose(option); }
+    const Chain& chain() const { return state.chain; }
+    const Errors& errors() const { return state.errors[static_cast<std::size_t>(module)]; }
+    bool chose(const Option& option) const { return setup.chose(option); }
     int number() const { return static_cast<int>(command.operands.front().number); }
 
     Error whole(double value) const {
@@ -140,7 +128,7 @@ struct SlimQueries {
     }
     Error real(double value) const {
       answer.number = value;
-      if (answer.has_words) answer.text = text_of_real(value, slim.real_form());
+      if (answer.has_words) answer.text = text_of_real(value, setup.real_form());
       return Error::none;
     }
     Error words(std::string text) const {
@@ -153,7 +141,7 @@ struct SlimQueries {
     }
     /// Not modelled; kGaps says so.
     Error electrical(double value) const {
-      slim.warn_not_implemented(command.name, "nothing electrical is; the value is always the same");
+      setup.device.warn_not_implemented(command.name, "nothing electrical is; the value is always the same");
       return whole(value);
     }
   };
@@ -161,24 +149,25 @@ struct SlimQueries {
   using Row = HandlerRow<Verb, Reply>;
 
   static Error input(const Question& q) {
-    if (q.command.operands.empty() && !q.slim.has_input_mask()) return Error::syntax;
-    const std::uint8_t levels = q.slim.input_levels(q.module);
+    if (q.command.operands.empty() && !q.setup.has_input_mask()) return Error::syntax;
+    const std::uint8_t levels = q.setup.input_levels(q.module);
     return q.whole(q.command.operands.empty() ? levels : (levels >> (q.number() - 1)) & 1);
   }
   static Error status(const Question& q) {
-    const unsigned bits = q.slim.status_bits(q.module);
+    const unsigned bits = status_bits(q.state, q.module);
     return q.chose(option("status_bits", "the_same_in_hexadecimal")) ? q.shown_as(hexadecimal(bits), bits)
                                                                      : q.whole(bits);
   }
   static Error version(const Question& q) {
-    const auto firmware = q.slim.firmware();
+    const auto firmware = q.setup.device.firmware();
     return q.chose(option("version_shown", "as_a_number")) ? q.whole(firmware)
                                                            : q.words(version_text(firmware));
   }
   static Error variable(const Question& q) {
     const lang::Operand& operand = q.command.operands.front();
     q.answer.name = lang::text_of(operand);
-    return holds_integer(operand.kind) ? q.whole(q.slim.value(operand)) : q.real(q.slim.value(operand));
+    return holds_integer(operand.kind) ? q.whole(value_of(q.state, q.setup, operand))
+                                       : q.real(value_of(q.state, q.setup, operand));
   }
   static Error coordinate(const Question& q) {
     const double units = q.chain().coordinate(q.module);
@@ -192,22 +181,22 @@ struct SlimQueries {
     return q.chose(option("mode_codes", "words")) ? q.shown_as(word_of(mode), code) : q.whole(code);
   }
   static Error time(const Question& q) {
-    const Tick seconds = (q.slim.now() - q.state().powered_at) / 1000;
+    const Tick seconds = (q.setup.now() - q.state.powered_at) / 1000;
     return q.chose(option("time_format", "seconds")) ? q.whole(static_cast<double>(seconds))
                                                      : q.words(time_text(seconds));
   }
   static Error following_error(const Question& q) {
-    q.slim.warn_not_implemented(q.command.name, "the servo follows without error");
+    q.setup.device.warn_not_implemented(q.command.name, "the servo follows without error");
     return q.whole(0);
   }
   static Error parameter_value(const Question& q) {
-    if (q.command.name == "TM") return q.whole(static_cast<double>(q.slim.clock_s()));
-    const auto found = find_parameter(q.slim.meant(q.command.name), q.slim.memory_form().speed_names);
+    if (q.command.name == "TM") return q.whole(static_cast<double>(clock_s(q.state, q.setup)));
+    const auto found = find_parameter(q.setup.canonical(q.command.name), q.setup.memory_form().speed_names);
     if (!found || (kParameters[*found].host_only && q.module != 0)) return Error::syntax;
-    const double held = q.state().ram.parameters[static_cast<std::size_t>(q.module)][*found];
-    if (*found == parameter("VM") && q.chain().analog_speed(q.module) &&
+    const double held = q.state.ram.parameters[static_cast<std::size_t>(q.module)][*found];
+    if (*found == parameter("VM") && q.chain().module_at(q.module).analog_speed &&
         q.chose(option("working_speed_shown", "as_the_analog_input_leaves_it"))) {
-      return q.real(held * q.chain().analog(q.module) / kFullAnalog);
+      return q.real(held * q.chain().module_at(q.module).analog / kFullAnalog);
     }
     return kParameters[*found].type == ParameterDefinition::Type::integer ? q.whole(held) : q.real(held);
   }
@@ -215,22 +204,20 @@ struct SlimQueries {
   using Q = const Question&;
   static constexpr Row kRows[] = {
       {Verb::query_input, input},
-      {Verb::query_analog, [](Q q) { return q.whole(q.slim.Device::input(terminal(q.module, kAnalog))); }},
+      {Verb::query_analog, [](Q q) { return q.whole(q.setup.input(q.module, kAnalog)); }},
       {Verb::query_switch,
-       [](Q q) { return q.whole(q.slim.level(q.module, kFirstSwitch + q.number() - 1) ? 1 : 0); }},
+       [](Q q) { return q.whole(q.setup.level(q.module, kFirstSwitch + q.number() - 1) ? 1 : 0); }},
       {Verb::query_status, status},
       {Verb::query_version, version},
       {Verb::query_variable, variable},
       {Verb::query_coordinate, coordinate},
       {Verb::query_mode, mode},
-      {Verb::query_error, [](Q q) { return q.whole(q.slim.code_of(q.errors().present)); }},
-      {Verb::query_error_history, [](Q q) { return q.words(q.slim.history_text(q.errors())); }},
+      {Verb::query_error, [](Q q) { return q.whole(q.setup.code_of(q.errors().present)); }},
+      {Verb::query_error_history, [](Q q) { return q.words(history_text(q.setup, q.errors())); }},
       {Verb::query_time, time},
-      {Verb::query_motor_version,
-       [](Q q) { return q.whole(q.slim.chosen_number(numbers("motor_version"))); }},
-      {Verb::query_voltage, [](Q q) { return q.electrical(q.slim.chosen_number(numbers("voltage"))); }},
-      {Verb::query_temperature,
-       [](Q q) { return q.electrical(q.slim.chosen_number(numbers("temperature"))); }},
+      {Verb::query_motor_version, [](Q q) { return q.whole(q.setup.number(numbers("motor_version"))); }},
+      {Verb::query_voltage, [](Q q) { return q.electrical(q.setup.number(numbers("voltage"))); }},
+      {Verb::query_temperature, [](Q q) { return q.electrical(q.setup.number(numbers("temperature"))); }},
       {Verb::query_peak_current, [](Q q) { return q.electrical(0); }},
       {Verb::query_mean_current, [](Q q) { return q.electrical(0); }},
       {Verb::query_peak_following_error, following_error},
@@ -239,104 +226,15 @@ struct SlimQueries {
   static const CompleteTable<Verb, Reply> kTable;
 };
 
-constexpr CompleteTable<Verb, SlimQueries::Reply> SlimQueries::kTable(kQueryVerbs, kRows);
+constexpr CompleteTable<Verb, Queries::Reply> Queries::kTable(kQueryVerbs, kRows);
 
-/// The command's indices are resolved.
-Error Slim::query(const lang::Command& command, Answer& answer) const {
+Error query(const State& state, const Setup& setup, const lang::Command& command, Answer& answer) {
   const int module = command.module < 0 ? 0 : command.module;
-  if (const Error error = linked(module); error != Error::none) return error;
+  if (const Error error = linked(state, module); error != Error::none) return error;
   if (answer.has_words) {
     answer.name = (command.module > 0 ? "T" + std::to_string(module) : "") + command.name;
   }
-  return SlimQueries::kTable[command.verb]({*this, command, module, answer});
-}
-
-// --- past the line: scenarios, traces, the control socket ----------------------------------------
-
-/// Conditions and traces ask for the same at every tick: its words are read once.
-const std::optional<lang::Command>& Slim::query_named(std::string_view name) const {
-  constexpr std::size_t kMax = 256;  // a host may ask for anything, for ever
-  if (const auto known = queries_.find(name); known != queries_.end()) return known->second;
-  if (queries_.size() >= kMax) queries_.clear();
-  std::optional<lang::Command>& query = queries_[std::string(name)];
-  lang::ParseResult parsed = lang::parse_line("?" + std::string(name), of_programs().dialect);
-  if (parsed.error != Error::none || !parsed.line.command) return query;
-  const auto row = static_cast<std::size_t>(parsed.line.command->row);
-  if (lang::kCommands[row].is_query()) query = std::move(parsed.line.command);
-  return query;
-}
-
-std::optional<double> Slim::value_named(std::string_view name) const {
-  if (!powered()) return std::nullopt;
-  const std::optional<lang::Command>& query_of_name = query_named(name);
-  if (!query_of_name) return std::nullopt;
-  lang::Command command = *query_of_name;
-  Answer answer{.has_words = false};
-  if (resolve_indices(command, *this) != Error::none) return std::nullopt;
-  if (query(command, answer) != Error::none) return std::nullopt;
-  return answer.number;
-}
-
-Tick Slim::next_change(std::string_view /*name*/, Tick done) const {
-  // Its clocks count seconds.
-  constexpr Tick kSecond = 1000;
-  const auto next_second = [&](Tick since) {
-    return done + kSecond - ((done - since) % kSecond + kSecond) % kSecond;
-  };
-  return std::min(next_second(state_.powered_at), next_second(state_.clock_zero));
-}
-
-std::optional<std::string> Slim::assign(std::string_view name, double value) {
-  if (!powered()) return "it has no power";
-  wake();
-  if (!(std::abs(value) <= std::numeric_limits<float>::max())) return "is out of range";
-  const bool is_whole = value == std::trunc(value) && std::abs(value) < 1e15;
-  const std::string beginning = std::string(name) + "=";
-  lang::ParseResult parsed = lang::parse_line(
-      beginning + (is_whole ? text_of_integer(value) : text_of_real(value)), of_programs().dialect);
-  if (parsed.error == Error::none && parsed.line.command) {
-    lang::Command& command = *parsed.line.command;
-    if (!lang::kCommands[static_cast<std::size_t>(command.row)].is_assignment()) {
-      return "is not a parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
-    }
-    parsed.error = resolve_indices(command, *this);
-    if (parsed.error == Error::none) {
-      Order order = order_of(command);
-      parsed.error = perform(order, actions_of(command.verb).stored);
-    }
-  }
-  switch (parsed.error) {
-    case Error::none: return std::nullopt;
-    case Error::syntax:
-      if (!is_whole && lang::parse_line(beginning + "0").error == Error::none) {
-        return "cannot be " + text_of_real(value) + "; expected a whole number within its range";
-      }
-      return "is not a parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
-    case Error::range: return "is out of range";
-    case Error::not_linked: return "is of a module that is not linked; expected one of those in PN50";
-    case Error::not_allowed:
-    case Error::axis:
-    case Error::paused:
-    case Error::unequal_speeds:
-    case Error::buffer_full:
-    case Error::servo_off:
-    case Error::following_error:
-    case Error::overload:
-    case Error::over_temperature:
-    case Error::address: break;
-  }
-  return "is refused with ERR " + std::to_string(code_of(parsed.error));
-}
-
-std::vector<std::string> Slim::names() const {
-  std::vector<std::string> all{"PE", "ST", "MD", "ERR", "IN", "AIN", "TM", "N0", "R0"};
-  if (!has_input_mask()) std::erase(all, "IN");
-  for (const ParameterDefinition& row : kParameters)
-    all.emplace_back(row.alias.empty() ? row.name : row.alias);
-  for (int m = 1; m < kModules; ++m) {
-    if (state_.chain.linked(m)) all.push_back("T" + std::to_string(m) + "PE");
-  }
-  return all;
+  return Queries::kTable[command.verb]({state, setup, command, module, answer});
 }
 
 }  // namespace understudy::emulator::models::slim

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "base/state/fields.h"
-#include "emulator/models/slim/chain_fields.h"
-#include "emulator/models/slim/device.h"
+#include "emulator/models/slim/chain/chain_fields.h"
+#include "emulator/models/slim/state.h"
 #include "interpreter/slim/state_fields.h"
 
 namespace understudy {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "emulator/models/slim/chain_fields.h"
+#include "emulator/models/slim/chain/chain_fields.h"
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {

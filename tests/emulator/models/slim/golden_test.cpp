@@ -107,8 +107,8 @@ TEST(SlimGolden, AxesWithUnitsOfTheirOwn) {
   // 2MR 30,40 is 50 units long whatever a unit is; each module gets its own pulses.
   OneChain bench;
   bench.map({2, 5});
-  ASSERT_EQ(bench.chain.set_scale(2, 1000, 3), Error::none);
-  ASSERT_EQ(bench.chain.set_scale(5, 7, 1), Error::none);
+  ASSERT_EQ(bench.chain.settings().set_scale(2, 1000, 3), Error::none);
+  ASSERT_EQ(bench.chain.settings().set_scale(5, 7, 1), Error::none);
   ASSERT_EQ(bench.line({30, 40}), Error::none);
   EXPECT_EQ(bench.finish() - 1, 600);  // 50/100 + 100/1000
   EXPECT_EQ(bench.travel(2), 10'000);
@@ -194,14 +194,14 @@ TEST(SlimGolden, WhatCannotBeIsRefusedAndChangesNothing) {
   EXPECT_EQ(bench.chain.spiral(10, 0, 3600, -5), Error::range);  // a radius below 0
   EXPECT_EQ(bench.line({1e13, 0}), Error::range);
   EXPECT_EQ(bench.line({1, 2, 3}), Error::axis);
-  bench.chain.set_linked(1, false);
+  bench.chain.settings().set_linked(1, false);
   EXPECT_EQ(bench.line({1, 2}), Error::not_linked);
-  bench.chain.set_linked(1, true);
+  bench.chain.settings().set_linked(1, true);
   EXPECT_EQ(bench.chain, before.chain);
-  EXPECT_EQ(bench.chain.set_path_speed(1, 200), Error::none);
+  EXPECT_EQ(bench.chain.settings().set_path_speed(1, 200), Error::none);
   EXPECT_EQ(bench.line({1, 2}), Error::unequal_speeds);
-  EXPECT_EQ(bench.chain.set_path_speed(1, 100), Error::none);
-  EXPECT_EQ(bench.chain.set_path_acceleration(1, 2000), Error::none);
+  EXPECT_EQ(bench.chain.settings().set_path_speed(1, 100), Error::none);
+  EXPECT_EQ(bench.chain.settings().set_path_acceleration(1, 2000), Error::none);
   EXPECT_EQ(bench.line({1, 2}), Error::unequal_speeds);
   EXPECT_TRUE(bench.all_done());
 }

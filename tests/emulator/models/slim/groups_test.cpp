@@ -123,7 +123,7 @@ TEST(SlimGroups, AThousandCommandsInAnyOrderLoseNothing) {
   // Fixed pseudo-random commands; the sums of the distances are the oracle.
   OneChain bench;
   bench.scale_all(10);
-  bench.chain.set_tvm(2000);
+  bench.chain.settings().set_tvm(2000);
   std::array<std::int64_t, kModules> expected{};
   std::uint64_t seed = 12'345;
   const auto dice = [&](int n) {

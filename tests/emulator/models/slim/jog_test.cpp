@@ -87,7 +87,7 @@ TEST(SlimJog, AMoveGivenMeanwhileWaitsAndOutputsDoNot) {
   EXPECT_EQ(bench.chain.move(0, false, 500), Error::none);
   EXPECT_EQ(bench.chain.set_output(0, 2, true), Error::none);
   bench.steps(1000);
-  EXPECT_EQ(bench.chain.queued(0), 2U);
+  EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 2U);
   EXPECT_FALSE(bench.chain.output(0, 2));
   bench.chain.jog(0, 0);
   bench.finish();
@@ -102,16 +102,16 @@ TEST(SlimThrust, PushesUntilItIsStopped) {
   ASSERT_EQ(bench.chain.thrust(0, 20'000), Error::none);
   bench.steps(10);
   EXPECT_EQ(bench.chain.status(0).mode, Mode::torque);
-  EXPECT_EQ(bench.chain.thrust_of(0), 20'000);
+  EXPECT_EQ(bench.chain.module_at(0).thrust, 20'000);
   bench.chain.move(0, false, 100);
   bench.steps(100);
   EXPECT_EQ(bench.travel(0), 0);
   bench.chain.thrust(0, 5);
-  EXPECT_EQ(bench.chain.thrust_of(0), 5);
+  EXPECT_EQ(bench.chain.module_at(0).thrust, 5);
   bench.chain.jog(0, 0);
   bench.finish();
   EXPECT_EQ(bench.travel(0), 100);
-  EXPECT_EQ(bench.chain.thrust_of(0), 0);
+  EXPECT_EQ(bench.chain.module_at(0).thrust, 0);
   // From a jog: when that has stopped.
   bench.chain.jog(0, +1);
   bench.steps(1001);
@@ -138,7 +138,7 @@ TEST(SlimThrust, MayRunByChoice) {
   bench.chain.jog(0, 0);
   bench.finish();
   EXPECT_EQ(bench.travel(0), 1000);
-  EXPECT_EQ(bench.chain.thrust_of(0), 0);
+  EXPECT_EQ(bench.chain.module_at(0).thrust, 0);
 }
 
 // What is only queued decides already what is within reach.
@@ -148,7 +148,7 @@ TEST(SlimMove, IsRefusedAtOnceWhereItWouldLeadTooFar) {
   EXPECT_EQ(bench.chain.move(0, true, 9e11), Error::none);
   EXPECT_EQ(bench.chain.move(0, false, 2e11), Error::range);  // from where the other one will end
   EXPECT_EQ(bench.chain.move(0, false, -2e11), Error::none);
-  EXPECT_EQ(bench.chain.queued(0), 2U);
+  EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 2U);
 }
 
 TEST(SlimMove, IsOutOfItsBufferInTheTickOfItsArrival) {
@@ -157,17 +157,17 @@ TEST(SlimMove, IsOutOfItsBufferInTheTickOfItsArrival) {
     bench.speeds(0, 1000, 10'000);
     bench.chain.move(0, true, 100);  // 0.2 s
     bench.steps(200);
-    EXPECT_EQ(bench.chain.queued(0), 1U);
+    EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 1U);
     bench.step();
     EXPECT_EQ(bench.travel(0), 100);
-    EXPECT_EQ(bench.chain.queued(0), 0U);
+    EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 0U);
     // And nothing is left to go on with, whatever comes in that tick.
     if (pauses) {
       bench.chain.pause();
     } else {
       bench.chain.set_servo_at_once(0, false);
     }
-    EXPECT_EQ(bench.chain.queued(0), 0U);
+    EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 0U);
     EXPECT_TRUE(bench.chain.done(0));
     EXPECT_FALSE(bench.chain.busy(0));
   }
@@ -181,7 +181,7 @@ TEST(SlimJog, VjOfZeroIsOfTheNextJogAlsoWhereSpeedsCountAtOnce) {
   bench.jog_speed(0, 1000);
   bench.chain.jog(0, +1);
   bench.steps(1000);
-  bench.chain.set_jog_speed(0, 0);
+  bench.chain.settings().set_jog_speed(0, 0);
   bench.steps(1000);
   EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 1000);
 }

@@ -34,7 +34,7 @@ TEST(SlimJoints, TheOctagonsTime) {
                          Row{2, 44.9, 1600}, Row{2, 0, 1600}}) {
     OneChain bench = at_origin();
     ASSERT_EQ(bench.chain.set_continuous_path(row.mode), Error::none);
-    ASSERT_EQ(bench.chain.set_smooth_corner(0, row.pr7), Error::none);
+    ASSERT_EQ(bench.chain.settings().set_smooth_corner(0, row.pr7), Error::none);
     octagon(bench);
     EXPECT_EQ(bench.finish() - 1, row.ms) << "CM " << row.mode << ", PR7 " << row.pr7;
     EXPECT_EQ(bench.travel(0), 0);
@@ -60,7 +60,7 @@ TEST(SlimJoints, ASharpCornerInCm1IsPassedAtFullSpeedOnThePath) {
 /// The time of two commands of 50 units each, the second one issued in another mode, perhaps.
 Tick pair_ms(int first_mode, int second_mode, double pr7, bool turn_back = false) {
   OneChain bench = at_origin();
-  bench.chain.set_smooth_corner(0, pr7);
+  bench.chain.settings().set_smooth_corner(0, pr7);
   bench.chain.set_continuous_path(first_mode);
   bench.line({50, 0});
   bench.chain.set_continuous_path(second_mode);
@@ -85,9 +85,9 @@ TEST(SlimJoints, TheThresholdIsReadWhenTheSecondIsIssued) {
   OneChain bench = at_origin();
   bench.chain.set_continuous_path(2);
   bench.line({50, 0});
-  bench.chain.set_smooth_corner(0, 90);
+  bench.chain.settings().set_smooth_corner(0, 90);
   bench.line({0, 50});
-  bench.chain.set_smooth_corner(0, 0);
+  bench.chain.settings().set_smooth_corner(0, 0);
   EXPECT_EQ(bench.finish() - 1, 1100);
 }
 

@@ -31,13 +31,13 @@ TEST(SlimMove, SpeedsAreRevolutionsByTheUnitThatFuGives) {
   OneChain bench;
   ASSERT_EQ(bench.chain.move(0, true, 1'000'000), Error::none);
   EXPECT_EQ(bench.finish() - 1, 6100);  // 6 s + 0.1 s
-  bench.chain.set_speed_unit(0, SpeedUnit::rps);
-  bench.chain.set_working_speed(0, 10);
-  bench.chain.set_acceleration(0, 100);
+  bench.chain.settings().set_speed_unit(0, SpeedUnit::rps);
+  bench.chain.settings().set_working_speed(0, 10);
+  bench.chain.settings().set_acceleration(0, 100);
   const Tick began = bench.tick;
   bench.chain.move(0, true, 0);
   EXPECT_EQ(bench.finish() - began - 1, 10'100);
-  bench.chain.set_pulses_per_revolution(0, 20'000);
+  bench.chain.settings().set_pulses_per_revolution(0, 20'000);
   const Tick again = bench.tick;
   bench.chain.move(0, false, 1'000'000);
   EXPECT_EQ(bench.finish() - again - 1, 5100);
@@ -56,18 +56,18 @@ TEST(SlimMove, QueuedRelativeMovesFollowOnWithoutALostTick) {
 
 TEST(SlimMove, UserUnitsAreByPn45AndPn46) {
   OneChain bench;
-  ASSERT_EQ(bench.chain.set_scale(0, 10'000, 360), Error::none);  // degrees
+  ASSERT_EQ(bench.chain.settings().set_scale(0, 10'000, 360), Error::none);  // degrees
   for (int i = 0; i < 9; ++i) ASSERT_EQ(bench.chain.move(0, false, 40), Error::none);
   bench.finish();
   EXPECT_EQ(bench.travel(0), 10'000);
   EXPECT_EQ(bench.chain.coordinate(0), 360);
   bench.chain.move(0, true, 1);
   bench.chain.set_coordinate(0, 100);
-  EXPECT_EQ(bench.chain.set_scale(0, 1, 1), Error::not_allowed);
+  EXPECT_EQ(bench.chain.settings().set_scale(0, 1, 1), Error::not_allowed);
   bench.finish();
   EXPECT_EQ(bench.travel(0), 28);  // 27.8
   EXPECT_NEAR(bench.chain.coordinate(0), 100, 0.018);
-  EXPECT_EQ(bench.chain.set_scale(0, 0, 1), Error::range);
+  EXPECT_EQ(bench.chain.settings().set_scale(0, 0, 1), Error::range);
 }
 
 TEST(SlimMove, ACoordinateIsSetInItsTurn) {
@@ -95,7 +95,7 @@ TEST(SlimMove, AFullFifoRefusesAndLeavesThingsAsTheyAre) {
   EXPECT_EQ(bench.chain.home(0), Error::buffer_full);
   bench.map({1, 0});
   EXPECT_EQ(bench.line({1, 1}), Error::buffer_full);
-  EXPECT_EQ(bench.chain.queued(1), 0U);
+  EXPECT_EQ(bench.chain.module_at(1).fifo.size(), 0U);
   bench.map({});
   EXPECT_EQ(bench.chain, before);
   // What bypasses it does so.
@@ -113,7 +113,7 @@ TEST(SlimMove, VmWhileMovingByChoice) {
     bench.speeds(0, 1000, 10'000);
     bench.chain.move(0, true, 2000);
     bench.steps(1 + 1000);  // 950 done
-    bench.chain.set_working_speed(0, 0.2);
+    bench.chain.settings().set_working_speed(0, 0.2);
     bench.finish();
     // 2000/1000 + 0.1; or 100 ms up to 2000 (150), 200 ms down (200), the 700 between at 2000.
     EXPECT_EQ(bench.tick - 1, at_once ? 1000 + 100 + 350 + 200 : 2100);
@@ -191,8 +191,8 @@ TEST(SlimAvm, AJogFollowsItAndVmEndsIt) {
   bench.chain.set_analog(0, 0);
   bench.steps(200);
   EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 0);
-  EXPECT_EQ(bench.chain.set_working_speed(0, 0.1), Error::none);
-  EXPECT_FALSE(bench.chain.analog_speed(0));
+  EXPECT_EQ(bench.chain.settings().set_working_speed(0, 0.1), Error::none);
+  EXPECT_FALSE(bench.chain.module_at(0).analog_speed);
   bench.steps(200);
   EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 1000);
 }

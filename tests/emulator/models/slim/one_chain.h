@@ -7,7 +7,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain/chain.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -37,7 +37,7 @@ struct OneChain {
   std::array<std::int64_t, kModules> sent{};  // as they came out, in all
 
   explicit OneChain(const ChainOptions& options = {}) : chain(options) {
-    for (int module = 0; module < kModules; ++module) chain.set_linked(module, true);
+    for (int module = 0; module < kModules; ++module) chain.settings().set_linked(module, true);
   }
 
   /// TX=0, TY=1 ...
@@ -49,23 +49,23 @@ struct OneChain {
     for (const int module : modules) chain.assign(static_cast<Letter>(letter++), module);
   }
   void scale_all(std::int64_t pulses_per_unit) {
-    for (int module = 0; module < kModules; ++module) chain.set_scale(module, pulses_per_unit, 1);
+    for (int module = 0; module < kModules; ++module) chain.settings().set_scale(module, pulses_per_unit, 1);
   }
   /// VM and VA in pulses, 10000 a revolution.
   void speeds(int module, double pps, double pps2) {
-    chain.set_speed_unit(module, SpeedUnit::rps);
-    chain.set_working_speed(module, pps / 10'000);
-    chain.set_acceleration(module, pps2 / 10'000);
+    chain.settings().set_speed_unit(module, SpeedUnit::rps);
+    chain.settings().set_working_speed(module, pps / 10'000);
+    chain.settings().set_acceleration(module, pps2 / 10'000);
   }
   void jog_speed(int module, double pps) {
-    chain.set_speed_unit(module, SpeedUnit::rps);
-    chain.set_jog_speed(module, pps / 10'000);
+    chain.settings().set_speed_unit(module, SpeedUnit::rps);
+    chain.settings().set_jog_speed(module, pps / 10'000);
   }
 
   void step() {
     chain.step(++tick);
     for (int module = 0; module < kModules; ++module) {
-      sent[static_cast<std::size_t>(module)] += chain.pulses(module);
+      sent[static_cast<std::size_t>(module)] += chain.module_at(module).sent_pulses;
     }
   }
   void steps(Tick count) {
@@ -86,7 +86,7 @@ struct OneChain {
   Error line(std::initializer_list<double> units, bool absolute = false) {
     return chain.line({units.begin(), units.size()}, absolute);
   }
-  std::int64_t travel(int module) const { return chain.travel(module); }
+  std::int64_t travel(int module) const { return chain.axis(module).travel_pulses; }
 };
 
 }  // namespace understudy::emulator::models::slim

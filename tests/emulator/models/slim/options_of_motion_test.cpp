@@ -364,7 +364,7 @@ TEST(SlimMotionOptions, PwmInKilohertz) {
     for (int i = 0; i < 1000; ++i, script.pass(1)) on += script.output(1) ? 1 : 0;
     EXPECT_EQ(on, 250);
     EXPECT_EQ(script.ask("PWM P1,1000,5"), "(nothing)");
-    EXPECT_EQ(script.device().state().chain.output_state(0, 1).frequency_hz, in_khz ? 1e6 : 1e3);
+    EXPECT_EQ(script.device().state().chain.module_at(0).outputs[0].frequency_hz, in_khz ? 1e6 : 1e3);
     EXPECT_EQ(script.ask("PWM P1,1001,5"), in_khz ? "ERR 2" : "(nothing)");
   }
 }

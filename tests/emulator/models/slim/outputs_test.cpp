@@ -107,8 +107,8 @@ TEST(SlimOutputs, PwmShowsItsPeriodAndDutyAsFarAsTicksCan) {
     OneChain bench;
     bench.step();  // in the first tick every axis looks around
     ASSERT_EQ(bench.chain.pwm(0, 1, row.hz, row.duty), Error::none);
-    EXPECT_EQ(bench.chain.output_state(0, 1).frequency_hz, row.hz);
-    EXPECT_EQ(bench.chain.output_state(0, 1).duty_percent, row.duty);
+    EXPECT_EQ(bench.chain.module_at(0).outputs[0].frequency_hz, row.hz);
+    EXPECT_EQ(bench.chain.module_at(0).outputs[0].duty_percent, row.duty);
     int on = 0;
     bool before = bench.chain.output(0, 1);
     for (int i = 0; i < 1000; ++i) {
@@ -161,9 +161,9 @@ TEST(SlimTriggers, AreArmedInTheirTurnAndWaitToBeReached) {
   bench.chain.arm(0, 2, 2, true, 50);  // only on the way back
   bench.chain.move(0, true, 40);
   bench.chain.move(0, true, 0);
-  while (bench.chain.queued(0) > 3) bench.step();
+  while (bench.chain.module_at(0).fifo.size() > 3) bench.step();
   EXPECT_EQ(levels(bench.chain, 0), 0);
-  while (bench.chain.queued(0) > 1) bench.step();
+  while (bench.chain.module_at(0).fifo.size() > 1) bench.step();
   EXPECT_EQ(levels(bench.chain, 0), 0b10);
   bench.finish();
   EXPECT_EQ(levels(bench.chain, 0), 0b11);

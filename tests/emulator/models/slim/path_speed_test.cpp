@@ -26,10 +26,10 @@ TEST(SlimTvm, ChangesOnThePathWithTheSlopeThereIs) {
   const double length = 100 * std::numbers::pi;
   // 0 .. 1000 ms at 100 (95 done), then 200: 100 ms up (15), and from 2000 ms on (900 ms at 200: 180) 40.
   bench.steps(1001);
-  ASSERT_EQ(bench.chain.set_tvm(200), Error::none);
-  EXPECT_EQ(bench.chain.settings(7).path_speed_units_s, 200);
+  ASSERT_EQ(bench.chain.settings().set_tvm(200), Error::none);
+  EXPECT_EQ(bench.chain.module_at(7).settings.path_speed_units_s, 200);
   bench.steps(1000);
-  ASSERT_EQ(bench.chain.set_tvm(40), Error::none);
+  ASSERT_EQ(bench.chain.settings().set_tvm(40), Error::none);
   double worst = 0;
   while (!bench.all_done()) {
     bench.step();
@@ -61,8 +61,8 @@ TEST(SlimTvm, Pr3OfOneModuleInMotionCountsAtOnce) {
     OneChain bench = at_origin(options);
     bench.line({100, 0});
     bench.steps(501);
-    EXPECT_EQ(bench.chain.set_path_speed(row.module, 20), Error::none);
-    EXPECT_EQ(bench.chain.set_path_speed(5, 50), Error::none);  // of one that is on no path
+    EXPECT_EQ(bench.chain.settings().set_path_speed(row.module, 20), Error::none);
+    EXPECT_EQ(bench.chain.settings().set_path_speed(5, 50), Error::none);  // of one that is on no path
     EXPECT_EQ(bench.finish() - 1, row.ms);
     EXPECT_EQ(bench.travel(0), 100 * kPulses);
   }
@@ -74,7 +74,7 @@ TEST(SlimTvm, OneByOneSpoilsWhatComes) {
   OneChain bench = at_origin(next_command);
   bench.line({100, 0});
   bench.steps(500);
-  EXPECT_EQ(bench.chain.set_path_speed(1, 20), Error::none);
+  EXPECT_EQ(bench.chain.settings().set_path_speed(1, 20), Error::none);
   EXPECT_EQ(bench.finish() - 1, 1100);
   EXPECT_EQ(bench.line({100, 0}), Error::unequal_speeds);
   ChainOptions options;
@@ -89,12 +89,12 @@ TEST(SlimTvm, TvaIsRefusedOfAModuleOnAPath) {
   OneChain bench = at_origin();
   bench.line({100, 0});
   bench.steps(500);
-  EXPECT_EQ(bench.chain.set_path_acceleration(0, 500), Error::not_allowed);
-  EXPECT_EQ(bench.chain.set_path_acceleration(1, 500), Error::not_allowed);
-  EXPECT_EQ(bench.chain.set_path_acceleration(2, 500), Error::none);  // on no path
+  EXPECT_EQ(bench.chain.settings().set_path_acceleration(0, 500), Error::not_allowed);
+  EXPECT_EQ(bench.chain.settings().set_path_acceleration(1, 500), Error::not_allowed);
+  EXPECT_EQ(bench.chain.settings().set_path_acceleration(2, 500), Error::none);  // on no path
   EXPECT_EQ(bench.finish() - 1, 1100);
   for (int module = 0; module < 2; ++module) {
-    EXPECT_EQ(bench.chain.set_path_acceleration(module, 500), Error::none);
+    EXPECT_EQ(bench.chain.settings().set_path_acceleration(module, 500), Error::none);
   }
   const Tick began = bench.tick;
   bench.line({100, 0});
@@ -104,9 +104,9 @@ TEST(SlimTvm, TvaIsRefusedOfAModuleOnAPath) {
 TEST(SlimTvm, NeitherMayBeZeroOrLess) {
   OneChain bench = at_origin();
   for (const double bad : {0.0, -1.0, std::nan(""), 1e300, 1e-300}) {
-    EXPECT_EQ(bench.chain.set_tvm(bad), Error::range);
-    EXPECT_EQ(bench.chain.set_path_speed(0, bad), Error::range);
-    EXPECT_EQ(bench.chain.set_path_acceleration(0, bad), Error::range);
+    EXPECT_EQ(bench.chain.settings().set_tvm(bad), Error::range);
+    EXPECT_EQ(bench.chain.settings().set_path_speed(0, bad), Error::range);
+    EXPECT_EQ(bench.chain.settings().set_path_acceleration(0, bad), Error::range);
   }
 }
 

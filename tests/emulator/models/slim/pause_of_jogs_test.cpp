@@ -124,7 +124,7 @@ TEST(SlimPauseTable, AThrustGoesOnAfterThePause) {
       bench.chain.resume();
       bench.steps(300);
       EXPECT_EQ(bench.chain.status(6).mode, Mode::torque);
-      EXPECT_EQ(bench.chain.thrust_of(6), 500);
+      EXPECT_EQ(bench.chain.module_at(6).thrust, 500);
       EXPECT_EQ(bench.chain.speed_pps(6), runs ? 1000 : 0);
     }
   }

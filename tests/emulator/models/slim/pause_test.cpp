@@ -68,7 +68,9 @@ TEST(SlimPause, SlowsDownOnThePathAndGoesOnExactlyThere) {
     EXPECT_NEAR(on_path(bench).along, stop, 1e-3);
     EXPECT_TRUE(bench.chain.status(0).paused);
     EXPECT_EQ(bench.chain.next_active_tick(bench.tick),
-              bench.chain.pulses(0) + bench.chain.pulses(1) == 0 ? kNever : bench.tick + 1);
+              bench.chain.module_at(0).sent_pulses + bench.chain.module_at(1).sent_pulses == 0
+                  ? kNever
+                  : bench.tick + 1);
     bench.steps(777);
     EXPECT_NEAR(on_path(bench).along, stop, 1e-3);
     ASSERT_EQ(bench.chain.resume(), Error::none);
@@ -187,9 +189,9 @@ TEST(SlimPauseTable, RunAndTastopStopsNowAndForgetsEverything) {
   EXPECT_EQ((std::array<std::int64_t, 3>{bench.travel(0), bench.travel(5), bench.travel(6)}), at);
   EXPECT_FALSE(bench.chain.output(0, 1));
   for (int module = 0; module < kModules; ++module) {
-    EXPECT_TRUE(bench.chain.servo_on(module));
+    EXPECT_TRUE(bench.chain.axis(module).servo_on);
     EXPECT_FALSE(bench.chain.moving(module));
-    EXPECT_EQ(bench.chain.queued(module), 0U);
+    EXPECT_EQ(bench.chain.module_at(module).fifo.size(), 0U);
   }
   // Motion is accepted at once, and counts from where it stands.
   const double x = bench.chain.coordinate(0);
@@ -241,7 +243,7 @@ TEST(SlimPauseTable, TvmInPauseCountsFromThenOn) {
   bench.steps(501);  // 45, and 5 to stop
   bench.chain.pause();
   bench.steps(200);
-  EXPECT_EQ(bench.chain.set_tvm(50), Error::none);
+  EXPECT_EQ(bench.chain.settings().set_tvm(50), Error::none);
   bench.steps(10);
   EXPECT_EQ(bench.travel(0), 50 * kPulses);
   const Tick resumed = bench.tick;
@@ -260,7 +262,7 @@ TEST(SlimPauseTable, PauseAndTaupzDiscardsAndAcceptsMotionAgain) {
     bench.steps(wait);
     EXPECT_EQ(bench.chain.discard(), Error::none);
     EXPECT_FALSE(bench.chain.paused());
-    EXPECT_EQ(bench.chain.queued(0), 0U);
+    EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 0U);
     // 2MA back to the origin: begins from rest, from where it stands then.
     EXPECT_EQ(bench.line({0, 0}, true), Error::none);
     while (bench.chain.moving(0) && wait < 100 && bench.tick < 521 + 100) {

@@ -1,12 +1,12 @@
 // Every cell of pauses.h, as each option has it, with a path, a move and a jog under way.
-#include "emulator/models/slim/pauses.h"
+#include "emulator/models/slim/rules/pauses.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "emulator/models/slim/choices.h"
+#include "emulator/models/slim/rules/choices.h"
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
@@ -71,7 +71,7 @@ class PauseCell {
       case PauseOutcome::resets: return expect_reset(travel, stands);
       case PauseOutcome::is_taken: EXPECT_NE(bench_.travel(kIdle), 0); return expect_kept(2, false);
       case PauseOutcome::waits: return expect_waiting();
-      default: EXPECT_EQ(chain().queued(kIdle), 0U); return expect_kept(2, true);
+      default: EXPECT_EQ(chain().module_at(kIdle).fifo.size(), 0U); return expect_kept(2, true);
     }
   }
 
@@ -114,8 +114,8 @@ class PauseCell {
 
   /// So many of two commands each are there still, and the jog; they stand, or go as before.
   void expect_kept(std::size_t commands, bool stands) {
-    EXPECT_EQ(chain().queued(kOnPath), commands);
-    EXPECT_EQ(chain().queued(kOnMove), commands);
+    EXPECT_EQ(chain().module_at(kOnPath).fifo.size(), commands);
+    EXPECT_EQ(chain().module_at(kOnMove).fifo.size(), commands);
     EXPECT_TRUE(chain().busy(kOnJog));
     EXPECT_EQ(speeds(), stands ? kStanding : running_);
     // What a pause holds is shown as what it is.
@@ -144,13 +144,13 @@ class PauseCell {
     EXPECT_EQ(bench_.travel(kOnPath), travel);
     EXPECT_FALSE(chain().busy(kOnPath));
     EXPECT_EQ(speeds(), stands ? kStanding : (Speeds{0, running_.move, running_.jog}));
-    EXPECT_EQ(chain().queued(kOnMove), 2U);
+    EXPECT_EQ(chain().module_at(kOnMove).fifo.size(), 2U);
     EXPECT_TRUE(chain().busy(kOnJog));
   }
 
   void expect_waiting() {
     EXPECT_EQ(bench_.travel(kIdle), 0);
-    EXPECT_EQ(chain().queued(kIdle), 1U);
+    EXPECT_EQ(chain().module_at(kIdle).fifo.size(), 1U);
     expect_kept(2, true);
     EXPECT_EQ(bench_.travel(kIdle), 100);
   }

@@ -20,7 +20,7 @@ TEST(SlimQueues, PzHoldsAndRedoGoesOnWithTheRestAndWhatFollows) {
   ASSERT_EQ(bench.chain.pause_queues(), Error::none);
   bench.steps(1000);
   EXPECT_EQ(bench.travel(0), 500);
-  EXPECT_EQ(bench.chain.queued(0), 2U);
+  EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 2U);
   EXPECT_EQ(bench.chain.next_active_tick(bench.tick), kNever);
   // Unlike TAPZ it lets commands be queued; a jog cannot run now.
   EXPECT_EQ(bench.chain.move(0, false, 10), Error::none);
@@ -58,7 +58,7 @@ TEST(SlimQueues, ClrBufInPauseForgetsTheInterruptedCommandToo) {
     bench.steps(wait);
     EXPECT_EQ(bench.chain.clear_queues(), Error::none);
     EXPECT_FALSE(bench.chain.queues_paused());
-    EXPECT_EQ(bench.chain.queued(0), 0U);
+    EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 0U);
     bench.chain.resume_queues();
     bench.finish();
     EXPECT_EQ(bench.travel(0), 500);

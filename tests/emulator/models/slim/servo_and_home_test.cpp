@@ -45,7 +45,7 @@ TEST(SlimServo, InItsTurnItWaitsForTheMotionBeforeIt) {
   ASSERT_EQ(bench.chain.set_servo(0, false), Error::none);
   bench.finish();
   EXPECT_EQ(bench.travel(0), 3000);
-  EXPECT_FALSE(bench.chain.servo_on(0));
+  EXPECT_FALSE(bench.chain.axis(0).servo_on);
 }
 
 TEST(SlimServo, OffEndsAJogAndWhatWaitsForItIsDroppedWithItsError) {
@@ -59,12 +59,12 @@ TEST(SlimServo, OffEndsAJogAndWhatWaitsForItIsDroppedWithItsError) {
   // Behind the waiting move: its turn does not come.
   bench.chain.set_servo(0, false);
   bench.step();
-  EXPECT_TRUE(bench.chain.servo_on(0));
+  EXPECT_TRUE(bench.chain.axis(0).servo_on);
   bench.chain.set_servo_at_once(0, false);
   bench.steps(100);
   EXPECT_LE(bench.travel(0), at + 1);
   EXPECT_FALSE(bench.chain.status(0).jog);
-  EXPECT_EQ(bench.chain.queued(0), 0U);
+  EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 0U);
 }
 
 TEST(SlimServo, OffOfOneStopsItsGroupAndItsCommandsOnly) {
@@ -97,7 +97,7 @@ TEST(SlimServo, ResetClearsTheQueueAndKeepsTheCoordinate) {
   EXPECT_EQ(bench.chain.reset(0), Error::none);
   bench.steps(500);
   EXPECT_EQ(bench.chain.coordinate(0), x);
-  EXPECT_TRUE(bench.chain.servo_on(0));
+  EXPECT_TRUE(bench.chain.axis(0).servo_on);
   EXPECT_TRUE(bench.all_done());
 }
 
@@ -119,7 +119,7 @@ TEST(SlimHome, GoesAtMinusVjUntilHorgAndIsZeroWhereItStops) {
   ASSERT_EQ(bench.chain.home(0), Error::none);
   bench.chain.move(0, true, 100);
   EXPECT_FALSE(bench.chain.status(0).homed);
-  while (bench.chain.queued(0) == 2) bench.step();
+  while (bench.chain.module_at(0).fifo.size() == 2) bench.step();
   // 2000 pulses to the edge, and 1000^2 / 20000 to stop.
   EXPECT_EQ(bench.travel(0), -2050);
   EXPECT_EQ(bench.chain.coordinate(0), 0);

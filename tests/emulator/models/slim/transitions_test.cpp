@@ -1,6 +1,6 @@
 // Every cell of meetings.h, brought about from the host, from a program's own line and from an event's
 // routine.
-#include "emulator/models/slim/transitions.h"
+#include "emulator/models/slim/rules/transitions.h"
 #include "emulator/device/terminals.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ class Cell {
       script_.type(pause_before(row_.event));
       script_.pass(400);
     }
-    const std::int64_t travel = chain().travel(0);
+    const std::int64_t travel = chain().axis(0).travel_pulses;
     bring_about();
     script_.pass(400);
     EXPECT_EQ(script_.next(), from_ == From::event_routine ? "R" : said_by(expected));
@@ -97,7 +97,7 @@ class Cell {
         break;
       default:
         EXPECT_EQ(expected, Outcome::stops_at_once);
-        EXPECT_EQ(chain().travel(0), travel);
+        EXPECT_EQ(chain().axis(0).travel_pulses, travel);
         EXPECT_EQ(chain().status(0).mode, Mode::idle);
         EXPECT_FALSE(chain().busy(0));
         break;

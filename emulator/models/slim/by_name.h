@@ -1,0 +1,38 @@
+// Queries and assignments past the line: scenarios, traces, the control socket.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/models/slim/setup.h"
+#include "emulator/models/slim/state.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/machine.h"
+
+namespace understudy::emulator::models::slim {
+
+/// Answers queries by name. Conditions and traces ask the same at every tick: their words are read once.
+class QueriesByName {
+ public:
+  std::optional<double> value(const State& state, const Setup& setup, const lang::Machine& machine,
+                              std::string_view name);
+
+ private:
+  const std::optional<lang::Command>& query_of(const Setup& setup, std::string_view name);
+
+  std::map<std::string, std::optional<lang::Command>, std::less<>> queries_{};
+};
+
+/// Returns the first tick after `done` at which one of its clocks shows another second.
+Tick next_second(const State& state, Tick done);
+/// Assigns a value as a line would. Returns nothing, or why it is refused.
+std::optional<std::string> assign_by_name(State& state, const Setup& setup, const lang::Machine& machine,
+                                          std::string_view name, double value);
+std::vector<std::string> common_names(const State& state, const Setup& setup);
+
+}  // namespace understudy::emulator::models::slim

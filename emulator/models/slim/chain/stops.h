@@ -1,0 +1,13 @@
+// Pausing, continuing, discarding and stopping a whole chain, by the table in rules/pauses.h.
+#pragma once
+
+#include "emulator/models/slim/chain/chain_state.h"
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/rules/pauses.h"
+
+namespace understudy::emulator::models::slim {
+
+/// PZ, REDO, CLR BUF, TAPZ, TAREDO, TAUPZ, TASTOP, and what a RESET of T0 does to pauses.
+Error steer(ChainState& chain, InPause what);
+
+}  // namespace understudy::emulator::models::slim

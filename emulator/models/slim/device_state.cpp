@@ -1,0 +1,76 @@
+// SLIM's state as bytes, and back.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/state/state_error.h"
+#include "emulator/device/stateful_device_bytes.h"
+#include "emulator/models/slim/device.h"
+#include "emulator/models/slim/memory.h"
+#include "emulator/models/slim/parameters.h"
+#include "emulator/models/slim/state_fields.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/flow.h"
+
+namespace understudy {
+
+using namespace emulator::models::slim;
+
+void StateOf<Memory>::check(const Memory& memory) {
+  for (const Parameters& all : memory.parameters) {
+    for (std::size_t i = 0; i < kParameterCount; ++i) {
+      require_state(fitted(kParameters[i], all[i]) == all[i], "a parameter is out of range");
+    }
+  }
+  for (const float real : memory.reals) require_state(std::isfinite(real), "a variable is not finite");
+  for (const float real : memory.real_array) require_state(std::isfinite(real), "a variable is not finite");
+}
+
+void StateOf<State>::check(const State& state) {
+  require_reach(state.powered_at);
+  require_reach(state.clock_zero);
+}
+
+}  // namespace understudy
+
+namespace understudy::emulator::models::slim {
+
+namespace {
+
+/// What is sound depends on what was chosen; programs become what their lines say here.
+void settle_programs(State& state, const lang::FlowOptions& options) {
+  const std::vector<std::string> texts = state.program.texts();
+  require_state(state.program.set_texts(texts, options.program), "a line is not a command of a program");
+  lang::Program kept;
+  require_state(kept.set_texts(state.kept_program, options.program),
+                "a kept line is not a command of a program");
+  require_within(state.editor.line, 0, options.program.capacity);
+  require_within(state.execution.line, 0, options.program.capacity);
+  require_state(is_sound(state.execution, state.program, options), "the program does what no program can");
+}
+
+}  // namespace
+
+void Slim::check_restored(State& restored) const {
+  settle_programs(restored, setup_.flow);
+  // What else only this bench's choices tell.
+  for (const Errors& errors : restored.errors) {
+    require_state(errors.history.size() <= setup_.history_length(), "too many errors are remembered");
+  }
+  const auto check_integers = [&](const auto& integers) {
+    const int least = setup_.of_programs().dialect.integer_least;
+    for (const std::int16_t value : integers) require_within(value, least, lang::kIntegerMost);
+  };
+  for (const Memory* const memory : {&restored.ram, &restored.kept}) {
+    check_integers(memory->integers);
+    check_integers(memory->integer_array);
+  }
+  restored.chain.set_options(setup_.options);
+}
+
+}  // namespace understudy::emulator::models::slim
+
+template class understudy::emulator::StatefulDevice<understudy::emulator::models::slim::Slim,
+                                                    understudy::emulator::models::slim::State>;

@@ -1,0 +1,23 @@
+// The dialogue: what becomes of a line, and what is answered.
+#pragma once
+
+#include <string_view>
+
+#include "emulator/device/register_map/refusal.h"
+#include "emulator/device/text/text_protocol.h"
+#include "emulator/models/slim/setup.h"
+#include "emulator/models/slim/state.h"
+#include "interpreter/slim/machine.h"
+
+namespace understudy::emulator::models::slim {
+
+TextRules text_rules(const Setup& setup);
+/// Enters a line of a program, gives a number to GETI or GETR, or executes a command. The state has what is
+/// answered.
+void hear_line(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line);
+void hear_overlong(State& state, const Setup& setup);
+/// Executes a command past the line, without a word.
+DeviceAnswer take_command(State& state, const Setup& setup, const lang::Machine& machine,
+                          std::string_view line);
+
+}  // namespace understudy::emulator::models::slim

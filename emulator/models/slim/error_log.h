@@ -1,0 +1,29 @@
+// ?ERR and ?ERC: the errors of each module.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/models/slim/motor/module.h"
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/setup.h"
+#include "emulator/models/slim/state.h"
+
+namespace understudy::emulator::models::slim {
+
+void note_error(State& state, const Setup& setup, int module, Error error);
+/// Notes an error of a command that names `module`. Returns the module that ends up with the error.
+int remember_error(State& state, const Setup& setup, int module, Error error);
+/// Notes the errors of queued commands that were dropped when their turn came.
+void remember_late_errors(State& state, const Setup& setup);
+
+/// ?ERC: "4,1", or "0".
+std::string history_text(const Setup& setup, const Errors& errors);
+
+/// The history in a memory image: the errors of each module, the last one first, ERC(0), ERC(1) ...,
+/// T1ERC(0) ... Reading takes them out of the image; it throws NvError for numbers that are no errors.
+void write_history(const std::array<Errors, kModules>& errors, NvImage& image);
+std::array<Errors, kModules> read_history(const Setup& setup, NvImage& image);
+
+}  // namespace understudy::emulator::models::slim

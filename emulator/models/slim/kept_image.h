@@ -1,0 +1,17 @@
+// The retentive memory as a file.
+#pragma once
+
+#include <functional>
+
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/models/slim/setup.h"
+#include "emulator/models/slim/state.h"
+
+namespace understudy::emulator::models::slim {
+
+/// Returns what writes the memory of this moment, at any time later.
+std::function<void(NvImage&)> image_writer(const State& state, const Setup& setup);
+/// Throws NvError for an image that does not fit; then nothing has changed.
+void read_image(State& state, const Setup& setup, const NvImage& given);
+
+}  // namespace understudy::emulator::models::slim

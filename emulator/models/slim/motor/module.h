@@ -1,0 +1,109 @@
+// One module of the chain: a motor with its own units, speeds, outputs and FIFO. The axis itself and its
+// environment are kept with those of the other modules (chain/chain_state.h), because coordinated motion
+// takes arrays.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "emulator/models/slim/motor/fifo.h"
+#include "emulator/models/slim/motor/jobs.h"
+#include "emulator/models/slim/motor/outputs.h"
+#include "emulator/models/slim/rules/chain_options.h"
+#include "emulator/models/slim/rules/errors.h"
+#include "motion/axis.h"
+#include "motion/move.h"
+#include "motion/unit_scale.h"
+
+namespace understudy::emulator::models::slim {
+
+inline constexpr int kModules = 8;
+inline constexpr int kOutputs = 4;
+inline constexpr std::size_t kFifoLength = 32;
+inline constexpr int kFullAnalog = 1000;
+/// Speeds and accelerations outside these limits belong to no machine, and may be impossible to plan. (1e-6
+/// is the value that 32 bits hold.)
+inline constexpr double kMinSpeed = 1e-6F;
+inline constexpr double kMaxSpeed = 1e9;
+
+/// FU: the unit of VM and VJ, and of VA for each second.
+enum class SpeedUnit : std::uint8_t { rpm = 0, rps = 1 };
+
+struct ModuleSettings {
+  motion::UnitScale scale{};  // PN45 pulses are PN46 user units
+  std::int32_t pulses_per_revolution = 10'000;
+  SpeedUnit speed_unit = SpeedUnit::rpm;
+  double working_speed = 1000;               // VM, > 0
+  double jog_speed = 100;                    // VJ; < 0 swaps JGF and JGR; 0: counts as moving, sends no pulse
+  double acceleration = 10'000;              // VA, > 0
+  double path_acceleration_units_s2 = 1000;  // PR2, > 0
+  double path_speed_units_s = 100;           // PR3, > 0
+  double smooth_corner_deg = 0;              // PR7; only that of module 0 is used
+  double line_speed_units_s = 100;           // PR4, > 0, if lines of two axes use it
+
+  bool operator==(const ModuleSettings&) const = default;
+};
+
+/// The activity of a module's axis.
+enum class Activity : std::uint8_t {
+  idle,
+  move,  // the FIFO's head
+  home,  // the FIFO's head
+  jog,
+  thrust,
+  group,     // coordinated
+  stopping,  // slowing down from a discarded motion
+};
+
+struct Module {
+  ModuleSettings settings;
+  bool linked = false;
+  bool homed = false;
+  Activity activity = Activity::idle;
+  std::int8_t jog_direction = 0;       // direction of the running jog
+  std::int8_t next_jog_direction = 0;  // jog that begins when the running motion has stopped, or ...
+  std::int32_t next_thrust = 0;        // ... thrust that does
+  std::int8_t held_jog_direction = 0;  // jog that continues after the pause, or ...
+  std::int32_t held_thrust = 0;        // ... thrust that does
+  bool analog_speed = false;           // AVM
+  bool starved = false;                // slowed down because AVM gives no speed
+  std::int16_t analog = 0;             // 0 .. kFullAnalog
+  std::int32_t thrust = 0;             // number of FT while it pushes; else 0
+  std::int64_t zero_pulses = 0;        // travel at which the coordinate is 0
+  double place_units = 0;          // at rest: the commanded coordinate, of which travel is the rounded value
+  std::int64_t sent_pulses = 0;    // of the last tick, as they come out
+  Error late_error = Error::none;  // error of a queued command when its turn came
+  std::array<Output, kOutputs> outputs{};
+  std::array<PositionTrigger, 2> triggers{};
+  Fifo<Job, kFifoLength> fifo;
+
+  bool operator==(const Module&) const = default;
+
+  /// Returns true if a pause has stopped a jog or thrust.
+  bool holds_jog() const { return held_jog_direction != 0 || held_thrust != 0; }
+  bool jogs_or_pushes() const { return activity == Activity::jog || activity == Activity::thrust; }
+  /// Returns true if the module does something, or a command waits for it.
+  bool busy() const { return activity != Activity::idle || !fifo.empty() || holds_jog(); }
+  /// Returns the activity of the module, or the activity that a pause holds.
+  Activity activity_or_held() const;
+
+  // ---- With its axis
+  double coordinate(const motion::Axis& axis) const { return units_of(axis.travel_pulses - zero_pulses); }
+  /// Both return what will be so after all commands in the FIFO; `number` is the module's own.
+  bool servo_expected(const motion::Axis& axis) const;
+  double end_expected(int number, const motion::Axis& axis) const;
+
+  /// Converts to pulses, rounded half away from zero.
+  std::int64_t pulses_of(double units) const;
+  double units_of(std::int64_t pulses) const;
+  /// Returns true if the coordinate is within the countable range.
+  bool reaches(double units) const;
+
+  /// Returns the factor of AVM on VM and VJ, 0 .. 1.
+  double analog_factor() const;
+  motion::SpeedLaw working_law(const ChainOptions& options) const;
+  /// Returns the law of a jog; if VJ is 0, its top speed is 0.
+  motion::SpeedLaw jog_law(const ChainOptions& options) const;
+};
+
+}  // namespace understudy::emulator::models::slim

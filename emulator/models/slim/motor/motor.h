@@ -1,0 +1,43 @@
+// One module at work: its state, its axis, and what both look up. A view, made for a command or a tick.
+//
+//   motor.h   the coordinate, the outputs, and the places at which they switch
+//   jogs.h    jogs and thrust, which pass by the FIFO; slowing down from a motion that is given up
+//   moves.h   MA, MR and H, at the FIFO's head; what the end of each motion means
+//
+// Each knows those above it, and none knows another module.
+#pragma once
+
+#include "base/simulated_time.h"
+#include "emulator/models/slim/motor/module.h"
+#include "emulator/models/slim/motor/outputs.h"
+#include "emulator/models/slim/rules/chain_options.h"
+#include "motion/axis.h"
+#include "motion/environment.h"
+
+namespace understudy::emulator::models::slim {
+
+struct Motor {
+  Module& module;
+  motion::Axis& axis;
+  const motion::Environment& environment;
+  const ChainOptions& options;
+  Tick now;  // the last tick: what begins at once begins with the next one
+
+  double coordinate() const { return module.coordinate(axis); }
+};
+
+/// CS, and the end of a homing: the place is called `units` from now on.
+void set_coordinate(const Motor& motor, double units);
+
+// ---- Outputs
+
+void carry_out(const Motor& motor, const OutputOrder& order, Tick begin_at);
+/// Sets the axis's comparators to where the triggers are in its travel. A trigger at the axis's own place
+/// waits until the place is reached again.
+void place_triggers(const Motor& motor);
+/// Switches the outputs whose places the axis has just reached.
+void pass_triggers(const Motor& motor, motion::Events events);
+/// By choice, ends what goes on by itself at a stop: pulses, PWM and triggers. Levels stay.
+void stop_outputs(const Motor& motor);
+
+}  // namespace understudy::emulator::models::slim

@@ -1,0 +1,26 @@
+// The program of a SLIM: its text, and where it is.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "emulator/device/program_error.h"
+#include "emulator/device/user_program.h"
+#include "emulator/models/slim/setup.h"
+#include "emulator/models/slim/state.h"
+#include "interpreter/slim/program.h"
+
+namespace understudy::emulator::models::slim {
+
+/// A program as read: its good lines, and the mistakes.
+struct ReadProgram {
+  lang::Program program{};
+  std::vector<ProgramMistake> mistakes{};
+};
+ReadProgram read_program(const Setup& setup, std::string_view text);
+
+/// Returns true if PZ holds the program.
+bool program_is_held(const State& state, const Setup& setup);
+std::vector<ProgramLocation> program_locations(const State& state, const Setup& setup);
+
+}  // namespace understudy::emulator::models::slim

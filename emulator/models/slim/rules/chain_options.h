@@ -1,0 +1,40 @@
+// The chain looks up what the manual leaves open about modules and motion in the rows of choices.h, as the
+// device does.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <iterator>
+
+#include "emulator/models/slim/rules/options.h"
+
+namespace understudy::emulator::models::slim {
+
+/// The chosen option of each row; at first our own, the first of the row.
+struct ChainOptions {
+  std::array<std::uint8_t, std::size(kChoices)> numbers{};  // chosen option of each row
+
+  constexpr bool chose(const Option& option) const { return numbers[option.choice] == option.number; }
+  constexpr void choose(const Option& option) { numbers[option.choice] = option.number; }
+  /// Returns the number of the chosen option, for a row whose options are numbers.
+  constexpr int number(std::size_t row) const { return number_of(kChoices[row], numbers[row]); }
+
+  bool operator==(const ChainOptions&) const = default;
+
+  // Options that several parts look up.
+  constexpr bool has_servo_at_power_up() const { return !chose(option("power_up_servo", "off")); }
+  constexpr bool reserves_moves_only() const { return chose(option("reserved_module", "moves_by_number")); }
+  constexpr bool thrust_runs() const { return chose(option("thrust", "runs_at_vj")); }
+  constexpr bool new_speed_counts_at_once() const { return chose(option("new_speed", "at_once")); }
+  constexpr bool speeds_are_of_t0() const { return chose(option("unequal_speeds", "as_t0_has_them")); }
+  constexpr bool acceleration_may_change() const {
+    return chose(option("acceleration_in_motion", "next_command"));
+  }
+  /// Lines of two axes go by PR4, not PR3.
+  constexpr bool lines_have_own_speed() const { return chose(option("line_speed", "pr4_of_its_own")); }
+  constexpr bool triggers_stay() const {
+    return chose(option("position_outputs", "each_time_from_either_side_on_the_commanded_position"));
+  }
+};
+
+}  // namespace understudy::emulator::models::slim

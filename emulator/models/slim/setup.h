@@ -1,0 +1,98 @@
+// What a SLIM is made from, beside its state: its device, which has time, inputs and a log, and the options
+// that its bench has chosen. All parts of the controller are functions on a State and a Setup:
+//
+//   setup.h             choices, terminals, time
+//   error_log.h         ?ERR and ?ERC
+//   speech.h            what is sent, and how a failure is told
+//   parameters_set.h    parameters and axis letters; what is kept
+//   variables.h         N#, R#, NS(), RS() and the clock
+//   power.h             power-up, power-down, inputs
+//   kept_image.h        the retentive memory as a file
+//   program_text.h      programs that are loaded
+//   queries.h           what queries answer
+//   commands.h          what commands do
+//   by_name.h           queries and assignments past the line
+//   dialogue.h          what becomes of a line
+//
+// Each may know those above it. device.h joins them to a device.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "base/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/models/slim/memory.h"
+#include "emulator/models/slim/motor/module.h"
+#include "emulator/models/slim/numbers.h"
+#include "emulator/models/slim/parameters.h"
+#include "emulator/models/slim/rules/chain_options.h"
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/rules/options.h"
+#include "interpreter/slim/availability.h"
+#include "interpreter/slim/flow.h"
+#include "interpreter/slim/program.h"
+
+namespace understudy::emulator::models::slim {
+
+namespace lang = interpreter::slim;
+
+// The terminals of a module. Those of T0 come first, then those of T1, and so on.
+inline constexpr int kInputs = lang::kInputCount;
+inline constexpr int kHorg = kInputs;
+inline constexpr int kAnalog = kHorg + 1;
+inline constexpr int kFirstSwitch = kAnalog + 1;
+inline constexpr int kFirstOutput = kFirstSwitch + lang::kSwitchCount;
+inline constexpr int kTerminalsOfModule = kFirstOutput + kOutputs;
+constexpr int terminal(int module, int which) { return module * kTerminalsOfModule + which; }
+
+struct Setup {
+  explicit Setup(const Device& of);
+
+  const Device& device;
+  const int modules;  // so many are linked from the factory
+  const ChainOptions options;
+  const lang::FlowOptions flow;
+
+  bool chose(const Option& option) const { return options.chose(option); }
+  int number(std::size_t row) const { return options.number(row); }
+  const lang::ProgramOptions& of_programs() const { return flow.program; }
+  Tick now() const { return device.now(); }
+  std::int32_t input(int module, int which) const { return device.input(terminal(module, which)); }
+  bool level(int module, int which) const { return input(module, which) != 0; }
+  /// Returns the levels of a module's inputs now, bit 0 for input 1.
+  std::uint8_t input_levels(int module) const;
+
+  // ---- Choices that several parts look up
+
+  std::string_view line_end() const { return chose(option("output_end", "cr")) ? "\r" : "\r\n"; }
+  RealForm real_form() const {
+    return chose(option("real_format", "exponent_of_the_large_and_small")) ? RealForm::exponent
+                                                                           : RealForm::plain;
+  }
+  bool is_silence(Error error) const {
+    return error == Error::not_linked && chose(option("unlinked_module", "silence"));
+  }
+  /// Returns the number that is shown for an error.
+  int code_of(Error error) const {
+    return error != Error::none && chose(option("error_codes", "1_for_all")) ? 1 : static_cast<int>(error);
+  }
+  bool errors_are_of_t0() const { return chose(option("error_of", "t0")); }
+  std::size_t history_length() const { return static_cast<std::size_t>(number(numbers("history_length"))); }
+  bool history_is_kept() const { return chose(option("history_kept", "for_ever")); }
+  bool has_input_mask() const { return !chose(option("input_mask", "error_1")); }
+  /// Returns true if a module with an axis letter gives it up for a new one.
+  bool takes_letters_away() const { return takes_letters_away(options); }
+  static bool takes_letters_away(const ChainOptions& options) {
+    return options.chose(option("axis_values", "is_taken_from_its_letter"));
+  }
+  /// Returns the parameter's canonical name: PR4 is another name of PR3, unless it is a speed of its own.
+  std::string_view canonical(std::string_view parameter) const {
+    return parameter == "PR4" && !options.lines_have_own_speed() ? "PR3" : parameter;
+  }
+  MemoryForm memory_form() const;
+  Memory factory() const;
+};
+
+}  // namespace understudy::emulator::models::slim

@@ -1,0 +1,23 @@
+// What a SLIM sends, in lines of text.
+#pragma once
+
+#include <string_view>
+
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/setup.h"
+#include "emulator/models/slim/state.h"
+
+namespace understudy::emulator::models::slim {
+
+/// A host that types faster than its line answers loses what is beyond a bound that no listing reaches.
+void say(State& state, const Setup& setup, std::string_view text);
+/// Returns true if there is room for unrequested output of a program, which is faster than its line.
+bool has_room_to_speak(const State& state, const Setup& setup);
+/// Acknowledges a successful command that has no reply of its own.
+void acknowledge(State& state, const Setup& setup);
+/// Tells and remembers an error. Returns the module that ends up with it.
+int fail(State& state, const Setup& setup, int module, Error error);
+/// Sends the prompt, after each completed line.
+void conclude(State& state, const Setup& setup);
+
+}  // namespace understudy::emulator::models::slim

@@ -1,0 +1,118 @@
+// A device whose state is one value: it is compared, saved, told apart and restored as a whole.
+#include "emulator/device/stateful_device.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "base/state/fields.h"
+#include "base/state/state_error.h"
+#include "emulator/device/stateful_device_bytes.h"
+#include "tests/emulator/device/register_map/toy_device.h"
+
+namespace understudy::emulator::stateful_device_test {
+
+struct GateState {
+  std::int32_t opened = 0;
+  Tick seen = 0;  // the last tick, also if it was skipped
+
+  bool operator==(const GateState&) const = default;
+};
+
+/// Opens at most three times. It notes a tick only when it is asked.
+class Gate final : public StatefulDevice<Gate, GateState> {
+ public:
+  using StatefulDevice::StatefulDevice;
+
+  GateState settled() const { return {.opened = state_.opened, .seen = now()}; }
+  void open() { state_ = {.opened = state_.opened + 1, .seen = now()}; }
+
+ protected:
+  void check_restored(GateState& restored) const override {
+    require_state(restored.opened <= 3, "it opens three times");
+    restored.seen = now();
+  }
+};
+
+}  // namespace understudy::emulator::stateful_device_test
+
+template <>
+struct understudy::StateOf<understudy::emulator::stateful_device_test::GateState> {
+  using Value = understudy::emulator::stateful_device_test::GateState;
+  static constexpr auto fields = FieldList{field("opened", &Value::opened), field("seen", &Value::seen)};
+};
+
+template class understudy::emulator::StatefulDevice<understudy::emulator::stateful_device_test::Gate,
+                                                    understudy::emulator::stateful_device_test::GateState>;
+
+namespace understudy::emulator {
+namespace stateful_device_test {
+
+const Model& gate_model(std::size_t number) {
+  static constexpr int kBauds[] = {9600};
+  static constexpr PortRow kPorts[] = {{.name = "GATE", .bauds = kBauds, .settings = {}}};
+  static const auto named = [](std::string_view name) {
+    return Model{.name = name,
+                 .title = "",
+                 .firmwares = kToyFirmwares,
+                 .choices = {},
+                 .terminals = {},
+                 .axes = {},
+                 .state_registers = {},
+                 .gaps = {},
+                 .line = {.protocol = {"knocks"}, .ports = kPorts},
+                 .make = nullptr};
+  };
+  static const Model models[] = {named("gate"), named("door")};
+  return models[number];
+}
+
+TEST(StatefulDevice, IsTheSameByModelTimeAndState) {
+  Gate gate(gate_model(0), {});
+  Gate twin(gate_model(0), {});
+  EXPECT_TRUE(gate.same_state(twin));
+  EXPECT_FALSE(gate.same_state(Gate(gate_model(1), {})));
+  gate.open();
+  EXPECT_FALSE(gate.same_state(twin));
+  twin.open();
+  EXPECT_TRUE(gate.same_state(twin));
+  gate.set_now(5);
+  EXPECT_FALSE(gate.same_state(twin));
+  twin.set_now(5);  // neither has noted it
+  EXPECT_TRUE(gate.same_state(twin));
+}
+
+TEST(StatefulDevice, IsSavedAndRestoredAsIfTicksHadBeenRun) {
+  Gate gate(gate_model(0), {});
+  gate.open();
+  gate.set_now(7);
+  const std::vector<std::byte> saved = gate.save_state();
+  Gate twin(gate_model(0), {});
+  twin.restore_state(saved);
+  EXPECT_TRUE(twin.same_state(gate));
+  EXPECT_EQ(twin.state().opened, 1);
+  EXPECT_EQ(twin.save_state(), saved);
+}
+
+TEST(StatefulDevice, TellsItsFieldsApart) {
+  Gate gate(gate_model(0), {});
+  const std::vector<std::byte> before = gate.save_state();
+  gate.open();
+  EXPECT_EQ(gate.state_difference(before, gate.save_state()), "opened: 0 against 1");
+}
+
+TEST(StatefulDevice, RefusesAStateThatItCannotBeIn) {
+  Gate gate(gate_model(0), {});
+  for (int i = 0; i < 4; ++i) gate.open();
+  const std::vector<std::byte> impossible = gate.save_state();
+  Gate twin(gate_model(0), {});
+  EXPECT_THROW(twin.restore_state(impossible), StateError);
+  EXPECT_EQ(twin.state(), GateState{});
+}
+
+}  // namespace stateful_device_test
+}  // namespace understudy::emulator
