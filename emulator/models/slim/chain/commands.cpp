@@ -12,6 +12,7 @@
 #include "emulator/models/slim/chain/stops.h"
 #include "emulator/models/slim/motor/jobs.h"
 #include "emulator/models/slim/motor/jogs.h"
+#include "emulator/models/slim/motor/marks.h"
 #include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/motor/motor.h"
 #include "emulator/models/slim/rules/chain_options.h"
@@ -118,7 +119,7 @@ Error Chain::set_servo_at_once(int module, bool on) {
   if (!on) {
     cut(state_, module, motion::Cause::servo_off);
     forget_queue(state_, module);
-    state_.modules[at(module)].analog_speed = false;
+    take_off(state_.modules[at(module)], MarkEvent::servo_off);
   }
   state_.axes[at(module)].switch_servo(on);
   serve(state_, state_.now + 1);
@@ -131,7 +132,7 @@ Error Chain::reset(int module) {
   cut(state_, module, motion::Cause::stopped);
   forget_queue(state_, module);
   const Motor motor = state_.motor(module);
-  motor.module.analog_speed = false;
+  take_off(motor.module, MarkEvent::servo_off);
   motor.module.late_error = Error::none;
   stop_outputs(motor);
   if (options().triggers_stay()) {

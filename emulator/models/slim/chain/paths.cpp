@@ -10,6 +10,7 @@
 #include "emulator/models/slim/chain/chain_state.h"
 #include "emulator/models/slim/motor/jobs.h"
 #include "emulator/models/slim/motor/jogs.h"
+#include "emulator/models/slim/motor/marks.h"
 #include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/motor/moves.h"
 #include "emulator/models/slim/rules/errors.h"
@@ -220,7 +221,7 @@ void release_group(ChainState& chain, Group& group, Tick begin_at) {
     if (group.motion.cause != motion::Cause::arrived) {
       mine.place_units = mine.coordinate(chain.axes[at(member)]);
     }
-    mine.activity = Activity::idle;
+    take_off(mine, MarkEvent::stands);
   }
   group = {};
   for (const std::int8_t member : members) {

@@ -8,6 +8,7 @@
 #include "emulator/models/slim/chain/paths.h"
 #include "emulator/models/slim/motor/jobs.h"
 #include "emulator/models/slim/motor/jogs.h"
+#include "emulator/models/slim/motor/marks.h"
 #include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/motor/motor.h"
 #include "emulator/models/slim/motor/moves.h"
@@ -59,7 +60,7 @@ bool serve_head(ChainState& chain, int module, Tick begin_at) {
     case Job::Kind::servo:
       if (!head.servo_on) {
         cut_motion(motor, motion::Cause::servo_off);
-        mine.analog_speed = false;
+        take_off(mine, MarkEvent::servo_off);
       }
       motor.axis.switch_servo(head.servo_on);
       break;

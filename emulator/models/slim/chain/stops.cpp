@@ -8,6 +8,7 @@
 #include "emulator/models/slim/chain/queues.h"
 #include "emulator/models/slim/motor/jobs.h"
 #include "emulator/models/slim/motor/jogs.h"
+#include "emulator/models/slim/motor/marks.h"
 #include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/motor/motor.h"
 #include "emulator/models/slim/motor/moves.h"
@@ -87,7 +88,7 @@ void stop_all(ChainState& chain) {
     mine.fifo.truncate(0);
     stop_outputs(chain.motor(module));
     if (!servo_too || !mine.linked) continue;
-    mine.analog_speed = false;  // as HOFF does
+    take_off(mine, MarkEvent::servo_off);
     chain.axes[at(module)].switch_servo(false);
   }
 }

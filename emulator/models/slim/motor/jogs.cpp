@@ -1,9 +1,9 @@
 #include "emulator/models/slim/motor/jogs.h"
 
 #include <cstdint>
-#include <utility>
 
 #include "base/simulated_time.h"
+#include "emulator/models/slim/motor/marks.h"
 #include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/motor/motor.h"
 #include "motion/axis.h"
@@ -13,11 +13,9 @@ namespace understudy::emulator::models::slim {
 
 void begin_jog(const Motor& motor, int direction, Tick begin_at) {
   Module& module = motor.module;
+  take_off(module, MarkEvent::begins);
   module.activity = Activity::jog;
   module.jog_direction = static_cast<std::int8_t>(direction);
-  module.next_jog_direction = 0;
-  module.next_thrust = module.thrust = 0;
-  module.starved = false;
   const int pulse_direction = module.settings.jog_speed < 0 ? -direction : direction;
   const motion::SpeedLaw law = module.jog_law(motor.options);
   if (module.settings.jog_speed == 0) {
@@ -36,10 +34,9 @@ void begin_thrust(const Motor& motor, std::int32_t force, Tick begin_at) {
   if (motor.options.thrust_runs()) begin_jog(motor, +1, begin_at);
   // Also if there is no speed to run at.
   if (!motor.axis.moving()) motor.axis.move_at_zero_speed(+1);
-  module.starved = false;
+  take_off(module, MarkEvent::begins);
   module.activity = Activity::thrust;
-  module.jog_direction = module.next_jog_direction = 0;
-  module.next_thrust = 0;
+  module.jog_direction = 0;
   module.thrust = force;
 }
 
@@ -71,25 +68,23 @@ void order_jog(const Motor& motor, int direction, std::int32_t force) {
   const motion::SpeedLaw law = module.jog_law(motor.options);
   if (module.activity == Activity::jog && direction == module.jog_direction &&
       (stands || law.top_speed_u_s > 0)) {
-    module.next_jog_direction = 0;
-    module.next_thrust = 0;
+    take_off(module, MarkEvent::goes_on);
     if (stands) return;
     if (!axis.resume(law, motor.now)) axis.change_speed(law, motor.now);
     return;
   }
   module.next_jog_direction = static_cast<std::int8_t>(direction);
   module.next_thrust = force;
-  module.starved = false;
+  take_off(module, MarkEvent::told_to_stop);
   axis.slow_down(motor.now);
   after_jog(motor, motor.now + 1);
 }
 
 void stop_jog(const Motor& motor) {
   Module& module = motor.module;
-  module.next_jog_direction = module.held_jog_direction = 0;
-  module.next_thrust = module.held_thrust = 0;
+  take_off(module, MarkEvent::jogs_dropped);
   if (!module.jogs_or_pushes()) return;
-  module.starved = false;
+  take_off(module, MarkEvent::told_to_stop);
   motor.axis.slow_down(motor.now);
   after_jog(motor, motor.now + 1);
 }
@@ -114,13 +109,15 @@ void hold_jog(const Motor& motor) {
 void resume_jog(const Motor& motor) {
   Module& module = motor.module;
   if (!module.holds_jog()) return;
-  const int direction = std::exchange(module.held_jog_direction, std::int8_t{0});
-  order_jog(motor, direction, std::exchange(module.held_thrust, 0));
+  const int direction = module.held_jog_direction;
+  const std::int32_t force = module.held_thrust;
+  take_off(module, MarkEvent::pause_over);
+  order_jog(motor, direction, force);
 }
 
 void slow_down_for_good(const Motor& motor) {
   motor.module.activity = Activity::stopping;
-  motor.module.starved = false;
+  take_off(motor.module, MarkEvent::told_to_stop);
   motor.axis.slow_down(motor.now);
   after_jog(motor, motor.now + 1);
 }
@@ -131,11 +128,7 @@ void after_jog(const Motor& motor, Tick begin_at) {
   if (motor.axis.moving() || !(is_stopping || module.jogs_or_pushes())) return;
   module.place_units = motor.coordinate();
   if (module.activity == Activity::jog && module.starved) return;  // continues when AVM gives a speed
-  module.activity = Activity::idle;
-  if (!is_stopping) {
-    module.jog_direction = 0;
-    module.thrust = 0;
-  }
+  take_off(module, MarkEvent::stands);
   begin_next_jog(motor, begin_at);
 }
 

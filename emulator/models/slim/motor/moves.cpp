@@ -5,6 +5,7 @@
 #include "base/simulated_time.h"
 #include "emulator/models/slim/motor/jobs.h"
 #include "emulator/models/slim/motor/jogs.h"
+#include "emulator/models/slim/motor/marks.h"
 #include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/motor/motor.h"
 #include "emulator/models/slim/rules/errors.h"
@@ -57,9 +58,9 @@ bool start_move(const Motor& motor, Tick begin_at) {
     return drop_head(module, Error::range);  // farther than pulses can be counted
   }
   if (refused != motion::Cause::none) return drop_head(module, Error::not_allowed);
+  take_off(module, MarkEvent::begins);
   module.activity = Activity::move;
   job.begun = true;
-  module.starved = false;
   return false;
 }
 
@@ -81,6 +82,7 @@ bool start_home(const Motor& motor, Tick begin_at) {
     home_found(motor);
     return true;
   }
+  take_off(module, MarkEvent::begins);
   module.activity = Activity::home;
   module.fifo[0].begun = true;
   return false;
@@ -89,7 +91,7 @@ bool start_home(const Motor& motor, Tick begin_at) {
 void after_move(const Motor& motor) {
   Module& module = motor.module;
   const bool was_move = module.activity == Activity::move;
-  module.activity = Activity::idle;
+  take_off(module, MarkEvent::stands);
   module.place_units = motor.coordinate();
   const motion::Cause cause = motor.axis.cause;
   if (cause == motion::Cause::stopped) return;  // a pause holds it, and it continues from here
@@ -148,10 +150,7 @@ void cut_motion(const Motor& motor, motion::Cause why) {
   motor.axis.stop(why);
   if (module.activity == Activity::move || module.activity == Activity::home) module.fifo.pop();
   if (module.activity != Activity::idle) module.place_units = motor.coordinate();
-  module.activity = Activity::idle;
-  module.jog_direction = module.next_jog_direction = module.held_jog_direction = 0;
-  module.thrust = module.next_thrust = module.held_thrust = 0;
-  module.starved = false;
+  take_off(module, MarkEvent::cut);
 }
 
 }  // namespace understudy::emulator::models::slim
