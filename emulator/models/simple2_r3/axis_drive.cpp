@@ -6,6 +6,7 @@
 
 #include "base/prefetch.h"
 #include "base/simulated_time.h"
+#include "emulator/models/simple2_r3/marks.h"
 #include "emulator/models/simple2_r3/transitions.h"
 #include "motion/axis.h"
 #include "motion/environment.h"
@@ -157,13 +158,12 @@ Phase phase_of(const AxisState& axis, Tick now) {
 
 void halt_velocity(AxisState& axis) {
   axis.motor.stop();
-  axis.speed_urpm = axis.velocity_phase = 0;
+  take_off(axis, Outcome::waits);
 }
 
 void resume_velocity(AxisState& axis) {
   if (runs_velocity(axis) || target_urpm(axis) == 0) return;
-  if (axis.motor.take_part() != motion::Cause::none) return;
-  axis.speed_urpm = axis.velocity_phase = 0;
+  if (axis.motor.take_part() == motion::Cause::none) take_off(axis, Outcome::turns);
 }
 
 void run_velocity(AxisState& axis, std::int64_t target_mrpm) {
@@ -191,10 +191,7 @@ void keep_following(AxisState& axis) {
 void stop_drive(AxisState& axis) {
   if (axis.command != Command::none) axis.cut_short = true;
   axis.motor.stop();
-  axis.mode = Mode::position;
-  axis.command = Command::none;
-  axis.speed_urpm = axis.target_urpm = axis.velocity_phase = 0;
-  axis.pwm_percent = 0;
+  take_off(axis, Outcome::leaves);
 }
 
 void output_pwm(AxisState& axis, std::uint8_t percent) {

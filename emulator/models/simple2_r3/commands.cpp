@@ -9,6 +9,7 @@
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/marks.h"
 #include "emulator/models/simple2_r3/options.h"
 #include "emulator/models/simple2_r3/registers.h"
 #include "emulator/models/simple2_r3/transitions.h"
@@ -79,11 +80,11 @@ Event Simple2R3::event_by_direction(int axis, int direction, Event towards, Even
 }
 
 bool Simple2R3::may_begin(int axis_number, Outcome outcome, const KeptCommand& what) {
+  if (replaces_kept(outcome)) forget_kept(axis_number);
   switch (outcome) {
     case Outcome::begins:
     case Outcome::changes: return true;
     case Outcome::kept:
-      forget_kept(axis_number);
       state_.kept[static_cast<std::size_t>(axis_number)] = what;
       if (what.command != Command::none) {
         state_.axes[static_cast<std::size_t>(axis_number)].cut_short = false;
@@ -210,6 +211,7 @@ void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
                                      : event_by_direction(axis_number, milli_rpm < 0 ? -1 : +1,
                                                           Event::velocity_towards, Event::velocity_away);
   const Outcome outcome = is_refused ? Outcome::dropped : reaction(axis_number, event);
+  if (replaces_kept(outcome)) forget_kept(axis_number);
   switch (outcome) {
     case Outcome::begins:
     case Outcome::changes:
@@ -220,7 +222,7 @@ void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
       break;
     case Outcome::waits:
     case Outcome::slows_and_waits: axis.target_urpm = milli_rpm * 1000; break;
-    case Outcome::slows: axis.target_urpm = 0; break;
+    case Outcome::slows: take_off(axis, outcome); break;
     case Outcome::goes_on:
     case Outcome::stops:
     case Outcome::leaves:
@@ -253,6 +255,7 @@ void Simple2R3::output_pwm(int axis_number, std::uint8_t percent) {
                               ? Outcome::dropped
                               : reaction(axis_number, percent == 0 ? Event::pwm_zero : Event::pwm);
   if (outcome == Outcome::waits) {
+    forget_kept(axis_number);
     axis.pwm_percent = percent;
   } else if (may_begin(axis_number, outcome, {.mode = Mode::pwm, .value = percent})) {
     simple2_r3::output_pwm(axis, percent);

@@ -4,6 +4,7 @@
 
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/marks.h"
 #include "emulator/models/simple2_r3/options.h"
 #include "emulator/models/simple2_r3/transitions.h"
 #include "motion/axis.h"
@@ -23,12 +24,9 @@ Event event_of(const AxisState& axis, motion::Signal signal, bool on) {
 
 void meet_in_velocity(AxisState& axis, Outcome outcome) {
   switch (outcome) {
-    case Outcome::stops:
-      halt_velocity(axis);
-      axis.target_urpm = 0;
-      return;
+    case Outcome::stops: axis.motor.stop(); return take_off(axis, outcome);
     case Outcome::waits: return halt_velocity(axis);
-    case Outcome::slows: axis.target_urpm = 0; return;
+    case Outcome::slows: return take_off(axis, outcome);
     case Outcome::turns: halt_velocity(axis); return resume_velocity(axis);
     case Outcome::resumes: return resume_velocity(axis);
     case Outcome::goes_on:
@@ -44,7 +42,7 @@ void meet_in_velocity(AxisState& axis, Outcome outcome) {
 }
 
 void meet_in_pwm(AxisState& axis, Outcome outcome) {
-  if (outcome == Outcome::stops) axis.pwm_percent = 0;  // what waits is held by the alarm itself
+  take_off(axis, outcome);  // what waits is held by the alarm itself
 }
 
 }  // namespace

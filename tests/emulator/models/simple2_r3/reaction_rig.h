@@ -162,6 +162,43 @@ inline void cause(Rig& rig, Phase phase, Event event) {
   }
 }
 
+// --- cells -------------------------------------------------------------------------------------------
+
+using Choices = std::map<std::string, std::string>;
+
+/// Calls `visit` for each cell of a mode, by the first options and by each that makes something else of it.
+/// Returns the number of cells.
+template <class Visit>
+int for_each_cell(Activity activity, Visit visit) {
+  int cells = 0;
+  for (int p = 0; p < kPhases; ++p) {
+    for (int e = 0; e < kEvents; ++e) {
+      const auto phase = static_cast<Phase>(p);
+      const auto event = static_cast<Event>(e);
+      if (!is_phase_of(activity, phase) || !can_come(phase, event)) continue;
+      ++cells;
+      SCOPED_TRACE("mode " + std::to_string(static_cast<int>(activity)) + ", phase " + std::to_string(p) +
+                   ", event " + std::to_string(e));
+      const Transition& row = *reaction_row(activity, phase, event);
+      Choices choices;
+      // Only so there is a servo that is off in these modes.
+      if (phase == Phase::servo_off && activity != Activity::position) choices["mode_after_stop"] = "stays";
+      visit(phase, event, choices, row.outcome);
+      for (const OtherOutcome& other : {row.other, row.another}) {
+        if (!other.is_there) continue;
+        const ChoiceRow& choice = kChoices[other.chosen.choice];
+        const std::string id(choice.id);
+        const std::string name(options_of(choice)[other.chosen.number]);
+        SCOPED_TRACE(id + ": " + name);
+        Choices otherwise = choices;
+        otherwise[id] = name;
+        visit(phase, event, otherwise, other.outcome);
+      }
+    }
+  }
+  return cells;
+}
+
 /// What forbids motion is gone.
 inline void free(Rig& rig) {
   for (const int input : {kAlarmInput, kUpperInput, kLowerInput}) rig.input(input, false);

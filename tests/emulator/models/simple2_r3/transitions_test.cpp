@@ -203,43 +203,11 @@ class Cell {
   int way_ = 0;
 };
 
-std::string choice_id(const Option& option) { return std::string(kChoices[option.choice].id); }
-std::string option_name(const Option& option) {
-  return std::string(options_of(kChoices[option.choice])[option.number]);
-}
-
-template <class Visit>
-int for_each_cell(Activity activity, Visit visit) {
-  int cells = 0;
-  for (int p = 0; p < kPhases; ++p) {
-    for (int e = 0; e < kEvents; ++e) {
-      const auto phase = static_cast<Phase>(p);
-      const auto event = static_cast<Event>(e);
-      if (!is_phase_of(activity, phase) || !can_come(phase, event)) continue;
-      ++cells;
-      SCOPED_TRACE("mode " + std::to_string(static_cast<int>(activity)) + ", phase " + std::to_string(p) +
-                   ", event " + std::to_string(e));
-      visit(phase, event);
-    }
-  }
-  return cells;
-}
-
 void walk(Activity activity) {
-  const int cells = for_each_cell(activity, [&](Phase phase, Event event) {
-    const Transition& row = *reaction_row(activity, phase, event);
-    std::map<std::string, std::string> choices;
-    // Only so there is a servo that is off in these modes.
-    if (phase == Phase::servo_off && activity != Activity::position) choices["mode_after_stop"] = "stays";
-    Cell(activity, phase, event, choices).expect(row.outcome);
-    for (const OtherOutcome& other : {row.other, row.another}) {
-      if (!other.is_there) continue;
-      auto otherwise = choices;
-      otherwise[choice_id(other.chosen)] = option_name(other.chosen);
-      SCOPED_TRACE(choice_id(other.chosen) + ": " + option_name(other.chosen));
-      Cell(activity, phase, event, otherwise).expect(other.outcome);
-    }
-  });
+  const int cells =
+      for_each_cell(activity, [&](Phase phase, Event event, const Choices& choices, Outcome outcome) {
+        Cell(activity, phase, event, choices).expect(outcome);
+      });
   EXPECT_GT(cells, 30);
 }
 
