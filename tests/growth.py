@@ -24,7 +24,6 @@ class Rule:
 
 CIRCLE = Rule("files in a circle by calls of members", 3, 0, {
     "emulator/models/rs_m8194h": 13,
-    "emulator/models/simple2_r3": 4,
     "emulator/models/super_40nc": 19,
 })
 MEMBERS = Rule("member functions", 60, 2, {

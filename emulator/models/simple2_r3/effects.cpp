@@ -12,6 +12,7 @@
 #include "emulator/models/simple2_r3/device.h"
 #include "emulator/models/simple2_r3/options.h"
 #include "emulator/models/simple2_r3/registers.h"
+#include "emulator/models/simple2_r3/slots.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 
@@ -88,8 +89,6 @@ MoveParameters from_here(const Simple2R3& device, int axis, MoveParameters move)
 
 /// Of a cell of the program.
 std::size_t cell_slot(Cell cell) {
-  constexpr std::array<std::size_t, 4> kColumns{slot("MAIN_LINE{}_CMD"), slot("MAIN_LINE{}_DATA1"),
-                                                slot("MAIN_LINE{}_DATA2"), slot("MAIN_LINE{}_JMP")};
   return kColumns[static_cast<std::size_t>(cell.argument)] + static_cast<std::size_t>(cell.index);
 }
 
