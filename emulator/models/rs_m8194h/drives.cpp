@@ -6,7 +6,7 @@
 
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/paths.h"
 #include "emulator/models/rs_m8194h/state.h"
@@ -49,17 +49,17 @@ motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules, c
 
 }  // namespace
 
-Activity RsM8194h::activity(std::size_t axis) const {
+Activity Module::activity(std::size_t axis) const {
   const motion::Axis& motor = state_.motors[axis];
   if (motor.homing.active()) return Activity::homing;
   if (state_.paths.together.takes(axis)) return Activity::path;
   return motor.moving() ? Activity::single : Activity::idle;
 }
 
-bool RsM8194h::is_driving(std::size_t axis) const { return activity(axis) != Activity::idle; }
+bool Module::is_driving(std::size_t axis) const { return activity(axis) != Activity::idle; }
 
 /// ERROR_CODE as it is read.
-std::uint16_t RsM8194h::error_code(std::size_t axis) const {
+std::uint16_t Module::error_code(std::size_t axis) const {
   std::uint16_t code = state_.units[axis].error_code;
   if (!chose(option("error_bits", "also_by_active_inputs"))) return code;
   constexpr struct {
@@ -75,18 +75,18 @@ std::uint16_t RsM8194h::error_code(std::size_t axis) const {
   return code;
 }
 
-AxisMask RsM8194h::driving() const {
+AxisMask Module::driving() const {
   AxisMask mask = 0;
   for (std::size_t a = 0; a < kAxes; ++a) mask |= is_driving(a) ? mask_of(a) : AxisMask{0};
   return mask;
 }
 
-bool RsM8194h::is_active(std::size_t axis, motion::Signal signal) const {
+bool Module::is_active(std::size_t axis, motion::Signal signal) const {
   return (state_.environment[axis].at(state_.motors[axis].travel_pulses, state_.motors[axis].signals) &
           motion::bit(signal)) != 0;
 }
 
-bool RsM8194h::is_obstructed(std::size_t axis, Obstacle obstacle, bool on_path) const {
+bool Module::is_obstructed(std::size_t axis, Obstacle obstacle, bool on_path) const {
   const AxisUnit& unit = state_.units[axis];
   switch (obstacle) {
     case Obstacle::emergency_state: return state_.emergency_state;
@@ -101,7 +101,7 @@ bool RsM8194h::is_obstructed(std::size_t axis, Obstacle obstacle, bool on_path) 
   return false;
 }
 
-Start RsM8194h::may_start(std::size_t axis, Starter who, bool on_path) const {
+Start Module::may_start(std::size_t axis, Starter who, bool on_path) const {
   const bool by_command = who == Starter::command;
   Start held = Start::starts;
   for (const ObstacleRow& row : kObstacleRows) {
@@ -124,7 +124,7 @@ Start RsM8194h::may_start(std::size_t axis, Starter who, bool on_path) const {
   return is_void ? Start::is_void : Start::waits;
 }
 
-Start RsM8194h::may_start(AxisMask axes, Starter who) const {
+Start Module::may_start(AxisMask axes, Starter who) const {
   Start worst = Start::starts;
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
@@ -135,7 +135,7 @@ Start RsM8194h::may_start(AxisMask axes, Starter who) const {
   return worst;
 }
 
-void RsM8194h::note_obstacles(AxisMask axes) {
+void Module::note_obstacles(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     for (const ObstacleRow& row : kObstacleRows) {
@@ -146,20 +146,20 @@ void RsM8194h::note_obstacles(AxisMask axes) {
 }
 
 /// Of a drive that starts: what it has left behind it.
-void RsM8194h::forget_errors(std::size_t axis) {
+void Module::forget_errors(std::size_t axis) {
   if (chose(option("error_bits_end", "nothing"))) return;
   state_.units[axis].error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
 }
 
 /// By choice, of a drive that would be held: another one of its axes is held already.
-bool RsM8194h::waits_behind_held(AxisMask axes) const {
+bool Module::waits_behind_held(AxisMask axes) const {
   return chose(option("second_held_drive", "waits")) && holds_a_drive(axes);
 }
-bool RsM8194h::keeps_first_held(AxisMask axes) const {
+bool Module::keeps_first_held(AxisMask axes) const {
   return chose(option("second_held_drive", "is_void")) && holds_a_drive(axes);
 }
 
-bool RsM8194h::holds_a_drive(AxisMask axes) const {
+bool Module::holds_a_drive(AxisMask axes) const {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (has(axes, a) && state_.units[a].held_drive.what != Drive::What::none) return true;
   }
@@ -167,7 +167,7 @@ bool RsM8194h::holds_a_drive(AxisMask axes) const {
 }
 
 /// By choice, CONTINUE_MOVE goes on at another speed, or, the other way, behind a stop. Whether it does.
-bool RsM8194h::takes_place_of_endless(std::size_t axis, const Drive& what) {
+bool Module::takes_place_of_endless(std::size_t axis, const Drive& what) {
   motion::Axis& motor = state_.motors[axis];
   const bool is_again = what.what == Drive::What::endless && activity(axis) == Activity::single &&
                         motor.task == motion::Task::endless;
@@ -186,7 +186,7 @@ bool RsM8194h::takes_place_of_endless(std::size_t axis, const Drive& what) {
   return true;
 }
 
-Took RsM8194h::drive(AxisMask axes, const Drive& what) {
+Took Module::drive(AxisMask axes, const Drive& what) {
   AxisMask taken = 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
     const bool may = has(axes, a) && may_start(a, Starter::command) == Start::waits;
@@ -227,17 +227,17 @@ Took RsM8194h::drive(AxisMask axes, const Drive& what) {
   return Took::done;
 }
 
-motion::SpeedLaw RsM8194h::law_of(std::size_t axis) const {
+motion::SpeedLaw Module::law_of(std::size_t axis) const {
   return rs_m8194h::law_of(state_.units[axis], machine_.speed);
 }
 
-bool RsM8194h::lacks_speed(std::size_t axis, Drive::What what) const {
+bool Module::lacks_speed(std::size_t axis, Drive::What what) const {
   if (!machine_.zero_speeds_drive_nothing || what == Drive::What::endless) return false;
   const AxisUnit& unit = state_.units[axis];
   return unit.speed.drive_pps == 0 || (what == Drive::What::home && unit.homing.home_pps == 0);
 }
 
-void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
+void Module::start(std::size_t axis, const Drive& what, bool without_ramps) {
   AxisUnit& unit = state_.units[axis];
   motion::Axis& motor = state_.motors[axis];
   Paths& paths = state_.paths;
@@ -291,7 +291,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   }
 }
 
-void RsM8194h::start_held() {
+void Module::start_held() {
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = state_.units[a];
     if (unit.held_drive.what == Drive::What::none || unit.held) continue;

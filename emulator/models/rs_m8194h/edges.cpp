@@ -9,7 +9,7 @@
 #include "base/simulated_time.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "emulator/models/rs_m8194h/transitions.h"
@@ -43,13 +43,13 @@ bool starts_something(motion::SyncAction::Drive drive) {
 
 }  // namespace
 
-void RsM8194h::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) {
+void Module::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) {
   const motion::Events handled = on_axis_end(axis, events);
   check_factors(axis, handled, tick.tick(), tick.pulses(axis));
   if ((handled & state_.sync.triggers[axis].factors) != 0) act_together(tick, axis, handled);
 }
 
-void RsM8194h::check_factors(std::size_t axis, motion::Events events, Tick tick, std::int64_t pulses) {
+void Module::check_factors(std::size_t axis, motion::Events events, Tick tick, std::int64_t pulses) {
   const AxisUnit& unit = state_.units[axis];
   const bool is_noted_always = chose(option("factors_noted", "enabled_ones"));
   for (std::size_t i = 0; i < kIsrFactors; ++i) {
@@ -66,7 +66,7 @@ void RsM8194h::check_factors(std::size_t axis, motion::Events events, Tick tick,
 }
 
 /// The kernel latches, presets and drives; what is the firmware's is done here.
-void RsM8194h::act_together(motion::SharedTick& tick, std::size_t trigger, motion::Events events) {
+void Module::act_together(motion::SharedTick& tick, std::size_t trigger, motion::Events events) {
   using Action = motion::SyncAction::Drive;
   motion::SyncTable acting = state_.sync;
   const AxisMask activated = acting.triggers[trigger].activates;
@@ -123,7 +123,7 @@ void RsM8194h::act_together(motion::SharedTick& tick, std::size_t trigger, motio
 }
 
 /// Of one of the axes that go along it.
-void RsM8194h::act_on_path(motion::SharedTick& tick, motion::SyncAction::Drive drive) {
+void Module::act_on_path(motion::SharedTick& tick, motion::SyncAction::Drive drive) {
   using Action = motion::SyncAction::Drive;
   if (drive == Action::slow_down) {
     tick.slow_path(motion::Cause::stopped, law_to_slow_path());

@@ -6,7 +6,7 @@
 
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/paths.h"
 #include "emulator/models/rs_m8194h/state.h"
@@ -68,7 +68,7 @@ std::uint16_t error_of(motion::Cause cause) {
   return 0;
 }
 
-void RsM8194h::on_homed(std::size_t axis) {
+void Module::on_homed(std::size_t axis) {
   AxisUnit& unit = state_.units[axis];
   note_factor(axis, Factor::homed);
   if (chose(option("home_error_bit", "also_at_home"))) unit.error_code |= bit_of(ErrorBit::home);
@@ -81,13 +81,13 @@ void RsM8194h::on_homed(std::size_t axis) {
 }
 
 /// By choice, a limit is no cause of an end that was there anyhow.
-bool RsM8194h::is_no_cause(motion::Cause cause, bool is_at_its_end) const {
+bool Module::is_no_cause(motion::Cause cause, bool is_at_its_end) const {
   const bool is_limit = cause == motion::Cause::limit_plus || cause == motion::Cause::limit_minus;
   return is_limit && is_at_its_end && chose(option("limit_at_the_end", "is_complete"));
 }
 
 /// Whether all axes of a path are where it ends.
-bool RsM8194h::is_path_complete() const {
+bool Module::is_path_complete() const {
   const motion::Coordinated& together = state_.paths.together;
   for (std::size_t i = 0; i < together.axis_of.size(); ++i) {
     const std::int8_t a = together.axis_of[i];
@@ -99,7 +99,7 @@ bool RsM8194h::is_path_complete() const {
 }
 
 /// Its own cause, and what it has met before, become errors.
-void RsM8194h::note_end_of_path(std::size_t axis) {
+void Module::note_end_of_path(std::size_t axis) {
   AxisUnit& unit = state_.units[axis];
   motion::Axis& motor = state_.motors[axis];
   const std::uint16_t met = std::exchange(unit.met, std::uint16_t{0});
@@ -113,7 +113,7 @@ void RsM8194h::note_end_of_path(std::size_t axis) {
 }
 
 /// The rest of a drive that is held by a pause: what would have ended it ends it.
-void RsM8194h::check_paused_drive(std::size_t axis) {
+void Module::check_paused_drive(std::size_t axis) {
   AxisUnit& unit = state_.units[axis];
   const motion::Axis& motor = state_.motors[axis];
   const bool is_endless = unit.paused_drive.what == Drive::What::endless;
@@ -126,7 +126,7 @@ void RsM8194h::check_paused_drive(std::size_t axis) {
 }
 
 /// What ends leaves its cause in the error code. Gives the events that count as such.
-motion::Events RsM8194h::on_axis_end(std::size_t axis, motion::Events events) {
+motion::Events Module::on_axis_end(std::size_t axis, motion::Events events) {
   const motion::Axis& motor = state_.motors[axis];
   AxisUnit& unit = state_.units[axis];
   const bool homed = (events & motion::bit(motion::Event::homed)) != 0;

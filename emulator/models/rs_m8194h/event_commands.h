@@ -7,7 +7,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 /// Sets nDRV, nLATCH, nPRESET, nOUT, nINT and the ISR of each axis, from parameter `first` on, for a mask of
 /// axes.
-inline void set_actions(RsM8194h& it, AxisMask axes, const Command& command, std::size_t first) {
+inline void set_actions(Module& it, AxisMask axes, const Command& command, std::size_t first) {
   for_each_axis(axes, [&](std::size_t a) {
     motion::SyncAction& action = it.state().sync.actions[a];
     const std::int64_t preset = action.preset_value;
@@ -23,7 +23,7 @@ inline void set_actions(RsM8194h& it, AxisMask axes, const Command& command, std
     it.rearm(a);
   });
 }
-inline void set_factors(RsM8194h& it, AxisMask triggers, std::uint32_t factors) {
+inline void set_factors(Module& it, AxisMask triggers, std::uint32_t factors) {
   for_each_axis(triggers, [&](std::size_t a) {
     it.state().sync.triggers[a].factors = static_cast<motion::Events>(factors & 0xFFU);
     it.state().factor_axes[static_cast<std::size_t>(Factor::synchronous)] &=
@@ -31,14 +31,14 @@ inline void set_factors(RsM8194h& it, AxisMask triggers, std::uint32_t factors) 
     it.rearm(a);
   });
 }
-inline void set_activated(RsM8194h& it, AxisMask triggers, AxisMask activated) {
+inline void set_activated(Module& it, AxisMask triggers, AxisMask activated) {
   for_each_axis(triggers, [&](std::size_t a) {
     it.state().sync.triggers[a].activates = activated;
     it.rearm(a);
   });
 }
 
-inline Took sync_action(RsM8194h& it, const Command& command) {
+inline Took sync_action(Module& it, const Command& command) {
   const AxisMask triggers = axes_at(command, 0);
   const AxisMask activated = axes_at(command, 1);
   set_activated(it, triggers, activated);
@@ -46,7 +46,7 @@ inline Took sync_action(RsM8194h& it, const Command& command) {
   set_factors(it, triggers, command.values[2]);
   return Took::done;
 }
-inline Took clear_sync_action(RsM8194h& it, const Command& command) {
+inline Took clear_sync_action(Module& it, const Command& command) {
   const bool keeps_axes = it.chose(option("clear_sync_scope", "factors"));
   const bool keeps_actions = keeps_axes || it.chose(option("clear_sync_scope", "factors_and_axes"));
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
@@ -61,20 +61,20 @@ inline Took clear_sync_action(RsM8194h& it, const Command& command) {
   for (std::size_t a = 0; a < kAxes; ++a) it.rearm(a);
   return Took::done;
 }
-inline Took activation_factors(RsM8194h& it, const Command& command) {
+inline Took activation_factors(Module& it, const Command& command) {
   set_factors(it, axes_at(command, 0), command.values[1]);
   return Took::done;
 }
-inline Took activation_axis(RsM8194h& it, const Command& command) {
+inline Took activation_axis(Module& it, const Command& command) {
   set_activated(it, axes_at(command, 0), axes_at(command, 1));
   return Took::done;
 }
-inline Took set_action(RsM8194h& it, const Command& command) {
+inline Took set_action(Module& it, const Command& command) {
   set_actions(it, axes_at(command, 0), command, 1);
   return Took::done;
 }
 /// Sets C+ or C-; the soft limits end (7.3.6).
-inline Took set_compare(RsM8194h& it, const Command& command) {
+inline Took set_compare(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.state().units[a];
     unit.compare[command.values[1] & 1U] = {.value = command.signed_value(3), .source = byte_at(command, 2)};
@@ -83,14 +83,14 @@ inline Took set_compare(RsM8194h& it, const Command& command) {
   });
   return Took::done;
 }
-inline Took set_preset(RsM8194h& it, const Command& command) {
+inline Took set_preset(Module& it, const Command& command) {
   const AxisMask axes =
       it.chose(option("preset_values", "one_for_all")) ? AxisMask{kAllAxes} : axes_at(command, 0);
   for_each_axis(axes,
                 [&](std::size_t a) { it.state().sync.actions[a].preset_value = command.signed_value(1); });
   return Took::done;
 }
-inline Took set_out(RsM8194h& it, const Command& command) {
+inline Took set_out(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     OutSettings& out = it.state().units[a].out;
     out.level = byte_at(command, 1);
@@ -100,15 +100,15 @@ inline Took set_out(RsM8194h& it, const Command& command) {
 }
 
 template <bool on>
-Took switch_interrupts(RsM8194h& it, const Command&) {
+Took switch_interrupts(Module& it, const Command&) {
   it.state().interrupts = on;
   if (on) it.state().rint &= static_cast<std::uint8_t>(~bit_of(Rint::user));
   return Took::done;
 }
-inline void forget_factor(RsM8194h& it, std::size_t axis, std::size_t factor) {
+inline void forget_factor(Module& it, std::size_t axis, std::size_t factor) {
   it.state().factor_axes[factor] &= static_cast<AxisMask>(~mask_of(axis));
 }
-inline Took enable_factor(RsM8194h& it, const Command& command) {
+inline Took enable_factor(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.state().units[a];
     const std::size_t factor = command.values[1] % kIsrFactors;
@@ -120,7 +120,7 @@ inline Took enable_factor(RsM8194h& it, const Command& command) {
   });
   return Took::done;
 }
-inline Took disable_factor(RsM8194h& it, const Command& command) {
+inline Took disable_factor(Module& it, const Command& command) {
   constexpr std::uint32_t kAllFactors = 10;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     for (std::size_t factor = 0; factor < kIsrFactors; ++factor) {
@@ -135,20 +135,20 @@ inline Took disable_factor(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 
-inline Took hold(RsM8194h& it, const Command& command) {
+inline Took hold(Module& it, const Command& command) {
   it.hold(axes_at(command, 0));
   return Took::done;
 }
-inline Took release(RsM8194h& it, const Command& command) {
+inline Took release(Module& it, const Command& command) {
   it.release(axes_at(command, 0));
   return Took::done;
 }
-inline Took stop_axes(RsM8194h& it, const Command& command) {
+inline Took stop_axes(Module& it, const Command& command) {
   it.halt(axes_at(command, 0), stop_row(command.verb()));
   return Took::done;
 }
 /// Stops the axes of the running interpolation; if none runs, those of AXIS_ASSIGN.
-inline Took stop_path(RsM8194h& it, const Command& command) {
+inline Took stop_path(Module& it, const Command& command) {
   const Paths& paths = it.state().paths;
   AxisMask axes = paths.together.engaged ? paths.axes : mask_of_codes(paths.assigned);
   if (!paths.together.engaged && it.chose(option("vstop_idle", "nothing"))) axes = 0;
@@ -156,45 +156,45 @@ inline Took stop_path(RsM8194h& it, const Command& command) {
   it.halt(axes, stop_row(command.verb()));
   return Took::done;
 }
-inline Took emergency_stop(RsM8194h& it, const Command& command) {
+inline Took emergency_stop(Module& it, const Command& command) {
   it.halt(kAllAxes, stop_row(command.verb(), command.values[0]));
   it.state().fifo = {};
   if (it.chose(option("emergency_and_macros", "end"))) it.terminate();
   it.state().emergency_state = true;
   return Took::done;
 }
-inline Took clear_stop(RsM8194h& it, const Command& command) {
+inline Took clear_stop(Module& it, const Command& command) {
   it.clear_stop(axes_at(command, 0));
   return Took::done;
 }
-inline Took clear_path_stop(RsM8194h& it, const Command&) {
+inline Took clear_path_stop(Module& it, const Command&) {
   it.clear_path_stop();
   return Took::done;
 }
-inline Took clear_emergency_stop(RsM8194h& it, const Command&) {
+inline Took clear_emergency_stop(Module& it, const Command&) {
   it.clear_emergency();
   return Took::done;
 }
-inline Took stop_wait(RsM8194h& it, const Command& command) {
+inline Took stop_wait(Module& it, const Command& command) {
   it.state().fifo.stop_wait = axes_at(command, 0);
   return Took::done;
 }
-inline Took load_initial(RsM8194h& it, const Command&) {
+inline Took load_initial(Module& it, const Command&) {
   if (it.driving() != 0 && it.chose(option("load_initial_on_the_way", "waits_until_all_stand"))) {
     return Took::waits;
   }
   it.load_initial();
   return Took::done;
 }
-inline Took begin_mp(RsM8194h& it, const Command& command) {
+inline Took begin_mp(Module& it, const Command& command) {
   it.start_mp(static_cast<int>(command.values[0]));
   return Took::done;
 }
-inline Took call_isr(RsM8194h& it, const Command& command) {
+inline Took call_isr(Module& it, const Command& command) {
   it.start_isr(static_cast<int>(command.values[0]));
   return Took::done;
 }
-inline Took terminate(RsM8194h& it, const Command&) {
+inline Took terminate(Module& it, const Command&) {
   it.terminate();
   return Took::done;
 }

@@ -12,7 +12,7 @@
 #include "emulator/device/machine_edges.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "emulator/models/rs_m8194h/terminals.h"
@@ -78,11 +78,11 @@ std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin, const M
 
 }  // namespace
 
-bool RsM8194h::is_filtering(const AxisUnit& unit) const {
+bool Module::is_filtering(const AxisUnit& unit) const {
   return unit.pins.raw != unit.pins.passed || unit.emergency != state_.emergency_input;
 }
 
-void RsM8194h::pass_pins(Tick tick) {
+void Module::pass_pins(Tick tick) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = state_.units[a];
     for (int i = 0; i < kPinsOfAxis; ++i) {
@@ -115,7 +115,7 @@ void RsM8194h::pass_pins(Tick tick) {
 }
 
 /// What the motor meets: where an input changes with the place, zones; else its level.
-void RsM8194h::update_environment(std::size_t axis) {
+void Module::update_environment(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
   const MachineEdges& edges = edges_[axis];
   motion::Environment found;
@@ -151,7 +151,7 @@ void RsM8194h::update_environment(std::size_t axis) {
   environment = found;
 }
 
-void RsM8194h::rearm(std::size_t axis) {
+void Module::rearm(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
   motion::Events asked = state_.sync.triggers[axis].factors;
   constexpr motion::Event kEvents[kIsrFactors] = {motion::Event::pulse,
@@ -179,7 +179,7 @@ void RsM8194h::rearm(std::size_t axis) {
 constexpr std::uint32_t kMaxEdgesPerTick = 8'000;
 
 /// How many edges an input has had since it was looked at, whichever way its count was turned.
-std::uint32_t RsM8194h::external_edges(std::size_t axis, std::size_t which) {
+std::uint32_t Module::external_edges(std::size_t axis, std::size_t which) {
   AxisUnit& unit = state_.units[axis];
   const Pin pin = which == 0 ? Pin::external_plus : Pin::external_minus;
   const auto count = static_cast<std::uint32_t>(input(terminal(axis, pin)));
@@ -201,7 +201,7 @@ std::uint32_t RsM8194h::external_edges(std::size_t axis, std::size_t which) {
 }
 
 /// The edges of a tick lie evenly in it, those of one input between those of the other.
-void RsM8194h::watch_external(std::size_t axis, Tick tick) {
+void Module::watch_external(std::size_t axis, Tick tick) {
   AxisUnit& unit = state_.units[axis];
   const std::array<std::uint32_t, 2> edges{external_edges(axis, 0), external_edges(axis, 1)};
   std::array<std::uint32_t, 2> done{};
@@ -225,14 +225,14 @@ void RsM8194h::watch_external(std::size_t axis, Tick tick) {
 }
 
 /// Whether it only drives because drives end at ticks: the pulses of its last edge are out by then.
-bool RsM8194h::is_free_for_external(std::size_t axis, std::int64_t at_ns) const {
+bool Module::is_free_for_external(std::size_t axis, std::int64_t at_ns) const {
   const AxisUnit& unit = state_.units[axis];
   const motion::Axis& motor = state_.motors[axis];
   const bool is_its = unit.external_free_ns != 0 && activity(axis) == Activity::single;
   return is_its && !motor.slowing && !motor.settling && at_ns >= unit.external_free_ns;
 }
 
-void RsM8194h::obey_external(std::size_t axis, const motion::DriveOrder& order, std::int64_t at_ns) {
+void Module::obey_external(std::size_t axis, const motion::DriveOrder& order, std::int64_t at_ns) {
   using What = motion::DriveOrder::What;
   AxisUnit& unit = state_.units[axis];
   if (order.what == What::nothing) return;
@@ -248,14 +248,14 @@ void RsM8194h::obey_external(std::size_t axis, const motion::DriveOrder& order, 
   unit.external_free_ns = after(at_ns, motion::plan(pulses, external_law(axis)).duration_s);
 }
 
-motion::SpeedLaw RsM8194h::external_law(std::size_t axis) const {
+motion::SpeedLaw Module::external_law(std::size_t axis) const {
   motion::SpeedLaw law = law_of(axis);
   if (chose(option("exd_speed", "v_without_ramps"))) law.start_speed_u_s = law.top_speed_u_s;
   return law;
 }
 
 /// Whether it has begun.
-bool RsM8194h::start_external(std::size_t axis, const motion::DriveOrder& order) {
+bool Module::start_external(std::size_t axis, const motion::DriveOrder& order) {
   AxisUnit& unit = state_.units[axis];
   unit.external.running = 0;
   if (may_start(axis, Starter::external) != Start::starts) {
@@ -277,7 +277,7 @@ bool RsM8194h::start_external(std::size_t axis, const motion::DriveOrder& order)
 
 /// What has waited for the tick in which the pulses before it were over. A drive that something else has
 /// ended has nothing behind it.
-void RsM8194h::start_waiting_external() {
+void Module::start_waiting_external() {
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = state_.units[a];
     if (unit.external_free_ns == 0 || is_driving(a)) continue;
@@ -289,7 +289,7 @@ void RsM8194h::start_waiting_external() {
   }
 }
 
-void RsM8194h::set_external(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data) {
+void Module::set_external(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data) {
   using Mode = motion::ExternalDrive::Mode;
   AxisUnit& unit = state_.units[axis];
   motion::Axis& motor = state_.motors[axis];
@@ -311,7 +311,7 @@ void RsM8194h::set_external(std::size_t axis, motion::ExternalDrive::Mode mode, 
   if (ends) motor.slow_down(now());
 }
 
-bool RsM8194h::scans_frnet_at(Tick tick) const {
+bool Module::scans_frnet_at(Tick tick) const {
   if (machine_.frnet_every_tick) return true;
   const Tick since = tick - state_.powered_at;
   if (since <= 0) return false;
@@ -319,13 +319,13 @@ bool RsM8194h::scans_frnet_at(Tick tick) const {
   return in_round * kTickUnits / kScanUnits > (in_round - 1) * kTickUnits / kScanUnits;
 }
 
-Tick RsM8194h::next_scan(Tick after) const {
+Tick Module::next_scan(Tick after) const {
   for (Tick tick = std::max(after, state_.powered_at) + 1;; ++tick) {
     if (scans_frnet_at(tick)) return tick;
   }
 }
 
-std::array<std::uint16_t, kFrnetGroups> RsM8194h::frnet_inputs() const {
+std::array<std::uint16_t, kFrnetGroups> Module::frnet_inputs() const {
   std::array<std::uint16_t, kFrnetGroups> words{};
   for (int group = 0; group < kFrnetGroups; ++group) {
     std::uint16_t word = 0;
@@ -338,7 +338,7 @@ std::array<std::uint16_t, kFrnetGroups> RsM8194h::frnet_inputs() const {
   return words;
 }
 
-void RsM8194h::scan_frnet() {
+void Module::scan_frnet() {
   state_.sent = state_.outputs;
   if (state_.unscanned) state_.inputs = frnet_inputs();
   state_.unscanned = false;

@@ -11,9 +11,9 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/language.h"
 #include "emulator/models/rs_m8194h/memory.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/state.h"
@@ -51,27 +51,27 @@ Cell cell_of_axes(const Command& command) {
   return {};
 }
 
-template <Value (*shows)(const RsM8194h&, Cell)>
-std::int32_t read_axis(const RsM8194h& it, const Command& command) {
+template <Value (*shows)(const Module&, Cell)>
+std::int32_t read_axis(const Module& it, const Command& command) {
   return static_cast<std::int32_t>(shows(it, cell_of_axes(command)));
 }
 /// One bit, by the second parameter.
-template <Value (*shows)(const RsM8194h&, Cell)>
-std::int32_t read_bit(const RsM8194h& it, const Command& command) {
+template <Value (*shows)(const Module&, Cell)>
+std::int32_t read_bit(const Module& it, const Command& command) {
   return static_cast<std::int32_t>(shows(it, cell_of_axes(command)) >> command.values[1] & 1);
 }
-std::uint16_t frnet_word(const RsM8194h& it, std::uint32_t group) {
+std::uint16_t frnet_word(const Module& it, std::uint32_t group) {
   const auto number = static_cast<std::size_t>(group % kFrnetGroups);
   return group < kFrnetGroups ? it.state().outputs[number] : it.state().inputs[number];
 }
-std::int32_t read_group(const RsM8194h& it, const Command& command) {
+std::int32_t read_group(const Module& it, const Command& command) {
   return frnet_word(it, command.values[0]);
 }
-std::int32_t read_channel(const RsM8194h& it, const Command& command) {
+std::int32_t read_channel(const Module& it, const Command& command) {
   return frnet_word(it, command.values[0]) >> (command.values[1] % kFrnetChannels) & 1;
 }
 
-using Reads = std::int32_t (*)(const RsM8194h& it, const Command& command);
+using Reads = std::int32_t (*)(const Module& it, const Command& command);
 constexpr HandlerRow<Verb, Reads> kReads[] = {
     {Verb::get_lp, read_axis<logic_position>},
     {Verb::get_ep, read_axis<encoder_position>},
@@ -93,7 +93,7 @@ constexpr CompleteTable<Verb, Reads> kReadTable(lang::kReadVerbs, kReads);
 
 // --- download ---------------------------------------------------------------------------------------------
 
-lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
+lang::Fault Module::take_download(const lang::Decoded& decoded) {
   const std::uint16_t code = decoded.command.code;
   if (state_.rsm == lang::State::ready) {
     const bool is_busy =
@@ -129,7 +129,7 @@ lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
 
 // --- store ---------------------------------------------------------------------------------------------
 
-void RsM8194h::compile() const {
+void Module::compile() const {
   if (compiled_revision_ == state_.blocks.revision()) return;
   compiled_revision_ = state_.blocks.revision();
   std::vector<lang::MacroStore::Stored> stored;
@@ -148,18 +148,18 @@ void RsM8194h::compile() const {
   macros_.update(stored);
 }
 
-const lang::Macro* RsM8194h::macro(const lang::MacroName& name) const {
+const lang::Macro* Module::macro(const lang::MacroName& name) const {
   compile();
   const lang::Macro* found = macros_.find(name);
   return found == nullptr || found->lines.empty() ? nullptr : found;
 }
 
-const lang::TriggerTable& RsM8194h::triggers() const {
+const lang::TriggerTable& Module::triggers() const {
   compile();
   return triggers_;
 }
 
-void RsM8194h::load_program(std::string_view text) {
+void Module::load_program(std::string_view text) {
   const lang::ParsedListing parsed = lang::parse_listing(text, options_.command, options_.download);
   if (!parsed.errors.empty()) throw ProgramError(mistakes_of(parsed.errors));
   for (const lang::ListedMacro& each : parsed.listing.macros) {
@@ -175,7 +175,7 @@ void RsM8194h::load_program(std::string_view text) {
   if (!parsed.listing.triggers.empty()) check_triggers(state_.inputs, true);
 }
 
-std::string RsM8194h::program_text() const {
+std::string Module::program_text() const {
   compile();
   lang::Listing listing;
   for (const bool is_isr : {false, true}) {
@@ -193,7 +193,7 @@ std::string RsM8194h::program_text() const {
 
 // --- running ---------------------------------------------------------------------------------------------
 
-void RsM8194h::start_mp(int number) {
+void Module::start_mp(int number) {
   state_.rint &= static_cast<std::uint8_t>(~(bit_of(Rint::mp_completed) | bit_of(Rint::module)));
   if (options_.run.missing_macro_is_error && !lang::has_lines({false, number}, *this)) {
     return report({.macro = {false, number},
@@ -207,47 +207,45 @@ void RsM8194h::start_mp(int number) {
       lang::run_tick(state_.execution, now(), state_.steps_left, state_.paused, options_.run, *this);
 }
 
-void RsM8194h::start_isr(int number) {
+void Module::start_isr(int number) {
   state_.marks.push_back({.tick = now(),
                           .axis = kAxes - 1,
                           .source = IsrMark::kCalled,
                           .number = static_cast<std::uint8_t>(number)});
 }
 
-void RsM8194h::terminate() {
+void Module::terminate() {
   lang::terminate(state_.execution);
   terminated();
 }
 
-void RsM8194h::terminated() {
+void Module::terminated() {
   state_.marks.clear();
   state_.paused = false;
 }
 
-void RsM8194h::mp_ended() {
+void Module::mp_ended() {
   state_.rint |= bit_of(Rint::mp_completed);
   pass_state(kMpFinished);
 }
 
-std::int32_t RsM8194h::variable(std::size_t number) const {
+std::int32_t Module::variable(std::size_t number) const {
   return static_cast<std::int32_t>(state_.image[kFirstVarSlot + number]);
 }
-void RsM8194h::set_variable(std::size_t number, std::int32_t value) {
+void Module::set_variable(std::size_t number, std::int32_t value) {
   put(kFirstVarSlot + number, static_cast<std::uint32_t>(value));
 }
-std::uint8_t RsM8194h::byte_variable(std::size_t number) const {
+std::uint8_t Module::byte_variable(std::size_t number) const {
   return static_cast<std::uint8_t>(state_.image[kFirstBvarSlot + number]);
 }
-std::int32_t RsM8194h::read(const Command& command) const {
-  return kReadTable[command.verb()](*this, command);
-}
-bool RsM8194h::stand(std::uint32_t axes) const { return (driving() & axes) == 0; }
-bool RsM8194h::frnet_input(std::uint32_t group, std::uint32_t channel) const {
+std::int32_t Module::read(const Command& command) const { return kReadTable[command.verb()](*this, command); }
+bool Module::stand(std::uint32_t axes) const { return (driving() & axes) == 0; }
+bool Module::frnet_input(std::uint32_t group, std::uint32_t channel) const {
   return (frnet_word(*this, group) >> (channel % kFrnetChannels) & 1) != 0;
 }
 
 /// What a mark calls, by what is bound and enabled now; 0: nothing.
-int RsM8194h::isr_of(const IsrMark& mark) const {
+int Module::isr_of(const IsrMark& mark) const {
   const AxisUnit& unit = state_.units[mark.axis];
   if (mark.source == IsrMark::kCalled) return mark.number;
   if (!state_.interrupts) return 0;
@@ -258,7 +256,7 @@ int RsM8194h::isr_of(const IsrMark& mark) const {
 }
 
 /// Marks that call nothing are spent.
-int RsM8194h::take_isr() {
+int Module::take_isr() {
   while (!state_.marks.empty() && state_.marks.front().tick + options_.isr_delay_ticks <= now()) {
     const IsrMark mark = state_.marks.front();
     state_.marks.erase(state_.marks.begin());
@@ -276,7 +274,7 @@ int RsM8194h::take_isr() {
   return 0;
 }
 
-void RsM8194h::report(const lang::ExecutionFault& fault) {
+void Module::report(const lang::ExecutionFault& fault) {
   const auto number = static_cast<std::uint16_t>(fault.macro.number);
   state_.execution_fault = {
       fault.macro.is_isr ? std::uint16_t{0} : number, fault.macro.is_isr ? number : std::uint16_t{0},

@@ -19,7 +19,7 @@
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/registers.h"
 #include "interpreter/rs_m8194h/check.h"
@@ -100,7 +100,7 @@ constexpr BlockKind kKinds[] = {
 
 std::span<const BlockKind> block_kinds() { return kKinds; }
 
-bool RsM8194h::keeps(const RegisterRow& row) const {
+bool Module::keeps(const RegisterRow& row) const {
   if (row.table == Table::holding && row.address == kEventAddress) {
     return chose(option("trigger_enable_kept", "kept"));
   }
@@ -112,7 +112,7 @@ bool RsM8194h::keeps(const RegisterRow& row) const {
   return row.persistent || (is_variable && chose(option("variables_kept", "kept")));
 }
 
-Eeprom RsM8194h::factory_memory() const {
+Eeprom Module::factory_memory() const {
   std::vector<std::uint32_t> factory;
   const auto is_kept = std::make_unique<bool[]>(kSlotCount);
   const auto at_once = std::make_unique<bool[]>(kSlotCount);
@@ -124,17 +124,6 @@ Eeprom RsM8194h::factory_memory() const {
     }
   }
   return Eeprom(factory, {is_kept.get(), kSlotCount}, {at_once.get(), kSlotCount});
-}
-
-std::uint64_t RsM8194h::kept_revision() const { return state_.eeprom.revision() + state_.blocks.revision(); }
-
-std::function<void(NvImage&)> RsM8194h::memory_writer() const {
-  return registers_writer(*this, state_.eeprom.kept());
-}
-
-void RsM8194h::read_memory(const NvImage& image) {
-  const auto values = read_registers(*this, image, Device::model().firmwares.back());
-  for (std::size_t slot = 0; slot < values.size(); ++slot) state_.eeprom.put(slot, values[slot]);
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

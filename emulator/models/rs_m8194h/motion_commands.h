@@ -7,7 +7,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 /// Sets a counter of the axes in the first parameter.
 template <void (*set)(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds)>
-Took set_counter(RsM8194h& it, const Command& command) {
+Took set_counter(Module& it, const Command& command) {
   const bool ring_folds = it.machine_options().axis.ring_folds;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     set(it.state().units[a], it.state().motors[a], command.signed_value(1), ring_folds);
@@ -21,11 +21,11 @@ Took set_counter(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 
-inline Took frnet_out(RsM8194h& it, const Command& command) {
+inline Took frnet_out(Module& it, const Command& command) {
   it.state().outputs[command.values[0] % kFrnetGroups] = static_cast<std::uint16_t>(command.values[1]);
   return Took::done;
 }
-inline Took frnet_write(RsM8194h& it, const Command& command) {
+inline Took frnet_write(Module& it, const Command& command) {
   std::uint16_t& word = it.state().outputs[command.values[0] % kFrnetGroups];
   const auto bit = static_cast<std::uint16_t>(1U << (command.values[1] % kFrnetChannels));
   word = static_cast<std::uint16_t>(command.values[2] != 0 ? word | bit : word & ~bit);
@@ -36,7 +36,7 @@ inline Took frnet_write(RsM8194h& it, const Command& command) {
 enum class Speed : std::uint8_t { other, speed, slope, jerk };
 /// Returns the value to store: as sent, or limited to the range that MAX_V gives it now.
 template <Speed kind>
-std::uint32_t within_range(const RsM8194h& it, std::uint32_t given, std::uint32_t max_v) {
+std::uint32_t within_range(const Module& it, std::uint32_t given, std::uint32_t max_v) {
   if (kind == Speed::other || it.chose(option("reclamp", "when_a_drive_starts"))) return given;
   const SpeedRange range = speed_range(max_v, it.machine_options().speed);
   const double least = kind == Speed::slope ? range.least_slope : kind == Speed::jerk ? range.least_jerk : 0;
@@ -46,7 +46,7 @@ std::uint32_t within_range(const RsM8194h& it, std::uint32_t given, std::uint32_
 
 /// Sets a number of the speed settings; it applies from the next drive on.
 template <auto member, Speed kind = Speed::other>
-Took set_speed(RsM8194h& it, const Command& command) {
+Took set_speed(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.state().units[a];
     auto& number = unit.speed.*member;
@@ -56,14 +56,14 @@ Took set_speed(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 /// Gives homing the new speeds; it uses them from its next phase on.
-inline void tell_homing(RsM8194h& it, std::size_t axis) {
+inline void tell_homing(Module& it, std::size_t axis) {
   motion::Homing& homing = it.state().motors[axis].homing;
   if (!homing.active()) return;
   const AxisUnit& unit = it.state().units[axis];
   homing.program.speeds = {it.law_of(axis), law_at(unit, unit.homing.home_pps, it.machine_options().speed)};
 }
 /// Sets V, also for the running drive.
-inline Took set_drive_speed(RsM8194h& it, const Command& command) {
+inline Took set_drive_speed(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.state().units[a];
     unit.speed.drive_pps = within_range<Speed::speed>(it, command.values[1], unit.basic.max_v);
@@ -74,13 +74,13 @@ inline Took set_drive_speed(RsM8194h& it, const Command& command) {
 }
 /// Sets a number of the path's speed settings, which have no axes.
 template <auto member>
-Took set_vector(RsM8194h& it, const Command& command) {
+Took set_vector(Module& it, const Command& command) {
   auto& number = it.state().paths.vector.*member;
   number = static_cast<std::remove_reference_t<decltype(number)>>(command.values[0]);
   return Took::done;
 }
 
-inline Took home_speed(RsM8194h& it, const Command& command) {
+inline Took home_speed(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.state().units[a];
     unit.homing.home_pps = within_range<Speed::speed>(it, command.values[1], unit.basic.max_v);
@@ -88,12 +88,12 @@ inline Took home_speed(RsM8194h& it, const Command& command) {
   });
   return Took::done;
 }
-inline Took home_limit(RsM8194h& it, const Command& command) {
+inline Took home_limit(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0),
                 [&](std::size_t a) { it.state().units[a].homing.limit_is_home = command.values[1] == 1; });
   return Took::done;
 }
-inline Took home_mode(RsM8194h& it, const Command& command) {
+inline Took home_mode(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     HomeSettings& homing = it.state().units[a].homing;
     for (std::size_t i = 0; i < homing.steps.size(); ++i) homing.steps[i] = byte_at(command, 1 + i);
@@ -103,13 +103,13 @@ inline Took home_mode(RsM8194h& it, const Command& command) {
 }
 
 template <Drive::What what>
-Took drive(RsM8194h& it, const Command& command) {
+Took drive(Module& it, const Command& command) {
   const std::int32_t value = what == Drive::What::home ? 0 : command.signed_value(1);
   return it.drive(axes_at(command, 0), {.what = what, .value = value});
 }
 
 /// SET_PULSE: changes the total of the running move, counted in its own direction (7.1.10, A-53).
-inline Took set_pulse(RsM8194h& it, const Command& command) {
+inline Took set_pulse(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     motion::Axis& motor = it.state().motors[a];
     if (it.activity(a) != Activity::single || motor.task != motion::Task::move) {
@@ -126,17 +126,17 @@ inline Took set_pulse(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 
-inline Took axis_assign(RsM8194h& it, const Command& command) {
+inline Took axis_assign(Module& it, const Command& command) {
   for (std::size_t i = 0; i < 3; ++i) it.state().paths.assigned[i] = byte_at(command, i);
   return Took::done;
 }
 
-inline Took path(RsM8194h& it, const Command& command) { return it.follow_path(command); }
+inline Took path(Module& it, const Command& command) { return it.follow_path(command); }
 
 /// INITIAL of a stream: settings for all its CONTINUE commands. It waits while a stream runs (7.4.2, 7.4.5,
 /// 7.4.8).
 template <Stream stream>
-Took initial(RsM8194h& it, const Command& command) {
+Took initial(Module& it, const Command& command) {
   Paths& paths = it.state().paths;
   if (paths.together.engaged && paths.runs == Paths::Runs::stream) return Took::waits;
   constexpr std::size_t kAxesNamed = stream == Stream::line_3d ? 3 : 2;
@@ -156,7 +156,7 @@ Took initial(RsM8194h& it, const Command& command) {
 }
 
 /// LINE_SCAN (7.4.12): the next scan uses the setting up. The scan uses C+, so the soft limits end.
-inline Took line_scan(RsM8194h& it, const Command& command) {
+inline Took line_scan(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.state().units[a];
     LineScan& scan = it.state().scans[a];
@@ -174,7 +174,7 @@ inline Took line_scan(RsM8194h& it, const Command& command) {
   });
   return Took::done;
 }
-inline Took line_scan_start(RsM8194h& it, const Command& command) {
+inline Took line_scan_start(Module& it, const Command& command) {
   const AxisMask axes = axes_at(command, 0);
   if (it.drive(axes, {.what = Drive::What::scan, .value = command.signed_value(2)}) == Took::waits) {
     return Took::waits;

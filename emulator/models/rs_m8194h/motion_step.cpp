@@ -12,7 +12,7 @@
 #include "emulator/device/clear_travel.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "emulator/models/rs_m8194h/terminals.h"
@@ -34,7 +34,7 @@ constexpr std::int64_t kMaxTriggersOfATick = 100;
 
 }  // namespace
 
-void RsM8194h::step_axes(Tick tick) {
+void Module::step_axes(Tick tick) {
   std::array<std::int64_t, kAxes> pulses{};
   motion::Coordinated& together = state_.paths.together;
   std::uint32_t singles = 0;
@@ -62,7 +62,7 @@ void RsM8194h::step_axes(Tick tick) {
 }
 
 /// A path that has ended in this tick.
-void RsM8194h::on_path_end(bool was_full) {
+void Module::on_path_end(bool was_full) {
   Paths& paths = state_.paths;
   const bool in_stream = paths.together.engaged && paths.runs == Paths::Runs::stream;
   const bool has_room = in_stream && paths.open && paths.together.run.queued() < 2;
@@ -84,7 +84,7 @@ void RsM8194h::on_path_end(bool was_full) {
 }
 
 /// C-STA and C-END of a path, for its axis1.
-void RsM8194h::on_path_speed(Tick tick) {
+void Module::on_path_speed(Tick tick) {
   if (!machine_.paths_have_c_sta) return;
   Paths& paths = state_.paths;
   const motion::Sample along = paths.together.engaged ? paths.together.run.sample(tick) : motion::Sample{};
@@ -103,11 +103,11 @@ void RsM8194h::on_path_speed(Tick tick) {
   }
 }
 
-void RsM8194h::note_factor(std::size_t axis, Factor factor) {
+void Module::note_factor(std::size_t axis, Factor factor) {
   state_.factor_axes[static_cast<std::size_t>(factor)] |= mask_of(axis);
 }
 
-void RsM8194h::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
+void Module::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
   const auto is_same = [&](const IsrMark& mark) { return mark.axis == axis && mark.source == source; };
   const bool is_lost = !options_.isr_requests_are_counted || state_.marks.size() >= kMaxMarks;
   if (is_lost && std::any_of(state_.marks.begin(), state_.marks.end(), is_same)) return;
@@ -133,13 +133,13 @@ void RsM8194h::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
   state_.marks.insert(std::upper_bound(state_.marks.begin(), state_.marks.end(), made, is_before), made);
 }
 
-void RsM8194h::note_enabled(std::size_t axis, std::uint8_t source, bool is_on) {
+void Module::note_enabled(std::size_t axis, std::uint8_t source, bool is_on) {
   std::erase(state_.enabled, name_of_source(axis, source));
   if (is_on) state_.enabled.push_back(name_of_source(axis, source));
 }
 
 /// V has changed: a T-shaped drive goes on at the new one, an S-shaped one keeps its own (7.1).
-void RsM8194h::change_speed(std::size_t axis, motion::Instant at) {
+void Module::change_speed(std::size_t axis, motion::Instant at) {
   const AxisUnit& unit = state_.units[axis];
   const bool keeps_its_own =
       kNormalShapes[unit.speed.mode].s_curve && chose(option("speed_change_in_s", "the_next_drive"));
@@ -158,7 +158,7 @@ void RsM8194h::change_speed(std::size_t axis, motion::Instant at) {
   }
 }
 
-void RsM8194h::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
+void Module::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
   // SET_OUT knows X and Y (7.3.9).
   if (axis >= static_cast<std::size_t>(kOuts)) return;
   // Whole ticks of PulseWidth; shorter pulses are counted only.
@@ -169,20 +169,20 @@ void RsM8194h::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
 }
 
 /// What the counter that LINE_SCAN's Type names has counted: a ring comes round in it, and it may be set.
-std::int64_t RsM8194h::scan_travel(std::size_t axis) const {
+std::int64_t Module::scan_travel(std::size_t axis) const {
   const motion::Axis& motor = state_.motors[axis];
   if (state_.scans[axis].type < 2) return motor.travel_pulses;
   const motion::EncoderLine& encoder = state_.environment[axis].encoder;
   return encoder.is_known() ? encoder.at(motor.travel_pulses) : encoder_travel(state_.units[axis], motor);
 }
 
-std::int64_t RsM8194h::scan_spacing(const LineScan& scan) const {
+std::int64_t Module::scan_spacing(const LineScan& scan) const {
   const bool is_as_printed = machine_.pitch_is_distance && scan.pitch > 0;
   return std::max<std::int64_t>(std::abs(std::int64_t{scan.pitch}) + (is_as_printed ? 0 : 1), 1);
 }
 
 /// C+ is where the next trigger would have been.
-void RsM8194h::end_scan(std::size_t axis) {
+void Module::end_scan(std::size_t axis) {
   LineScan& scan = state_.scans[axis];
   if (chose(option("scan_comparator", "the_next_trigger"))) {
     const std::int64_t direction = scan_travel(axis) < scan.begin ? -1 : +1;
@@ -206,13 +206,13 @@ void RsM8194h::end_scan(std::size_t axis) {
   rearm(axis);
 }
 
-void RsM8194h::begin_scans(AxisMask axes) {
+void Module::begin_scans(AxisMask axes) {
   if (axes == 0) return;
   state_.rint &= static_cast<std::uint8_t>(~bit_of(Rint::line_scan));
   state_.scanning |= axes;
 }
 
-void RsM8194h::step_scans(Tick tick) {
+void Module::step_scans(Tick tick) {
   if (state_.scanning == 0) return;
   bool runs = false;
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -240,10 +240,9 @@ void RsM8194h::step_scans(Tick tick) {
 
 // --- many ticks at once ------------------------------------------------------------------------------------
 
-Tick RsM8194h::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
-  const bool is_simple = !inputs_changed() && !state_.touched && state_.marks.empty() &&
-                         state_.scanning == 0 && !state_.paths.together.engaged &&
-                         state_.steps_left == options_.steps_a_tick;
+Tick Module::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
+  const bool is_simple = !state_.touched && state_.marks.empty() && state_.scanning == 0 &&
+                         !state_.paths.together.engaged && state_.steps_left == options_.steps_a_tick;
   if (!is_simple || is_resetting() || state_.execution.is_alive() || !state_.queued_triggers.empty())
     return done + 1;
   Tick last = std::min(most, state_.eeprom.next_active_tick() - 1);
@@ -266,14 +265,14 @@ Tick RsM8194h::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) c
   return last + 1;
 }
 
-void RsM8194h::fast_forward_to(Tick, Tick tick, const ClearTravel& ahead, std::span<std::int64_t> pulses) {
+void Module::fast_forward_to(Tick tick, const ClearTravel& ahead, std::span<std::int64_t> pulses) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     motion::Axis& motor = state_.motors[a];
     pulses[a] += motor.fast_forward_to(tick - 1);
     state_.units[a].sent_pulses = motor.step(tick, state_.environment[a]);
     pulses[a] += state_.units[a].sent_pulses;
     const auto axis = static_cast<int>(a);
-    if (ahead.has_encoder(axis)) set_encoder(axis, ahead.encoder_counts(axis, pulses[a]));
+    if (ahead.has_encoder(axis)) set_encoder(a, ahead.encoder_counts(axis, pulses[a]));
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include "emulator/device/device.h"
 #include "emulator/models/rs_m8194h/commands.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/not_implemented.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/state.h"
@@ -15,7 +15,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-int RsM8194h::fifo_blocks_of(const lang::Command& command) const {
+int Module::fifo_blocks_of(const lang::Command& command) const {
   const lang::CommandRow& row = command.row();
   constexpr lang::Verb kHolds[] = {lang::Verb::drv_hold, lang::Verb::drv_start, lang::Verb::clear_stop,
                                    lang::Verb::clear_vstop};
@@ -28,14 +28,14 @@ int RsM8194h::fifo_blocks_of(const lang::Command& command) const {
   return machine_.one_block_each ? 1 : row.cost;
 }
 
-int RsM8194h::free_blocks() const {
+int Module::free_blocks() const {
   int free = kFifoBlocks;
   for (const lang::Command& command : state_.fifo.waiting) free -= fifo_blocks_of(command);
   if (state_.fifo.stop_wait != 0 && chose(option("fifo_block_freed", "when_its_wait_is_over"))) --free;
   return std::max(free, 0);
 }
 
-void RsM8194h::run_fifo(int& steps) {
+void Module::run_fifo(int& steps) {
   Fifo& fifo = state_.fifo;
   for (;;) {
     // While a macro lives, or a trigger has paused everything, nothing begins.
@@ -57,9 +57,9 @@ void RsM8194h::run_fifo(int& steps) {
   }
 }
 
-Took RsM8194h::carry_out(const lang::Command& command) {
+Took Module::carry_out(const lang::Command& command) {
   for (const NotImplementedRow& row : kNotImplementedRows) {
-    if (is_meant(row, command)) Device::warn_not_implemented(row.what, row.why);
+    if (is_meant(row, command)) warn_not_implemented(row.what, row.why);
   }
   return action_of(command.verb())(*this, command);
 }

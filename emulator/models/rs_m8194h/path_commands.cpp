@@ -10,7 +10,7 @@
 #include "emulator/device/device.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/not_implemented.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/path_rows.h"
@@ -33,7 +33,7 @@ bool is_path(const lang::Command& command) {
 }
 
 /// The axes that a path is on, in their order.
-std::array<std::uint8_t, 3> RsM8194h::codes_of_path(const lang::Command& command) const {
+std::array<std::uint8_t, 3> Module::codes_of_path(const lang::Command& command) const {
   const PathRow& row = row_of_path(command.verb());
   std::array<std::uint8_t, 3> codes = state_.paths.assigned;
   const StreamSettings& settings = state_.paths.streams[static_cast<std::size_t>(row.stream)];
@@ -44,7 +44,7 @@ std::array<std::uint8_t, 3> RsM8194h::codes_of_path(const lang::Command& command
   return codes;
 }
 
-bool RsM8194h::streams_need_initial() const {
+bool Module::streams_need_initial() const {
   return chose(option("continue_without_initial", "void_with_module_error"));
 }
 
@@ -55,13 +55,13 @@ bool follows(const HeldPath& first, const HeldPath& other) {
   return are_segments && one.stream == another.stream && first.codes == other.codes;
 }
 
-AxisMask RsM8194h::axes_of_held_path() const {
+AxisMask Module::axes_of_held_path() const {
   return state_.held_paths.empty() ? AxisMask{0} : mask_of_codes(state_.held_paths.front().codes);
 }
 
 /// A limit that is active before a path begins, or a soft limit that is reached, keeps it from beginning, as
 /// it keeps the drive of an axis: the bit is that of the axis which would have set out against it.
-bool RsM8194h::keeps_path_off(const std::array<std::uint8_t, 3>& codes, const motion::Point& way) {
+bool Module::keeps_path_off(const std::array<std::uint8_t, 3>& codes, const motion::Point& way) {
   bool is_kept = false;
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const std::int8_t a = axis_of_code(codes[i]);
@@ -78,18 +78,18 @@ bool RsM8194h::keeps_path_off(const std::array<std::uint8_t, 3>& codes, const mo
   return is_kept;
 }
 
-void RsM8194h::module_error() { state_.rint |= bit_of(Rint::module); }
+void Module::module_error() { state_.rint |= bit_of(Rint::module); }
 
 /// One segment is loaded ahead of the one that runs; what ends within the coming tick has to have its
 /// successors in time.
-bool RsM8194h::has_room_for_segment() const {
+bool Module::has_room_for_segment() const {
   const motion::PathRun& run = state_.paths.together.run;
   if (run.full()) return false;
   if (chose(option("stream_lookahead", "30"))) return true;
   return run.queued() < 2 || run.queued_after(now() + 1) == 0;
 }
 
-Took RsM8194h::follow_path(const lang::Command& command) {
+Took Module::follow_path(const lang::Command& command) {
   const HeldPath path{.command = command, .codes = codes_of_path(command)};
   auto& held = state_.held_paths;
   if (held.empty() || !follows(held.front(), path)) return begin_path(path);
@@ -103,14 +103,14 @@ Took RsM8194h::follow_path(const lang::Command& command) {
   return Took::done;
 }
 
-bool RsM8194h::joins_stream(const HeldPath& path) const {
+bool Module::joins_stream(const HeldPath& path) const {
   const PathRow& row = row_of_path(path.command.verb());
   const Paths& paths = state_.paths;
   return row.runs == Paths::Runs::stream && paths.together.engaged && paths.runs == Paths::Runs::stream &&
          paths.stream == row.stream && paths.open && (paths.axes & ~mask_of_codes(path.codes)) == 0;
 }
 
-Took RsM8194h::begin_path(const HeldPath& path) {
+Took Module::begin_path(const HeldPath& path) {
   const lang::Command& command = path.command;
   const std::array<std::uint8_t, 3>& codes = path.codes;
   const PathRow& row = row_of_path(command.verb());
@@ -156,8 +156,7 @@ Took RsM8194h::begin_path(const HeldPath& path) {
   try {
     draw(path, joins);
   } catch (const motion::BadMotion& bad) {
-    if (bad.refusal() == motion::Refusal::out_of_range)
-      Device::warn_not_implemented(kLongHelix, kWhyNoLongHelix);
+    if (bad.refusal() == motion::Refusal::out_of_range) warn_not_implemented(kLongHelix, kWhyNoLongHelix);
     module_error();  // no such arc, for example
   }
   return Took::done;

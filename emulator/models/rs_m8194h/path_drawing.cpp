@@ -8,7 +8,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/path_rows.h"
 #include "emulator/models/rs_m8194h/paths.h"
@@ -45,7 +45,7 @@ struct PathDrawing {
 
 }  // namespace
 
-void RsM8194h::draw(const HeldPath& path, bool joins) {
+void Module::draw(const HeldPath& path, bool joins) {
   const lang::Command& command = path.command;
   const std::array<std::uint8_t, 3>& codes = path.codes;
   const PathRow& row = row_of_path(command.verb());

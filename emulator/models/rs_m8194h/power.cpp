@@ -8,8 +8,8 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/memory.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/state.h"
@@ -30,7 +30,7 @@ void set_external_levels(AxisUnit& unit) {
 
 }  // namespace
 
-void RsM8194h::blank_module() {
+void Module::blank_module() {
   constexpr std::uint32_t kUsualPps = 1000;
   const bool has_usual_speeds = chose(option("power_on_values", "1000_pps"));
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -77,7 +77,7 @@ void RsM8194h::blank_module() {
   for (std::size_t a = 0; a < kAxes; ++a) rearm(a);
 }
 
-void RsM8194h::blank() {
+void Module::blank() {
   State made;
   made.initial_table = initial_table_of(state_.blocks, factory_settings());
   made.eeprom = std::move(state_.eeprom);
@@ -102,7 +102,7 @@ void RsM8194h::blank() {
   blank_module();
 }
 
-void RsM8194h::power_up() {
+void Module::power_up() {
   blank();
   state_.powered_at = now();
   state_.at_init = input(kInitSwitch) != 0;
@@ -133,24 +133,24 @@ void RsM8194h::power_up() {
   }
 }
 
-void RsM8194h::power_down() {
+void Module::power_down() {
   state_.eeprom.lose_power();
   blank();
 }
 
-BasicSettings RsM8194h::factory_settings() const {
+BasicSettings Module::factory_settings() const {
   // Figure 3's soft limits and ring are switched off.
   if (!chose(option("factory_values", "of_figure_3"))) return {};
   return {.max_v = 8'000, .filtered = 1, .filter_time = 2};
 }
 
-void RsM8194h::pass_state(std::uint8_t finished) {
+void Module::pass_state(std::uint8_t finished) {
   if (!machine_.finished_states_show) return;
   state_.finished = finished;
   state_.finished_at = now();
 }
 
-void RsM8194h::reset_card() {
+void Module::reset_card() {
   const auto units = state_.units;
   std::array<std::array<std::int32_t, 3>, kAxes> counts{};
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -212,7 +212,7 @@ void RsM8194h::reset_card() {
   }
 }
 
-void RsM8194h::load_initial() {
+void Module::load_initial() {
   for (std::size_t a = 0; a < kAxes; ++a) {
     apply_basic(state_.units[a], state_.motors[a], state_.initial_table[a], machine_.axis);
     set_external(a, motion::ExternalDrive::Mode::off, 0);

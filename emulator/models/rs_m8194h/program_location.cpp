@@ -8,7 +8,7 @@
 #include "base/simulated_time.h"
 #include "base/text/lines.h"
 #include "emulator/device/user_program.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "interpreter/rs_m8194h/macro.h"
 #include "interpreter/rs_m8194h/run.h"
 #include "interpreter/rs_m8194h/text.h"
@@ -39,7 +39,7 @@ int line_in(std::string_view text, const std::string& head, int number) {
 
 }  // namespace
 
-std::vector<ProgramLocation> RsM8194h::program_locations() const {
+std::vector<ProgramLocation> Module::program_locations() const {
   std::vector<ProgramLocation> all;
   std::string text;
   const auto tell = [&](const lang::Run& run) {

@@ -35,13 +35,13 @@ inline void scale_speeds(AxisUnit& unit, std::uint32_t from_max_v, std::uint32_t
 }
 
 /// Returns true if, by choice, an enabled ring keeps soft limits off, or soft limits keep a ring off.
-inline bool is_kept_off(const RsM8194h& it, const BasicSettings& present, Verb verb) {
+inline bool is_kept_off(const Module& it, const BasicSettings& present, Verb verb) {
   const bool meets =
       (verb == Verb::set_slmt && present.ring) || (verb == Verb::vring_enable && present.soft_limits);
   return meets && it.chose(option("ring_and_soft_limits", "the_earlier_keeps_the_other_off"));
 }
 /// By choice, soft limits use the comparators' registers: copies them there.
-inline void take_comparators(const RsM8194h& it, AxisUnit& unit) {
+inline void take_comparators(const Module& it, AxisUnit& unit) {
   const BasicSettings& basic = unit.basic;
   if (!basic.soft_limits || !it.chose(option("soft_limits_and_comparators", "become_the_limits"))) return;
   unit.compare = {Compare{.value = basic.forward_soft_limit, .source = basic.soft_limit_source},
@@ -50,7 +50,7 @@ inline void take_comparators(const RsM8194h& it, AxisUnit& unit) {
 
 /// Applies a setting of section 3, whose axes are in the first parameter. Its row (memory.h) says what it
 /// changes.
-inline Took set_basic(RsM8194h& it, const Command& command) {
+inline Took set_basic(Module& it, const Command& command) {
   const bool is_initial = (command.values[0] & lang::kInitial) != 0;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     if (is_initial) {
@@ -77,33 +77,33 @@ inline Took set_basic(RsM8194h& it, const Command& command) {
 }
 
 template <motion::ExternalDrive::Mode mode>
-Took set_external(RsM8194h& it, const Command& command) {
+Took set_external(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     it.set_external(a, mode, mode == motion::ExternalDrive::Mode::off ? 0 : command.values[1]);
   });
   return Took::done;
 }
 
-inline Took write_byte_variable(RsM8194h& it, const Command& command) {
+inline Took write_byte_variable(Module& it, const Command& command) {
   it.put(kFirstBvarSlot + lang::byte_variable_number(command.values[0]), byte_at(command, 1));
   return Took::done;
 }
-inline Took write_variable(RsM8194h& it, const Command& command) {
+inline Took write_variable(Module& it, const Command& command) {
   it.put(kFirstVarSlot + lang::variable_number(command.values[0]), command.values[1]);
   return Took::done;
 }
-inline Took write_memory(RsM8194h& it, const Command& command) {
+inline Took write_memory(Module& it, const Command& command) {
   const std::size_t number = command.values[0];
   const bool is_real = number >= static_cast<std::size_t>(lang::kFirstRealMemory);
   it.put(kFirstMdSlot + number, command.values[is_real ? 2 : 1]);
   return Took::done;
 }
 
-inline Took reset_card(RsM8194h& it, const Command&) {
+inline Took reset_card(Module& it, const Command&) {
   it.reset_card();
   return Took::done;
 }
-inline Took clear_buffer(RsM8194h& it, const Command&) {
+inline Took clear_buffer(Module& it, const Command&) {
   // A STOP_WAIT that has begun is no longer in the buffer, and continues.
   it.state().fifo.waiting.clear();
   if (it.chose(option("clear_buffer_held_drives", "dropped"))) {

@@ -8,7 +8,7 @@
 #include "base/simulated_time.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/paths.h"
 #include "emulator/models/rs_m8194h/transitions.h"
@@ -22,14 +22,12 @@ namespace understudy::emulator::models::rs_m8194h {
 namespace {
 
 /// What clears a stop leaves the codes.
-bool clears_the_lock_alone(const RsM8194h& device) {
-  return device.chose(option("clear_stop_codes", "lock"));
-}
+bool clears_the_lock_alone(const Module& device) { return device.chose(option("clear_stop_codes", "lock")); }
 
 }  // namespace
 
 /// The others go on along the path; it stops, or slows down by its own ramp from the speed that it has.
-void RsM8194h::leave_path(std::size_t axis, Halt halt) {
+void Module::leave_path(std::size_t axis, Halt halt) {
   const double speed_pps = state_.paths.together.speed_pps(axis, now());
   for (std::int8_t& mine : state_.paths.together.axis_of) {
     if (mine == static_cast<std::int8_t>(axis)) mine = motion::Coordinated::kNone;
@@ -51,7 +49,7 @@ void RsM8194h::leave_path(std::size_t axis, Halt halt) {
 }
 
 /// What the axis had left to be done, as far as this takes it away (transitions.h).
-void RsM8194h::take_off(std::size_t axis, WayOut way) {
+void Module::take_off(std::size_t axis, WayOut way) {
   AxisUnit& unit = state_.units[axis];
   if (takes_off(way, Mark::paused_drive)) unit.paused_drive = {};
   if (takes_off(way, Mark::external_drive)) {
@@ -63,7 +61,7 @@ void RsM8194h::take_off(std::size_t axis, WayOut way) {
 }
 
 /// One without ramps has those that its start speed gives it.
-motion::SpeedLaw RsM8194h::law_to_slow_path() const {
+motion::SpeedLaw Module::law_to_slow_path() const {
   const Paths& paths = state_.paths;
   motion::SpeedLaw law = paths.together.run.speed();
   const bool has_no_ramps = law.start_speed_u_s >= law.top_speed_u_s;
@@ -76,13 +74,13 @@ motion::SpeedLaw RsM8194h::law_to_slow_path() const {
   return law;
 }
 
-void RsM8194h::slow_path(Tick tick) {
+void Module::slow_path(Tick tick) {
   motion::Coordinated& together = state_.paths.together;
   if (together.engaged) together.run.set_speed(law_to_slow_path(), tick);
   together.slow_down(tick);
 }
 
-void RsM8194h::halt(AxisMask axes, const StopRow& row) {
+void Module::halt(AxisMask axes, const StopRow& row) {
   Paths& paths = state_.paths;
   const bool leaves_others =
       row.locks && (paths.axes & ~axes) != 0 && chose(option("stop_one_of_path", "it_alone_stops"));
@@ -138,7 +136,7 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
   }
 }
 
-void RsM8194h::clear_stop(AxisMask axes) {
+void Module::clear_stop(AxisMask axes) {
   const bool keeps_code = clears_the_lock_alone(*this);
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
@@ -153,7 +151,7 @@ void RsM8194h::clear_stop(AxisMask axes) {
   }
 }
 
-void RsM8194h::clear_path_stop() {
+void Module::clear_path_stop() {
   const bool keeps_code = clears_the_lock_alone(*this);
   const bool takes_all = chose(option("clear_stop_codes", "vstop_the_codes_of_all_axes"));
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -169,21 +167,21 @@ void RsM8194h::clear_path_stop() {
   }
 }
 
-void RsM8194h::clear_emergency() {
+void Module::clear_emergency() {
   state_.emergency_state = false;
   for (AxisUnit& unit : state_.units) {
     unit.error_code &= static_cast<std::uint16_t>(~bit_of(ErrorBit::soft_emergency));
   }
 }
 
-void RsM8194h::hold(AxisMask axes) {
+void Module::hold(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     const bool is_void = is_driving(a) && chose(option("hold_of_moving_axis", "is_void"));
     if (has(axes, a) && !is_void) state_.units[a].held = true;
   }
 }
 
-void RsM8194h::release(AxisMask axes) {
+void Module::release(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     state_.units[a].held = false;

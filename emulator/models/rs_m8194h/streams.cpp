@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/path_rows.h"
 #include "emulator/models/rs_m8194h/paths.h"
@@ -21,12 +21,12 @@ bool is_segment(const HeldPath& path) { return row_of_path(path.command.verb()).
 
 bool is_last_segment(const HeldPath& path) { return is_segment(path) && path.command.values[0] == 1; }
 
-void RsM8194h::forget_break(Stream stream) {
+void Module::forget_break(Stream stream) {
   state_.paths.broken &= static_cast<std::uint8_t>(~bit_of(stream));
 }
 
 /// Whether a segment belongs to what is left of a stream that was broken off. The last one ends that.
-bool RsM8194h::is_left_over(const HeldPath& segment) {
+bool Module::is_left_over(const HeldPath& segment) {
   const Stream stream = stream_of(segment);
   const bool runs = chose(option("broken_stream", "runs_all_the_same"));
   if ((state_.paths.broken & bit_of(stream)) == 0 || runs) return false;
@@ -36,7 +36,7 @@ bool RsM8194h::is_left_over(const HeldPath& segment) {
 }
 
 /// `has_more`: its last segment has not come. What is held of it is void, too.
-void RsM8194h::break_off(Stream stream, bool has_more) {
+void Module::break_off(Stream stream, bool has_more) {
   state_.rint |= bit_of(Rint::stream);
   auto& held = state_.held_paths;
   const bool is_held = !held.empty() && is_segment(held.front()) && stream_of(held.front()) == stream;
@@ -50,7 +50,7 @@ void RsM8194h::break_off(Stream stream, bool has_more) {
 }
 
 /// Of the path that runs or slows down, or of a stream that has starved.
-void RsM8194h::break_off_stream() {
+void Module::break_off_stream() {
   Paths& paths = state_.paths;
   const bool is_stream = paths.runs == Paths::Runs::stream || paths.open;
   const bool has_more = std::exchange(paths.open, false);
@@ -64,11 +64,11 @@ void RsM8194h::break_off_stream() {
 }
 
 /// It may not begin, so nothing behind it does.
-void RsM8194h::refuse_segment(const HeldPath& path) {
+void Module::refuse_segment(const HeldPath& path) {
   if (is_segment(path)) break_off(stream_of(path), !is_last_segment(path));
 }
 
-void RsM8194h::drop_held_path() {
+void Module::drop_held_path() {
   const auto dropped = std::exchange(state_.held_paths, {});
   if (dropped.empty() || !is_segment(dropped.front())) return;
   break_off(stream_of(dropped.front()), !is_last_segment(dropped.back()));

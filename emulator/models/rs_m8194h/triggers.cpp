@@ -9,7 +9,7 @@
 
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/paths.h"
 #include "emulator/models/rs_m8194h/registers.h"
@@ -46,7 +46,7 @@ bool is_level(lang::TriggerCondition condition) {
 
 }  // namespace
 
-void RsM8194h::enable_triggers(bool on) {
+void Module::enable_triggers(bool on) {
   if (on) {
     check_triggers(state_.inputs, true);
   } else {
@@ -55,7 +55,7 @@ void RsM8194h::enable_triggers(bool on) {
   }
 }
 
-void RsM8194h::check_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start) {
+void Module::check_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start) {
   if (state_.image[kEventSlot] == 0 || is_deaf()) return;
   const bool levels_fire = at_start && chose(option("trigger_level_at_start", "fires_once"));
   for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
@@ -80,7 +80,7 @@ void RsM8194h::check_triggers(const std::array<std::uint16_t, kFrnetGroups>& bef
   }
 }
 
-void RsM8194h::fire(int channel, const lang::Trigger& trigger) {
+void Module::fire(int channel, const lang::Trigger& trigger) {
   switch (trigger.event) {
     case lang::TriggerEvent::none: break;
     case lang::TriggerEvent::call_mp: {
@@ -118,7 +118,7 @@ void RsM8194h::fire(int channel, const lang::Trigger& trigger) {
   }
 }
 
-void RsM8194h::slow_down(AxisMask axes) {
+void Module::slow_down(AxisMask axes) {
   Paths& paths = state_.paths;
   if (paths.together.engaged && (paths.axes & axes) != 0) {
     slow_path(now());
@@ -129,7 +129,7 @@ void RsM8194h::slow_down(AxisMask axes) {
   }
 }
 
-void RsM8194h::pause(int channel) {
+void Module::pause(int channel) {
   const auto number = static_cast<std::uint8_t>(channel);
   const bool ends =
       state_.paused && state_.paused_by == number && chose(option("pause_ends", "its_second_firing_too"));
@@ -140,7 +140,7 @@ void RsM8194h::pause(int channel) {
 }
 
 /// What moves comes to rest, and goes on from there when the pause is over; homing goes on meanwhile.
-void RsM8194h::pause_motion() {
+void Module::pause_motion() {
   motion::Coordinated& together = state_.paths.together;
   if (together.engaged && together.slowing_for == motion::Cause::none) together.run.pause(now());
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -156,7 +156,7 @@ void RsM8194h::pause_motion() {
   }
 }
 
-void RsM8194h::resume_motion() {
+void Module::resume_motion() {
   motion::Coordinated& together = state_.paths.together;
   const bool is_held = together.engaged && together.run.paused();
   if (is_held && together.slowing_for == motion::Cause::none) together.run.resume(now());
@@ -175,7 +175,7 @@ void RsM8194h::resume_motion() {
 }
 
 /// A level that is still there calls its macro again.
-void RsM8194h::repeat_levels() {
+void Module::repeat_levels() {
   if (state_.image[kEventSlot] == 0 || mp_runs() || !state_.queued_triggers.empty()) return;
   for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
     const lang::Trigger& trigger = triggers()[static_cast<std::size_t>(channel)];
@@ -186,12 +186,12 @@ void RsM8194h::repeat_levels() {
 }
 
 /// Nothing starts in a download or in the emergency state.
-bool RsM8194h::may_start_trigger() const {
+bool Module::may_start_trigger() const {
   return state_.rsm == lang::State::ready && !state_.emergency_state && !is_resetting() && !mp_runs() &&
          !state_.paused;
 }
 
-void RsM8194h::start_queued_trigger() {
+void Module::start_queued_trigger() {
   auto& queue = state_.queued_triggers;
   if (queue.empty() || !may_start_trigger()) return;
   const lang::Trigger& trigger = triggers()[queue.front()];

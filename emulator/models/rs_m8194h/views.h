@@ -9,57 +9,57 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-class RsM8194h;
+class Module;
 
 // --- FRnet: words by Cell::index, bits of the group that is the row's argument
-Value do_word(const RsM8194h& it, Cell cell);
-Value di_word(const RsM8194h& it, Cell cell);
-Value do_bit(const RsM8194h& it, Cell cell);
-Value di_bit(const RsM8194h& it, Cell cell);
-void write_do_word(RsM8194h& it, Cell cell, Value value);
-void write_do_bit(RsM8194h& it, Cell cell, Value value);
+Value do_word(const Module& it, Cell cell);
+Value di_word(const Module& it, Cell cell);
+Value do_bit(const Module& it, Cell cell);
+Value di_bit(const Module& it, Cell cell);
+void write_do_word(Module& it, Cell cell, Value value);
+void write_do_bit(Module& it, Cell cell, Value value);
 
 // --- of each axis; the row's argument selects a single bit
-Value di_all(const RsM8194h& it, Cell cell);
-Value di_all_bit(const RsM8194h& it, Cell cell);
-Value error_code(const RsM8194h& it, Cell cell);
-Value error_bit(const RsM8194h& it, Cell cell);
-Value di_signal(const RsM8194h& it, Cell cell);
-Value di_signal_bit(const RsM8194h& it, Cell cell);
-Value logic_position(const RsM8194h& it, Cell cell);
-Value encoder_position(const RsM8194h& it, Cell cell);
-Value absolute_position(const RsM8194h& it, Cell cell);
-Value current_velocity(const RsM8194h& it, Cell cell);
-Value current_acceleration(const RsM8194h& it, Cell cell);
-Value stop_status(const RsM8194h& it, Cell cell);
-Value latch(const RsM8194h& it, Cell cell);
-Value home_state(const RsM8194h& it, Cell cell);
-Value servo_is_on(const RsM8194h& it, Cell cell);
-void queue_logic_position(RsM8194h& it, Cell cell, Value value);
-void queue_encoder_position(RsM8194h& it, Cell cell, Value value);
-void queue_absolute_position(RsM8194h& it, Cell cell, Value value);
+Value di_all(const Module& it, Cell cell);
+Value di_all_bit(const Module& it, Cell cell);
+Value error_code(const Module& it, Cell cell);
+Value error_bit(const Module& it, Cell cell);
+Value di_signal(const Module& it, Cell cell);
+Value di_signal_bit(const Module& it, Cell cell);
+Value logic_position(const Module& it, Cell cell);
+Value encoder_position(const Module& it, Cell cell);
+Value absolute_position(const Module& it, Cell cell);
+Value current_velocity(const Module& it, Cell cell);
+Value current_acceleration(const Module& it, Cell cell);
+Value stop_status(const Module& it, Cell cell);
+Value latch(const Module& it, Cell cell);
+Value home_state(const Module& it, Cell cell);
+Value servo_is_on(const Module& it, Cell cell);
+void queue_logic_position(Module& it, Cell cell, Value value);
+void queue_encoder_position(Module& it, Cell cell, Value value);
+void queue_absolute_position(Module& it, Cell cell, Value value);
 
 // --- of the whole controller
-Value running_mp(const RsM8194h& it, Cell cell);
-Value emergency_state(const RsM8194h& it, Cell cell);
-Value error_state(const RsM8194h& it, Cell cell);
-Value free_blocks(const RsM8194h& it, Cell cell);
-Value rint_word(const RsM8194h& it, Cell cell);
-Value rint_bit(const RsM8194h& it, Cell cell);
-Value module_id(const RsM8194h& it, Cell cell);
-Value rsm_firmware(const RsM8194h& it, Cell cell);
-Value module_firmware(const RsM8194h& it, Cell cell);
-Value interpolation_ready(const RsM8194h& it, Cell cell);
-Value driving_axes(const RsM8194h& it, Cell cell);
-Value rsm_state(const RsM8194h& it, Cell cell);
-Value module_state(const RsM8194h& it, Cell cell);
-Value illegal_reason(const RsM8194h& it, Cell cell);
-Value download_field(const RsM8194h& it, Cell cell);   // argument of the row: which of the five fields
-Value execution_field(const RsM8194h& it, Cell cell);  // argument of the row: which of the five fields
-Value factor_axes(const RsM8194h& it, Cell cell);      // argument of the row: which factor
-Value call_register(const RsM8194h& it, Cell cell);
-void call_mp(RsM8194h& it, Cell cell, Value value);
-void enable_triggers(RsM8194h& it, Cell cell, Value value);
-DeviceAnswer take_message(RsM8194h& it, Cell cell, std::span<const std::uint16_t> words);
+Value running_mp(const Module& it, Cell cell);
+Value emergency_state(const Module& it, Cell cell);
+Value error_state(const Module& it, Cell cell);
+Value free_blocks(const Module& it, Cell cell);
+Value rint_word(const Module& it, Cell cell);
+Value rint_bit(const Module& it, Cell cell);
+Value module_id(const Module& it, Cell cell);
+Value rsm_firmware(const Module& it, Cell cell);
+Value module_firmware(const Module& it, Cell cell);
+Value interpolation_ready(const Module& it, Cell cell);
+Value driving_axes(const Module& it, Cell cell);
+Value rsm_state(const Module& it, Cell cell);
+Value module_state(const Module& it, Cell cell);
+Value illegal_reason(const Module& it, Cell cell);
+Value download_field(const Module& it, Cell cell);   // argument of the row: which of the five fields
+Value execution_field(const Module& it, Cell cell);  // argument of the row: which of the five fields
+Value factor_axes(const Module& it, Cell cell);      // argument of the row: which factor
+Value call_register(const Module& it, Cell cell);
+void call_mp(Module& it, Cell cell, Value value);
+void enable_triggers(Module& it, Cell cell, Value value);
+DeviceAnswer take_message(Module& it, Cell cell, std::span<const std::uint16_t> words);
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -7,7 +7,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "interpreter/rs_m8194h/command.h"
@@ -48,12 +48,12 @@ lang::Command group_line(std::size_t group, std::uint32_t number) {
 
 }  // namespace
 
-bool RsM8194h::takes_whole(const RegisterRequest& request) const {
+bool Module::takes_whole(const RegisterRequest& request) const {
   if (is_group_number(request)) return chose(option("frnet_group_write", "one_number_for_the_first"));
   return is_of_servos(request) && chose(option("servo_coils", "switch_the_servos"));
 }
 
-DeviceAnswer RsM8194h::admits_whole(const RegisterRequest& request, Checked checked) const {
+DeviceAnswer Module::admits_whole(const RegisterRequest& request, Checked checked) const {
   if (request.table == Table::coil || checked != Checked::everything) return Refusal::none;
   const std::uint32_t number = number_in(request, low_word_first());
   if (number > UINT16_MAX && !lang::is_variable(number)) return answer_of(lang::Fault::parameter);
@@ -65,7 +65,7 @@ DeviceAnswer RsM8194h::admits_whole(const RegisterRequest& request, Checked chec
   return fits ? DeviceAnswer(Refusal::none) : answer_of(lang::Fault::macro_memory);
 }
 
-DeviceAnswer RsM8194h::take_whole(const RegisterRequest& request) {
+DeviceAnswer Module::take_whole(const RegisterRequest& request) {
   if (is_group_number(request)) {
     write_group(request.first, number_in(request, low_word_first()));
     return Refusal::none;
@@ -87,7 +87,7 @@ DeviceAnswer RsM8194h::take_whole(const RegisterRequest& request) {
 }
 
 /// A number, or a variable that stands for it.
-void RsM8194h::write_group(std::size_t group, std::uint32_t number) {
+void Module::write_group(std::size_t group, std::uint32_t number) {
   if (state_.rsm != lang::State::ready && machine_.table_writes_become_lines) {
     lang::add(state_.download, group_line(group, number), options_.download);
     return;

@@ -11,7 +11,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/terminals.h"
@@ -145,12 +145,12 @@ bool calls_mp(const RegisterRequest& request) {
 
 }  // namespace
 
-std::uint8_t RsM8194h::reason_of(lang::Fault fault) const {
+std::uint8_t Module::reason_of(lang::Fault fault) const {
   const lang::FaultRow& row = lang::row_of(fault);
   return chose(option("illegal_reason_numbers", "of_12_1_12")) ? row.reason_12_1_12 : row.reason_4_16_2;
 }
 
-DeviceAnswer RsM8194h::answer_of(lang::Fault fault) const {
+DeviceAnswer Module::answer_of(lang::Fault fault) const {
   const lang::FaultRow& row = lang::row_of(fault);
   const bool is_of_state = fault == lang::Fault::mp_in_isr || fault == lang::Fault::isr_in_mp ||
                            fault == lang::Fault::real_time_in_macro || fault == lang::Fault::macro_outside;
@@ -167,14 +167,14 @@ DeviceAnswer RsM8194h::answer_of(lang::Fault fault) const {
   return {refusal, reason_of(fault)};
 }
 
-DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) const {
+DeviceAnswer Module::admits(const RegisterRequest& request, Checked checked, const RegisterBank& bank) const {
   const bool is_window = request.table == Table::holding && request.first >= kWindow;
   if (request.is_single && is_window && chose(option("sub_function_by_fc6", "exception_2"))) {
     return answer_of(lang::Fault::address);
   }
   if (chose(option("holes", "exception_2"))) {
     for (std::size_t i = 0; i < request.count; ++i) {
-      if (!at(request.table, static_cast<std::uint16_t>(request.first + i)))
+      if (!bank.at(request.table, static_cast<std::uint16_t>(request.first + i)))
         return answer_of(lang::Fault::address);
     }
   }
@@ -208,7 +208,7 @@ DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) c
   return commands > free_blocks() ? answer_of(lang::Fault::fifo_full) : Refusal::none;
 }
 
-DeviceAnswer RsM8194h::admits_lines(const RegisterRequest& request) const {
+DeviceAnswer Module::admits_lines(const RegisterRequest& request) const {
   int lines = 0;
   for (std::size_t i = 0; i < request.count; ++i) {
     const auto line = line_at(request.table, request.first + i, 0);
@@ -221,7 +221,7 @@ DeviceAnswer RsM8194h::admits_lines(const RegisterRequest& request) const {
   return fits ? DeviceAnswer(Refusal::none) : answer_of(lang::Fault::macro_memory);
 }
 
-bool RsM8194h::diverts(const Place& place, std::uint32_t bits) {
+bool Module::diverts(const Place& place, std::uint32_t bits) {
   if (state_.rsm == lang::State::ready || !machine_.table_writes_become_lines) return false;
   const auto line = line_at(place.row->table, place.address(), bits);
   if (!line) return false;
@@ -230,7 +230,7 @@ bool RsM8194h::diverts(const Place& place, std::uint32_t bits) {
 }
 
 /// By choice; else reading clears nothing.
-void RsM8194h::read_answered(const RegisterRequest& request) {
+void Module::read_answered(const RegisterRequest& request) {
   if (request.table != Table::input) return;
   for (std::size_t i = 0; i < request.count; ++i) {
     const std::size_t address = request.first + i;
@@ -244,20 +244,18 @@ void RsM8194h::read_answered(const RegisterRequest& request) {
   }
 }
 
-void RsM8194h::exception_answered(const RefusedRequest& request) {
+void Module::exception_answered(const RefusedRequest& request) {
   const Objection& objection = request.objection;
   state_.illegal_reason = objection.reason != 0 ? objection.reason : reason_of(fault_of(objection.cause));
 }
 
-void RsM8194h::register_written(const RegisterRow& row, std::size_t slot) {
+void Module::register_written(const RegisterRow& row, std::size_t slot) {
   if (keeps(row)) state_.eeprom.write(slot, state_.image[slot], 0, now());
 }
 
-bool RsM8194h::are_calls_refused() const {
-  return !chose(option("calls_while_an_mp_runs", "wait_their_turn"));
-}
+bool Module::are_calls_refused() const { return !chose(option("calls_while_an_mp_runs", "wait_their_turn")); }
 
-DeviceAnswer RsM8194h::take(const lang::Command& command) {
+DeviceAnswer Module::take(const lang::Command& command) {
   const lang::CommandRow& row = command.row();
   if (row.use.refused_while_mp_runs && mp_runs() && are_calls_refused()) {
     return answer_of(lang::Fault::macro_runs);
@@ -272,7 +270,7 @@ DeviceAnswer RsM8194h::take(const lang::Command& command) {
   return Refusal::none;
 }
 
-lang::Fault RsM8194h::why_no_room(const lang::Command& command) const {
+lang::Fault Module::why_no_room(const lang::Command& command) const {
   if (state_.rsm == lang::State::ready) {
     return fifo_blocks_of(command) > free_blocks() ? lang::Fault::fifo_full : lang::Fault::none;
   }
@@ -280,13 +278,13 @@ lang::Fault RsM8194h::why_no_room(const lang::Command& command) const {
   return fits ? lang::Fault::none : lang::Fault::macro_memory;
 }
 
-void RsM8194h::queue(const lang::Command& command) {
+void Module::queue(const lang::Command& command) {
   const bool is_alone = state_.fifo.waiting.empty();
   state_.fifo.waiting.push_back(command);
   if (is_alone) run_fifo(state_.steps_left);
 }
 
-DeviceAnswer take_message(RsM8194h& it, Cell cell, std::span<const std::uint16_t> words) {
+DeviceAnswer take_message(Module& it, Cell cell, std::span<const std::uint16_t> words) {
   if (it.takes_parts()) {
     // Parameters may have come before their command.
     auto& all = it.state().parameters;
@@ -316,18 +314,18 @@ DeviceAnswer take_message(RsM8194h& it, Cell cell, std::span<const std::uint16_t
   return it.take(decoded.command);
 }
 
-Value call_register(const RsM8194h& it, Cell) {
+Value call_register(const Module& it, Cell) {
   if (it.chose(option("call_register", "0"))) return 0;
   if (it.chose(option("call_register", "the_macro_that_runs"))) return it.running_mp();
   return it.state().image[kCallMpSlot];
 }
 
-void call_mp(RsM8194h& it, Cell, Value value) {
+void call_mp(Module& it, Cell, Value value) {
   lang::Command command{.code = lang::real_time_code(lang::Verb::mp_call)};
   command.values[0] = static_cast<std::uint32_t>(value);
   it.queue(command);
 }
 
-void enable_triggers(RsM8194h& it, Cell, Value value) { it.enable_triggers(value != 0); }
+void enable_triggers(Module& it, Cell, Value value) { it.enable_triggers(value != 0); }
 
 }  // namespace understudy::emulator::models::rs_m8194h
