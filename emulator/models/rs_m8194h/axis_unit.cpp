@@ -115,6 +115,11 @@ void enter_ring(AxisUnit& axis, const motion::Axis& motor) {
   enter_ring(axis.encoder, axis.basic, encoder_travel(axis, motor), axis.has_encoder ? 0 : sent);
 }
 
+void set_external_levels(AxisUnit& axis) {
+  axis.external.plus_high = (axis.external_seen[0] & 1U) == 0;
+  axis.external.minus_high = (axis.external_seen[1] & 1U) == 0;
+}
+
 void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count) {
   if (!axis.has_encoder) {
     // The count goes on from where the pulses have brought it.

@@ -55,8 +55,22 @@ enum class Factor : std::uint8_t {
 inline constexpr std::size_t kIsrFactors = 8;
 inline constexpr std::size_t kFactors = 10;
 
+/// The events that are factors of interrupts, in the order of nINT (7.3.12).
+inline constexpr std::array<motion::Event, kIsrFactors> kFactorEvents{motion::Event::pulse,
+                                                                      motion::Event::comparator_3,
+                                                                      motion::Event::comparator_2,
+                                                                      motion::Event::comparator_1,
+                                                                      motion::Event::comparator_0,
+                                                                      motion::Event::constant_ended,
+                                                                      motion::Event::constant_started,
+                                                                      motion::Event::ended};
+
 /// Returns the error bit of a cause that ends a motion or keeps it from beginning (drives.cpp).
 std::uint16_t error_of(motion::Cause cause);
+
+/// The activity of an axis.
+enum class Activity : std::uint8_t { idle, single, path, homing };
+inline constexpr std::size_t kActivities = 4;
 
 /// A drive of one axis, as a command requests it.
 struct Drive {
@@ -159,6 +173,8 @@ void set_encoder_position(AxisUnit& axis, motion::Axis& motor, std::int32_t valu
 /// Returns true if a count is beyond its ring, as one choice allows until it enters the ring.
 bool is_beyond_ring(const AxisUnit& axis);
 void enter_ring(AxisUnit& axis, const motion::Axis& motor);
+/// Sets the levels of EXP+ and EXP- by the edges seen so far: a line is low after each odd edge.
+void set_external_levels(AxisUnit& axis);
 /// Sets the bench's encoder to this count of edges.
 void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
 

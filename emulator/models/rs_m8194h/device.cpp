@@ -43,10 +43,11 @@ RsM8194h::RsM8194h(const DeviceSettings& given)
       policy_(policy_by_choice(*this)),
       ground_(*this),
       module_(ground_),
+      requests_(ground_, module_.state(), module_),
       ports_(*this, module_) {}
 
 Addressing RsM8194h::addressing(std::uint8_t address) const {
-  if (module_.is_deaf()) return Addressing::ignore;
+  if (module_.status.is_deaf()) return Addressing::ignore;
   if (address == 0) {
     return chose(option("broadcast", "ignored")) ? Addressing::ignore : Addressing::obey_silently;
   }
@@ -68,6 +69,8 @@ pty::LineSettings RsM8194h::line_settings(std::size_t port) const {
   if (keeps_its_speed()) settings.baud = model().line.ports[port].bauds.front();
   return settings;
 }
+
+bool RsM8194h::takes_parts() const { return chose(option("window_parts", "kept_for_the_command")); }
 
 bool RsM8194h::keeps_its_speed() const { return chose(option("line_speeds", "115200_alone")); }
 

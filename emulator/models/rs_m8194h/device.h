@@ -19,6 +19,7 @@
 #include "emulator/models/rs_m8194h/ground.h"
 #include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/ports.h"
+#include "emulator/models/rs_m8194h/requests.h"
 #include "emulator/models/rs_m8194h/state.h"
 
 namespace understudy::emulator::models::rs_m8194h {
@@ -39,20 +40,20 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   // --- registers ---------------------------------------------------------------------------------
   std::span<std::uint32_t> image() override { return module_.state().image; }
   std::span<const std::uint32_t> image() const override { return module_.state().image; }
-  bool low_word_first() const override { return module_.low_word_first(); }
-  bool takes_parts() const override { return module_.takes_parts(); }
+  bool low_word_first() const override { return module_.memory.low_word_first(); }
+  bool takes_parts() const override;
   const MapPolicy& map_policy() const override { return policy_; }
   DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override {
-    return module_.admits(request, checked, *this);
+    return requests_.admits(request, checked, *this);
   }
-  bool takes_whole(const RegisterRequest& request) const override { return module_.takes_whole(request); }
-  DeviceAnswer take_whole(const RegisterRequest& request) override { return module_.take_whole(request); }
-  bool diverts(const Place& place, std::uint32_t bits) override { return module_.diverts(place, bits); }
-  void read_answered(const RegisterRequest& request) override { module_.read_answered(request); }
-  void exception_answered(const RefusedRequest& request) override { module_.exception_answered(request); }
-  bool keeps(const RegisterRow& row) const override { return module_.keeps(row); }
+  bool takes_whole(const RegisterRequest& request) const override { return requests_.takes_whole(request); }
+  DeviceAnswer take_whole(const RegisterRequest& request) override { return requests_.take_whole(request); }
+  bool diverts(const Place& place, std::uint32_t bits) override { return requests_.diverts(place, bits); }
+  void read_answered(const RegisterRequest& request) override { requests_.read_answered(request); }
+  void exception_answered(const RefusedRequest& request) override { requests_.exception_answered(request); }
+  bool keeps(const RegisterRow& row) const override { return module_.memory.keeps(row); }
   void register_written(const RegisterRow& row, std::size_t slot) override {
-    module_.register_written(row, slot);
+    module_.memory.register_written(row, slot);
   }
   void warn_not_implemented(const RegisterRow& row) const override {
     Device::warn_not_implemented(row.name, row.not_implemented);
@@ -77,7 +78,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   }
   void fast_forward_to(Tick /*done*/, Tick tick, const ClearTravel& ahead,
                        std::span<std::int64_t> pulses) override {
-    module_.fast_forward_to(tick, ahead, pulses);
+    module_.motion_step.fast_forward_to(tick, ahead, pulses);
   }
   void prefetch(Tick tick) const override;
   bool same_state(const Device& other) const override {
@@ -90,8 +91,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   std::uint64_t kept_revision() const override;
   void settle_memory() override { module_.state().eeprom.settle(module_.state().image); }
   void load_program(std::string_view text) override { module_.load_program(text); }
-  std::string program_text() const override { return module_.program_text(); }
-  std::vector<ProgramLocation> program_locations() const override { return module_.program_locations(); }
+  std::string program_text() const override { return module_.programs.text(); }
+  std::vector<ProgramLocation> program_locations() const override { return module_.programs.locations(); }
 
  protected:
   void power_up() override { module_.power_up(); }
@@ -106,6 +107,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   const MapPolicy policy_;
   const Ground ground_;
   Module module_;
+  Requests requests_;
   Ports ports_;
 };
 

@@ -6,10 +6,9 @@
 
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/module.h"
+#include "emulator/models/rs_m8194h/edges.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/paths.h"
-#include "emulator/models/rs_m8194h/state.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
 #include "motion/environment.h"
@@ -68,42 +67,30 @@ std::uint16_t error_of(motion::Cause cause) {
   return 0;
 }
 
-void Module::on_homed(std::size_t axis) {
-  AxisUnit& unit = state_.units[axis];
-  note_factor(axis, Factor::homed);
+void Edges::on_homed(std::size_t axis) {
+  AxisUnit& unit = chip_.unit(axis);
+  interrupts_.note_factor(axis, Factor::homed);
   if (chose(option("home_error_bit", "also_at_home"))) unit.error_code |= bit_of(ErrorBit::home);
   if (chose(option("home_clears_counters", "zero"))) {
-    set_logic_position(unit, state_.motors[axis], 0, true);
-    set_encoder_position(unit, state_.motors[axis], 0, true);
-    set_absolute_position(unit, state_.motors[axis], 0, true);
-    rearm(axis);
+    set_logic_position(unit, chip_.motor(axis), 0, true);
+    set_encoder_position(unit, chip_.motor(axis), 0, true);
+    set_absolute_position(unit, chip_.motor(axis), 0, true);
+    chip_.rearm(axis);
   }
 }
 
 /// By choice, a limit is no cause of an end that was there anyhow.
-bool Module::is_no_cause(motion::Cause cause, bool is_at_its_end) const {
+bool Edges::is_no_cause(motion::Cause cause, bool is_at_its_end) const {
   const bool is_limit = cause == motion::Cause::limit_plus || cause == motion::Cause::limit_minus;
   return is_limit && is_at_its_end && chose(option("limit_at_the_end", "is_complete"));
 }
 
-/// Whether all axes of a path are where it ends.
-bool Module::is_path_complete() const {
-  const motion::Coordinated& together = state_.paths.together;
-  for (std::size_t i = 0; i < together.axis_of.size(); ++i) {
-    const std::int8_t a = together.axis_of[i];
-    if (a < 0) continue;
-    const std::int64_t travel = state_.motors[static_cast<std::size_t>(a)].travel_pulses;
-    if (together.travel_at(i, state_.paths.end[i]) != travel) return false;
-  }
-  return true;
-}
-
 /// Its own cause, and what it has met before, become errors.
-void Module::note_end_of_path(std::size_t axis) {
-  AxisUnit& unit = state_.units[axis];
-  motion::Axis& motor = state_.motors[axis];
+void Edges::note_end_of_path(std::size_t axis) {
+  AxisUnit& unit = chip_.unit(axis);
+  motion::Axis& motor = chip_.motor(axis);
   const std::uint16_t met = std::exchange(unit.met, std::uint16_t{0});
-  if (!is_no_cause(motor.cause, is_path_complete())) {
+  if (!is_no_cause(motor.cause, streams_.is_complete())) {
     if (is_its_own(motor, motor.cause)) unit.error_code |= error_of(motor.cause);
     unit.error_code |= met;
   }
@@ -112,23 +99,10 @@ void Module::note_end_of_path(std::size_t axis) {
     motor.cause = motion::Cause::stopped;
 }
 
-/// The rest of a drive that is held by a pause: what would have ended it ends it.
-void Module::check_paused_drive(std::size_t axis) {
-  AxisUnit& unit = state_.units[axis];
-  const motion::Axis& motor = state_.motors[axis];
-  const bool is_endless = unit.paused_drive.what == Drive::What::endless;
-  const std::int64_t rest =
-      is_endless ? unit.paused_drive.value : unit.paused_to_pulses - motor.travel_pulses;
-  const motion::Cause why = rest == 0 ? motor.forbidden_anywhere() : motor.forbidden(rest < 0 ? -1 : +1);
-  if (why == motion::Cause::none) return;
-  unit.error_code |= error_of(why);
-  take_off(axis, WayOut::cause);
-}
-
 /// What ends leaves its cause in the error code. Gives the events that count as such.
-motion::Events Module::on_axis_end(std::size_t axis, motion::Events events) {
-  const motion::Axis& motor = state_.motors[axis];
-  AxisUnit& unit = state_.units[axis];
+motion::Events Edges::on_axis_end(std::size_t axis, motion::Events events) {
+  const motion::Axis& motor = chip_.motor(axis);
+  AxisUnit& unit = chip_.unit(axis);
   const bool homed = (events & motion::bit(motion::Event::homed)) != 0;
   if (homed) on_homed(axis);
   constexpr motion::Events kConstant =
@@ -139,8 +113,9 @@ motion::Events Module::on_axis_end(std::size_t axis, motion::Events events) {
   }
   if ((events & motion::bit(motion::Event::ended)) == 0) return events;
   motion::Cause cause = motor.cause;
-  if (cause != motion::Cause::arrived && cause != motion::Cause::stopped) take_off(axis, WayOut::cause);
-  if (!machine_.axis.homing_obeys_soft_limits) rearm(axis);
+  if (cause != motion::Cause::arrived && cause != motion::Cause::stopped)
+    drives_.take_off(axis, WayOut::cause);
+  if (!machine_.axis.homing_obeys_soft_limits) chip_.rearm(axis);
   if (!machine_.d_end_after_stops && cause != motion::Cause::arrived && !homed) {
     events &= static_cast<motion::Events>(~motion::bit(motion::Event::ended));
   }
@@ -152,7 +127,7 @@ motion::Events Module::on_axis_end(std::size_t axis, motion::Events events) {
                           motor.homing.program.phases[row].code == kIndexPhase;
     if (by_index) unit.error_code |= bit_of(ErrorBit::home);
   }
-  if (state_.paths.runs != Paths::Runs::nothing && has(state_.paths.axes, axis)) {
+  if (chip_.paths().runs != Paths::Runs::nothing && has(chip_.paths().axes, axis)) {
     note_end_of_path(axis);
   } else if (!is_no_cause(cause, is_complete(unit, motor))) {
     unit.error_code |= error_of(cause);

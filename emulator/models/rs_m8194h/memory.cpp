@@ -19,7 +19,6 @@
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
-#include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/registers.h"
 #include "interpreter/rs_m8194h/check.h"
@@ -100,7 +99,7 @@ constexpr BlockKind kKinds[] = {
 
 std::span<const BlockKind> block_kinds() { return kKinds; }
 
-bool Module::keeps(const RegisterRow& row) const {
+bool Memory::keeps(const RegisterRow& row) const {
   if (row.table == Table::holding && row.address == kEventAddress) {
     return chose(option("trigger_enable_kept", "kept"));
   }
@@ -112,7 +111,7 @@ bool Module::keeps(const RegisterRow& row) const {
   return row.persistent || (is_variable && chose(option("variables_kept", "kept")));
 }
 
-Eeprom Module::factory_memory() const {
+Eeprom Memory::factory_memory() const {
   std::vector<std::uint32_t> factory;
   const auto is_kept = std::make_unique<bool[]>(kSlotCount);
   const auto at_once = std::make_unique<bool[]>(kSlotCount);
@@ -124,6 +123,43 @@ Eeprom Module::factory_memory() const {
     }
   }
   return Eeprom(factory, {is_kept.get(), kSlotCount}, {at_once.get(), kSlotCount});
+}
+
+std::vector<std::uint32_t> Memory::image_at_power_up() const {
+  const std::span<const std::uint32_t> kept = state_.eeprom.kept();
+  std::vector<std::uint32_t> image(kSlotCount);
+  std::size_t next = 0;
+  for (const RegisterRow& row : kRegisters) {
+    if (row.is_view) continue;
+    const bool is_kept = keeps(row);
+    for (int i = 0; i < row.count; ++i, ++next) {
+      image[next] = is_kept && next < kept.size() ? kept[next] : static_cast<std::uint32_t>(row.factory);
+    }
+  }
+  return image;
+}
+
+void Memory::put(std::size_t slot, std::uint32_t bits) {
+  state_.image[slot] = bits;
+  state_.eeprom.write(slot, bits, 0, now());
+}
+
+void Memory::clear(std::size_t first, std::size_t count) {
+  for (std::size_t slot = first; slot < first + count; ++slot) put(slot, 0);
+}
+
+void Memory::register_written(const RegisterRow& row, std::size_t slot) {
+  if (keeps(row)) state_.eeprom.write(slot, state_.image[slot], 0, now());
+}
+
+BasicSettings Memory::factory_settings() const {
+  // Figure 3's soft limits and ring are switched off.
+  if (!chose(option("factory_values", "of_figure_3"))) return {};
+  return {.max_v = 8'000, .filtered = 1, .filter_time = 2};
+}
+
+void Memory::keep_initial_table() {
+  rs_m8194h::keep_initial_table(state_.blocks, state_.initial_table, factory_settings());
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -2,102 +2,106 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
+#include <string_view>
 
 #include "base/prefetch.h"
 #include "base/simulated_time.h"
-#include "emulator/device/machine_edges.h"
+#include "emulator/device/clear_travel.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/ground.h"
 #include "emulator/models/rs_m8194h/memory.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/state.h"
-#include "interpreter/rs_m8194h/run.h"
 #include "motion/axis.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
-Module::Module(const Ground& ground) : Part(ground) {
+Module::Module(const Ground& ground)
+    : Part(ground),
+      memory(ground, state_),
+      status(ground, state_),
+      frnet(ground, state_),
+      chip(ground, state_),
+      interrupts(ground, state_, chip),
+      scans(ground, chip, interrupts),
+      streams(ground, state_, chip, interrupts),
+      drives(ground, state_, chip, scans, streams),
+      external(ground, chip, drives),
+      path_starts(ground, chip, interrupts, streams, drives),
+      stops(ground, chip, streams, drives, path_starts),
+      edges(ground, chip, interrupts, streams, drives),
+      motion_step(ground, chip, interrupts, scans, streams, drives, external, edges),
+      programs(ground, state_, memory, status, interrupts, *this),
+      queue(ground, state_, chip, status, programs, *this),
+      triggers(ground, state_,
+               {.memory = memory,
+                .status = status,
+                .frnet = frnet,
+                .drives = drives,
+                .stops = stops,
+                .programs = programs,
+                .queue = queue}) {
   state_.blocks = TextBlocks(block_kinds());
-  state_.eeprom = factory_memory();
+  state_.eeprom = memory.factory_memory();
   blank();
 }
 
-// --- the phases of a tick --------------------------------------------------------------------------------
+// --- time ------------------------------------------------------------------------------------------------
 
 void Module::sample_inputs(Tick tick, bool inputs_changed) {
-  if (inputs_changed) state_.unscanned = frnet_inputs() != state_.inputs;
-  if (inputs_changed || state_.holds_back) {
-    pass_pins(tick);
+  if (inputs_changed) frnet.look_at_inputs();
+  if (inputs_changed || chip.holds_back()) {
+    chip.pass_pins(tick);
     for (std::size_t a = 0; a < kAxes; ++a) {
-      update_environment(a);
-      watch_external(a, tick);
+      chip.update_environment(a);
+      external.watch(a, tick);
     }
   }
-  if (scans_frnet_at(tick)) {
-    const auto before = state_.inputs;
-    scan_frnet();
-    if (state_.inputs != before) check_triggers(before, false);
-  }
-}
-
-void Module::step_motion(Tick tick) {
-  const bool was_full = state_.paths.together.engaged && state_.paths.together.run.queued() > 1;
-  step_axes(tick);
-  on_path_speed(tick);
-  on_path_end(was_full);
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    // Its input stops what it has begun, and nothing else.
-    if (!state_.motors[a].moving()) state_.units[a].external.running = 0;
-    if (state_.units[a].paused_drive.what != Drive::What::none) check_paused_drive(a);
-  }
-  start_waiting_external();
-  step_scans(tick);
+  if (!frnet.scans_at(tick)) return;
+  const FrnetWords before = frnet.inputs();
+  frnet.scan();
+  if (frnet.inputs() != before) triggers.check(before);
 }
 
 void Module::update_outputs(Tick tick) {
-  if (machine_.pause_holds_axes && !state_.paused) resume_motion();
-  start_held();
+  if (machine_.pause_holds_axes && !state_.paused) stops.resume();
+  stops.start_held();
   // Macros first; what they leave of the tick is the FIFO's.
-  const bool ran_isr = isr_runs();
-  state_.steps_left =
-      lang::run_tick(state_.execution, tick, options_.steps_a_tick, state_.paused, options_.run, *this);
-  if (ran_isr && !isr_runs()) pass_state(kIsrFinished);
-  if (machine_.fifo_goes_on_beside_macros) state_.steps_left = options_.steps_a_tick;
-  if (machine_.levels_repeat) repeat_levels();
-  start_queued_trigger();
-  run_fifo(state_.steps_left);
+  programs.run_tick(tick);
+  triggers.start_queued();
+  queue.run();
   state_.touched = false;
   state_.eeprom.step(tick, state_.image);
 }
 
-/// Whether nothing at all goes on, but for FRnet and what waits to be kept.
+/// Returns true if nothing at all happens, except for FRnet and what waits to be stored.
 bool Module::rests() const {
-  if (is_resetting() || (machine_.finished_states_show && state_.finished_at + 1 >= now())) return false;
-  if (state_.touched || !state_.fifo.waiting.empty() || state_.fifo.stop_wait != 0) return false;
+  if (status.changes() || state_.touched || !queue.is_empty() || state_.fifo.stop_wait != 0) return false;
   if (state_.steps_left != options_.steps_a_tick || !state_.marks.empty()) return false;
-  if (state_.execution.is_alive() || !state_.queued_triggers.empty()) return false;
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    const motion::Axis& motor = state_.motors[a];
-    const AxisUnit& unit = state_.units[a];
-    if (motor.moving() || motor.must_recheck || motor.events != 0 || motor.events_between != 0) return false;
-    if (unit.sent_pulses != 0 || state_.environment[a].version != motor.seen_version) return false;
-    if (is_filtering(unit)) return false;
-    if (unit.held_drive.what != Drive::What::none && !unit.held) return false;
-    if (state_.scans[a].running) return false;
-  }
-  return state_.scanning == 0 && !state_.paths.together.engaged && state_.held_paths.empty();
+  return !programs.is_alive() && triggers.is_empty() && motion_step.rests();
 }
 
 Tick Module::next_active_tick(Tick done) const {
   if (!rests()) return done + 1;
   Tick next = std::max(done + 1, state_.eeprom.next_active_tick());
-  if (state_.unscanned || state_.sent != state_.outputs) next = std::min(next, next_scan(done));
+  next = std::min(next, frnet.next_active_tick(done));
   for (const AxisUnit& unit : state_.units) {
     if (unit.out.pulse_until > done) next = std::min(next, unit.out.pulse_until);
   }
   return next;
+}
+
+Tick Module::next_event_tick(Tick done, Tick max, const ClearTravel& ahead) const {
+  const bool is_simple =
+      !state_.touched && state_.marks.empty() && state_.steps_left == options_.steps_a_tick;
+  if (!is_simple || status.is_resetting() || programs.is_alive() || !triggers.is_empty()) return done + 1;
+  Tick last = std::min(max, state_.eeprom.next_active_tick() - 1);
+  last = std::min(last, frnet.next_active_tick(done) - 1);
+  last = motion_step.quiet_until(done, last, ahead);
+  // What waits in the FIFO waits for an axis to stand.
+  if (!queue.is_empty() && chip.driving() == 0) return done + 1;
+  return last + 1;
 }
 
 void Module::prefetch() const {
@@ -115,39 +119,21 @@ void Module::prefetch() const {
   prefetch_line(&state_.eeprom);
 }
 
-// --- axes ------------------------------------------------------------------------------------------------
+// --- memory ----------------------------------------------------------------------------------------------
 
-double Module::speed_pps(std::size_t axis) const {
-  if (state_.paths.together.takes(axis)) return state_.paths.together.speed_pps(axis, now());
-  const motion::Axis& motor = state_.motors[axis];
-  return motor.moving() ? motor.sample(now()).speed_u_s * static_cast<double>(motor.drive.direction) : 0;
-}
-
-void Module::connect_encoder(std::size_t axis, std::int64_t counts) {
-  AxisUnit& unit = state_.units[axis];
-  unit.encoder_raw = counts * machine_.edges_per_encoder_count;  // EP counts from here
-  if (unit.has_encoder) unit.encoder_zero = unit.encoder_raw;
-  set_encoder(axis, counts);
-}
-
-void Module::set_encoder(std::size_t axis, std::int64_t counts) {
-  const bool is_first = !state_.units[axis].has_encoder;
-  tell_encoder(state_.units[axis], state_.motors[axis], counts * machine_.edges_per_encoder_count);
-  if (is_first) rearm(axis);
-}
-
-void Module::set_edges(std::size_t axis, const MachineEdges& edges) {
-  edges_[axis] = edges;
-  update_environment(axis);
+void Module::load_program(std::string_view text) {
+  const std::vector<int> channels = programs.load(text);
+  for (const int channel : channels) triggers.replaced(channel);
+  if (!channels.empty()) triggers.check_at_start();
 }
 
 void Module::take_over(const State& restored) {
   // What was compiled stays so where the macros are the same.
-  const bool is_same = compiled_revision_ == state_.blocks.revision() && state_.blocks == restored.blocks;
+  const bool is_same = programs.is_compiled() && state_.blocks == restored.blocks;
   state_ = restored;
-  if (!is_same) compiled_revision_ = UINT64_MAX;
-  // What it cannot have been doing it does not go on with.
-  if (!lang::is_sound(state_.execution, *this)) lang::terminate(state_.execution);
+  if (!is_same) programs.forget_compiled();
+  // What it cannot have been doing it does not continue.
+  programs.check_restored();
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -62,7 +62,7 @@ std::int64_t Ports::pulses_this_tick(int axis) const {
 }
 
 double Ports::speed_pps(int axis) const {
-  return device_.powered() ? module_.speed_pps(static_cast<std::size_t>(axis)) : 0;
+  return device_.powered() ? module_.chip.speed_pps(static_cast<std::size_t>(axis)) : 0;
 }
 
 std::optional<bool> Ports::servo_on(int axis) const {
@@ -78,11 +78,11 @@ std::int64_t Ports::pulses_to_come(int axis) const {
 }
 
 void Ports::connect_encoder(int axis, std::int64_t counts) {
-  module_.connect_encoder(static_cast<std::size_t>(axis), counts);
+  module_.chip.connect_encoder(static_cast<std::size_t>(axis), counts);
 }
 
 void Ports::set_encoder(int axis, std::int64_t counts) {
-  module_.set_encoder(static_cast<std::size_t>(axis), counts);
+  module_.chip.set_encoder(static_cast<std::size_t>(axis), counts);
 }
 
 std::int64_t Ports::place_pulses(int axis) const {
@@ -90,7 +90,7 @@ std::int64_t Ports::place_pulses(int axis) const {
 }
 
 void Ports::set_edges(int axis, const MachineEdges& edges) {
-  module_.set_edges(static_cast<std::size_t>(axis), edges);
+  module_.chip.set_edges(static_cast<std::size_t>(axis), edges);
 }
 
 std::span<const std::string_view> Ports::pulse_formats() const { return kPulseFormats; }

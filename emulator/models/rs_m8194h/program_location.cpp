@@ -8,7 +8,7 @@
 #include "base/simulated_time.h"
 #include "base/text/lines.h"
 #include "emulator/device/user_program.h"
-#include "emulator/models/rs_m8194h/module.h"
+#include "emulator/models/rs_m8194h/programs.h"
 #include "interpreter/rs_m8194h/macro.h"
 #include "interpreter/rs_m8194h/run.h"
 #include "interpreter/rs_m8194h/text.h"
@@ -39,12 +39,12 @@ int line_in(std::string_view text, const std::string& head, int number) {
 
 }  // namespace
 
-std::vector<ProgramLocation> Module::program_locations() const {
+std::vector<ProgramLocation> Programs::locations() const {
   std::vector<ProgramLocation> all;
   std::string text;
   const auto tell = [&](const lang::Run& run) {
     if (!run.is_alive()) return;
-    if (text.empty()) text = program_text();
+    if (text.empty()) text = this->text();
     const lang::Level& level = run.levels.back();
     // An ISR may call an MP: what is at the bottom says which of them it is.
     const lang::MacroName name{run.is_isr && run.levels.size() == 1, level.number};

@@ -13,10 +13,6 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace lang = interpreter::rs_m8194h;
 
-/// The activity of an axis.
-enum class Activity : std::uint8_t { idle, single, path, homing };
-inline constexpr std::size_t kActivities = 4;
-
 // --- starting: the rows are checked in order, and the first that applies decides ---------------------------
 
 /// What can prevent a drive, other than a motion of its axis.

@@ -1,29 +1,22 @@
-// Triggers: FRnet inputs that start macros and events without a host (10, 5.4).
-#include "interpreter/rs_m8194h/triggers.h"
+#include "emulator/models/rs_m8194h/triggers.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <vector>
 
 #include "emulator/models/rs_m8194h/axis_settings.h"
-#include "emulator/models/rs_m8194h/axis_unit.h"
-#include "emulator/models/rs_m8194h/module.h"
+#include "emulator/models/rs_m8194h/frnet.h"
 #include "emulator/models/rs_m8194h/options.h"
-#include "emulator/models/rs_m8194h/paths.h"
-#include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "emulator/models/rs_m8194h/transitions.h"
-#include "interpreter/rs_m8194h/run.h"
-#include "interpreter/rs_m8194h/window.h"
-#include "motion/axis.h"
+#include "interpreter/rs_m8194h/triggers.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-bool is_on(const std::array<std::uint16_t, kFrnetGroups>& words, int channel) {
+bool is_on(const FrnetWords& words, int channel) {
   return (words[static_cast<std::size_t>(channel / kFrnetChannels)] >> (channel % kFrnetChannels) & 1) != 0;
 }
 
@@ -46,157 +39,123 @@ bool is_level(lang::TriggerCondition condition) {
 
 }  // namespace
 
-void Module::enable_triggers(bool on) {
-  if (on) {
-    check_triggers(state_.inputs, true);
-  } else {
-    state_.queued_triggers.clear();
-    for (std::size_t a = 0; a < kAxes; ++a) take_off(a, WayOut::triggers_off);
-  }
+void Triggers::enable(bool on) {
+  if (on) return check_at_start();
+  state_.queued_triggers.clear();
+  for (std::size_t a = 0; a < kAxes; ++a) known_.drives.take_off(a, WayOut::triggers_off);
 }
 
-void Module::check_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start) {
-  if (state_.image[kEventSlot] == 0 || is_deaf()) return;
+void Triggers::replaced(int channel) {
+  known_.drives.state().trigger_holds[static_cast<std::size_t>(channel)] = 0;
+}
+
+void Triggers::check(const FrnetWords& before) { check(before, false); }
+
+void Triggers::check_at_start() { check(known_.frnet.inputs(), true); }
+
+void Triggers::check(const FrnetWords& before, bool at_start) {
+  if (!known_.memory.are_triggers_enabled() || known_.status.is_deaf()) return;
   const bool levels_fire = at_start && chose(option("trigger_level_at_start", "fires_once"));
   for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
-    const lang::Trigger trigger = triggers()[static_cast<std::size_t>(channel)];
+    const lang::Trigger trigger = known_.programs.triggers()[static_cast<std::size_t>(channel)];
     const bool was = is_on(before, channel);
-    const bool is = is_on(state_.inputs, channel);
+    const bool is = is_on(known_.frnet.inputs(), channel);
     if (fires(trigger.condition, was, is, levels_fire)) {
       fire(channel, trigger);
-      continue;
+    } else if (was != is) {
+      on_level_end(channel, trigger);
     }
-    const bool ends_its_pause = state_.paused && state_.paused_by == channel && was != is &&
-                                is_level(trigger.condition) && chose(option("pause_ends", "its_level_too"));
-    if (ends_its_pause) state_.paused = false;
-    // A level that held an axis lets it go when it ends, the last one if several did.
-    AxisMask& held = state_.trigger_holds[static_cast<std::size_t>(channel)];
-    if (held == 0 || was == is) continue;
-    const AxisMask let_go = held;
-    held = 0;
-    AxisMask still = 0;
-    for (const AxisMask other : state_.trigger_holds) still |= other;
-    release(static_cast<AxisMask>(let_go & ~still));
   }
 }
 
-void Module::fire(int channel, const lang::Trigger& trigger) {
+/// A level that is over ends its pause, by choice, and lets go what it held, the last one if several did.
+void Triggers::on_level_end(int channel, const lang::Trigger& trigger) {
+  ProgramState& programs = known_.programs.state();
+  const bool ends_its_pause = programs.paused && programs.paused_by == channel &&
+                              is_level(trigger.condition) && chose(option("pause_ends", "its_level_too"));
+  if (ends_its_pause) programs.paused = false;
+  auto& holds = known_.drives.state().trigger_holds;
+  const AxisMask let_go = std::exchange(holds[static_cast<std::size_t>(channel)], AxisMask{0});
+  if (let_go == 0) return;
+  AxisMask still = 0;
+  for (const AxisMask other : holds) still |= other;
+  known_.stops.release(static_cast<AxisMask>(let_go & ~still));
+}
+
+void Triggers::fire(int channel, const lang::Trigger& trigger) {
   switch (trigger.event) {
     case lang::TriggerEvent::none: break;
-    case lang::TriggerEvent::call_mp: {
-      const auto number = static_cast<std::uint8_t>(channel);
-      auto& queue = state_.queued_triggers;
-      const bool has_no_room = !queue.empty() && chose(option("trigger_queue", "one_in_all"));
-      const bool never_waits = chose(option("trigger_queue", "none"));
-      if (has_no_room || (never_waits && (!queue.empty() || !may_start_trigger()))) break;
-      if (std::find(queue.begin(), queue.end(), number) == queue.end()) queue.push_back(number);
-      break;
-    }
-    case lang::TriggerEvent::hold:
-      hold(trigger.argument);
-      if (chose(option("trigger_hold", "also_slows_the_axis"))) slow_down(trigger.argument);
-      if (is_level(trigger.condition)) {
-        state_.trigger_holds[static_cast<std::size_t>(channel)] = trigger.argument;
-      }
-      break;
-    case lang::TriggerEvent::abort_command:
-      if (!state_.fifo.waiting.empty() && state_.fifo.stop_wait == 0 && !state_.execution.is_alive()) {
-        state_.fifo.waiting.erase(state_.fifo.waiting.begin());
-      }
-      state_.fifo.stop_wait = 0;
-      lang::drop_wait(state_.execution, *this);
-      if (chose(option("trigger_abort_command", "drops_what_waits"))) break;
-      slow_down(kAllAxes);
-      break;
-    case lang::TriggerEvent::abort_macro: terminate(); break;
+    case lang::TriggerEvent::call_mp: call_mp(channel); break;
+    case lang::TriggerEvent::hold: hold(channel, trigger); break;
+    case lang::TriggerEvent::abort_command: abort_command(); break;
+    case lang::TriggerEvent::abort_macro: known_.programs.terminate(); break;
     case lang::TriggerEvent::pause: pause(channel); break;
     case lang::TriggerEvent::clear_stop:
-      clear_stop(kAllAxes);
-      clear_path_stop();
-      state_.paused = false;
+      known_.stops.clear_stop(kAllAxes);
+      known_.stops.clear_path_stop();
+      known_.programs.state().paused = false;
       break;
   }
 }
 
-void Module::slow_down(AxisMask axes) {
-  Paths& paths = state_.paths;
-  if (paths.together.engaged && (paths.axes & axes) != 0) {
-    slow_path(now());
-    break_off_stream();
-  }
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    if (has(axes, a) && !paths.together.takes(a)) state_.motors[a].slow_down(now());
-  }
-}
-
-void Module::pause(int channel) {
+void Triggers::call_mp(int channel) {
   const auto number = static_cast<std::uint8_t>(channel);
+  std::vector<std::uint8_t>& queue = state_.queued_triggers;
+  const bool has_no_room = !queue.empty() && chose(option("trigger_queue", "one_in_all"));
+  const bool never_waits = chose(option("trigger_queue", "none"));
+  if (has_no_room || (never_waits && (!queue.empty() || !may_start()))) return;
+  if (std::find(queue.begin(), queue.end(), number) == queue.end()) queue.push_back(number);
+}
+
+void Triggers::hold(int channel, const lang::Trigger& trigger) {
+  known_.stops.hold(trigger.argument);
+  if (chose(option("trigger_hold", "also_slows_the_axis"))) known_.stops.slow_down(trigger.argument);
+  if (!is_level(trigger.condition)) return;
+  known_.drives.state().trigger_holds[static_cast<std::size_t>(channel)] = trigger.argument;
+}
+
+void Triggers::abort_command() {
+  known_.queue.drop_first();
+  known_.programs.drop_wait();
+  if (!chose(option("trigger_abort_command", "drops_what_waits"))) known_.stops.slow_down(kAllAxes);
+}
+
+void Triggers::pause(int channel) {
+  const auto number = static_cast<std::uint8_t>(channel);
+  ProgramState& programs = known_.programs.state();
   const bool ends =
-      state_.paused && state_.paused_by == number && chose(option("pause_ends", "its_second_firing_too"));
-  state_.paused = !ends;
-  state_.paused_by = number;
-  if (state_.paused && machine_.pause_slows_axes) slow_down(kAllAxes);
-  if (state_.paused && machine_.pause_holds_axes) pause_motion();
+      programs.paused && programs.paused_by == number && chose(option("pause_ends", "its_second_firing_too"));
+  programs.paused = !ends;
+  programs.paused_by = number;
+  if (programs.paused && machine_.pause_slows_axes) known_.stops.slow_down(kAllAxes);
+  if (programs.paused && machine_.pause_holds_axes) known_.stops.pause();
 }
 
-/// What moves comes to rest, and goes on from there when the pause is over; homing goes on meanwhile.
-void Module::pause_motion() {
-  motion::Coordinated& together = state_.paths.together;
-  if (together.engaged && together.slowing_for == motion::Cause::none) together.run.pause(now());
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    motion::Axis& motor = state_.motors[a];
-    AxisUnit& unit = state_.units[a];
-    if (activity(a) != Activity::single || motor.slowing) continue;
-    const bool is_endless = motor.task == motion::Task::endless;
-    const double speed_pps = motor.law.top_speed_u_s * static_cast<double>(motor.drive.direction);
-    unit.paused_drive = {.what = is_endless ? Drive::What::endless : Drive::What::fixed,
-                         .value = is_endless ? static_cast<std::int32_t>(speed_pps) : 0};
-    unit.paused_to_pulses = motor.travel_pulses + motor.pulses_to_come();
-    motor.slow_down(now());
-  }
-}
-
-void Module::resume_motion() {
-  motion::Coordinated& together = state_.paths.together;
-  const bool is_held = together.engaged && together.run.paused();
-  if (is_held && together.slowing_for == motion::Cause::none) together.run.resume(now());
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    AxisUnit& unit = state_.units[a];
-    if (unit.paused_drive.what == Drive::What::none) continue;
-    const Start outcome = may_start(a, Starter::command);
-    if (outcome == Start::waits) continue;
-    Drive rest = std::exchange(unit.paused_drive, Drive{});
-    if (rest.what == Drive::What::fixed) {
-      rest.value = static_cast<std::int32_t>(unit.paused_to_pulses - state_.motors[a].travel_pulses);
-    }
-    // A hold is for drives that follow.
-    if (outcome != Start::is_void) start(a, rest);
-  }
-}
-
-/// A level that is still there calls its macro again.
-void Module::repeat_levels() {
-  if (state_.image[kEventSlot] == 0 || mp_runs() || !state_.queued_triggers.empty()) return;
+/// By choice, a level that is still there calls its macro again.
+void Triggers::repeat_levels() {
+  if (!known_.memory.are_triggers_enabled() || known_.programs.mp_runs() || !is_empty()) return;
   for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
-    const lang::Trigger& trigger = triggers()[static_cast<std::size_t>(channel)];
+    const lang::Trigger& trigger = known_.programs.triggers()[static_cast<std::size_t>(channel)];
     if (trigger.event != lang::TriggerEvent::call_mp || !is_level(trigger.condition)) continue;
-    const bool is_met = is_on(state_.inputs, channel) == (trigger.condition == lang::TriggerCondition::on);
+    const bool is_met =
+        is_on(known_.frnet.inputs(), channel) == (trigger.condition == lang::TriggerCondition::on);
     if (is_met) state_.queued_triggers.push_back(static_cast<std::uint8_t>(channel));
   }
 }
 
 /// Nothing starts in a download or in the emergency state.
-bool Module::may_start_trigger() const {
-  return state_.rsm == lang::State::ready && !state_.emergency_state && !is_resetting() && !mp_runs() &&
-         !state_.paused;
+bool Triggers::may_start() const {
+  const Programs& programs = known_.programs;
+  return !programs.is_downloading() && !known_.drives.state().emergency_state &&
+         !known_.status.is_resetting() && !programs.mp_runs() && !programs.state().paused;
 }
 
-void Module::start_queued_trigger() {
-  auto& queue = state_.queued_triggers;
-  if (queue.empty() || !may_start_trigger()) return;
-  const lang::Trigger& trigger = triggers()[queue.front()];
-  queue.erase(queue.begin());
-  if (trigger.event == lang::TriggerEvent::call_mp) start_mp(trigger.argument);
+void Triggers::start_queued() {
+  if (machine_.levels_repeat) repeat_levels();
+  if (is_empty() || !may_start()) return;
+  const lang::Trigger& trigger = known_.programs.triggers()[state_.queued_triggers.front()];
+  state_.queued_triggers.erase(state_.queued_triggers.begin());
+  if (trigger.event == lang::TriggerEvent::call_mp) known_.programs.start_mp(trigger.argument);
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

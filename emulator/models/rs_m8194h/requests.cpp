@@ -1,4 +1,5 @@
-// Requests: what is admitted, what a message to the window becomes, and what of an exception is kept.
+#include "emulator/models/rs_m8194h/requests.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/models/rs_m8194h/answers.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/module.h"
@@ -145,187 +147,92 @@ bool calls_mp(const RegisterRequest& request) {
 
 }  // namespace
 
-std::uint8_t Module::reason_of(lang::Fault fault) const {
-  const lang::FaultRow& row = lang::row_of(fault);
-  return chose(option("illegal_reason_numbers", "of_12_1_12")) ? row.reason_12_1_12 : row.reason_4_16_2;
-}
-
-DeviceAnswer Module::answer_of(lang::Fault fault) const {
-  const lang::FaultRow& row = lang::row_of(fault);
-  const bool is_of_state = fault == lang::Fault::mp_in_isr || fault == lang::Fault::isr_in_mp ||
-                           fault == lang::Fault::real_time_in_macro || fault == lang::Fault::macro_outside;
-  if (is_of_state && chose(option("state_exception", "exception_6")))
-    return {Refusal::busy, reason_of(fault)};
-  if (fault == lang::Fault::macro_runs && chose(option("calls_while_an_mp_runs", "exception_3"))) {
-    return {Refusal::bad_value, reason_of(fault)};
-  }
-  const Refusal refusal = row.exception == 0   ? Refusal::none
-                          : row.exception == 2 ? Refusal::no_register
-                          : row.exception == 4 ? Refusal::failure
-                          : row.exception == 6 ? Refusal::busy
-                                               : Refusal::bad_value;
-  return {refusal, reason_of(fault)};
-}
-
-DeviceAnswer Module::admits(const RegisterRequest& request, Checked checked, const RegisterBank& bank) const {
+DeviceAnswer Requests::admits(const RegisterRequest& request, Checked checked,
+                              const RegisterBank& bank) const {
   const bool is_window = request.table == Table::holding && request.first >= kWindow;
   if (request.is_single && is_window && chose(option("sub_function_by_fc6", "exception_2"))) {
-    return answer_of(lang::Fault::address);
+    return answer_of(*this, lang::Fault::address);
   }
   if (chose(option("holes", "exception_2"))) {
     for (std::size_t i = 0; i < request.count; ++i) {
       if (!bank.at(request.table, static_cast<std::uint16_t>(request.first + i)))
-        return answer_of(lang::Fault::address);
+        return answer_of(*this, lang::Fault::address);
     }
   }
   if (touches(request, kIpSettings) && chose(option("ip_settings", "exception_2"))) {
-    return answer_of(lang::Fault::address);
+    return answer_of(*this, lang::Fault::address);
   }
-  if (module_is_absent()) {
+  if (module_.is_absent()) {
     const bool is_mute = chose(option("absent_module", "nothing"));
     for (std::size_t i = 0; i < request.count; ++i) {
-      if (is_mute || !is_own(request.table, request.first + i)) return answer_of(lang::Fault::no_module);
+      if (is_mute || !is_own(request.table, request.first + i))
+        return answer_of(*this, lang::Fault::no_module);
     }
   }
   if (checked == Checked::everything && options_.command.variables_have_ends &&
-      writes_beyond(request, low_word_first())) {
-    return answer_of(lang::Fault::parameter);
+      writes_beyond(request, module_.memory.low_word_first())) {
+    return answer_of(*this, lang::Fault::parameter);
   }
-  const bool is_downloading = state_.rsm != lang::State::ready;
+  const bool is_downloading = module_.programs.is_downloading();
   const bool is_table = request.is_write() && !is_window;
   if (is_downloading && is_table && chose(option("table_writes", "all_refused"))) {
-    return answer_of(lang::Fault::real_time_in_macro);
+    return answer_of(*this, lang::Fault::real_time_in_macro);
   }
   if (takes_whole(request)) return admits_whole(request, checked);
   if (is_downloading && is_table && machine_.table_writes_become_lines) return admits_lines(request);
   const int commands = commands_of(request);
   if (commands == 0) return Refusal::none;
   if (is_downloading && !chose(option("table_writes", "all_allowed"))) {
-    return answer_of(lang::Fault::real_time_in_macro);
+    return answer_of(*this, lang::Fault::real_time_in_macro);
   }
   if (checked != Checked::everything) return Refusal::none;
-  if (calls_mp(request) && mp_runs() && are_calls_refused()) return answer_of(lang::Fault::macro_runs);
-  return commands > free_blocks() ? answer_of(lang::Fault::fifo_full) : Refusal::none;
+  if (calls_mp(request) && module_.programs.are_calls_refused())
+    return answer_of(*this, lang::Fault::macro_runs);
+  return commands > module_.queue.free_blocks() ? answer_of(*this, lang::Fault::fifo_full) : Refusal::none;
 }
 
-DeviceAnswer Module::admits_lines(const RegisterRequest& request) const {
+DeviceAnswer Requests::admits_lines(const RegisterRequest& request) const {
   int lines = 0;
   for (std::size_t i = 0; i < request.count; ++i) {
     const auto line = line_at(request.table, request.first + i, 0);
     if (!line) continue;
-    const lang::Fault not_here = lang::why_not_now(line->code, state_.rsm);
-    if (not_here != lang::Fault::none) return answer_of(not_here);
+    const lang::Fault not_here = lang::why_not_now(line->code, module_.programs.state().rsm);
+    if (not_here != lang::Fault::none) return answer_of(*this, not_here);
     lines += line->row().macro_lines();
   }
-  const bool fits = lines <= lang::room_of(state_.download, options_.download);
-  return fits ? DeviceAnswer(Refusal::none) : answer_of(lang::Fault::macro_memory);
+  const bool fits = module_.programs.has_room_for(lines);
+  return fits ? DeviceAnswer(Refusal::none) : answer_of(*this, lang::Fault::macro_memory);
 }
 
-bool Module::diverts(const Place& place, std::uint32_t bits) {
-  if (state_.rsm == lang::State::ready || !machine_.table_writes_become_lines) return false;
+bool Requests::diverts(const Place& place, std::uint32_t bits) {
+  if (!module_.programs.is_downloading() || !machine_.table_writes_become_lines) return false;
   const auto line = line_at(place.row->table, place.address(), bits);
   if (!line) return false;
-  lang::add(state_.download, *line, options_.download);
+  module_.programs.add_line(*line);
   return true;
 }
 
 /// By choice; else reading clears nothing.
-void Module::read_answered(const RegisterRequest& request) {
+void Requests::read_answered(const RegisterRequest& request) {
   if (request.table != Table::input) return;
   for (std::size_t i = 0; i < request.count; ++i) {
     const std::size_t address = request.first + i;
     const bool is_factor = address >= kFirstFactor && address < kFirstFactor + kFactors;
     if (address == kReasonWord && chose(option("reason_lasts", "until_it_is_read")))
       state_.illegal_reason = 0;
-    if (is_factor && machine_.factors_clear_by_reading) state_.factor_axes[address - kFirstFactor] = 0;
+    if (is_factor && machine_.factors_clear_by_reading)
+      module_.interrupts.state().factor_axes[address - kFirstFactor] = 0;
     if (!machine_.rint_clears_by_reading || address < kRintWord || address > kRintWord + kRintBits) continue;
-    state_.rint &= address == kRintWord ? std::uint8_t{0}
-                                        : static_cast<std::uint8_t>(~(1U << (address - kRintWord - 1)));
+    module_.interrupts.state().rint &= address == kRintWord
+                                           ? std::uint8_t{0}
+                                           : static_cast<std::uint8_t>(~(1U << (address - kRintWord - 1)));
   }
 }
 
-void Module::exception_answered(const RefusedRequest& request) {
+void Requests::exception_answered(const RefusedRequest& request) {
   const Objection& objection = request.objection;
-  state_.illegal_reason = objection.reason != 0 ? objection.reason : reason_of(fault_of(objection.cause));
+  state_.illegal_reason =
+      objection.reason != 0 ? objection.reason : reason_of(*this, fault_of(objection.cause));
 }
-
-void Module::register_written(const RegisterRow& row, std::size_t slot) {
-  if (keeps(row)) state_.eeprom.write(slot, state_.image[slot], 0, now());
-}
-
-bool Module::are_calls_refused() const { return !chose(option("calls_while_an_mp_runs", "wait_their_turn")); }
-
-DeviceAnswer Module::take(const lang::Command& command) {
-  const lang::CommandRow& row = command.row();
-  if (row.use.refused_while_mp_runs && mp_runs() && are_calls_refused()) {
-    return answer_of(lang::Fault::macro_runs);
-  }
-  if (fifo_blocks_of(command) == 0) {
-    carry_out(command);
-    state_.touched = true;
-    return Refusal::none;
-  }
-  if (fifo_blocks_of(command) > free_blocks()) return answer_of(lang::Fault::fifo_full);
-  queue(command);
-  return Refusal::none;
-}
-
-lang::Fault Module::why_no_room(const lang::Command& command) const {
-  if (state_.rsm == lang::State::ready) {
-    return fifo_blocks_of(command) > free_blocks() ? lang::Fault::fifo_full : lang::Fault::none;
-  }
-  const bool fits = command.row().macro_lines() <= lang::room_of(state_.download, options_.download);
-  return fits ? lang::Fault::none : lang::Fault::macro_memory;
-}
-
-void Module::queue(const lang::Command& command) {
-  const bool is_alone = state_.fifo.waiting.empty();
-  state_.fifo.waiting.push_back(command);
-  if (is_alone) run_fifo(state_.steps_left);
-}
-
-DeviceAnswer take_message(Module& it, Cell cell, std::span<const std::uint16_t> words) {
-  if (it.takes_parts()) {
-    // Parameters may have come before their command.
-    auto& all = it.state().parameters;
-    std::copy(words.begin(), words.end(), all.begin() + cell.index);
-    if (cell.index != 0) return Refusal::none;
-    const lang::CommandRow* const row = lang::find_code(words[0]);
-    const auto wanted = row == nullptr ? std::size_t{0} : static_cast<std::size_t>(row->registers());
-    if (words.size() < wanted) words = std::span(all).first(wanted);
-  }
-  const bool is_low_first = it.low_word_first() && !it.chose(option("word_order_scope", "tables"));
-  const auto order = is_low_first ? lang::WordOrder::low_first : lang::WordOrder::high_first;
-  lang::Decoded decoded = lang::decode(words, it.state().rsm, order, it.language_options().command);
-  const bool is_ready = it.state().rsm == lang::State::ready;
-  // By choice room comes before parameters.
-  if (decoded.fault == lang::Fault::parameter && it.language_options().room_before_parameters) {
-    const lang::Fault none_left = it.why_no_room(decoded.command);
-    if (none_left != lang::Fault::none) decoded.fault = none_left;
-  }
-  if (!is_ready ||
-      (decoded.fault == lang::Fault::none && lang::is_one_of(decoded.command.verb(), lang::kDownloadVerbs))) {
-    const lang::Fault fault = it.take_download(decoded);
-    const bool shows_elsewhere = lang::is_download_error(fault) && fault != lang::Fault::undefined_command;
-    if (shows_elsewhere && it.chose(option("macro_errors", "an_echo"))) return Refusal::none;
-    return it.answer_of(fault);
-  }
-  if (decoded.fault != lang::Fault::none) return it.answer_of(decoded.fault);
-  return it.take(decoded.command);
-}
-
-Value call_register(const Module& it, Cell) {
-  if (it.chose(option("call_register", "0"))) return 0;
-  if (it.chose(option("call_register", "the_macro_that_runs"))) return it.running_mp();
-  return it.state().image[kCallMpSlot];
-}
-
-void call_mp(Module& it, Cell, Value value) {
-  lang::Command command{.code = lang::real_time_code(lang::Verb::mp_call)};
-  command.values[0] = static_cast<std::uint32_t>(value);
-  it.queue(command);
-}
-
-void enable_triggers(Module& it, Cell, Value value) { it.enable_triggers(value != 0); }
 
 }  // namespace understudy::emulator::models::rs_m8194h
