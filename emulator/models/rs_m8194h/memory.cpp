@@ -100,15 +100,10 @@ constexpr BlockKind kKinds[] = {
 std::span<const BlockKind> block_kinds() { return kKinds; }
 
 bool Memory::keeps(const RegisterRow& row) const {
-  if (row.table == Table::holding && row.address == kEventAddress) {
-    return chose(option("trigger_enable_kept", "kept"));
-  }
-  if (row.table == Table::holding && row.address == kWordOrderAddress) {
-    return chose(option("word_order_kept", "kept"));
-  }
-  const bool is_variable =
-      row.table == Table::holding && (row.address == kFirstBvarAddress || row.address == kFirstVarAddress);
-  return row.persistent || (is_variable && chose(option("variables_kept", "kept")));
+  const auto is = [&](std::string_view name) { return row.table == Table::holding && row.name == name; };
+  if (is("FRnet Event")) return chose(option("trigger_enable_kept", "kept"));
+  if (is("WORD Order")) return chose(option("word_order_kept", "kept"));
+  return row.persistent || ((is("bVAR{}") || is("VAR{}")) && chose(option("variables_kept", "kept")));
 }
 
 Eeprom Memory::factory_memory() const {

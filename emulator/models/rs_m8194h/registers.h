@@ -289,28 +289,60 @@ consteval std::size_t slot_count() {
 }
 inline constexpr std::size_t kSlotCount = slot_count();
 
-consteval std::size_t slot(std::uint16_t holding_address) {
+/// Returns the row of this name in the manual.
+consteval const RegisterRow& row_called(Table table, std::string_view name) {
+  for (const RegisterRow& row : kRegisters) {
+    if (row.table == table && row.name == name) return row;
+  }
+  throw "no row has this name";
+}
+
+consteval std::size_t slot(std::string_view holding_name) {
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {
     if (row.is_view) continue;
-    if (row.table == Table::holding && row.address == holding_address) return next;
+    if (&row == &row_called(Table::holding, holding_name)) return next;
     next += static_cast<std::size_t>(row.count);
   }
   throw "no register is stored there";
 }
-inline constexpr std::size_t kCallMpSlot = slot(8);
-inline constexpr std::uint16_t kEventAddress = 9;
-inline constexpr std::uint16_t kWordOrderAddress = 14;
-inline constexpr std::size_t kEventSlot = slot(kEventAddress);
-inline constexpr std::size_t kWordOrderSlot = slot(kWordOrderAddress);
-inline constexpr std::uint16_t kFirstBvarAddress = 128;
-inline constexpr std::uint16_t kFirstVarAddress = 300;
-inline constexpr std::size_t kFirstBvarSlot = slot(kFirstBvarAddress);
-inline constexpr std::size_t kFirstVarSlot = slot(kFirstVarAddress);
-inline constexpr std::size_t kFirstMdSlot = slot(3000);
+
+/// Addresses in a row: those of one row, or of all from one row to another, with what lies between them.
+struct Addresses {
+  Table table;
+  std::size_t first;
+  std::size_t end;
+
+  constexpr bool has(Table of, std::size_t address) const {
+    return of == table && address >= first && address < end;
+  }
+};
+consteval Addresses addresses_of(Table table, std::string_view first, std::string_view last) {
+  const RegisterRow& row = row_called(table, last);
+  const int words = is_32_bit(row.type) ? 2 : 1;
+  return {.table = table,
+          .first = row_called(table, first).address,
+          .end = static_cast<std::size_t>(row.address + (row.count - 1) * row.stride + words)};
+}
+consteval Addresses addresses_of(Table table, std::string_view name) {
+  return addresses_of(table, name, name);
+}
+
+inline constexpr std::size_t kCallMpSlot = slot("CALL_MPn");
+inline constexpr std::size_t kEventSlot = slot("FRnet Event");
+inline constexpr std::size_t kWordOrderSlot = slot("WORD Order");
+inline constexpr std::size_t kFirstBvarSlot = slot("bVAR{}");
+inline constexpr std::size_t kFirstVarSlot = slot("VAR{}");
+inline constexpr std::size_t kFirstMdSlot = slot("MD{}");
+inline constexpr std::size_t kCallMpAddress = row_called(Table::holding, "CALL_MPn").address;
+inline constexpr Addresses kVarAddresses = addresses_of(Table::holding, "VAR{}");
+/// Writes that go through the FIFO, as the commands that they stand for.
+inline constexpr Addresses kCounterAddresses =
+    addresses_of(Table::holding, "Absolute Position {}", "Encoder Position {}");
+inline constexpr Addresses kFrnetWords = addresses_of(Table::holding, "FRnet DO group {}");
+inline constexpr Addresses kServoCoils = addresses_of(Table::coil, "Servo {}");
 
 inline constexpr int kVars = 512;
 inline constexpr int kBvars = 128;
-inline constexpr int kMds = 2048;
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -50,58 +50,53 @@ lang::Fault fault_of(Cause cause) {
   return lang::Fault::none;
 }
 
-struct Addresses {
-  Table table;
-  std::uint16_t first;
-  std::uint16_t last;
-};
-
 /// What the RS-M8194H has by itself: all else needs the module.
-constexpr Addresses kOwn[] = {{Table::input, 81, 87},   {Table::input, 100, 100}, {Table::input, 102, 102},
-                              {Table::input, 110, 119}, {Table::holding, 10, 81}, {Table::holding, 122, 127}};
-/// Writes that go through the FIFO, as the commands that they stand for.
-constexpr std::uint16_t kFirstQueued = 82;
-constexpr std::uint16_t kLastQueued = 105;
-constexpr std::uint16_t kCallMp = 8;
+constexpr Addresses kOwn[] = {
+    addresses_of(Table::input, "i-8094H Module ID", "InterpolationRdyFlag"),
+    addresses_of(Table::input, "RS-M8194H state"),
+    addresses_of(Table::input, "Illegal Modbus function"),
+    addresses_of(Table::input, "Download: MP number", "Execution: error type"),
+    {Table::holding, addresses_of(Table::holding, "FRnet Event").end, kCounterAddresses.first},
+    {Table::holding, addresses_of(Table::holding, "Current Acceleration {}").end,
+     addresses_of(Table::holding, "bVAR{}").first}};
 
 /// Of the Ethernet box (12.2.3).
-constexpr Addresses kIpSettings{Table::holding, 20, 30};
+constexpr Addresses kIpSettings = addresses_of(Table::holding, "Lock_IP{}", "RS-M8194H_Gateway{}");
+
+/// Inputs that may be cleared by reading them: RINT as a word and bit by bit, then the factors.
+constexpr Addresses kRintWord = addresses_of(Table::input, "RINT_STATE_ALL");
+constexpr Addresses kRintBits = addresses_of(Table::input, "Line_Scan_Completed", "Module_Error");
+constexpr Addresses kFactorWords = addresses_of(Table::input, "INT factor 0 PULSE", "INT factor 9 SYNC");
+constexpr Addresses kReasonWord = addresses_of(Table::input, "Illegal Modbus function");
 
 bool touches(const RegisterRequest& request, const Addresses& some) {
-  return request.table == some.table && request.first <= some.last &&
+  return request.table == some.table && request.first < some.end &&
          request.first + request.count > some.first;
 }
 
 bool is_own(Table table, std::size_t address) {
-  for (const Addresses& own : kOwn) {
-    if (own.table == table && address >= own.first && address <= own.last) return true;
-  }
-  return false;
+  return std::any_of(std::begin(kOwn), std::end(kOwn),
+                     [&](const Addresses& own) { return own.has(table, address); });
 }
 
-/// Commands that a good write of the tables becomes.
+/// Returns true if a counter or a variable begins there, each of which has two words.
+bool begins_in(const Addresses& pairs, Table table, std::size_t address) {
+  return pairs.has(table, address) && (address - pairs.first) % 2 == 0;
+}
+
+/// Returns the commands that a good write of the tables becomes.
 int commands_of(const RegisterRequest& request) {
   if (!request.is_write() || request.table != Table::holding || request.first >= kWindow) return 0;
   int commands = 0;
   for (std::size_t i = 0; i < request.count; ++i) {
     const std::size_t address = request.first + i;
-    const bool is_counter =
-        address >= kFirstQueued && address <= kLastQueued && (address - kFirstQueued) % 2 == 0;
-    commands += is_counter || address == kCallMp ? 1 : 0;
+    commands += begins_in(kCounterAddresses, request.table, address) || address == kCallMpAddress ? 1 : 0;
   }
   return commands;
 }
 
-/// Inputs that may be cleared by reading them: RINT as a word and bit by bit, then the factors.
-constexpr std::size_t kRintWord = 72;
-constexpr std::size_t kRintBits = 8;
-constexpr std::size_t kFirstFactor = 130;
-constexpr std::size_t kReasonWord = 102;
-
 /// The macro line that a write of the tables stands for, where it has one.
 std::optional<lang::Command> line_at(Table table, std::size_t address, std::uint32_t value) {
-  constexpr std::size_t kFirstVar = 300;
-  constexpr std::size_t kVarWords = 2 * static_cast<std::size_t>(kVars);
   if (table != Table::holding) return std::nullopt;
   const auto line = [](lang::Verb verb, std::uint32_t first, std::uint32_t second) {
     lang::Command made{.code = lang::macro_code(verb)};
@@ -109,18 +104,18 @@ std::optional<lang::Command> line_at(Table table, std::size_t address, std::uint
     made.values[1] = second;
     return made;
   };
-  if (address < static_cast<std::size_t>(kFrnetGroups)) {
+  if (kFrnetWords.has(table, address)) {
     return line(lang::Verb::frnet_out, static_cast<std::uint32_t>(address), value);
   }
-  if (address == kCallMp) return line(lang::Verb::mp_call, value, 0);
-  if (address >= kFirstQueued && address <= kLastQueued && (address - kFirstQueued) % 2 == 0) {
+  if (address == kCallMpAddress) return line(lang::Verb::mp_call, value, 0);
+  if (begins_in(kCounterAddresses, table, address)) {
     constexpr lang::Verb kCounters[] = {lang::Verb::abs_set_position, lang::Verb::set_lp, lang::Verb::set_ep};
-    const std::size_t number = (address - kFirstQueued) / 2;
+    const std::size_t number = (address - kCounterAddresses.first) / 2;
     return line(kCounters[number / kAxes], mask_of(number % kAxes), value);
   }
-  if (address >= kFirstVar && address < kFirstVar + kVarWords && (address - kFirstVar) % 2 == 0) {
-    const auto variable =
-        static_cast<std::uint32_t>(lang::kVariable0) + static_cast<std::uint32_t>((address - kFirstVar) / 2);
+  if (begins_in(kVarAddresses, table, address)) {
+    const auto variable = static_cast<std::uint32_t>(lang::kVariable0) +
+                          static_cast<std::uint32_t>((address - kVarAddresses.first) / 2);
     return line(lang::Verb::set_var, variable, value);
   }
   return std::nullopt;
@@ -128,11 +123,10 @@ std::optional<lang::Command> line_at(Table table, std::size_t address, std::uint
 
 /// Whether it gives a variable a value beyond the range of positions.
 bool writes_beyond(const RegisterRequest& request, bool low_word_first) {
-  constexpr std::size_t kFirstVar = 300;
   if (!request.is_write() || request.table != Table::holding) return false;
   for (std::size_t i = 0; i + 1 < request.count; i += 2) {
     const std::size_t address = request.first + i;
-    if (address < kFirstVar || address >= kFirstVar + 2 * static_cast<std::size_t>(kVars)) continue;
+    if (!kVarAddresses.has(request.table, address)) continue;
     const std::uint32_t high = request.words[low_word_first ? i + 1 : i];
     const std::uint32_t low = request.words[low_word_first ? i : i + 1];
     const auto value = static_cast<std::int32_t>(high << 16U | low);
@@ -142,7 +136,7 @@ bool writes_beyond(const RegisterRequest& request, bool low_word_first) {
 }
 
 bool calls_mp(const RegisterRequest& request) {
-  return request.first <= kCallMp && kCallMp < request.first + request.count;
+  return request.first <= kCallMpAddress && kCallMpAddress < request.first + request.count;
 }
 
 }  // namespace
@@ -215,17 +209,17 @@ bool Requests::diverts(const Place& place, std::uint32_t bits) {
 /// By choice; else reading clears nothing.
 void Requests::read_answered(const RegisterRequest& request) {
   if (request.table != Table::input) return;
+  InterruptState& interrupts = module_.interrupts.state();
   for (std::size_t i = 0; i < request.count; ++i) {
     const std::size_t address = request.first + i;
-    const bool is_factor = address >= kFirstFactor && address < kFirstFactor + kFactors;
-    if (address == kReasonWord && chose(option("reason_lasts", "until_it_is_read")))
-      state_.illegal_reason = 0;
-    if (is_factor && machine_.factors_clear_by_reading)
-      module_.interrupts.state().factor_axes[address - kFirstFactor] = 0;
-    if (!machine_.rint_clears_by_reading || address < kRintWord || address > kRintWord + kRintBits) continue;
-    module_.interrupts.state().rint &= address == kRintWord
-                                           ? std::uint8_t{0}
-                                           : static_cast<std::uint8_t>(~(1U << (address - kRintWord - 1)));
+    const auto is_in = [&](const Addresses& some) { return some.has(request.table, address); };
+    if (is_in(kReasonWord) && chose(option("reason_lasts", "until_it_is_read"))) state_.illegal_reason = 0;
+    if (is_in(kFactorWords) && machine_.factors_clear_by_reading) {
+      interrupts.factor_axes[address - kFactorWords.first] = 0;
+    }
+    if (!machine_.rint_clears_by_reading) continue;
+    if (is_in(kRintWord)) interrupts.rint = 0;
+    if (is_in(kRintBits)) interrupts.rint &= static_cast<std::uint8_t>(~(1U << (address - kRintBits.first)));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "emulator/models/rs_m8194h/answers.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/requests.h"
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "interpreter/rs_m8194h/command.h"
@@ -22,17 +23,13 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-constexpr std::size_t kFirstServoCoil = 128;
-
 bool is_group_number(const RegisterRequest& request) {
   return request.is_write() && request.table == Table::holding && request.count == 2 &&
-         request.first < kFrnetGroups;
+         kFrnetWords.has(request.table, request.first);
 }
 
 bool is_of_servos(const RegisterRequest& request) {
-  const std::size_t end = request.first + request.count;
-  return request.is_write() && request.table == Table::coil && end > kFirstServoCoil &&
-         end <= kFirstServoCoil + kAxes;
+  return request.is_write() && kServoCoils.has(request.table, request.first + request.count - 1);
 }
 
 std::uint32_t number_in(const RegisterRequest& request, bool low_word_first) {
@@ -74,12 +71,12 @@ DeviceAnswer Requests::take_whole(const RegisterRequest& request) {
   for (std::size_t i = 0; i < request.count; ++i) {
     const std::size_t coil = request.first + i;
     const bool is_on = request.words[i] != 0;
-    if (coil < kFirstServoCoil) {
+    if (coil < kServoCoils.first) {
       module_.frnet.write_bit(coil / kFrnetChannels, coil % kFrnetChannels, is_on);
       continue;
     }
     lang::Command command{.code = lang::real_time_code(is_on ? lang::Verb::servo_on : lang::Verb::servo_off)};
-    command.values[0] = mask_of(coil - kFirstServoCoil);
+    command.values[0] = mask_of(coil - kServoCoils.first);
     module_.carry_out(command);
   }
   return Refusal::none;
