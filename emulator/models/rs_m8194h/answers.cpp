@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "emulator/device/register_map/refusal.h"
-#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/rows/options.h"
 #include "interpreter/rs_m8194h/faults.h"
 
 namespace understudy::emulator::models::rs_m8194h {

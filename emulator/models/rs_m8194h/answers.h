@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "emulator/device/register_map/refusal.h"
-#include "emulator/models/rs_m8194h/ground.h"
+#include "emulator/models/rs_m8194h/rows/ground.h"
 #include "interpreter/rs_m8194h/faults.h"
 
 namespace understudy::emulator::models::rs_m8194h {

@@ -17,10 +17,10 @@
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/refusal.h"
 #include "emulator/device/register_map/register_bank.h"
-#include "emulator/models/rs_m8194h/memory.h"
 #include "emulator/models/rs_m8194h/model.h"
 #include "emulator/models/rs_m8194h/module.h"
-#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/programs/memory.h"
+#include "emulator/models/rs_m8194h/rows/options.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "emulator/models/rs_m8194h/state_fields.h"  // IWYU pragma: keep, write() goes through the fields
 

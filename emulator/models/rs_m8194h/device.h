@@ -16,10 +16,10 @@
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/user_program.h"
-#include "emulator/models/rs_m8194h/ground.h"
 #include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/ports.h"
 #include "emulator/models/rs_m8194h/requests.h"
+#include "emulator/models/rs_m8194h/rows/ground.h"
 #include "emulator/models/rs_m8194h/state.h"
 
 namespace understudy::emulator::models::rs_m8194h {

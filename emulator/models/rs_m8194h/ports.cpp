@@ -9,10 +9,10 @@
 #include "emulator/device/device.h"
 #include "emulator/device/machine_edges.h"
 #include "emulator/device/terminals.h"
-#include "emulator/models/rs_m8194h/axis_unit.h"
+#include "emulator/models/rs_m8194h/chip/axis_unit.h"
 #include "emulator/models/rs_m8194h/module.h"
+#include "emulator/models/rs_m8194h/rows/terminals.h"
 #include "emulator/models/rs_m8194h/state.h"
-#include "emulator/models/rs_m8194h/terminals.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

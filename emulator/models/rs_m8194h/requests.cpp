@@ -11,13 +11,13 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/answers.h"
-#include "emulator/models/rs_m8194h/axis_settings.h"
-#include "emulator/models/rs_m8194h/axis_unit.h"
+#include "emulator/models/rs_m8194h/chip/axis_unit.h"
 #include "emulator/models/rs_m8194h/module.h"
-#include "emulator/models/rs_m8194h/options.h"
-#include "emulator/models/rs_m8194h/registers.h"
-#include "emulator/models/rs_m8194h/terminals.h"
-#include "emulator/models/rs_m8194h/views.h"
+#include "emulator/models/rs_m8194h/rows/axis_settings.h"
+#include "emulator/models/rs_m8194h/rows/options.h"
+#include "emulator/models/rs_m8194h/rows/registers.h"
+#include "emulator/models/rs_m8194h/rows/terminals.h"
+#include "emulator/models/rs_m8194h/rows/views.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
@@ -60,7 +60,7 @@ constexpr Addresses kOwn[] = {
     {Table::holding, addresses_of(Table::holding, "Current Acceleration {}").end,
      addresses_of(Table::holding, "bVAR{}").first}};
 
-/// Of the Ethernet box (12.2.3).
+/// The settings of the Ethernet box (12.2.3).
 constexpr Addresses kIpSettings = addresses_of(Table::holding, "Lock_IP{}", "RS-M8194H_Gateway{}");
 
 /// Inputs that may be cleared by reading them: RINT as a word and bit by bit, then the factors.
@@ -121,7 +121,7 @@ std::optional<lang::Command> line_at(Table table, std::size_t address, std::uint
   return std::nullopt;
 }
 
-/// Whether it gives a variable a value beyond the range of positions.
+/// Returns true if it gives a variable a value beyond the range of positions.
 bool writes_beyond(const RegisterRequest& request, bool low_word_first) {
   if (!request.is_write() || request.table != Table::holding) return false;
   for (std::size_t i = 0; i + 1 < request.count; i += 2) {

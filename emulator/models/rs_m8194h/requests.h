@@ -8,8 +8,8 @@
 #include "emulator/device/register_map/refusal.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
-#include "emulator/models/rs_m8194h/ground.h"
 #include "emulator/models/rs_m8194h/module.h"
+#include "emulator/models/rs_m8194h/rows/ground.h"
 #include "emulator/models/rs_m8194h/state.h"
 
 namespace understudy::emulator::models::rs_m8194h {

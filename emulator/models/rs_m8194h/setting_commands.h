@@ -4,7 +4,7 @@
 
 #include "base/complete_table.h"
 #include "emulator/models/rs_m8194h/commands.h"
-#include "emulator/models/rs_m8194h/memory.h"
+#include "emulator/models/rs_m8194h/programs/memory.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

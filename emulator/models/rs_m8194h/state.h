@@ -4,17 +4,17 @@
 #include <array>
 #include <cstdint>
 
-#include "emulator/models/rs_m8194h/chip.h"
-#include "emulator/models/rs_m8194h/command_queue.h"
-#include "emulator/models/rs_m8194h/drives.h"
-#include "emulator/models/rs_m8194h/frnet.h"
-#include "emulator/models/rs_m8194h/interrupts.h"
-#include "emulator/models/rs_m8194h/memory.h"
-#include "emulator/models/rs_m8194h/programs.h"
-#include "emulator/models/rs_m8194h/registers.h"
-#include "emulator/models/rs_m8194h/status.h"
-#include "emulator/models/rs_m8194h/streams.h"
-#include "emulator/models/rs_m8194h/triggers.h"
+#include "emulator/models/rs_m8194h/chip/chip.h"
+#include "emulator/models/rs_m8194h/chip/interrupts.h"
+#include "emulator/models/rs_m8194h/drives/drives.h"
+#include "emulator/models/rs_m8194h/drives/streams.h"
+#include "emulator/models/rs_m8194h/programs/command_queue.h"
+#include "emulator/models/rs_m8194h/programs/frnet.h"
+#include "emulator/models/rs_m8194h/programs/memory.h"
+#include "emulator/models/rs_m8194h/programs/programs.h"
+#include "emulator/models/rs_m8194h/programs/status.h"
+#include "emulator/models/rs_m8194h/programs/triggers.h"
+#include "emulator/models/rs_m8194h/rows/registers.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

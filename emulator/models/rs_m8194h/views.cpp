@@ -1,14 +1,14 @@
-#include "emulator/models/rs_m8194h/views.h"
+#include "emulator/models/rs_m8194h/rows/views.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "emulator/device/register_map/row.h"
-#include "emulator/models/rs_m8194h/axis_settings.h"
-#include "emulator/models/rs_m8194h/axis_unit.h"
+#include "emulator/models/rs_m8194h/chip/axis_unit.h"
 #include "emulator/models/rs_m8194h/module.h"
-#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/rows/axis_settings.h"
+#include "emulator/models/rs_m8194h/rows/options.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/commands.h"
