@@ -27,7 +27,7 @@
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/models/rs_m8194h/model.h"
-#include "emulator/models/rs_m8194h/terminals.h"
+#include "emulator/models/rs_m8194h/rows/terminals.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/stations/server.h"

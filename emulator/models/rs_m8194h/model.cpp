@@ -11,13 +11,13 @@
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
-#include "emulator/models/rs_m8194h/choices.h"
 #include "emulator/models/rs_m8194h/command_names.h"
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/first_files.h"
-#include "emulator/models/rs_m8194h/language.h"
-#include "emulator/models/rs_m8194h/registers.h"
-#include "emulator/models/rs_m8194h/terminals.h"
+#include "emulator/models/rs_m8194h/programs/language.h"
+#include "emulator/models/rs_m8194h/rows/choices.h"
+#include "emulator/models/rs_m8194h/rows/registers.h"
+#include "emulator/models/rs_m8194h/rows/terminals.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -7,28 +7,27 @@ namespace understudy::emulator::models::rs_m8194h {
 
 /// Sets a counter of the axes in the first parameter.
 template <void (*set)(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds)>
-Took set_counter(RsM8194h& it, const Command& command) {
+Took set_counter(Module& it, const Command& command) {
   const bool ring_folds = it.machine_options().axis.ring_folds;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    set(it.state().units[a], it.state().motors[a], command.signed_value(1), ring_folds);
+    set(it.chip.unit(a), it.chip.motor(a), command.signed_value(1), ring_folds);
     const bool is_of_both = command.verb() == Verb::set_lp || command.verb() == Verb::abs_set_position;
     if (is_of_both && it.chose(option("lp_and_abs", "set_both"))) {
-      set_logic_position(it.state().units[a], it.state().motors[a], command.signed_value(1), ring_folds);
-      set_absolute_position(it.state().units[a], it.state().motors[a], command.signed_value(1), ring_folds);
+      set_logic_position(it.chip.unit(a), it.chip.motor(a), command.signed_value(1), ring_folds);
+      set_absolute_position(it.chip.unit(a), it.chip.motor(a), command.signed_value(1), ring_folds);
     }
-    it.rearm(a);
+    it.chip.rearm(a);
   });
   return Took::done;
 }
 
-inline Took frnet_out(RsM8194h& it, const Command& command) {
-  it.state().outputs[command.values[0] % kFrnetGroups] = static_cast<std::uint16_t>(command.values[1]);
+inline Took frnet_out(Module& it, const Command& command) {
+  it.frnet.write(command.values[0] % kFrnetGroups, static_cast<std::uint16_t>(command.values[1]));
   return Took::done;
 }
-inline Took frnet_write(RsM8194h& it, const Command& command) {
-  std::uint16_t& word = it.state().outputs[command.values[0] % kFrnetGroups];
-  const auto bit = static_cast<std::uint16_t>(1U << (command.values[1] % kFrnetChannels));
-  word = static_cast<std::uint16_t>(command.values[2] != 0 ? word | bit : word & ~bit);
+inline Took frnet_write(Module& it, const Command& command) {
+  it.frnet.write_bit(command.values[0] % kFrnetGroups, command.values[1] % kFrnetChannels,
+                     command.values[2] != 0);
   return Took::done;
 }
 
@@ -36,7 +35,7 @@ inline Took frnet_write(RsM8194h& it, const Command& command) {
 enum class Speed : std::uint8_t { other, speed, slope, jerk };
 /// Returns the value to store: as sent, or limited to the range that MAX_V gives it now.
 template <Speed kind>
-std::uint32_t within_range(const RsM8194h& it, std::uint32_t given, std::uint32_t max_v) {
+std::uint32_t within_range(const Module& it, std::uint32_t given, std::uint32_t max_v) {
   if (kind == Speed::other || it.chose(option("reclamp", "when_a_drive_starts"))) return given;
   const SpeedRange range = speed_range(max_v, it.machine_options().speed);
   const double least = kind == Speed::slope ? range.least_slope : kind == Speed::jerk ? range.least_jerk : 0;
@@ -46,9 +45,9 @@ std::uint32_t within_range(const RsM8194h& it, std::uint32_t given, std::uint32_
 
 /// Sets a number of the speed settings; it applies from the next drive on.
 template <auto member, Speed kind = Speed::other>
-Took set_speed(RsM8194h& it, const Command& command) {
+Took set_speed(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    AxisUnit& unit = it.state().units[a];
+    AxisUnit& unit = it.chip.unit(a);
     auto& number = unit.speed.*member;
     number = static_cast<std::remove_reference_t<decltype(number)>>(
         within_range<kind>(it, command.values[1], unit.basic.max_v));
@@ -56,46 +55,47 @@ Took set_speed(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 /// Gives homing the new speeds; it uses them from its next phase on.
-inline void tell_homing(RsM8194h& it, std::size_t axis) {
-  motion::Homing& homing = it.state().motors[axis].homing;
+inline void tell_homing(Module& it, std::size_t axis) {
+  motion::Homing& homing = it.chip.motor(axis).homing;
   if (!homing.active()) return;
-  const AxisUnit& unit = it.state().units[axis];
-  homing.program.speeds = {it.law_of(axis), law_at(unit, unit.homing.home_pps, it.machine_options().speed)};
+  const AxisUnit& unit = it.chip.unit(axis);
+  homing.program.speeds = {it.chip.law_of(axis),
+                           law_at(unit, unit.homing.home_pps, it.machine_options().speed)};
 }
 /// Sets V, also for the running drive.
-inline Took set_drive_speed(RsM8194h& it, const Command& command) {
+inline Took set_drive_speed(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    AxisUnit& unit = it.state().units[a];
+    AxisUnit& unit = it.chip.unit(a);
     unit.speed.drive_pps = within_range<Speed::speed>(it, command.values[1], unit.basic.max_v);
-    it.change_speed(a, {.tick = it.now()});
+    it.drives.change_speed(a, {.tick = it.now()});
     tell_homing(it, a);
   });
   return Took::done;
 }
 /// Sets a number of the path's speed settings, which have no axes.
 template <auto member>
-Took set_vector(RsM8194h& it, const Command& command) {
-  auto& number = it.state().paths.vector.*member;
+Took set_vector(Module& it, const Command& command) {
+  auto& number = it.chip.paths().vector.*member;
   number = static_cast<std::remove_reference_t<decltype(number)>>(command.values[0]);
   return Took::done;
 }
 
-inline Took home_speed(RsM8194h& it, const Command& command) {
+inline Took home_speed(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    AxisUnit& unit = it.state().units[a];
+    AxisUnit& unit = it.chip.unit(a);
     unit.homing.home_pps = within_range<Speed::speed>(it, command.values[1], unit.basic.max_v);
     tell_homing(it, a);
   });
   return Took::done;
 }
-inline Took home_limit(RsM8194h& it, const Command& command) {
+inline Took home_limit(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0),
-                [&](std::size_t a) { it.state().units[a].homing.limit_is_home = command.values[1] == 1; });
+                [&](std::size_t a) { it.chip.unit(a).homing.limit_is_home = command.values[1] == 1; });
   return Took::done;
 }
-inline Took home_mode(RsM8194h& it, const Command& command) {
+inline Took home_mode(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    HomeSettings& homing = it.state().units[a].homing;
+    HomeSettings& homing = it.chip.unit(a).homing;
     for (std::size_t i = 0; i < homing.steps.size(); ++i) homing.steps[i] = byte_at(command, 1 + i);
     homing.offset_pulses = command.values[5];
   });
@@ -103,17 +103,17 @@ inline Took home_mode(RsM8194h& it, const Command& command) {
 }
 
 template <Drive::What what>
-Took drive(RsM8194h& it, const Command& command) {
+Took drive(Module& it, const Command& command) {
   const std::int32_t value = what == Drive::What::home ? 0 : command.signed_value(1);
-  return it.drive(axes_at(command, 0), {.what = what, .value = value});
+  return it.drives.drive(axes_at(command, 0), {.what = what, .value = value});
 }
 
 /// SET_PULSE: changes the total of the running move, counted in its own direction (7.1.10, A-53).
-inline Took set_pulse(RsM8194h& it, const Command& command) {
+inline Took set_pulse(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    motion::Axis& motor = it.state().motors[a];
-    if (it.activity(a) != Activity::single || motor.task != motion::Task::move) {
-      if (it.chose(option("set_pulse_at_rest", "raises_rint_bit_7"))) it.module_error();
+    motion::Axis& motor = it.chip.motor(a);
+    if (it.chip.activity(a) != Activity::single || motor.task != motion::Task::move) {
+      if (it.chose(option("set_pulse_at_rest", "raises_rint_bit_7"))) it.interrupts.raise(Rint::module);
       return;
     }
     const std::int64_t given = command.signed_value(1);
@@ -121,23 +121,23 @@ inline Took set_pulse(RsM8194h& it, const Command& command) {
     if (is_against && it.chose(option("set_pulse_sign", "is_ignored"))) return;
     const bool counts = !is_against || it.chose(option("set_pulse_sign", "counts_all_the_same"));
     motor.change_distance(counts ? std::abs(given) : 0, true, it.now());
-    it.take_off(a, WayOut::other_drive);  // the rest belongs to this command now
+    it.drives.take_off(a, WayOut::other_drive);  // the rest belongs to this command now
   });
   return Took::done;
 }
 
-inline Took axis_assign(RsM8194h& it, const Command& command) {
-  for (std::size_t i = 0; i < 3; ++i) it.state().paths.assigned[i] = byte_at(command, i);
+inline Took axis_assign(Module& it, const Command& command) {
+  for (std::size_t i = 0; i < 3; ++i) it.chip.paths().assigned[i] = byte_at(command, i);
   return Took::done;
 }
 
-inline Took path(RsM8194h& it, const Command& command) { return it.follow_path(command); }
+inline Took path(Module& it, const Command& command) { return it.path_starts.follow(command); }
 
 /// INITIAL of a stream: settings for all its CONTINUE commands. It waits while a stream runs (7.4.2, 7.4.5,
 /// 7.4.8).
 template <Stream stream>
-Took initial(RsM8194h& it, const Command& command) {
-  Paths& paths = it.state().paths;
+Took initial(Module& it, const Command& command) {
+  Paths& paths = it.chip.paths();
   if (paths.together.engaged && paths.runs == Paths::Runs::stream) return Took::waits;
   constexpr std::size_t kAxesNamed = stream == Stream::line_3d ? 3 : 2;
   constexpr std::size_t kFirstSpeed = stream == Stream::mix_2d ? 3 : kAxesNamed;
@@ -149,17 +149,17 @@ Took initial(RsM8194h& it, const Command& command) {
   settings.acceleration = command.values[kFirstSpeed + 2];
   paths.streams[static_cast<std::size_t>(stream)] = settings;
   paths.open = false;
-  it.forget_break(stream);
-  it.state().rint &= static_cast<std::uint8_t>(~bit_of(Rint::module));
-  if (paths.broken == 0) it.state().rint &= static_cast<std::uint8_t>(~bit_of(Rint::stream));
+  it.streams.forget_break(stream);
+  it.interrupts.clear(Rint::module);
+  if (paths.broken == 0) it.interrupts.clear(Rint::stream);
   return Took::done;
 }
 
 /// LINE_SCAN (7.4.12): the next scan uses the setting up. The scan uses C+, so the soft limits end.
-inline Took line_scan(RsM8194h& it, const Command& command) {
+inline Took line_scan(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    AxisUnit& unit = it.state().units[a];
-    LineScan& scan = it.state().scans[a];
+    AxisUnit& unit = it.chip.unit(a);
+    LineScan& scan = it.chip.scan(a);
     const bool is_anew = !scan.set;
     scan = {.set = true,
             .type = byte_at(command, 1),
@@ -170,21 +170,21 @@ inline Took line_scan(RsM8194h& it, const Command& command) {
     unit.out.level = static_cast<std::uint8_t>(byte_at(command, 2) ^ (is_turned ? 1U : 0U));
     unit.out.width_code = byte_at(command, 3);
     unit.basic.soft_limits = false;
-    it.rearm(a);
+    it.chip.rearm(a);
   });
   return Took::done;
 }
-inline Took line_scan_start(RsM8194h& it, const Command& command) {
+inline Took line_scan_start(Module& it, const Command& command) {
   const AxisMask axes = axes_at(command, 0);
-  if (it.drive(axes, {.what = Drive::What::scan, .value = command.signed_value(2)}) == Took::waits) {
+  if (it.drives.drive(axes, {.what = Drive::What::scan, .value = command.signed_value(2)}) == Took::waits) {
     return Took::waits;
   }
   // A held scan begins later.
   AxisMask begun = 0;
   for_each_axis(axes, [&](std::size_t a) {
-    if (it.state().units[a].held_drive.what != Drive::What::scan) begun |= mask_of(a);
+    if (it.chip.unit(a).held_drive.what != Drive::What::scan) begun |= mask_of(a);
   });
-  it.begin_scans(begun);
+  it.scans.open(begun);
   return Took::done;
 }
 

@@ -4,7 +4,7 @@
 
 #include "base/complete_table.h"
 #include "emulator/models/rs_m8194h/commands.h"
-#include "emulator/models/rs_m8194h/memory.h"
+#include "emulator/models/rs_m8194h/programs/memory.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -35,13 +35,13 @@ inline void scale_speeds(AxisUnit& unit, std::uint32_t from_max_v, std::uint32_t
 }
 
 /// Returns true if, by choice, an enabled ring keeps soft limits off, or soft limits keep a ring off.
-inline bool is_kept_off(const RsM8194h& it, const BasicSettings& present, Verb verb) {
+inline bool is_kept_off(const Module& it, const BasicSettings& present, Verb verb) {
   const bool meets =
       (verb == Verb::set_slmt && present.ring) || (verb == Verb::vring_enable && present.soft_limits);
   return meets && it.chose(option("ring_and_soft_limits", "the_earlier_keeps_the_other_off"));
 }
 /// By choice, soft limits use the comparators' registers: copies them there.
-inline void take_comparators(const RsM8194h& it, AxisUnit& unit) {
+inline void take_comparators(const Module& it, AxisUnit& unit) {
   const BasicSettings& basic = unit.basic;
   if (!basic.soft_limits || !it.chose(option("soft_limits_and_comparators", "become_the_limits"))) return;
   unit.compare = {Compare{.value = basic.forward_soft_limit, .source = basic.soft_limit_source},
@@ -50,65 +50,65 @@ inline void take_comparators(const RsM8194h& it, AxisUnit& unit) {
 
 /// Applies a setting of section 3, whose axes are in the first parameter. Its row (memory.h) says what it
 /// changes.
-inline Took set_basic(RsM8194h& it, const Command& command) {
+inline Took set_basic(Module& it, const Command& command) {
   const bool is_initial = (command.values[0] & lang::kInitial) != 0;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     if (is_initial) {
-      BasicSettings& kept = it.state().initial_table[a];
+      BasicSettings& kept = it.memory.state().initial_table[a];
       if (!is_kept_off(it, kept, command.verb())) apply_setting(kept, command);
       if (!it.chose(option("initial_acts", "acts_at_once_too"))) return;
     }
-    BasicSettings settings = it.state().units[a].basic;
+    BasicSettings settings = it.chip.unit(a).basic;
     const std::uint32_t max_v = settings.max_v;
     apply_setting(settings, command);
-    if (is_kept_off(it, it.state().units[a].basic, command.verb())) settings = it.state().units[a].basic;
+    if (is_kept_off(it, it.chip.unit(a).basic, command.verb())) settings = it.chip.unit(a).basic;
     const bool scales = settings.max_v != max_v && it.chose(option("speeds_at_new_max_v", "scales_them"));
-    if (scales) scale_speeds(it.state().units[a], max_v, settings.max_v);
-    const std::int64_t counted = it.scan_travel(a);
-    apply_basic(it.state().units[a], it.state().motors[a], settings, it.machine_options().axis);
-    LineScan& scan = it.state().scans[a];
+    if (scales) scale_speeds(it.chip.unit(a), max_v, settings.max_v);
+    const std::int64_t counted = it.scans.travel(a);
+    apply_basic(it.chip.unit(a), it.chip.motor(a), settings, it.machine_options().axis);
+    LineScan& scan = it.chip.scan(a);
     // the encoder counts differently from here on
-    if (scan.running) scan.begin += it.scan_travel(a) - counted;
-    if (command.verb() == Verb::set_slmt) take_comparators(it, it.state().units[a]);
-    it.rearm(a);
+    if (scan.running) scan.begin += it.scans.travel(a) - counted;
+    if (command.verb() == Verb::set_slmt) take_comparators(it, it.chip.unit(a));
+    it.chip.rearm(a);
   });
-  if (is_initial) keep_initial_table(it.state().blocks, it.state().initial_table, it.factory_settings());
+  if (is_initial) it.memory.keep_initial_table();
   return Took::done;
 }
 
 template <motion::ExternalDrive::Mode mode>
-Took set_external(RsM8194h& it, const Command& command) {
+Took set_external(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    it.set_external(a, mode, mode == motion::ExternalDrive::Mode::off ? 0 : command.values[1]);
+    it.external.set(a, mode, mode == motion::ExternalDrive::Mode::off ? 0 : command.values[1]);
   });
   return Took::done;
 }
 
-inline Took write_byte_variable(RsM8194h& it, const Command& command) {
-  it.put(kFirstBvarSlot + lang::byte_variable_number(command.values[0]), byte_at(command, 1));
+inline Took write_byte_variable(Module& it, const Command& command) {
+  it.memory.put(kFirstBvarSlot + lang::byte_variable_number(command.values[0]), byte_at(command, 1));
   return Took::done;
 }
-inline Took write_variable(RsM8194h& it, const Command& command) {
-  it.put(kFirstVarSlot + lang::variable_number(command.values[0]), command.values[1]);
+inline Took write_variable(Module& it, const Command& command) {
+  it.memory.put(kFirstVarSlot + lang::variable_number(command.values[0]), command.values[1]);
   return Took::done;
 }
-inline Took write_memory(RsM8194h& it, const Command& command) {
+inline Took write_memory(Module& it, const Command& command) {
   const std::size_t number = command.values[0];
   const bool is_real = number >= static_cast<std::size_t>(lang::kFirstRealMemory);
-  it.put(kFirstMdSlot + number, command.values[is_real ? 2 : 1]);
+  it.memory.put(kFirstMdSlot + number, command.values[is_real ? 2 : 1]);
   return Took::done;
 }
 
-inline Took reset_card(RsM8194h& it, const Command&) {
+inline Took reset_card(Module& it, const Command&) {
   it.reset_card();
   return Took::done;
 }
-inline Took clear_buffer(RsM8194h& it, const Command&) {
+inline Took clear_buffer(Module& it, const Command&) {
   // A STOP_WAIT that has begun is no longer in the buffer, and continues.
-  it.state().fifo.waiting.clear();
+  it.queue.clear();
   if (it.chose(option("clear_buffer_held_drives", "dropped"))) {
-    for (AxisUnit& unit : it.state().units) unit.held_drive = {};
-    it.state().held_paths.clear();
+    for (AxisUnit& unit : it.chip.state().units) unit.held_drive = {};
+    it.streams.held().clear();
   }
   return Took::done;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/state/state_bytes.h"
+#include "emulator/device/memory/eeprom_fields.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "interpreter/rs_m8194h/state_fields.h"
 
@@ -70,9 +71,26 @@ struct StateOf<emulator::models::rs_m8194h::IsrMark> {
   }
 };
 
+namespace emulator::models::rs_m8194h {
+
+template <class Part, std::size_t count>
+consteval std::size_t counted() {
+  static_assert(state_fields::has_members<Part, count>(), "a part of the state has other members");
+  return count;
+}
+/// The members of the state are those of its parts, which are counted one by one.
+inline constexpr std::size_t kStateMembers =
+    counted<ChipState, 10>() + counted<StreamState, 2>() + counted<DriveState, 2>() +
+    counted<InterruptState, 5>() + counted<QueueState, 2>() + counted<ProgramState, 8>() +
+    counted<TriggerState, 1>() + counted<FrnetState, 5>() + counted<StatusState, 4>() +
+    counted<RequestState, 2>() + counted<MemoryState, 4>();
+
+}  // namespace emulator::models::rs_m8194h
+
 template <>
 struct StateOf<emulator::models::rs_m8194h::State> {
   using Value = emulator::models::rs_m8194h::State;
+  static constexpr std::size_t members = emulator::models::rs_m8194h::kStateMembers;
   static constexpr auto fields = FieldList{field("motors", &Value::motors),
                                            field("here", &Value::environment),
                                            field("units", &Value::units),

@@ -10,7 +10,7 @@
 #include "base/state/state_error.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/models/models.h"
-#include "emulator/models/rs_m8194h/registers.h"
+#include "emulator/models/rs_m8194h/rows/registers.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/snapshot.h"
 #include "interpreter/rs_m8194h/text.h"

@@ -227,7 +227,7 @@ TEST(RsM8194hEdgesInATick, ActInTheirOrderAndAreCountedEach) {
   rsm.run(50);
   EXPECT_EQ(rsm.get("ABS_X"), 20'050);
   EXPECT_EQ(rsm.get("LP_X"), 50);
-  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 200);
+  EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 200);
 }
 
 struct EncoderCase {

@@ -193,12 +193,12 @@ TEST(RsM8194hEvents, LineScansTriggerAtTheirPitch) {
   rsm.run(1);
   EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
   EXPECT_EQ(rsm.get("LP_Y"), -4010);
-  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
-  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut + 1), 0);
+  EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 100);
+  EXPECT_EQ(rsm.ports().output_pulses(kFirstOut + 1), 0);
   // The setting is used up.
   rsm.send({"RSM_LINE_SCAN_START X 0 4000"});
   rsm.run_to_rest();
-  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+  EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 100);
 }
 
 TEST(RsM8194hEvents, ScansAreCompletedOnceAllOfThemStand) {
@@ -232,7 +232,7 @@ TEST(RsM8194hEvents, LineScansGoOnWhenTheirCounterJumps) {
               "RSM_LINE_SCAN_START X " + of_type + " 5000"});
     rsm.run_to_rest();
     rsm.run(1);
-    EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+    EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 100);
     EXPECT_EQ(rsm.state().units[0].compare[0].value, 50);
     rsm.send({"RSM_VRING_DISABLE X", "RSM_LINE_SCAN X " + of_type + " 0 0 -99",
               "RSM_LINE_SCAN_START X " + of_type + " -5000"});
@@ -240,7 +240,7 @@ TEST(RsM8194hEvents, LineScansGoOnWhenTheirCounterJumps) {
     rsm.send({"RSM_SET_LP X 1000000", "RSM_SET_EP X 1000000"});
     rsm.run_to_rest();
     rsm.run(1);
-    EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 150);
+    EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 150);
   }
 }
 
@@ -254,7 +254,7 @@ TEST(RsM8194hEvents, AHeldLineScanBeginsWhenItIsReleased) {
   EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0);
   rsm.run(500);
   EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
-  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+  EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 100);
 }
 
 TEST(RsM8194hEvents, ALineScanByAnEncoderHasItsLastTriggerToo) {
@@ -267,7 +267,7 @@ TEST(RsM8194hEvents, ALineScanByAnEncoderHasItsLastTriggerToo) {
     rsm.send("RSM_LINE_SCAN_START X 2 " + std::to_string(direction * 1000));
     rsm.run(550);
     EXPECT_EQ(rsm.get("EP_X"), direction * 4000);
-    EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+    EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 100);
     EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
   }
 }
@@ -281,8 +281,8 @@ TEST(RsM8194hEvents, LineScansThatBeginApartAreBothGiven) {
   EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "X is on its way";
   rsm.run(600);
   EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
-  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 200);
-  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut + 1), 100);
+  EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 200);
+  EXPECT_EQ(rsm.ports().output_pulses(kFirstOut + 1), 100);
 }
 
 TEST(RsM8194hEvents, ActionsGivePulsesAtXAndYOnly) {
@@ -290,8 +290,8 @@ TEST(RsM8194hEvents, ActionsGivePulsesAtXAndYOnly) {
   rsm.send({"RSM_SYNC_ACTION Z XYZU 32 0 0 0 1 0 0 0 0 0", "RSM_FIXED_MOVE Z 10"});
   rsm.run_to_rest();
   rsm.run(2);
-  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 1);
-  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut + 1), 1);
+  EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 1);
+  EXPECT_EQ(rsm.ports().output_pulses(kFirstOut + 1), 1);
 }
 
 }  // namespace events_test

@@ -113,14 +113,14 @@ TEST(RsM8194hPulses, LastAsLongAsPulseWidthSays) {
       rsm.send("RSM_SET_OUT X " + std::to_string(level) + " " + std::to_string(code));
       rsm.send({"RSM_SYNC_ACTION X X 0x20 0 0 0 1 0 0 0 0 0", "RSM_SET_V X 1000", "RSM_FIXED_MOVE X 5"});
       const bool at_rest = level == 0;
-      EXPECT_EQ(rsm.rsm().output(kFirstOut), at_rest);
+      EXPECT_EQ(rsm.ports().output(kFirstOut), at_rest);
       Tick active = 0;
       for (int i = 0; i < 300; ++i) {
         rsm.run(1);
-        active += rsm.rsm().output(kFirstOut) != at_rest ? 1 : 0;
+        active += rsm.ports().output(kFirstOut) != at_rest ? 1 : 0;
       }
       EXPECT_EQ(active, ticks) << code;
-      EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 1);
+      EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 1);
     }
   }
 }
@@ -131,7 +131,7 @@ TEST(RsM8194hPulses, AreCountedAtTheirTwoTerminalsAlone) {
   rsm.run(500);
   for (int i = 0; i < kFirstDo; ++i) {
     const bool gives_pulses = i == kFirstOut || i == kFirstOut + 1;
-    EXPECT_EQ(rsm.rsm().output_pulses(i), gives_pulses ? 1 : 0) << i;
+    EXPECT_EQ(rsm.ports().output_pulses(i), gives_pulses ? 1 : 0) << i;
   }
 }
 
@@ -169,23 +169,22 @@ TEST(RsM8194hInit, IsAsPowerUpHasFoundIt) {
   rsm.set("FRNET_EVENT", 1);
   rsm.input(kInitSwitch, true);
   rsm.run(10);
-  EXPECT_FALSE(rsm.rsm().is_deaf());
+  EXPECT_EQ(rsm.rsm().addressing(1), Addressing::obey_and_reply);
   rsm.world().switch_power(0, false);
   rsm.run(10);
   rsm.world().switch_power(0, true);
   rsm.input(kFirstDi, true);
   rsm.run(20);
-  EXPECT_TRUE(rsm.rsm().is_deaf());
   EXPECT_EQ(rsm.rsm().addressing(1), Addressing::ignore);
   EXPECT_EQ(rsm.get("VAR1"), 0);
   rsm.input(kInitSwitch, false);
   rsm.run(10);
-  EXPECT_TRUE(rsm.rsm().is_deaf());
+  EXPECT_EQ(rsm.rsm().addressing(1), Addressing::ignore);
   rsm.world().switch_power(0, false);
   rsm.run(10);
   rsm.world().switch_power(0, true);
   rsm.run(20);
-  EXPECT_FALSE(rsm.rsm().is_deaf());
+  EXPECT_EQ(rsm.rsm().addressing(1), Addressing::obey_and_reply);
   EXPECT_EQ(rsm.get("VAR1"), 1);
 }
 

@@ -196,7 +196,7 @@ TEST(RsM8194hMacros, FrnetIsScannedEvery2Point88Milliseconds) {
   EXPECT_EQ(rsm.ask("03 00 02 00 01"), "03 02 FF 01");
   EXPECT_EQ(rsm.ask("02 00 00 00 08"), "02 01 02");
   rsm.run(4);
-  EXPECT_EQ(rsm.rsm().output_word(kFirstDo + 32, 16), 0xFF01u);
+  EXPECT_EQ(rsm.ports().output_word(kFirstDo + 32, 16), 0xFF01u);
 }
 
 TEST(RsM8194hMacros, FrnetIsScannedFromPowerUpOn) {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "emulator/models/rs_m8194h/transitions.h"
+#include "emulator/models/rs_m8194h/drives/transitions.h"
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
 namespace understudy::emulator::models::rs_m8194h {

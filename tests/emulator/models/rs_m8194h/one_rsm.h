@@ -46,6 +46,7 @@ class OneRsm {
   Device& device() { return world_.device(0); }
   const RsM8194h& rsm() const { return static_cast<const RsM8194h&>(world_.device(0)); }
   const State& state() const { return rsm().state(); }
+  const Ports& ports() const { return *rsm().terminals(); }
 
   /// A request as its station serves it; the reply's PDU as text.
   std::string ask(const world::Bytes& pdu) {

@@ -10,7 +10,7 @@
 #include "emulator/device/program_error.h"
 #include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
-#include "emulator/models/rs_m8194h/terminals.h"
+#include "emulator/models/rs_m8194h/rows/terminals.h"
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
 namespace understudy::emulator::models::rs_m8194h {

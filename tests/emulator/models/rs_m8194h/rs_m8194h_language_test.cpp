@@ -9,7 +9,7 @@
 #include "emulator/device/program_cells.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
-#include "emulator/models/rs_m8194h/language.h"
+#include "emulator/models/rs_m8194h/programs/language.h"
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 #include "tests/interpreter/facts.h"
 

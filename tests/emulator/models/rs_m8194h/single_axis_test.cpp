@@ -10,13 +10,13 @@ namespace single_axis_test {
 
 TEST(RsM8194hAxis, ItsSpeedHasTheSignOfItsDirection) {
   OneRsm rsm;
-  EXPECT_EQ(rsm.rsm().speed_pps(0), 0);
+  EXPECT_EQ(rsm.ports().speed_pps(0), 0);
   rsm.send({"RSM_SET_SV XY 2000", "RSM_SET_V XY 2000", "RSM_FIXED_MOVE X -1000", "RSM_FIXED_MOVE Y 1000"});
   rsm.run(10);
-  EXPECT_EQ(rsm.rsm().speed_pps(0), -2000);
-  EXPECT_EQ(rsm.rsm().speed_pps(1), 2000);
+  EXPECT_EQ(rsm.ports().speed_pps(0), -2000);
+  EXPECT_EQ(rsm.ports().speed_pps(1), 2000);
   rsm.run_to_rest();
-  EXPECT_EQ(rsm.rsm().speed_pps(0), 0);
+  EXPECT_EQ(rsm.ports().speed_pps(0), 0);
 }
 
 std::string number(double value) { return std::to_string(static_cast<long long>(value)); }

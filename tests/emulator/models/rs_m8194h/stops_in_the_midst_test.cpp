@@ -139,8 +139,8 @@ TEST(RsM8194hStopsInTheMidst, LeaveWhatTheTableSays) {
     if (event == "+DI_8_0") rsm.input(kFirstDi, true);
     if (event[0] != '+') rsm.send(event);
     rsm.run(3000);
-    EXPECT_EQ(rsm.rsm().mp_runs(), each.left.mp);
-    EXPECT_EQ(rsm.rsm().isr_runs(), each.left.isr);
+    EXPECT_EQ(rsm.state().execution.mp.is_alive(), each.left.mp);
+    EXPECT_EQ(!rsm.state().execution.isrs.empty(), each.left.isr);
     EXPECT_EQ((rsm.get("DRIVING_AXIS") & 1) != 0, each.left.moves);
     EXPECT_EQ(rsm.state().units[0].locked, each.left.locked);
     EXPECT_EQ(rsm.state().units[0].path_locked, each.left.path_locked);

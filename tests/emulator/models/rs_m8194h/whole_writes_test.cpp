@@ -73,7 +73,7 @@ TEST(RsM8194hWholeWrites, CoilsSwitchServosAndTheOutputsBeforeThem) {
   OneRsm rsm({.choices = kServos});
   EXPECT_EQ(rsm.ask("05 00 82 FF 00"), "05 00 82 FF 00");  // Z
   EXPECT_EQ(rsm.ask("01 00 80 00 04"), "01 01 04");
-  EXPECT_EQ(rsm.rsm().servo_on(2), true);
+  EXPECT_EQ(rsm.ports().servo_on(2), true);
   // The last two outputs of group 7, then X, Y and Z.
   EXPECT_EQ(rsm.ask("0F 00 7E 00 05 01 0E"), "0F 00 7E 00 05");
   EXPECT_EQ(rsm.ask("01 00 7E 00 06"), "01 01 0E");

@@ -1,0 +1,120 @@
+// RS-M8194H: the motion chip with its four axes: motors, counters, pins behind their filters, what the motors
+// watch and meet, the path that carries some of them, and the outputs of X and Y.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "base/simulated_time.h"
+#include "emulator/device/machine_edges.h"
+#include "emulator/models/rs_m8194h/chip/axis_unit.h"
+#include "emulator/models/rs_m8194h/chip/paths.h"
+#include "emulator/models/rs_m8194h/rows/axis_settings.h"
+#include "emulator/models/rs_m8194h/rows/ground.h"
+#include "emulator/models/rs_m8194h/rows/terminals.h"
+#include "motion/axis.h"
+#include "motion/environment.h"
+#include "motion/move.h"
+#include "motion/synchronous.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+/// Triggers at equal distances along an axis (7.4.12).
+struct LineScan {
+  bool set = false;
+  std::uint8_t type = 0;
+  std::int32_t pitch = 0;
+  bool running = false;
+  std::int64_t begin = 0;      // travel at which it began
+  std::int64_t triggered = 0;  // trigger positions passed
+  // The settings of SET_OUT for its pin.
+  std::uint8_t level_before = 0;
+  std::uint8_t width_before = 0;
+
+  bool operator==(const LineScan&) const = default;
+};
+
+struct ChipState {
+  std::array<motion::Axis, kAxes> motors{};
+  std::array<motion::Environment, kAxes> environment{};
+  std::array<AxisUnit, kAxes> units{};
+  motion::SyncTable sync{};
+  Paths paths{};
+  std::array<LineScan, kAxes> scans{};
+  AxisMask scanning = 0;         // axes of LINE_SCAN_START
+  bool holds_back = false;       // a filter holds back the level of an input
+  bool emergency_input = false;  // true: EMG is active,
+  Tick emergency_since = 0;      // since this tick; false: not active since this tick
+
+  bool operator==(const ChipState&) const = default;
+};
+
+class Chip final : public Part {
+ public:
+  Chip(const Ground& ground, ChipState& state) : Part(ground), state_(state) {}
+
+  AxisUnit& unit(std::size_t axis) { return state_.units[axis]; }
+  const AxisUnit& unit(std::size_t axis) const { return state_.units[axis]; }
+  motion::Axis& motor(std::size_t axis) { return state_.motors[axis]; }
+  const motion::Axis& motor(std::size_t axis) const { return state_.motors[axis]; }
+  LineScan& scan(std::size_t axis) { return state_.scans[axis]; }
+  const LineScan& scan(std::size_t axis) const { return state_.scans[axis]; }
+  const motion::Environment& environment(std::size_t axis) const { return state_.environment[axis]; }
+  ChipState& state() { return state_; }
+  const ChipState& state() const { return state_; }
+  Paths& paths() { return state_.paths; }
+  const Paths& paths() const { return state_.paths; }
+  motion::SyncTable& sync() { return state_.sync; }
+  const motion::SyncTable& sync() const { return state_.sync; }
+
+  Activity activity(std::size_t axis) const;
+  bool is_driving(std::size_t axis) const { return activity(axis) != Activity::idle; }
+  AxisMask driving() const;
+  /// Returns the signed speed of an axis.
+  double speed_pps(std::size_t axis) const;
+  /// Returns the law of a drive of single axes.
+  motion::SpeedLaw law_of(std::size_t axis) const;
+  bool is_active(std::size_t axis, motion::Signal signal) const;
+  /// Returns ERROR_CODE as it is read.
+  std::uint16_t error_code(std::size_t axis) const;
+
+  // --- pins (pins.cpp) -------------------------------------------------------------------------
+  void pass_pins(Tick tick);
+  /// Returns true if the filter of a pin delays it.
+  bool is_filtered(std::size_t axis, Pin pin) const;
+  /// Returns true while a filter holds back the level of an input.
+  bool is_filtering(std::size_t axis) const;
+  bool holds_back() const { return state_.holds_back; }
+  /// Lets all levels pass, as at power-up.
+  void pass_all_pins();
+  /// Updates what the motor meets. Call it after inputs or their settings have changed.
+  void update_environment(std::size_t axis);
+  /// Updates what the motor watches and meets. Call it after a setting or a counter has changed.
+  void rearm(std::size_t axis);
+  void rearm_all();
+  /// Takes the places at which a machine's inputs change.
+  void set_edges(std::size_t axis, const MachineEdges& edges);
+
+  // --- the bench's encoder ----------------------------------------------------------------------
+  void connect_encoder(std::size_t axis, std::int64_t counts);
+  void set_encoder(std::size_t axis, std::int64_t counts);
+
+  /// Gives pulses at OUT_X or OUT_Y; other axes have no output (7.3.9).
+  void give_pulse(std::size_t axis, Tick tick, std::int64_t pulses = 1);
+
+  // --- power and RESET_CARD ----------------------------------------------------------------------
+  /// Resets everything but places, pins and the bench's encoder, with these settings of section 3.
+  void blank(const std::array<BasicSettings, kAxes>& basic);
+  void keep_counters_of(const ChipState& before);
+  void keep_settings_of(const ChipState& before);
+
+ private:
+  void blank_axis(std::size_t axis, const BasicSettings& basic);
+
+  ChipState& state_;
+  std::array<MachineEdges, kAxes> edges_{};  // not state: set again after a restore
+};
+
+}  // namespace understudy::emulator::models::rs_m8194h

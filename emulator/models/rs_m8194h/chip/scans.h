@@ -1,0 +1,41 @@
+// RS-M8194H: LINE_SCAN, triggers at equal distances along an axis (7.4.12).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/simulated_time.h"
+#include "emulator/models/rs_m8194h/chip/chip.h"
+#include "emulator/models/rs_m8194h/chip/interrupts.h"
+#include "emulator/models/rs_m8194h/rows/axis_settings.h"
+#include "emulator/models/rs_m8194h/rows/ground.h"
+#include "motion/move.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+class Scans final : public Part {
+ public:
+  Scans(const Ground& ground, Chip& chip, Interrupts& interrupts)
+      : Part(ground), chip_(chip), interrupts_(interrupts) {}
+
+  /// Begins the scans of LINE_SCAN_START; the flag of finished scans is off until all of them stand.
+  void open(AxisMask axes);
+  /// Returns true if, by choice, a scan at this speed is void.
+  bool is_too_fast(std::size_t axis, const motion::SpeedLaw& law) const;
+  /// Begins the scan of an axis that has set out for `distance_pulses`.
+  void begin(std::size_t axis, std::int64_t distance_pulses);
+  /// Gives the triggers of a tick, and ends the scans of axes that stand.
+  void step(Tick tick);
+  /// Returns what the counter that LINE_SCAN's Type names has counted: a ring wraps in it, and it may be set.
+  std::int64_t travel(std::size_t axis) const;
+  bool is_open() const { return chip_.state().scanning != 0; }
+
+ private:
+  std::int64_t spacing(const LineScan& scan) const;
+  void end(std::size_t axis);
+
+  Chip& chip_;
+  Interrupts& interrupts_;
+};
+
+}  // namespace understudy::emulator::models::rs_m8194h

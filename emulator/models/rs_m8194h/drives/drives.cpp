@@ -1,0 +1,215 @@
+#include "emulator/models/rs_m8194h/drives/drives.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+
+#include "base/simulated_time.h"
+#include "emulator/models/rs_m8194h/chip/axis_unit.h"
+#include "emulator/models/rs_m8194h/drives/transitions.h"
+#include "emulator/models/rs_m8194h/rows/axis_settings.h"
+#include "emulator/models/rs_m8194h/rows/options.h"
+#include "motion/axis.h"
+#include "motion/homing.h"
+#include "motion/homing_tables.h"
+#include "motion/move.h"
+#include "motion/pulse_drive.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+int way_of_step(std::uint8_t step) { return step == 1 ? +1 : step == 2 ? -1 : 0; }
+
+/// What the manual leaves open about homing.
+struct HomingOptions {
+  bool fails_at_limit_in_step_1 = false;
+  bool limit_is_near_home = false;
+  bool turns_at_soft_limits = false;
+};
+
+motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules, const HomingOptions& options) {
+  motion::Rsm8194hHoming how;
+  for (std::size_t i = 0; i < how.ways.size(); ++i) how.ways[i] = way_of_step(unit.homing.steps[i]);
+  how.drive = law_of(unit, rules);
+  how.home = law_at(unit, unit.homing.home_pps, rules);
+  how.offset_pulses = unit.homing.offset_pulses;
+  how.limit_is_home = unit.homing.limit_is_home;
+  how.limit_is_near_home = unit.homing.limit_is_home && options.limit_is_near_home;
+  how.soft_limits_lead_on = options.turns_at_soft_limits;
+  motion::HomingProgram program = motion::rsm8194h_homing(how);
+  const bool has_step_1 = how.ways[0] != 0;
+  if (has_step_1 && options.fails_at_limit_in_step_1) program.phases[0].if_limit = motion::HomingPhase::kFail;
+  return program;
+}
+
+}  // namespace
+
+Took Drives::drive(AxisMask axes, const Drive& what) {
+  AxisMask taken = 0;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    const bool may = has(axes, a) && may_start(a, Starter::command) == Start::waits;
+    if (may && takes_place_of_endless(a, what)) taken |= mask_of(a);
+  }
+  axes &= static_cast<AxisMask>(~taken);
+  // Then one that moves takes it along, and starts with it when it stands.
+  const bool is_each_its_own = chose(option("mask_drive", "axis_by_axis")) && (axes & (axes - 1)) != 0;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (!has(axes, a)) continue;
+    const Start mine = may_start(a, Starter::command);
+    const bool takes_it_along =
+        mine == Start::waits && is_each_its_own && chip_.unit(a).held_drive.what == Drive::What::none;
+    if (takes_it_along) continue;
+    if (mine == Start::waits || (mine == Start::is_held && waits_behind_held(mask_of(a)))) return Took::waits;
+  }
+  if (chose(option("mask_drive", "is_void_if_one_is"))) {
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      if (!has(axes, a) || may_start(a, Starter::command) != Start::is_void) continue;
+      note_obstacles(axes);
+      return Took::done;
+    }
+  }
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (!has(axes, a)) continue;
+    switch (may_start(a, Starter::command)) {
+      case Start::starts: start(a, what); break;
+      case Start::is_void: note_obstacles(mask_of(a)); break;
+      case Start::is_held:
+        // The later one replaces what was held of this axis, or comes too late.
+        if (keeps_first_held(mask_of(a))) break;
+        chip_.unit(a).held_drive = what;
+        if (has(streams_.axes_of_held(), a)) streams_.drop_held();
+        break;
+      case Start::waits: chip_.unit(a).held_drive = what; break;  // takes it along
+    }
+  }
+  return Took::done;
+}
+
+/// By choice, CONTINUE_MOVE goes on at another speed, or, the other way, behind a stop. Whether it does.
+bool Drives::takes_place_of_endless(std::size_t axis, const Drive& what) {
+  motion::Axis& motor = chip_.motor(axis);
+  const bool is_again = what.what == Drive::What::endless && chip_.activity(axis) == Activity::single &&
+                        motor.task == motion::Task::endless;
+  if (!is_again || !chose(option("continue_move_again", "takes_its_place"))) return false;
+  const bool is_same_direction =
+      !motor.slowing && what.value != 0 && (what.value < 0) == (motor.drive.direction < 0);
+  if (is_same_direction) {
+    AxisUnit& unit = chip_.unit(axis);
+    const auto drive_pps = static_cast<std::uint32_t>(std::abs(std::int64_t{what.value}));
+    if (chose(option("continue_move_speed", "yes"))) unit.speed.drive_pps = drive_pps;
+    motor.change_speed(law_at(unit, drive_pps, machine_.speed), now());
+  } else {
+    motor.slow_down(now());
+    chip_.unit(axis).held_drive = what;
+  }
+  return true;
+}
+
+void Drives::start(std::size_t axis, const Drive& what, bool without_ramps) {
+  AxisUnit& unit = chip_.unit(axis);
+  motion::Axis& motor = chip_.motor(axis);
+  streams_.on_single_drive(axis);
+  take_off(axis, WayOut::other_drive);
+  unit.began_pulses = motor.travel_pulses;
+  // What a command finds at its pins is what they are now.
+  motor.signals = chip_.environment(axis).at(motor.travel_pulses, motor.signals);
+  std::int64_t distance = what.value;
+  if (what.what == Drive::What::absolute) distance -= absolute_count(unit, motor);
+  if (what.what != Drive::What::home && distance == 0) return;
+  if (lacks_speed(axis, what.what)) return;
+  motion::SpeedLaw law = chip_.law_of(axis);
+  if (what.what == Drive::What::endless) {
+    const auto drive_pps = static_cast<std::uint32_t>(std::abs(distance));
+    law = law_at(unit, drive_pps, machine_.speed);
+    if (chose(option("continue_move_speed", "yes"))) unit.speed.drive_pps = drive_pps;
+  }
+  if (without_ramps) law.start_speed_u_s = law.top_speed_u_s;
+  if (what.what == Drive::What::scan && scans_.is_too_fast(axis, law)) return;
+  const int direction = distance < 0 ? -1 : +1;
+  motion::Cause refused = motion::Cause::none;
+  if (what.what == Drive::What::home) {
+    const HomingOptions options{.fails_at_limit_in_step_1 = chose(option("home_step_1_limit", "fails")),
+                                .limit_is_near_home = chose(option("home_limit", "home_and_near_home")),
+                                .turns_at_soft_limits = chose(option("home_soft_limit", "turns_round"))};
+    refused = motor.home(homing_of(unit, machine_.speed, options), now());
+  } else if (what.what == Drive::What::endless) {
+    refused = motor.run(direction, law, now());
+  } else {
+    refused = motor.move(distance, law, now());
+  }
+  if (refused != motion::Cause::none) {
+    // Homing that cannot begin has found its index on already.
+    unit.error_code |= refused == motion::Cause::homing_failed ? bit_of(ErrorBit::home) : error_of(refused);
+    return;
+  }
+  forget_errors(axis);
+  if (motor.homing.active() && !machine_.axis.homing_obeys_soft_limits) chip_.rearm(axis);
+  if (what.what == Drive::What::scan) scans_.begin(axis, distance);
+}
+
+void Drives::start_held() {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    AxisUnit& unit = chip_.unit(a);
+    if (unit.held_drive.what == Drive::What::none || unit.held) continue;
+    const Start outcome = may_start(a, Starter::command);
+    if (outcome == Start::waits) continue;
+    const Drive what = std::exchange(unit.held_drive, Drive{});
+    if (outcome == Start::starts) {
+      start(a, what);
+    } else {
+      note_obstacles(mask_of(a));
+    }
+  }
+}
+
+void Drives::change_speed(std::size_t axis, motion::Instant at) {
+  const AxisUnit& unit = chip_.unit(axis);
+  const bool keeps_its_own =
+      kNormalShapes[unit.speed.mode].s_curve && chose(option("speed_change_in_s", "the_next_drive"));
+  if (chip_.activity(axis) != Activity::single || keeps_its_own) return;
+  motion::Axis& motor = chip_.motor(axis);
+  // The ramps are those of the drive.
+  motion::SpeedLaw law = motor.law;
+  const double wanted = chip_.law_of(axis).top_speed_u_s;
+  law.start_speed_u_s = std::min(law.start_speed_u_s, wanted);
+  law.top_speed_u_s = wanted;
+  motor.change_speed(law, at);
+  if (chip_.unit(axis).external_free_ns != 0) {
+    const double left_s = motor.drive.profile.duration_s - motor.drive.elapsed_s(at);
+    const auto at_ns = time_of(at.tick).count() + static_cast<std::int64_t>(at.after_s * 1e9);
+    chip_.unit(axis).external_free_ns = after(at_ns, left_s);
+  }
+}
+
+void Drives::take_off(std::size_t axis, WayOut way) {
+  AxisUnit& unit = chip_.unit(axis);
+  if (takes_off(way, Mark::paused_drive)) unit.paused_drive = {};
+  if (takes_off(way, Mark::external_drive)) {
+    unit.external.running = 0;
+    unit.external_waiting = unit.external_free_ns = 0;
+  }
+  if (!takes_off(way, Mark::trigger_hold)) return;
+  for (AxisMask& held : state_.trigger_holds) held &= static_cast<AxisMask>(~mask_of(axis));
+}
+
+void Drives::forget_errors(std::size_t axis) {
+  if (chose(option("error_bits_end", "nothing"))) return;
+  chip_.unit(axis).error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
+}
+
+void Drives::check_paused(std::size_t axis) {
+  AxisUnit& unit = chip_.unit(axis);
+  const motion::Axis& motor = chip_.motor(axis);
+  const bool is_endless = unit.paused_drive.what == Drive::What::endless;
+  const std::int64_t rest =
+      is_endless ? unit.paused_drive.value : unit.paused_to_pulses - motor.travel_pulses;
+  const motion::Cause why = rest == 0 ? motor.forbidden_anywhere() : motor.forbidden(rest < 0 ? -1 : +1);
+  if (why == motion::Cause::none) return;
+  unit.error_code |= error_of(why);
+  take_off(axis, WayOut::cause);
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,40 @@
+// RS-M8194H: drives by the inputs EXP+ and EXP- (7.1.12): edges within a tick, and what they start.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/simulated_time.h"
+#include "emulator/models/rs_m8194h/chip/chip.h"
+#include "emulator/models/rs_m8194h/drives/drives.h"
+#include "emulator/models/rs_m8194h/rows/ground.h"
+#include "motion/external_drive.h"
+#include "motion/move.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+class External final : public Part {
+ public:
+  External(const Ground& ground, Chip& chip, Drives& drives) : Part(ground), chip_(chip), drives_(drives) {}
+
+  /// Handles the edges of a tick.
+  void watch(std::size_t axis, Tick tick);
+  /// Starts what has waited for the tick in which the pulses before it were over.
+  void start_waiting();
+  /// Sets EXD_MP, EXD_FP or EXD_CP with their data, or turns them off.
+  void set(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data);
+  /// Takes the levels that the inputs have at power-up: they are no edges.
+  void take_levels(std::size_t axis);
+
+ private:
+  std::uint32_t edges_of(std::size_t axis, std::size_t which);
+  bool is_free(std::size_t axis, std::int64_t at_ns) const;
+  void obey(std::size_t axis, const motion::DriveOrder& order, std::int64_t at_ns);
+  motion::SpeedLaw law_of(std::size_t axis) const;
+  bool start(std::size_t axis, const motion::DriveOrder& order);
+
+  Chip& chip_;
+  Drives& drives_;
+};
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,51 @@
+// RS-M8194H: what the module says of itself: how it was booted, and what it has just finished (4.16.2).
+#pragma once
+
+#include <cstdint>
+
+#include "base/simulated_time.h"
+#include "emulator/models/rs_m8194h/rows/ground.h"
+#include "emulator/models/rs_m8194h/rows/options.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+/// States of the module that pass within a tick (4.16.2).
+inline constexpr std::uint8_t kInitialised = 2;
+inline constexpr std::uint8_t kDownloaded = 4;
+inline constexpr std::uint8_t kMpFinished = 6;
+inline constexpr std::uint8_t kIsrFinished = 8;
+
+struct StatusState {
+  bool at_init = false;       // the switch, as found at power-up
+  std::uint8_t finished = 0;  // the last state that has passed within a tick,
+  Tick finished_at = 0;       // and its tick
+  Tick resetting_until = 0;   // end of RESET_CARD
+
+  bool operator==(const StatusState&) const = default;
+};
+
+class Status final : public Part {
+ public:
+  Status(const Ground& ground, StatusState& state) : Part(ground), state_(state) {}
+
+  StatusState& state() { return state_; }
+  const StatusState& state() const { return state_; }
+  /// Returns true if it was booted with the switch at Init.
+  bool is_deaf() const { return state_.at_init && !chose(option("init_switch", "runs_all_the_same")); }
+  bool is_resetting() const { return state_.resetting_until > now(); }
+  /// Records a state of input 101 that has passed within the tick.
+  void pass(std::uint8_t finished) {
+    if (!machine_.finished_states_show) return;
+    state_.finished = finished;
+    state_.finished_at = now();
+  }
+  /// Returns true while the state of input 101 changes by itself.
+  bool changes() const {
+    return is_resetting() || (machine_.finished_states_show && state_.finished_at + 1 >= now());
+  }
+
+ private:
+  StatusState& state_;
+};
+
+}  // namespace understudy::emulator::models::rs_m8194h

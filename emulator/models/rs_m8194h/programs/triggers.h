@@ -1,0 +1,68 @@
+// RS-M8194H: triggers: FRnet inputs that start macros and events without a host (10, 5.4).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "emulator/models/rs_m8194h/drives/drives.h"
+#include "emulator/models/rs_m8194h/drives/stops.h"
+#include "emulator/models/rs_m8194h/programs/command_queue.h"
+#include "emulator/models/rs_m8194h/programs/frnet.h"
+#include "emulator/models/rs_m8194h/programs/memory.h"
+#include "emulator/models/rs_m8194h/programs/programs.h"
+#include "emulator/models/rs_m8194h/programs/status.h"
+#include "emulator/models/rs_m8194h/rows/axis_settings.h"
+#include "emulator/models/rs_m8194h/rows/ground.h"
+#include "interpreter/rs_m8194h/triggers.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+struct TriggerState {
+  std::vector<std::uint8_t> queued_triggers{};  // channels whose MP waits for its turn
+
+  bool operator==(const TriggerState&) const = default;
+};
+
+class Triggers final : public Part {
+ public:
+  struct Known {
+    const Memory& memory;
+    const Status& status;
+    const Frnet& frnet;
+    Drives& drives;
+    Stops& stops;
+    Programs& programs;
+    CommandQueue& queue;
+  };
+  Triggers(const Ground& ground, TriggerState& state, const Known& known)
+      : Part(ground), state_(state), known_(known) {}
+
+  void reset() { state_ = {}; }
+  /// Handles the scan of inputs that were `before`. At the start levels that are there already count, though
+  /// nothing has changed.
+  void check(const FrnetWords& before);
+  void check_at_start();
+  /// Handles a write to holding 9.
+  void enable(bool on);
+  /// Forgets that the level of a channel holds an axis, because the channel has another trigger now.
+  void replaced(int channel);
+  /// Starts the MP of the first channel that waits, if it may start now.
+  void start_queued();
+  bool is_empty() const { return state_.queued_triggers.empty(); }
+
+ private:
+  void check(const FrnetWords& before, bool at_start);
+  void on_level_end(int channel, const lang::Trigger& trigger);
+  void fire(int channel, const lang::Trigger& trigger);
+  void call_mp(int channel);
+  void hold(int channel, const lang::Trigger& trigger);
+  void abort_command();
+  void pause(int channel);
+  void repeat_levels();
+  bool may_start() const;
+
+  TriggerState& state_;
+  Known known_;
+};
+
+}  // namespace understudy::emulator::models::rs_m8194h

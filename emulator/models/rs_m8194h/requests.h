@@ -1,0 +1,41 @@
+// RS-M8194H: requests before and after the module has them: what is admitted, writes to the tables that
+// become lines of a macro or are one message by choice, and what of an exception is kept.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/device/register_map/refusal.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/models/rs_m8194h/module.h"
+#include "emulator/models/rs_m8194h/rows/ground.h"
+#include "emulator/models/rs_m8194h/state.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+class Requests final : public Part {
+ public:
+  Requests(const Ground& ground, RequestState& state, Module& module)
+      : Part(ground), state_(state), module_(module) {}
+
+  /// `bank` knows which addresses have a register.
+  DeviceAnswer admits(const RegisterRequest& request, Checked checked, const RegisterBank& bank) const;
+  bool diverts(const Place& place, std::uint32_t bits);
+  void read_answered(const RegisterRequest& request);
+  void exception_answered(const RefusedRequest& request);
+
+  // --- writes that are one message by choice (whole_writes.cpp) -----------------------------------
+  bool takes_whole(const RegisterRequest& request) const;
+  DeviceAnswer take_whole(const RegisterRequest& request);
+
+ private:
+  DeviceAnswer admits_lines(const RegisterRequest& request) const;
+  DeviceAnswer admits_whole(const RegisterRequest& request, Checked checked) const;
+  void write_group(std::size_t group, std::uint32_t number);
+
+  RequestState& state_;
+  Module& module_;
+};
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,30 @@
+// RS-M8194H: what its manual leaves open, and what we chose. docs/fidelity/rs-m8194h.md is generated from
+// these rows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "emulator/device/choices.h"
+#include "emulator/models/rs_m8194h/rows/choices_of_axes.h"
+#include "emulator/models/rs_m8194h/rows/choices_of_events.h"
+#include "emulator/models/rs_m8194h/rows/choices_of_macros.h"
+#include "emulator/models/rs_m8194h/rows/choices_of_paths.h"
+#include "emulator/models/rs_m8194h/rows/choices_of_requests.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+inline constexpr auto kChoices = [] {
+  std::array<ChoiceRow, std::size(kMacroChoices) + std::size(kRequestChoices) + std::size(kAxisChoices) +
+                            std::size(kPathChoices) + std::size(kEventChoices)>
+      all{};
+  std::size_t next = 0;
+  for (const ChoiceRow& row : kMacroChoices) all[next++] = row;
+  for (const ChoiceRow& row : kRequestChoices) all[next++] = row;
+  for (const ChoiceRow& row : kAxisChoices) all[next++] = row;
+  for (const ChoiceRow& row : kPathChoices) all[next++] = row;
+  for (const ChoiceRow& row : kEventChoices) all[next++] = row;
+  return all;
+}();
+
+}  // namespace understudy::emulator::models::rs_m8194h

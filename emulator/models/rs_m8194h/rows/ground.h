@@ -1,0 +1,53 @@
+// RS-M8194H: what every part may ask. Parts (module.h) know each other only downwards; this is below all of
+// them.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "base/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/models/rs_m8194h/rows/options.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+/// The device that the parts are in, and its choices as options.
+struct Ground {
+  explicit Ground(const Device& whole)
+      : device(whole),
+        language(language_options(whole.settings())),
+        machine(machine_options(whole.settings())) {}
+
+  const Device& device;
+  const LanguageOptions language;
+  const MachineOptions machine;
+};
+
+/// The base of a part: choices, the clock and the terminals, by short names.
+class Part {
+ public:
+  bool chose(const Option& option) const { return ground_.device.chose(option); }
+  const LanguageOptions& language_options() const { return options_; }
+  const MachineOptions& machine_options() const { return machine_; }
+  Firmware firmware() const { return ground_.device.firmware(); }
+  /// Returns the last completed tick.
+  Tick now() const { return ground_.device.now(); }
+  std::int32_t input(int terminal) const { return ground_.device.input(terminal); }
+
+ protected:
+  explicit Part(const Ground& ground)
+      : options_(ground.language), machine_(ground.machine), ground_(ground) {}
+  ~Part() = default;
+
+  void warn_not_implemented(std::string_view what, std::string_view why) const {
+    ground_.device.warn_not_implemented(what, why);
+  }
+
+  const LanguageOptions& options_;
+  const MachineOptions& machine_;
+
+ private:
+  const Ground& ground_;
+};
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,348 @@
+// RS-M8194H: the four tables of registers, in the order of the manual's chapter 12, with the registers that
+// the chapter leaves out (inputs 87, 92 to 96, bVAR, MD, U's signals). Addresses are those on the wire, from
+// 0.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/rs_m8194h/rows/views.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+inline constexpr std::string_view kAxisNames[] = {"X", "Y", "Z", "U"};
+inline constexpr std::string_view kFirstThreeAxes[] = {"X", "Y", "Z"};
+inline constexpr std::string_view kLastAxis[] = {"U"};
+
+inline constexpr Type u16 = Type::u16;
+inline constexpr Type u32 = Type::u32;
+inline constexpr Type s32 = Type::s32;
+inline constexpr Type f32 = Type::f32;
+inline constexpr Access R = Access::read;
+inline constexpr Access W = Access::write;
+inline constexpr Access RW = Access::read_write;
+
+inline constexpr Value kMaxPosition = 2'000'000'000;
+inline constexpr int kWindowWords = 101;
+inline constexpr std::uint16_t kWindow = 8000;
+
+/// Names the section of its rows.
+template <std::size_t N>
+consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
+  std::array<RegisterRow, N> named{};
+  for (std::size_t i = 0; i < N; ++i) {
+    named[i] = rows[i];
+    named[i].section = name;
+  }
+  return named;
+}
+
+template <std::size_t... N>
+consteval auto join(const std::array<RegisterRow, N>&... sections) {
+  std::array<RegisterRow, (N + ...)> all{};
+  std::size_t next = 0;
+  const auto add = [&](const auto& rows) {
+    for (const RegisterRow& row : rows) all[next++] = row;
+  };
+  (add(sections), ...);
+  return all;
+}
+
+inline constexpr BitField kDiAllBits[] = {
+    bits(0, "DRIVING"), bits(1, "LIMIT+"), bits(2, "LIMIT-"), bits(3, "EMERGENCY"), bits(4, "ALARM"),
+    bits(5, "HOME"),    bits(6, "NHOME"),  bits(7, "IN3"),    bits(8, "INPOS"),     bits(9, "INDEX")};
+inline constexpr BitField kErrorBits[] = {
+    bits(0, "SOFT_LIMIT+"), bits(1, "SOFT_LIMIT-"), bits(2, "LIMIT+"),
+    bits(3, "LIMIT-"),      bits(4, "ALARM"),       bits(5, "EMERGENCY"),
+    bits(7, "HOME"),        bits(8, "SOFT_STOP"),   bits(9, "SOFT_EMG")};
+inline constexpr BitField kDiSignalBits[] = {bits(0, "NHOME"), bits(1, "HOME"), bits(2, "INDEX"),
+                                             bits(3, "IN3"),   bits(4, "EXP+"), bits(5, "EXP-"),
+                                             bits(6, "INP"),   bits(7, "ALARM")};
+inline constexpr BitField kAxisMaskBits[] = {bits(0, "X"), bits(1, "Y"), bits(2, "Z"), bits(3, "U")};
+
+constexpr RegisterRow with_names(RegisterRow row, std::span<const BitField> names) {
+  row.fields = names;
+  return row;
+}
+
+// clang-format off
+inline constexpr auto kInputRows1 = section("12.1.1", {
+    input(0,   "FRnet DO group {}", u16).times(8, 1, 0).shows<do_word, Varies::in_ticks>(),
+    input(8,   "FRnet DI group {}", u16).times(8, 1, 8).shows<di_word, Varies::in_ticks>(),
+});
+inline constexpr auto kInputRows2 = section("12.1.2", {
+    with_names(input(16, "DI_ALL {}", u16).also("DI_ALL_{}").each(kAxisNames, 1).shows<di_all, Varies::in_ticks>(), kDiAllBits),
+});
+inline constexpr auto kInputRows3 = section("12.1.3", {
+    with_names(input(20, "ERROR_CODE {}", u16).also("ERROR_CODE_{}").each(kAxisNames, 1).shows<error_code, Varies::in_ticks>(), kErrorBits),
+    input(24,  "MP Call number", u16).also("MP_Call_number").shows<running_mp, Varies::in_ticks>(),
+    input(25,  "EMERGENCY_STOP state", u16).also("EMERGENCY_STOP").shows<emergency_state, Varies::in_ticks>(),
+});
+inline constexpr auto kInputRows4 = section("12.1.4", {
+    input(26,  "Logic Position {}", s32).each(kAxisNames, 2).in("pulse").shows<logic_position, Varies::while_moving>(),
+    input(34,  "Encoder Position {}", s32).each(kAxisNames, 2).in("pulse").shows<encoder_position, Varies::while_moving>(),
+    input(42,  "Current velocity {}", s32).each(kAxisNames, 2).in("PPS").shows<current_velocity, Varies::while_moving>(),
+    input(50,  "Current acceleration {}", s32).each(kAxisNames, 2).in("PPS/s").shows<current_acceleration, Varies::while_moving>(),
+});
+inline constexpr auto kInputRows5 = section("12.1.5", {
+    input(58,  "Stop Status {}", u16).also("STOP_{}").each(kAxisNames, 1).shows<stop_status, Varies::in_ticks>(),
+});
+inline constexpr auto kInputRows6 = section("12.1.6", {
+    input(62,  "Latch {}", s32).also("LATCH_{}").each(kAxisNames, 2).in("pulse").shows<latch, Varies::in_ticks>(),
+});
+inline constexpr auto kInputRows7 = section("12.1.7", {
+    input(70,  "ERROR_STATE", u16).shows<error_state, Varies::in_ticks>(),
+    input(71,  "FREE_BUFFER_SIZE", u16).shows<free_blocks, Varies::in_ticks>(),
+});
+inline constexpr auto kInputRows8 = section("12.1.8", {
+    input(72,  "RINT_STATE_ALL", u16).shows<rint_word, Varies::in_ticks>(),
+    input(73,  "Line_Scan_Completed", u16).shows<rint_bit, Varies::in_ticks>(0),
+    input(74,  "MP_Completed", u16).shows<rint_bit, Varies::in_ticks>(1),
+    input(75,  "User-Defined_RINT", u16).shows<rint_bit, Varies::in_ticks>(2),
+    input(76,  "Continuous_Inp_Interrupt", u16).shows<rint_bit, Varies::in_ticks>(3),
+    input(79,  "Axes_Error", u16).shows<rint_bit, Varies::in_ticks>(6),
+    input(80,  "Module_Error", u16).shows<rint_bit, Varies::in_ticks>(7),
+});
+inline constexpr auto kInputRows9 = section("12.1.9", {
+    input(81,  "i-8094H Module ID", u16).also("MODULE_ID").shows<module_id, Varies::in_ticks>(),
+    input(82,  "RS-M8194H Firmware Version", u32).also("RSM_FIRMWARE").shows<rsm_firmware, Varies::in_ticks>(),
+    input(84,  "i-8094H Firmware Version", u32).also("I8094H_FIRMWARE").shows<module_firmware, Varies::in_ticks>(),
+});
+inline constexpr auto kInputRows10 = section("4.14", {
+    input(87,  "InterpolationRdyFlag", u16).shows<interpolation_ready, Varies::in_ticks>(),
+});
+inline constexpr auto kInputRows11 = section("12.1.10", {
+    with_names(input(88, "DI_SIGNAL {}", u16).also("DI_SIGNAL_{}").each(kAxisNames, 1).shows<di_signal, Varies::in_ticks>(), kDiSignalBits),
+});
+inline constexpr auto kInputRows12 = section("4.8", {
+    input(92,  "HOME_STATE {}", u16).also("HOME_STATE_{}").each(kAxisNames, 1).shows<home_state, Varies::in_ticks>(),
+});
+inline constexpr auto kInputRows13 = section("4.13", {
+    with_names(input(96, "DRIVING_AXIS", u16).shows<driving_axes, Varies::in_ticks>(), kAxisMaskBits),
+});
+inline constexpr auto kInputRows14 = section("12.1.12", {
+    input(100, "RS-M8194H state", u16).also("RSM_STATE").shows<rsm_state, Varies::in_ticks>(),
+    input(101, "i-8094H state", u16).also("I8094H_STATE").shows<module_state, Varies::in_ticks>(),
+    input(102, "Illegal Modbus function", u16).also("IllegalFuncErr").shows<illegal_reason, Varies::in_ticks>(),
+});
+inline constexpr auto kInputRows15 = section("12.1.13", {
+    input(110, "Download: MP number", u16).also("DOWNLOAD_MP").shows<download_field, Varies::in_ticks>(0),
+    input(111, "Download: ISR number", u16).also("DOWNLOAD_ISR").shows<download_field, Varies::in_ticks>(1),
+    input(112, "Download: command type", u16).also("DOWNLOAD_CMD").shows<download_field, Varies::in_ticks>(2),
+    input(113, "Download: line number", u16).also("DOWNLOAD_LINE").shows<download_field, Varies::in_ticks>(3),
+    input(114, "Download: error type", u16).also("DOWNLOAD_ERROR").shows<download_field, Varies::in_ticks>(4),
+});
+inline constexpr auto kInputRows16 = section("12.1.14", {
+    input(115, "Execution: MP number", u16).also("EXECUTION_MP").shows<execution_field, Varies::in_ticks>(0),
+    input(116, "Execution: ISR number", u16).also("EXECUTION_ISR").shows<execution_field, Varies::in_ticks>(1),
+    input(117, "Execution: command type", u16).also("EXECUTION_CMD").shows<execution_field, Varies::in_ticks>(2),
+    input(118, "Execution: line number", u16).also("EXECUTION_LINE").shows<execution_field, Varies::in_ticks>(3),
+    input(119, "Execution: error type", u16).also("EXECUTION_ERROR").shows<execution_field, Varies::in_ticks>(4),
+});
+inline constexpr auto kInputRows17 = section("12.1.15", {
+    with_names(input(130, "INT factor 0 PULSE", u16).also("INT_PULSE").shows<factor_axes, Varies::in_ticks>(0), kAxisMaskBits),
+    with_names(input(131, "INT factor 1 P>=C-", u16).also("INT_P_GE_C-").shows<factor_axes, Varies::in_ticks>(1), kAxisMaskBits),
+    with_names(input(132, "INT factor 2 P<C-", u16).also("INT_P_LT_C-").shows<factor_axes, Varies::in_ticks>(2), kAxisMaskBits),
+    with_names(input(133, "INT factor 3 P<C+", u16).also("INT_P_LT_C+").shows<factor_axes, Varies::in_ticks>(3), kAxisMaskBits),
+    with_names(input(134, "INT factor 4 P>=C+", u16).also("INT_P_GE_C+").shows<factor_axes, Varies::in_ticks>(4), kAxisMaskBits),
+    with_names(input(135, "INT factor 5 C-END", u16).also("INT_C-END").shows<factor_axes, Varies::in_ticks>(5), kAxisMaskBits),
+    with_names(input(136, "INT factor 6 C-STA", u16).also("INT_C-STA").shows<factor_axes, Varies::in_ticks>(6), kAxisMaskBits),
+    with_names(input(137, "INT factor 7 D-END", u16).also("INT_D-END").shows<factor_axes, Varies::in_ticks>(7), kAxisMaskBits),
+    with_names(input(138, "INT factor 8 HMEND", u16).also("INT_HMEND").shows<factor_axes, Varies::in_ticks>(8), kAxisMaskBits),
+    with_names(input(139, "INT factor 9 SYNC", u16).also("INT_SYNC").shows<factor_axes, Varies::in_ticks>(9), kAxisMaskBits),
+});
+inline constexpr auto kInputRows18 = section("12.1.11", {
+    input(160, "Absolute Logic Position {}", s32).each(kAxisNames, 2).in("pulse").shows<absolute_position, Varies::while_moving>(),
+});
+
+inline constexpr auto kHoldingRows1 = section("12.2.1", {
+    reg(0,    "FRnet DO group {}", u16, RW).times(8, 1, 0).shows<do_word, Varies::in_ticks>().does<write_do_word>(),
+});
+inline constexpr auto kHoldingRows2 = section("12.2.2", {
+    reg(8,    "CALL_MPn", u16, RW).also("CALL_MP").range(1, 157).reads<call_register, Varies::in_ticks>().does<call_mp>(),
+    reg(9,    "FRnet Event", u16, RW).also("FRNET_EVENT").range(0, 1).kept_at_once().does<enable_triggers>(),
+    reg(14,   "WORD Order", u16, RW).also("WORD_ORDER").range(0, 1),
+});
+inline constexpr auto kHoldingRows3 = section("12.2.3", {
+    reg(20,   "Lock_IP{}", u16, RW).times(4, 1, 0),
+    reg(24,   "UnLock_IP", u16, W),
+    reg(25,   "RS-M8194H_IP{}", u16, RW).times(2, 1, 0),
+    reg(27,   "RS-M8194H_Mask{}", u16, RW).times(2, 1, 0),
+    reg(29,   "RS-M8194H_Gateway{}", u16, RW).times(2, 1, 0),
+});
+inline constexpr auto kHoldingRows4 = section("12.2.4", {
+    reg(82,   "Absolute Position {}", s32, RW).also("ABS_{}").each(kAxisNames, 2).in("pulse").range(-kMaxPosition, kMaxPosition).shows<absolute_position, Varies::while_moving>().does<queue_absolute_position>(),
+    reg(90,   "Logic Position {}", s32, RW).also("LP_{}").each(kAxisNames, 2).in("pulse").range(-kMaxPosition, kMaxPosition).shows<logic_position, Varies::while_moving>().does<queue_logic_position>(),
+    reg(98,   "Encoder Position {}", s32, RW).also("EP_{}").each(kAxisNames, 2).in("pulse").range(-kMaxPosition, kMaxPosition).shows<encoder_position, Varies::while_moving>().does<queue_encoder_position>(),
+    reg(106,  "Current Velocity {}", s32, R).also("CV_{}").each(kAxisNames, 2).in("PPS").shows<current_velocity, Varies::while_moving>(),
+    reg(114,  "Current Acceleration {}", s32, R).also("CA_{}").each(kAxisNames, 2).in("PPS/s").shows<current_acceleration, Varies::while_moving>(),
+});
+inline constexpr auto kHoldingRows5 = section("3.18.1", {
+    reg(128,  "bVAR{}", u16, RW).times(128, 1, 0).holding_bits(0xFF),
+});
+inline constexpr auto kHoldingRows6 = section("12.2.5", {
+    reg(300,  "VAR{}", s32, RW).times(512, 2, 0),
+});
+inline constexpr auto kHoldingRows7 = section("3.19.1", {
+    reg(3000, "MD{}", s32, RW).times(1024, 2, 0).kept_at_once(),
+    reg(5048, "MD{}", f32, RW).times(1024, 2, 1024).kept_at_once(),
+});
+inline constexpr auto kHoldingRows8 = section("12.2.6", {
+    window<take_message>(kWindow, "Reg{}", kWindowWords).also("Sub_Function_Code"),
+});
+
+inline constexpr auto kCoilRows1 = section("12.4.1", {
+    coil(0,   "FRnet DO group 0 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(0).does<write_do_bit>(0),
+    coil(16,  "FRnet DO group 1 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(1).does<write_do_bit>(1),
+    coil(32,  "FRnet DO group 2 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(2).does<write_do_bit>(2),
+    coil(48,  "FRnet DO group 3 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(3).does<write_do_bit>(3),
+    coil(64,  "FRnet DO group 4 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(4).does<write_do_bit>(4),
+    coil(80,  "FRnet DO group 5 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(5).does<write_do_bit>(5),
+    coil(96,  "FRnet DO group 6 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(6).does<write_do_bit>(6),
+    coil(112, "FRnet DO group 7 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(7).does<write_do_bit>(7),
+});
+inline constexpr auto kCoilRows2 = section("12.4.2", {
+    coil(128, "Servo {}", R).each(kAxisNames, 1).shows<servo_is_on, Varies::in_ticks>(),
+});
+
+inline constexpr auto kDiscreteRows1 = section("12.5.1", {
+    discrete(0,   "FRnet DI group 8 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(8),
+    discrete(16,  "FRnet DI group 9 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(9),
+    discrete(32,  "FRnet DI group 10 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(10),
+    discrete(48,  "FRnet DI group 11 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(11),
+    discrete(64,  "FRnet DI group 12 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(12),
+    discrete(80,  "FRnet DI group 13 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(13),
+    discrete(96,  "FRnet DI group 14 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(14),
+    discrete(112, "FRnet DI group 15 channel {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(15),
+});
+inline constexpr auto kDiscreteRows2 = section("12.5.2", {
+    discrete(128, "{} DRIVING").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(0),
+    discrete(129, "{} LIMIT+").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(1),
+    discrete(130, "{} LIMIT-").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(2),
+    discrete(131, "{} EMERGENCY").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(3),
+    discrete(132, "{} ALARM").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(4),
+    discrete(133, "{} HOME (IN1)").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(5),
+    discrete(134, "{} NHOME (IN0)").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(6),
+    discrete(135, "{} IN3").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(7),
+    discrete(136, "{} INPOS").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(8),
+    discrete(137, "{} INDEX (IN2)").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(9),
+});
+// The manual prints LIMIT+, LIMIT-, ALARM and EMERGENCY twice: these are the bits of the error code. Bit 9 of
+// the error code is not in the printed table of discrete inputs.
+inline constexpr auto kDiscreteRows3 = section("12.5.3", {
+    discrete(192, "{} SOFT LIMIT+").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(0),
+    discrete(193, "{} SOFT LIMIT-").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(1),
+    discrete(194, "{} LIMIT+ error").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(2),
+    discrete(195, "{} LIMIT- error").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(3),
+    discrete(196, "{} ALARM error").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(4),
+    discrete(197, "{} EMERGENCY error").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(5),
+    discrete(198, "{} Reserved").each(kAxisNames, 16).always(0),
+    discrete(199, "{} HOME").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(7),
+    discrete(200, "{} Stop Command").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(8),
+    discrete(201, "{} SOFT EMG").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(9),
+});
+// U's bits are printed at 380, while the pattern of the other axes gives 280; they are at both places. The
+// argument tells the places apart: 8 and more are at 280, 16 and more at 380.
+inline constexpr auto kDiscreteRows4 = section("12.5.4", {
+    discrete(256, "{} Near Home (IN0)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(0),
+    discrete(257, "{} Home (IN1)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(1),
+    discrete(258, "{} Index (IN2)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(2),
+    discrete(259, "{} IN3 signal").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(3),
+    discrete(260, "{} MPG+ (EXP+)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(4),
+    discrete(261, "{} MPG- (EXP-)").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(5),
+    discrete(262, "{} InPos").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(6),
+    discrete(263, "{} Alarm").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(7),
+    discrete(280, "{} Near Home (IN0) at 280").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+0),
+    discrete(281, "{} Home (IN1) at 281").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+1),
+    discrete(282, "{} Index (IN2) at 282").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+2),
+    discrete(283, "{} IN3 signal at 283").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+3),
+    discrete(284, "{} MPG+ (EXP+) at 284").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+4),
+    discrete(285, "{} MPG- (EXP-) at 285").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+5),
+    discrete(286, "{} InPos at 286").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+6),
+    discrete(287, "{} Alarm at 287").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(8+7),
+    discrete(380, "{} Near Home (IN0)").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+0),
+    discrete(381, "{} Home (IN1)").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+1),
+    discrete(382, "{} Index (IN2)").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+2),
+    discrete(383, "{} IN3 signal").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+3),
+    discrete(384, "{} MPG+ (EXP+)").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+4),
+    discrete(385, "{} MPG- (EXP-)").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+5),
+    discrete(386, "{} InPos").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+6),
+    discrete(387, "{} Alarm").each(kLastAxis, 8, 3).shows<di_signal_bit, Varies::in_ticks>(16+7),
+});
+// clang-format on
+
+inline constexpr auto kRegisters =
+    join(kInputRows1, kInputRows2, kInputRows3, kInputRows4, kInputRows5, kInputRows6, kInputRows7,
+         kInputRows8, kInputRows9, kInputRows10, kInputRows11, kInputRows12, kInputRows13, kInputRows14,
+         kInputRows15, kInputRows16, kInputRows17, kInputRows18, kHoldingRows1, kHoldingRows2, kHoldingRows3,
+         kHoldingRows4, kHoldingRows5, kHoldingRows6, kHoldingRows7, kHoldingRows8, kCoilRows1, kCoilRows2,
+         kDiscreteRows1, kDiscreteRows2, kDiscreteRows3, kDiscreteRows4);
+
+/// Return the number of slots of the image, and the first slot of a row.
+consteval std::size_t slot_count() {
+  std::size_t count = 0;
+  for (const RegisterRow& row : kRegisters) count += row.is_view ? 0 : static_cast<std::size_t>(row.count);
+  return count;
+}
+inline constexpr std::size_t kSlotCount = slot_count();
+
+/// Returns the row of this name in the manual.
+consteval const RegisterRow& row_called(Table table, std::string_view name) {
+  for (const RegisterRow& row : kRegisters) {
+    if (row.table == table && row.name == name) return row;
+  }
+  throw "no row has this name";
+}
+
+consteval std::size_t slot(std::string_view holding_name) {
+  std::size_t next = 0;
+  for (const RegisterRow& row : kRegisters) {
+    if (row.is_view) continue;
+    if (&row == &row_called(Table::holding, holding_name)) return next;
+    next += static_cast<std::size_t>(row.count);
+  }
+  throw "no register is stored there";
+}
+
+/// Addresses in a row: those of one row, or of all from one row to another, with what lies between them.
+struct Addresses {
+  Table table;
+  std::size_t first;
+  std::size_t end;
+
+  constexpr bool has(Table of, std::size_t address) const {
+    return of == table && address >= first && address < end;
+  }
+};
+consteval Addresses addresses_of(Table table, std::string_view first, std::string_view last) {
+  const RegisterRow& row = row_called(table, last);
+  const int words = is_32_bit(row.type) ? 2 : 1;
+  return {.table = table,
+          .first = row_called(table, first).address,
+          .end = static_cast<std::size_t>(row.address + (row.count - 1) * row.stride + words)};
+}
+consteval Addresses addresses_of(Table table, std::string_view name) {
+  return addresses_of(table, name, name);
+}
+
+inline constexpr std::size_t kCallMpSlot = slot("CALL_MPn");
+inline constexpr std::size_t kEventSlot = slot("FRnet Event");
+inline constexpr std::size_t kWordOrderSlot = slot("WORD Order");
+inline constexpr std::size_t kFirstBvarSlot = slot("bVAR{}");
+inline constexpr std::size_t kFirstVarSlot = slot("VAR{}");
+inline constexpr std::size_t kFirstMdSlot = slot("MD{}");
+inline constexpr std::size_t kCallMpAddress = row_called(Table::holding, "CALL_MPn").address;
+inline constexpr Addresses kVarAddresses = addresses_of(Table::holding, "VAR{}");
+/// Writes that go through the FIFO, as the commands that they stand for.
+inline constexpr Addresses kCounterAddresses =
+    addresses_of(Table::holding, "Absolute Position {}", "Encoder Position {}");
+inline constexpr Addresses kFrnetWords = addresses_of(Table::holding, "FRnet DO group {}");
+inline constexpr Addresses kServoCoils = addresses_of(Table::coil, "Servo {}");
+
+inline constexpr int kVars = 512;
+inline constexpr int kBvars = 128;
+
+}  // namespace understudy::emulator::models::rs_m8194h
