@@ -12,6 +12,7 @@
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/marks.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -151,8 +152,8 @@ motion::AxisSettings Super40nc::motor_settings(int axis, bool homes) const {
   };
   motion::AxisSettings made = chip(axis).settings;
   made.needs_servo = false;
-  made.at_limit_plus = made.at_limit_minus = reaction(kept_x(1));
-  made.at_alarm = reaction(kept_x(3));
+  made.at_limit_plus = made.at_limit_minus = reaction(kept_x(d9x::kOtStop));
+  made.at_alarm = reaction(kept_x(d9x::kAlmStop));
   made.soft_limit_plus = made.soft_limit_minus = std::nullopt;
   if (homes && chose(option("home_soft_limits", "ignored"))) return made;
   const std::int64_t counter_lead = machine_pulses(axis) - chip(axis).travel_pulses;
@@ -163,8 +164,10 @@ motion::AxisSettings Super40nc::motor_settings(int axis, bool homes) const {
     std::optional<std::int64_t> motion::AxisSettings::*limit;
   };
   static constexpr Side kSides[] = {
-      {kept_x(31), kept_x(32), kept_x(33), kept_d(8144), &motion::AxisSettings::soft_limit_plus},
-      {kept_x(35), kept_x(36), kept_x(37), kept_d(8145), &motion::AxisSettings::soft_limit_minus}};
+      {kept_x(d9x::kCp1Source), kept_x(d9x::kCp1Method), kept_x(d9x::kCp1Action), kept_d(d8x::kRcmp1),
+       &motion::AxisSettings::soft_limit_plus},
+      {kept_x(d9x::kCp2Source), kept_x(d9x::kCp2Method), kept_x(d9x::kCp2Action), kept_d(d8x::kRcmp2),
+       &motion::AxisSettings::soft_limit_minus}};
   for (const Side& side : kSides) {
     const Value action = settings.of(side.action, axis);
     const bool is_limit = settings.of(side.method, axis) == kSoftLimit &&
@@ -188,19 +191,19 @@ void Super40nc::prepare(int axis_number, bool homes) {
   AxisState& state = axis(axis_number);
   motion::AxisSettings settings = motor_settings(axis_number, homes);
   constexpr Value kSlip = 2;
-  const Value correction = parameters.of(kept_x(57), axis_number);
-  settings.backlash_pulses = correction != 0 ? parameters.of(kept_x(56), axis_number) : 0;
+  const Value correction = parameters.of(kept_x(d9x::kCorrectMode), axis_number);
+  settings.backlash_pulses = correction != 0 ? parameters.of(kept_x(d9x::kBacklash), axis_number) : 0;
   settings.slips = correction == kSlip;
   const bool is_first = chip(axis_number).last_direction == 0;
   if (is_first && chose(option("backlash_first_move", "as_behind_a_positive_one"))) {
     chip(axis_number).last_direction = +1;
   }
   settings.waits_for_in_position = chose(option("inp_wait", "single_axes_wait"));
-  const auto creep_rpm = static_cast<double>(parameters.of(kept_x(80), axis_number));
+  const auto creep_rpm = static_cast<double>(parameters.of(kept_x(d9x::kCreepSpeed), axis_number));
   settings.backlash_speed_pps =
       std::min(parameters.pps(axis_number, creep_rpm), parameters.top_pps(axis_number));
   chip(axis_number).set(settings);
-  state.masked = parameters.is_on(kept_x(17), axis_number);
+  state.masked = parameters.is_on(kept_x(d9x::kPulseMask), axis_number);
   // Signals that have come in this tick count; the DOG's edge is left for the latch.
   motion::Axis& motor = chip(axis_number);
   const motion::Signals mark = motion::bit(motion::Signal::mark);
@@ -208,7 +211,8 @@ void Super40nc::prepare(int axis_number, bool homes) {
   motor.signals = static_cast<motion::Signals>((seen & ~mark) | (motor.signals & mark));
   // A host may have written the high half alone, as the manual's wrong example does: the low half counts.
   const bool is_whole = chose(option("motor_direction", "whole_value"));
-  const std::int32_t direction = parameters.raw(kept_x(0), axis_number) & (is_whole ? -1 : 0xFFFF);
+  const std::int32_t direction =
+      parameters.raw(kept_x(d9x::kPulseMode), axis_number) & (is_whole ? -1 : 0xFFFF);
   const bool inverted = direction == 3 || direction == 6;
   if (inverted != chip(axis_number).inverted) {
     chip(axis_number).inverted = inverted;
@@ -239,9 +243,10 @@ void Super40nc::begun(int axis_number, motion::Cause why_not, Activity holder) {
 
 motion::SpeedLaw Super40nc::jog_law(int axis) const {
   const Settings settings = registers();
-  const std::array<Kept, 3> speeds{kept_x(94), kept_x(95), kept_x(96)};
+  const std::array<Kept, 3> speeds{kept_x(d9x::kJogLow), kept_x(d9x::kJogMedium), kept_x(d9x::kJogHigh)};
   const bool is_medium = chose(option("jog_selector", "always_medium"));
-  const Kept chosen = is_medium ? speeds[1] : speeds[static_cast<std::size_t>(settings.of(kept_d(8022)))];
+  const Kept chosen =
+      is_medium ? speeds[1] : speeds[static_cast<std::size_t>(settings.of(kept_d(d8::kUserData2)))];
   return settings.law(axis, static_cast<double>(settings.of(chosen, axis)));
 }
 
@@ -363,7 +368,7 @@ void Super40nc::mirror_start(int axis_number, int mode, std::int64_t distance_pu
     return in_32_bits(std::clamp(std::round(step * kClock / (4 * ramp.acceleration_u_s2)) - 1, 1.0, 65535.0));
   };
   const double creep_pps =
-      settings.pps(axis_number, static_cast<double>(settings.of(kept_x(80), axis_number)));
+      settings.pps(axis_number, static_cast<double>(settings.of(kept_x(d9x::kCreepSpeed), axis_number)));
   struct Shown {
     int offset;  // from PRCMD
     std::int32_t value;
@@ -378,10 +383,10 @@ void Super40nc::mirror_start(int axis_number, int mode, std::int64_t distance_pu
                          {7, 0},
                          {8, mode},
                          {9, 0},
-                         {10, settings.raw(kept_x(68), axis_number)},
-                         {11, settings.raw(kept_x(69), axis_number)}};
-  static constexpr Kept kFirst = kept_d(8120);
-  static constexpr Kept kFirstWorking = kept_d(8151);  // RMV; the other registers follow
+                         {10, settings.raw(kept_x(d9x::kSAcceleration), axis_number)},
+                         {11, settings.raw(kept_x(d9x::kSDeceleration), axis_number)}};
+  static constexpr Kept kFirst = kept_d(d8x::kPrcmd);
+  static constexpr Kept kFirstWorking = kept_d(d8x::kRmv);  // RMV; the other registers follow
   const auto show = [&](Kept first, int offset, std::int32_t value) {
     const auto slot = first.slot + static_cast<std::size_t>(offset * kAxisCount + axis_number);
     state_.image[slot] = static_cast<std::uint32_t>(value);
@@ -390,10 +395,10 @@ void Super40nc::mirror_start(int axis_number, int mode, std::int64_t distance_pu
     show(kFirst, each.offset, each.value);
     if (each.offset > 0) show(kFirstWorking, each.offset - 1, each.value);
   }
-  show(kept_d(8132), 0, in_32_bits(creep_pps / step));
-  show(kept_d(8150), 0, 0);
-  show(kept_d(8162), 0, settings.raw(kept_d(8148), axis_number));
-  show(kept_d(8163), 0, 0);
+  show(kept_d(d8x::kRfa), 0, in_32_bits(creep_pps / step));
+  show(kept_d(d8x::kPrci), 0, 0);
+  show(kept_d(d8x::kRcmp5), 0, settings.raw(kept_d(d8x::kPrcmp5), axis_number));
+  show(kept_d(d8x::kRci), 0, 0);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

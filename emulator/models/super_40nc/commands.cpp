@@ -11,6 +11,7 @@
 #include "emulator/models/super_40nc/keys.h"
 #include "emulator/models/super_40nc/manual_motions.h"
 #include "emulator/models/super_40nc/marks.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -24,29 +25,22 @@ namespace language = interpreter::super_40nc;
 
 namespace {
 
-/// Returns the contact M8x00 + number.
-constexpr int of_axis(int axis, int number) { return 8100 + 100 * axis + number; }
-
-constexpr int kRun = 0;
-constexpr int kReset = 2;
-constexpr int kJogPlus = 3;
-constexpr int kJogMinus = 4;
-constexpr int kHome = 5;
-constexpr int kZero = 6;
-constexpr int kZeroSet = 7;
-constexpr int kWheelContacts[] = {8, 9, 10};
+constexpr int kWheelContacts[] = {m8x::kMpg1, m8x::kMpg10, m8x::kMpg100};
 constexpr WheelSource kWheelSources[] = {WheelSource::contact_1, WheelSource::contact_10,
                                          WheelSource::contact_100};
 
 /// All contacts that a scan reads.
 constexpr auto kCommandContacts = [] {
-  constexpr int kGeneral[] = {8000, 8001, 8002, 8004, 8005, 8006, 8008, 8500, 8501, 8507};
-  constexpr int kOfEachAxis = 11;
+  constexpr int kGeneral[] = {m8::kStartOfC,          m8::kSingleStep,         m8::kEmergencyStop,
+                              m8::kMotionInhibit,     m8::kMCodeFinished,      m8::kPause,
+                              m8::kFactoryParameters, m85::kParameterPageLeft, m85::kEditPageLeft,
+                              m85::kEditPageEntered};
+  constexpr int kOfEachAxis = m8x::kMpg100 - m8x::kStart + 1;
   std::array<int, std::size(kGeneral) + kAxisCount * kOfEachAxis + kKeys.size()> all{};
   std::size_t next = 0;
   for (const int number : kGeneral) all[next++] = number;
   for (int axis = 0; axis < kAxisCount; ++axis) {
-    for (int i = 0; i < kOfEachAxis; ++i) all[next++] = of_axis(axis, i);
+    for (int i = 0; i < kOfEachAxis; ++i) all[next++] = of_axis(m8x::kStart + i, axis);
   }
   for (const Key& key : kKeys) all[next++] = key.contact;
   return all;
@@ -62,14 +56,14 @@ bool Super40nc::rises(int contact_number) const {
 }
 
 bool Super40nc::is_stopped_by_emergency() const {
-  return is_on(8002) || (state_.emergency && !chose(option("cemg_input", "only_shown")));
+  return is_on(m8::kEmergencyStop) || (state_.emergency && !chose(option("cemg_input", "only_shown")));
 }
 
 bool Super40nc::is_held_in_reset(int axis) const {
-  return is_stopped_by_emergency() || is_on(of_axis(axis, kReset)) || is_pressed(KeyDoes::stop, axis);
+  return is_stopped_by_emergency() || is_on(of_axis(m8x::kReset, axis)) || is_pressed(KeyDoes::stop, axis);
 }
 
-bool Super40nc::is_inhibited(int axis) const { return is_held_in_reset(axis) || is_on(8004); }
+bool Super40nc::is_inhibited(int axis) const { return is_held_in_reset(axis) || is_on(m8::kMotionInhibit); }
 
 std::optional<ManualMotion> Super40nc::manual_motion(int axis_number) const {
   const AxisState& state = axis(axis_number);
@@ -138,8 +132,8 @@ void Super40nc::obey_stops() {
     for (AxisState& each : state_.axes) each.has_error = false;  // the scan has seen it
   }
   if (is_stopped_by_emergency()) {
-    const Code code = is_on(8002) ? Code::emergency_stop : Code::emergency_input;
-    const bool is_new = code == Code::emergency_stop ? rises(8002) : !state_.emergency_obeyed;
+    const Code code = is_on(m8::kEmergencyStop) ? Code::emergency_stop : Code::emergency_input;
+    const bool is_new = code == Code::emergency_stop ? rises(m8::kEmergencyStop) : !state_.emergency_obeyed;
     if (is_new) report(code);
     for (int number = 0; number < kAxisCount; ++number) {
       if (axis(number).holder == Activity::nobody) continue;
@@ -154,20 +148,20 @@ void Super40nc::obey_stops() {
   }
   state_.emergency_obeyed = state_.emergency;
   for (int number = 0; number < kAxisCount; ++number) {
-    const bool is_reset = is_on(of_axis(number, kReset));
+    const bool is_reset = is_on(of_axis(m8x::kReset, number));
     if (is_reset) take_off(axis(number), MarkEvent::reset);
     if (is_reset) tell(Event::reset, language::area_of_axis(number));
     if (!is_pressed(KeyDoes::stop, number)) continue;
     tell(Event::stop, language::area_of_axis(number));
-    set_contact(of_axis(number, kRun), false);  // also cancels a start in the same scan
+    set_contact(of_axis(m8x::kStart, number), false);  // also cancels a start in the same scan
   }
   if (is_pressed(KeyDoes::stop_c, -1)) {
     for (int number = 0; number < kAxisCount; ++number) handle(number, ManualEvent::main_stop);
     give_up_orders();
     tell(Event::stop, Area::c);
-    set_contact(8000, false);
+    set_contact(m8::kStartOfC, false);
   }
-  if (rises(8006)) {
+  if (rises(m8::kPause)) {
     tell(Event::hold, Area::c);
     const bool ends = chose(option("manual_motion_events", "end_by_a_ramp"));
     for (int number = 0; number < kAxisCount && ends; ++number) slow_by_hand(number);
@@ -188,7 +182,7 @@ void Super40nc::slow_by_hand(int axis_number) {
 
 /// Executes what the panel triggers when it turns its pages.
 void Super40nc::obey_pages() {
-  if (rises(8500)) {
+  if (rises(m85::kParameterPageLeft)) {
     const bool renews_all = chose(option("parameter_moment", "when_m8500_rises"));
     if (renews_all) {
       take_parameters();
@@ -197,9 +191,9 @@ void Super40nc::obey_pages() {
     if (renews_all || chose(option("page_contacts", "m8500_renews_x14_and_c0"))) take_power_up_parameters();
   }
   const bool stops = chose(option("page_contacts", "m8507_stops_the_plc"));
-  if (rises(8507) && stops && state_.plc.runs) plc_to_stop();
+  if (rises(m85::kEditPageEntered) && stops && state_.plc.runs) plc_to_stop();
   const bool runs = !chose(option("m8501_runs_plc", "nothing"));
-  if (rises(8501) && runs && state_.run_switch && !state_.plc.runs) plc_to_run();
+  if (rises(m85::kEditPageLeft) && runs && state_.run_switch && !state_.plc.runs) plc_to_run();
 }
 
 bool Super40nc::acts_behind_reset(int axis) const {
@@ -213,18 +207,18 @@ bool Super40nc::is_level_again(int axis, int contact) const {
 
 void Super40nc::obey_jogs(int axis) {
   for (const int direction : {+1, -1}) {
-    const int contact = of_axis(axis, direction > 0 ? kJogPlus : kJogMinus);
+    const int contact = of_axis(direction > 0 ? m8x::kJogPlus : m8x::kJogMinus, axis);
     const bool asks = rises(contact) || is_level_again(axis, contact);
     if (asks && !is_inhibited(axis)) start_jog(axis, direction, &AxisState::asked_by_contact);
   }
-  const int contact = of_axis(axis, chip(axis).last_direction > 0 ? kJogPlus : kJogMinus);
+  const int contact = of_axis(chip(axis).last_direction > 0 ? m8x::kJogPlus : m8x::kJogMinus, axis);
   if (!is_on(contact)) handle(axis, ManualMotion::jog, ManualEvent::contact_off);
 }
 
 void Super40nc::obey_wheel() {
   for (int number = 0; number < kAxisCount; ++number) {
     for (std::size_t i = 0; i < std::size(kWheelContacts); ++i) {
-      const int contact = of_axis(number, kWheelContacts[i]);
+      const int contact = of_axis(kWheelContacts[i], number);
       const bool asks = rises(contact) || is_level_again(number, contact);
       if (asks && !is_inhibited(number)) start_wheel(number, kWheelSources[i]);
       if (axis(number).wheel == kWheelSources[i] && !is_on(contact)) handle(number, ManualEvent::contact_off);
@@ -232,7 +226,7 @@ void Super40nc::obey_wheel() {
   }
   if (!state_.wheel_selected) return;
   state_.wheel_selected = false;
-  const std::int32_t selected = registers().raw(kept_d(8020)) - 1;
+  const std::int32_t selected = registers().raw(kept_d(d8::kUserCommand)) - 1;
   for (int number = 0; number < kAxisCount; ++number) {
     const bool is_left = number != selected && axis(number).wheel == WheelSource::selector;
     if (is_left) handle(number, ManualEvent::contact_off);
@@ -246,34 +240,35 @@ void Super40nc::obey_contacts() {
   obey_stops();
   obey_pages();
   const bool needs_rest = chose(option("m8008_running", "void"));
-  if (rises(8008) && !(needs_rest && programs_are_busy())) reset_parameters();
+  if (rises(m8::kFactoryParameters) && !(needs_rest && programs_are_busy())) reset_parameters();
   for (int number = 0; number < kAxisCount; ++number) {
-    if (rises(of_axis(number, kZeroSet))) set_zero(number);
+    if (rises(of_axis(m8x::kZeroSet, number))) set_zero(number);
   }
   for (int number = 0; number < kAxisCount; ++number) {
-    if (rises(of_axis(number, kHome)) && !is_inhibited(number)) start_home(number);
+    if (rises(of_axis(m8x::kHome, number)) && !is_inhibited(number)) start_home(number);
   }
   for (int number = 0; number < kAxisCount; ++number) {
-    if (rises(of_axis(number, kZero)) && !is_inhibited(number)) start_zero(number);
+    if (rises(of_axis(m8x::kZero, number)) && !is_inhibited(number)) start_zero(number);
   }
   obey_order_keys();
   for (int number = 0; number < kAxisCount; ++number) obey_jogs(number);
   obey_wheel();
-  if (!chose(option("m8005_falls", "by_a_write_alone"))) set_contact(8005, false);
+  if (!chose(option("m8005_falls", "by_a_write_alone"))) set_contact(m8::kMCodeFinished, false);
   hold_while_inhibited();
   for (int number = 0; number < kAxisCount; ++number) {
     state_.were_held[static_cast<std::size_t>(number)] = is_held_in_reset(number);
   }
   if (!chose(option("edge_contacts_fall", "when_served"))) return;
-  for (const int contact : {8006, 8008}) set_contact(contact, false);
+  for (const int contact : {m8::kPause, m8::kFactoryParameters}) set_contact(contact, false);
   for (int number = 0; number < kAxisCount; ++number) {
-    for (const int contact : {kHome, kZero, kZeroSet}) set_contact(of_axis(number, contact), false);
+    for (const int contact : {m8x::kHome, m8x::kZero, m8x::kZeroSet})
+      set_contact(of_axis(contact, number), false);
   }
 }
 
 /// M8004: holds running motions of programs and the PLC like a pause, if that is chosen.
 void Super40nc::hold_while_inhibited() {
-  const bool is_inhibited_now = is_on(8004);
+  const bool is_inhibited_now = is_on(m8::kMotionInhibit);
   const bool has_changed = is_inhibited_now != state_.was_inhibited;
   state_.was_inhibited = is_inhibited_now;
   if (!has_changed || !chose(option("m8004_scope", "running_ones_are_held"))) return;

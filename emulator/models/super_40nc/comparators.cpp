@@ -10,6 +10,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/settings.h"
 #include "motion/axis.h"
@@ -22,11 +23,11 @@ struct ComparatorRow {
   Kept source, method, action, value;
 };
 constexpr std::array<ComparatorRow, kComparators> kComparatorRows{
-    {{kept_x(31), kept_x(32), kept_x(33), kept_d(8144)},
-     {kept_x(35), kept_x(36), kept_x(37), kept_d(8145)},
-     {kept_x(39), kept_x(40), kept_x(41), kept_d(8146)},
-     {kept_x(43), kept_x(44), kept_x(45), kept_d(8147)},
-     {kept_x(46), kept_x(47), kept_x(48), kept_d(8148)}}};
+    {{kept_x(d9x::kCp1Source), kept_x(d9x::kCp1Method), kept_x(d9x::kCp1Action), kept_d(d8x::kRcmp1)},
+     {kept_x(d9x::kCp2Source), kept_x(d9x::kCp2Method), kept_x(d9x::kCp2Action), kept_d(d8x::kRcmp2)},
+     {kept_x(d9x::kCp3Source), kept_x(d9x::kCp3Method), kept_x(d9x::kCp3Action), kept_d(d8x::kRcmp3)},
+     {kept_x(d9x::kCp4Source), kept_x(d9x::kCp4Method), kept_x(d9x::kCp4Action), kept_d(d8x::kRcmp4)},
+     {kept_x(d9x::kCp5Source), kept_x(d9x::kCp5Method), kept_x(d9x::kCp5Action), kept_d(d8x::kPrcmp5)}}};
 
 enum Method : Value { kEqual = 1, kEqualUpwards, kEqualDownwards, kSetAbove, kSetBelow, kSoftLimit };
 constexpr Value kByRamp = 2;
@@ -109,12 +110,14 @@ std::optional<motion::Comparator> Super40nc::comparator_of(int axis_number, std:
   }
   constexpr Value kCounter2 = 1;
   constexpr Value kCounter4 = 3;
-  const bool is_stopped = (settings.raw(kept_x(30), axis_number) >> source & 1) != 0;
+  const bool is_stopped = (settings.raw(kept_x(d9x::kDisableC2ToC4), axis_number) >> source & 1) != 0;
   if (is_stopped || (source != kCounter2 && source != kCounter4)) return std::nullopt;
   // The source of COUNTER2 is D9x23, that of COUNTER4 D9x25: the pulses, the encoder, or something else.
-  const Value from = settings.of(source == kCounter2 ? kept_x(23) : kept_x(25), axis_number);
+  const Value from =
+      settings.of(source == kCounter2 ? kept_x(d9x::kC2Source) : kept_x(d9x::kC4Source), axis_number);
   const bool by_pulses = from == (source == kCounter2 ? 1 : 0);
-  const bool by_encoder = from == (source == kCounter2 ? 0 : 1) && !settings.is_on(kept_x(19), axis_number);
+  const bool by_encoder =
+      from == (source == kCounter2 ? 0 : 1) && !settings.is_on(kept_x(d9x::kEncoderDisable), axis_number);
   if (!by_pulses && !by_encoder) return std::nullopt;
   const motion::Axis& motor = chip(axis_number);
   made.count = by_encoder ? motion::Count::encoder : motion::Count::command;
@@ -136,7 +139,8 @@ void Super40nc::set_comparators(int axis_number) {
     const Value method = settings.of(row.method, axis_number);
     const Value action = settings.of(row.action, axis_number);
     // D9x50: 2 and 3 are the comparators 4 and 5.
-    const bool latches = which >= 3 && settings.of(kept_x(50), axis_number) == static_cast<Value>(which) - 1;
+    const bool latches = which >= 3 && settings.of(kept_x(d9x::kLatchOfCounters), axis_number) ==
+                                           static_cast<Value>(which) - 1;
     if ((!stops(action) && !latches) || method == 0) continue;
     if (settings.of(row.source, axis_number) == 0 && method == kSoftLimit)
       continue;  // the axis's own soft limit

@@ -1,12 +1,19 @@
 // SUPER-40NC: inputs X and contacts Y, S, T, C, M, in the manual's order.
 #pragma once
 
+#include <cstdint>
+
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/row_words.h"
 
 namespace understudy::emulator::models::super_40nc {
 
 inline constexpr int kInputCount = 48;
 inline constexpr int kOutputCount = 32;
+inline constexpr int kTimers = 56;  // those that are not latched; 8 others follow
+// Addresses on the wire.
+inline constexpr std::uint16_t kFirstTimerContact = 600;
+inline constexpr std::uint16_t kFirstCounterContact = 800;
 
 // clang-format off
 inline constexpr auto kElementRows = section("接點元件編號一覽表", {
@@ -14,24 +21,24 @@ inline constexpr auto kElementRows = section("接點元件編號一覽表", {
     coil(0, "Y{}").times(kOutputCount, 1, 0),
     coil(200, "S{}").times(80, 1, 0),
     coil(280, "S{}").times(48, 1, 80).kept_at_once(),
-    coil(600, "T{}").times(56, 1, 0),
-    coil(656, "T{}").times(8, 1, 56).kept_at_once(),
-    coil(800, "C{}").times(16, 1, 0),
-    coil(816, "C{}").times(16, 1, 16).kept_at_once(),
+    coil(kFirstTimerContact, "T{}").times(kTimers, 1, 0),
+    coil(kFirstTimerContact + kTimers, "T{}").times(8, 1, kTimers).kept_at_once(),
+    coil(kFirstCounterContact, "C{}").times(16, 1, 0),
+    coil(kFirstCounterContact + 16, "C{}").times(16, 1, 16).kept_at_once(),
     relays(0, 399),
     relays(400, 511).kept_at_once(),
 });
 
 inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(一般用途)", {
-    relay(8000).does<write_command>(8000),  // C: 1 START, 0 PAUSE
-    relay(8001).does<write_command>(8001),  // C: single step
-    relay(8002).does<write_command>(8002),  // emergency stop
+    relay(m8::kStartOfC).does<write_command>(m8::kStartOfC),  // C: 1 START, 0 PAUSE
+    relay(m8::kSingleStep).does<write_command>(m8::kSingleStep),  // C: single step
+    relay(m8::kEmergencyStop).does<write_command>(m8::kEmergencyStop),  // emergency stop
     relay(8003, R).always(1),               // ON
-    relay(8004).does<write_command>(8004),  // motion inhibited
-    relay(8005).does<write_command>(8005),  // M code finished
-    relay(8006).does<write_command>(8006),  // C: pause
+    relay(m8::kMotionInhibit).does<write_command>(m8::kMotionInhibit),  // motion inhibited
+    relay(m8::kMCodeFinished).does<write_command>(m8::kMCodeFinished),  // M code finished
+    relay(m8::kPause).does<write_command>(m8::kPause),  // C: pause
     relay(8007),                            // C: single, continuous
-    relay(8008).does<write_command>(8008),  // D9 to factory values
+    relay(m8::kFactoryParameters).does<write_command>(m8::kFactoryParameters),  // D9 to factory values
     relays(8009, 8011),
     relays(8012, 8019),
     relays(8020, 8021),
@@ -42,17 +49,17 @@ inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(�
 
 // The names of the chip's signals are the manual's (M8x20 SSCM to M8x58 PFM0).
 inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU 軸用)", {
-    axis_relay(8100).does<write_command>(8100),  // START, PAUSE
-    axis_relay(8101).does<write_command>(8101),  // single step
-    axis_relay(8102).does<write_command>(8102),  // RESET
-    axis_relay(8103).does<write_command>(8103),  // +JOG
-    axis_relay(8104).does<write_command>(8104),  // -JOG
-    axis_relay(8105).does<write_command>(8105),  // HOME
-    axis_relay(8106).does<write_command>(8106),  // ZERO
-    axis_relay(8107).does<write_command>(8107),  // ZERO SET
-    axis_relay(8108).does<write_command>(8108),  // MPG*1
-    axis_relay(8109).does<write_command>(8109),  // MPG*10
-    axis_relay(8110).does<write_command>(8110),  // MPG*100
+    axis_relay(m8x::kStart).does<write_command>(m8x::kStart),  // START, PAUSE
+    axis_relay(m8x::kSingleStep).does<write_command>(m8x::kSingleStep),  // single step
+    axis_relay(m8x::kReset).does<write_command>(m8x::kReset),  // RESET
+    axis_relay(m8x::kJogPlus).does<write_command>(m8x::kJogPlus),  // +JOG
+    axis_relay(m8x::kJogMinus).does<write_command>(m8x::kJogMinus),  // -JOG
+    axis_relay(m8x::kHome).does<write_command>(m8x::kHome),  // HOME
+    axis_relay(m8x::kZero).does<write_command>(m8x::kZero),  // ZERO
+    axis_relay(m8x::kZeroSet).does<write_command>(m8x::kZeroSet),  // ZERO SET
+    axis_relay(m8x::kMpg1).does<write_command>(m8x::kMpg1),  // MPG*1
+    axis_relay(m8x::kMpg10).does<write_command>(m8x::kMpg10),  // MPG*10
+    axis_relay(m8x::kMpg100).does<write_command>(m8x::kMpg100),  // MPG*100
     axis_relays(8111, 8119, 0), axis_relays(8111, 8119, 1), axis_relays(8111, 8119, 2), axis_relays(8111, 8119, 3),
     axis_relay(8120, R).shows<read_status, Varies::in_ticks>(SSCM),
     axis_relay(8121, R).shows<read_status, Varies::while_moving>(SRUN),
@@ -104,10 +111,10 @@ inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU
 });
 
 inline constexpr auto kPanelContactRows = section("M85x 人機對應接點", {
-    relays(8500, 8501).does<write_command>(8500),
-    relay(8502),
+    relays(8500, 8501).does<write_command>(m85::kParameterPageLeft),
+    relay(m85::kLogoOver),
     relays(8503, 8506),
-    relay(8507).does<write_command>(8507),
+    relay(m85::kEditPageEntered).does<write_command>(m85::kEditPageEntered),
     relays(8508, 8510).does<write_command>(8508),
     relays(8511, 8512),
     relays(8513, 8514).does<write_command>(8513),

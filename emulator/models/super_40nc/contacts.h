@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "emulator/models/super_40nc/names.h"
+
 namespace understudy::emulator::models::super_40nc {
 
 struct Contacts {
-  static constexpr int kFirst = 8000;
+  static constexpr int kFirst = m8::kStartOfC;
   static constexpr std::size_t kCount = 700;
 
   std::array<std::uint8_t, kCount> flags{};

@@ -13,6 +13,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/program_machine.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -28,7 +29,9 @@ namespace understudy::emulator::models::super_40nc {
 namespace {
 
 /// Returns true if COUNTER4 or the comparators 4 and 5 latch at the end of a tick: such ticks are run.
-bool latches_by_comparator(const Settings& settings, int axis) { return settings.of(kept_x(50), axis) >= 2; }
+bool latches_by_comparator(const Settings& settings, int axis) {
+  return settings.of(kept_x(d9x::kLatchOfCounters), axis) >= 2;
+}
 
 }  // namespace
 

@@ -3,10 +3,15 @@
 
 #include <cstdint>
 
+#include "emulator/models/super_40nc/contact_rows.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/row_words.h"
 
 namespace understudy::emulator::models::super_40nc {
 
+// Addresses on the wire.
+inline constexpr std::uint16_t kFirstTimerValue = 2000;
+inline constexpr std::uint16_t kFirstCounterValue = 2500;
 // The buffer of user programs: 200 steps of 10 registers.
 inline constexpr std::uint16_t kFirstUserAddress = 3000;
 inline constexpr int kUserRegisters = 2000;
@@ -16,10 +21,10 @@ inline constexpr auto kDataRows = section("暫存器元件編號一覽表", {
     data(0, 499),
     data(500, 799).kept_at_once(),
     data(800, 999).kept_at_once(),  // recipe
-    reg(2000, "T{}", s32, RW).times(56, 2, 0).in("ms"),
-    reg(2112, "T{}", s32, RW).times(8, 2, 56).in("ms").kept_at_once(),
-    reg(2500, "C{}", s32, RW).times(16, 2, 0).in("count"),
-    reg(2532, "C{}", s32, RW).times(16, 2, 16).in("count").kept_at_once(),
+    reg(kFirstTimerValue, "T{}", s32, RW).times(kTimers, 2, 0).in("ms"),
+    reg(kFirstTimerValue + 2 * kTimers, "T{}", s32, RW).times(8, 2, kTimers).in("ms").kept_at_once(),
+    reg(kFirstCounterValue, "C{}", s32, RW).times(16, 2, 0).in("count"),
+    reg(kFirstCounterValue + 32, "C{}", s32, RW).times(16, 2, 16).in("count").kept_at_once(),
     reg(kFirstUserAddress, "USER{}", s32, RW).times(kUserRegisters, 2, 0),
 });
 
@@ -27,17 +32,17 @@ inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用
     data(8000).in("step").shows<read_pointer, Varies::in_ticks>().does<write_pointer>(0),  // C
     data(8001),
     data(8002).does<select_file_by_alias>(),
-    data(8003).range(0, 1000).does<limit_voltage>(0),  // Vout1; 1000 are 3.3 V
-    data(8004).range(0, 1000).does<limit_voltage>(1),  // Vout2
-    data(8005).range(0, 200).in("%").from_factory(100).does<change_override>(),
-    data(8006).in("0.001 mm/s"),  // current F
-    data(8007).range(0, 2),       // current plane
+    data(d8::kVout1).range(0, 1000).does<limit_voltage>(0),  // Vout1; 1000 are 3.3 V
+    data(d8::kVout2).range(0, 1000).does<limit_voltage>(1),  // Vout2
+    data(d8::kFeedPercentage).range(0, 200).in("%").from_factory(100).does<change_override>(),
+    data(d8::kFeed).in("0.001 mm/s"),  // current F
+    data(d8::kPlane).range(0, 2),       // current plane
     data(8008),
     data(8009, 8018),
     data(8019).shows<read_table_line, Varies::in_ticks>().does<write_nothing>(),  // line of the user table
-    data(8020).range(0, 4).does<select_wheel_or_command>(),
-    data(8021).range(0, 2).does<select_wheel>(),
-    data(8022).range(0, 2).does<select_jog_speed>(),
+    data(d8::kUserCommand).range(0, 4).does<select_wheel_or_command>(),
+    data(d8::kUserData1).range(0, 2).does<select_wheel>(),
+    data(d8::kUserData2).range(0, 2).does<select_jog_speed>(),
     data(8023, 8029),
     data(8030, 8089),
     data(8090),
@@ -55,9 +60,9 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8100).in("step").shows<read_pointer, Varies::in_ticks>(1).does<write_pointer>(1),
     axis_data(8101, 8116, 0), axis_data(8101, 8116, 1), axis_data(8101, 8116, 2), axis_data(8101, 8116, 3),
     axis_data(8117).in("0.001 mm").shows<read_work_position, Varies::while_moving>().does<set_work_position>(),
-    axis_data(8118).range(0, 2).from_factory(1).does<change_axis>(),  // +EL setting in force
-    axis_data(8119).range(0, 2).from_factory(1).does<change_axis>(),  // -EL setting in force
-    axis_data(8120),  // PRCMD
+    axis_data(d8x::kPlusLimitPort).range(0, 2).from_factory(1).does<change_axis>(),  // +EL setting in force
+    axis_data(d8x::kMinusLimitPort).range(0, 2).from_factory(1).does<change_axis>(),  // -EL setting in force
+    axis_data(d8x::kPrcmd),  // PRCMD
     axis_data(8121),  // PRMV
     axis_data(8122),  // PRFL
     axis_data(8123),  // PRFH
@@ -69,7 +74,7 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8129),  // PRIP
     axis_data(8130),  // PRUS
     axis_data(8131),  // PRDS
-    axis_data(8132),  // RFA
+    axis_data(d8x::kRfa),  // RFA
     axis_data(8133).not_modelled("RENV1"),
     axis_data(8134).not_modelled("RENV2"),
     axis_data(8135).not_modelled("RENV3"),
@@ -81,14 +86,14 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8141).in("pulse").shows<read_counter, Varies::while_moving>(1).does<set_counter>(1),  // RCUN2
     axis_data(8142).in("pulse").shows<read_counter, Varies::while_moving>(2).does<set_counter>(2),  // RCUN3
     axis_data(8143).in("pulse").shows<read_counter, Varies::while_moving>(3).does<set_counter>(3),  // RCUN4
-    axis_data(8144).in("pulse").does<change_axis>(),  // RCMP1: +soft limit in force
-    axis_data(8145).in("pulse").does<change_axis>(),  // RCMP2: -soft limit in force
-    axis_data(8146).does<change_axis>(),              // RCMP3
-    axis_data(8147).does<change_axis>(),              // RCMP4
-    axis_data(8148).does<change_axis>(),              // PRCMP5
+    axis_data(d8x::kRcmp1).in("pulse").does<change_axis>(),  // RCMP1: +soft limit in force
+    axis_data(d8x::kRcmp2).in("pulse").does<change_axis>(),  // RCMP2: -soft limit in force
+    axis_data(d8x::kRcmp3).does<change_axis>(),              // RCMP3
+    axis_data(d8x::kRcmp4).does<change_axis>(),              // RCMP4
+    axis_data(d8x::kPrcmp5).does<change_axis>(),              // PRCMP5
     axis_data(8149).not_modelled("event interrupts (RIRQ)"),
-    axis_data(8150),  // PRCI
-    axis_data(8151),  // RMV
+    axis_data(d8x::kPrci),  // PRCI
+    axis_data(d8x::kRmv),  // RMV
     axis_data(8152),  // RFL
     axis_data(8153),  // RFH
     axis_data(8154),  // RUR
@@ -99,8 +104,8 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8159),  // RIP
     axis_data(8160),  // RUS
     axis_data(8161),  // RDS
-    axis_data(8162),  // RCMP5
-    axis_data(8163),  // RCI
+    axis_data(d8x::kRcmp5),  // RCMP5
+    axis_data(d8x::kRci),  // RCI
     axis_data(8164, R).shows<read_operation, Varies::while_moving>(),  // CND
     axis_data(8165, R).in("pulse").shows<read_latch, Varies::in_ticks>(0),  // RLTC1
     axis_data(8166, R).in("pulse").shows<read_latch, Varies::in_ticks>(1),  // RLTC2

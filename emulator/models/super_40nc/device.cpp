@@ -19,6 +19,7 @@
 #include "emulator/models/super_40nc/contact_rows.h"
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/model.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -35,22 +36,21 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// The output and time of each signal.
+/// The time of each signal; its output is Y of the same number.
 struct FinishSignal {
-  Kept output;
   Kept time;
   int axis = 0;
 };
-constexpr std::array<FinishSignal, kSignalCount> kSignals{{{kept_y(0), kept_x(91), 0},
-                                                           {kept_y(1), kept_x(91), 1},
-                                                           {kept_y(2), kept_x(91), 2},
-                                                           {kept_y(3), kept_x(91), 3},
-                                                           {kept_y(4), kept_x(92), 0},
-                                                           {kept_y(5), kept_x(92), 1},
-                                                           {kept_y(6), kept_x(92), 2},
-                                                           {kept_y(7), kept_x(92), 3},
-                                                           {kept_y(8), kept_d(9028), 0},
-                                                           {kept_y(9), kept_d(9029), 0}}};
+constexpr std::array<FinishSignal, kSignalCount> kSignals{{{kept_x(d9x::kFinishSignalTime), 0},
+                                                           {kept_x(d9x::kFinishSignalTime), 1},
+                                                           {kept_x(d9x::kFinishSignalTime), 2},
+                                                           {kept_x(d9x::kFinishSignalTime), 3},
+                                                           {kept_x(d9x::kEndSignalTime), 0},
+                                                           {kept_x(d9x::kEndSignalTime), 1},
+                                                           {kept_x(d9x::kEndSignalTime), 2},
+                                                           {kept_x(d9x::kEndSignalTime), 3},
+                                                           {kept_d(d9::kFinishSignalTime), 0},
+                                                           {kept_d(d9::kEndSignalTime), 0}}};
 
 }  // namespace
 
@@ -87,7 +87,7 @@ MapPolicy Super40nc::chosen_map_policy() const {
 Addressing Super40nc::addressing(std::uint8_t address) const {
   // D9000 is the station number; 0 is also a number, and answers.
   if (address == 0 && chose(option("station_rule", "0_is_never_answered"))) return Addressing::obey_silently;
-  const Kept kept = kept_d(9000);
+  const Kept kept = kept_d(d9::kStation);
   const Value number = chose(option("station_change", "at_the_next_power_up"))
                            ? std::clamp<Value>(state_.station, kept.min, kept.max)
                            : registers().of(kept);
@@ -132,8 +132,7 @@ void Super40nc::receive_failed(std::size_t port, pty::ReceiveError) {
 void Super40nc::look_at_inputs() {
   is_restored_ = {};
   for (int i = 0; i < kInputCount; ++i) {
-    state_.image[kept_at(Table::discrete, 0).slot + static_cast<std::size_t>(i)] =
-        static_cast<std::uint32_t>(input(i));
+    state_.image[kFirstX.slot + static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(input(i));
   }
   for (int i = 0; i < kAnalogInCount; ++i) {
     state_.analog[static_cast<std::size_t>(i)] = analog_counts(i);
@@ -218,7 +217,7 @@ void Super40nc::step_motion(Tick tick) {
                                                 static_cast<std::uint32_t>(state_.wheel_edges));
   state_.wheel_edges = input(kWheelTerminal);
   if (turned != 0) {
-    if (!is_on(8004)) feed_wheel(turned);
+    if (!is_on(m8::kMotionInhibit)) feed_wheel(turned);
   }
   std::array<std::int64_t, kAxisCount> travel_before{};
   std::array<std::int64_t, kAxisCount> sent{};
@@ -265,10 +264,10 @@ void Super40nc::update_outputs(Tick tick) {
     if (registers().of(signal.time, signal.axis) == 0) continue;
     const bool is_over = tick >= state_.signal_until[i];
     if (tick > state_.signal_until[i] && shares_signals()) continue;
-    state_.image[signal.output.slot] = is_over ? 0 : 1;
+    state_.image[kFirstY.slot + i] = is_over ? 0 : 1;
   }
   if (tick >= state_.logo_at && !state_.logo_over) {
-    if (!chose(option("logo_contact", "the_panel_alone"))) set_contact(8502, true);
+    if (!chose(option("logo_contact", "the_panel_alone"))) set_contact(m85::kLogoOver, true);
     state_.logo_over = true;
     state_.logo_at = kNever;
   }
@@ -281,7 +280,7 @@ Tick Super40nc::next_timed_tick(Tick done) const {
     if (until > done) next = std::min(next, until);
   }
   for (std::size_t i = 0; i < kSignalCount; ++i) {
-    const bool is_on = state_.image[kSignals[i].output.slot] != 0;
+    const bool is_on = state_.image[kFirstY.slot + i] != 0;
     const bool is_system = registers().of(kSignals[i].time, kSignals[i].axis) != 0;
     const bool is_plcs = shares_signals() && state_.signal_until[i] <= done;
     if (is_system && is_on && !is_plcs) next = std::min(next, std::max(done + 1, state_.signal_until[i]));
@@ -304,13 +303,13 @@ bool Super40nc::output(int terminal) const {
   }
   const int number = terminal - kFirstOutput;
   return powered() && number >= 0 && number < kOutputCount &&
-         state_.image[kept_y(0).slot + static_cast<std::size_t>(number)] != 0;
+         state_.image[kFirstY.slot + static_cast<std::size_t>(number)] != 0;
 }
 
 std::int32_t Super40nc::analog_level(int terminal) const {
   const int number = terminal - kFirstAnalogOut;
   if (!powered() || number < 0 || number >= kAnalogOutCount) return 0;
-  const Value steps = registers().of(number == 0 ? kept_d(8003) : kept_d(8004));
+  const Value steps = registers().of(number == 0 ? kept_d(d8::kVout1) : kept_d(d8::kVout2));
   return static_cast<std::int32_t>((steps * kMaxMillivolts + kVoltageSteps / 2) / kVoltageSteps);
 }
 

@@ -129,7 +129,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   }
   Settings registers() const { return Settings(state_.image, readings_, state_.parameters_in_force); }
   /// Writes a register as the device does: without its effect.
-  void put(Kept kept, std::int32_t value, int of_axis = 0);
+  void put(Kept kept, std::int32_t value, int axis = 0);
   /// Keeps the image's value in memory, if it is retentive.
   void keep_slot(std::size_t slot) { state_.eeprom.write(slot, state_.image[slot], 0, now()); }
 

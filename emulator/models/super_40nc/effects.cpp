@@ -6,6 +6,7 @@
 
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/terminals.h"
@@ -65,8 +66,8 @@ Value read_pausing(const Super40nc& device, Cell) { return device.is_pausing() ?
 Value read_file_changed(const Super40nc& device, Cell) { return device.state().shows_file_changed ? 1 : 0; }
 
 void write_command(Super40nc& device, Cell cell, Value level) {
-  const bool is_of_axes = cell.argument >= 8100 && cell.argument < 8500;
-  const int contact = cell.argument + cell.index * (is_of_axes ? 100 : 1);
+  const bool is_of_axes = cell.argument >= m8x::kStart && cell.argument < m85::kParameterPageLeft;
+  const int contact = is_of_axes ? of_axis(cell.argument, cell.index) : cell.argument + cell.index;
   if (device.chose(option("command_latch", "lost"))) return;  // only its level at the scan counts
   device.state().contacts.write(contact, level != 0);
 }
@@ -84,7 +85,7 @@ void select_file(Super40nc& device, Cell, Value number) {
 
 void select_file_by_alias(Super40nc& device, Cell, Value number) {
   if (device.chose(option("d8002_alias", "plain_register"))) return;
-  device.put(kept_d(9001), static_cast<std::int32_t>(number));
+  device.put(kept_d(d9::kFileNumber), static_cast<std::int32_t>(number));
   device.change_file(static_cast<std::int32_t>(number));
 }
 
@@ -96,7 +97,7 @@ void lay_out_files(Super40nc& device, Cell, Value) { device.show_capacities(); }
 
 void limit_voltage(Super40nc& device, Cell cell, Value thousandths) {
   const auto limited = static_cast<std::int32_t>(std::clamp<Value>(thousandths, 0, kVoltageSteps));
-  device.put(cell.argument == 0 ? kept_d(8003) : kept_d(8004), limited);
+  device.put(cell.argument == 0 ? kept_d(d8::kVout1) : kept_d(d8::kVout2), limited);
 }
 
 void change_override(Super40nc& device, Cell, Value) { device.apply_override(); }

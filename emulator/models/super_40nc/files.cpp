@@ -15,6 +15,7 @@
 #include "base/text/lines.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "interpreter/super_40nc/areas.h"
@@ -171,7 +172,7 @@ void Super40nc::read_files_again() {
 
 void Super40nc::change_recipe(std::int32_t number) {
   if (number < 0 || number >= kRecipeCount) {
-    put(kept_d(9002), state_.recipe);
+    put(kept_d(d9::kRecipeNumber), state_.recipe);
     report(Code::no_such_file);
     return;
   }
@@ -192,21 +193,21 @@ void Super40nc::change_recipe(std::int32_t number) {
 
 void Super40nc::show_capacities() {
   constexpr std::int32_t kAllSteps = 30000;
-  const auto lines = static_cast<std::int32_t>(registers().of(kept_d(9045)));
+  const auto lines = static_cast<std::int32_t>(registers().of(kept_d(d9::kLinesOfAFile)));
   constexpr std::int32_t kLinesOfAPage = 256;
   if (chose(option("flash_pages", "lines_by_256"))) {
-    put(kept_d(9044), (lines + kLinesOfAPage - 1) / kLinesOfAPage);
+    put(kept_d(d9::kPagesOfAFile), (lines + kLinesOfAPage - 1) / kLinesOfAPage);
   }
   if (chose(option("file_layout", "always_20_files"))) return;
-  if (!shows_line_counts()) put(kept_d(9042), room_of_c());
-  put(kept_d(9043), kAllSteps / lines);
+  if (!shows_line_counts()) put(kept_d(d9::kLinesOfC), room_of_c());
+  put(kept_d(d9::kFileCount), kAllSteps / lines);
 }
 
 /// Returns the room of C and of each file, in steps.
 std::int32_t Super40nc::room_of_c() const {
   constexpr std::int32_t kStepsOfC = 1500;
   if (chose(option("file_layout", "always_20_files"))) return kStepsOfC;
-  return std::min(static_cast<std::int32_t>(registers().of(kept_d(9045))), kStepsOfC);
+  return std::min(static_cast<std::int32_t>(registers().of(kept_d(d9::kLinesOfAFile))), kStepsOfC);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

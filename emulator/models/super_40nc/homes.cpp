@@ -3,6 +3,7 @@
 
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -34,8 +35,8 @@ void Super40nc::start_home(int axis_number, int order) {
   const Settings settings = registers();
   AxisState& state = axis(axis_number);
   const auto rpm = [&](Kept kept) { return static_cast<double>(settings.of(kept, axis_number)); };
-  const int mode = static_cast<int>(settings.of(kept_x(21), axis_number));
-  const int direction = settings.is_on(kept_x(81), axis_number) ? -1 : +1;
+  const int mode = static_cast<int>(settings.of(kept_x(d9x::kHomeMode), axis_number));
+  const int direction = settings.is_on(kept_x(d9x::kHomeDirection), axis_number) ? -1 : +1;
   state.homed = false;
   state.order = static_cast<std::int8_t>(order);
   const bool is_by_limit = motion::super40nc_homes_by_limit(mode);
@@ -49,7 +50,8 @@ void Super40nc::start_home(int axis_number, int order) {
   prepare(axis_number, true);
   // X25 = 0 never leads away from a DOG that is ON.
   if (!is_by_limit && has_signal(axis_number, motion::Signal::home) &&
-      settings.of(kept_x(93), axis_number) == 0 && chose(option("home_leave_0", "the_search_fails"))) {
+      settings.of(kept_x(d9x::kMoveOff), axis_number) == 0 &&
+      chose(option("home_leave_0", "the_search_fails"))) {
     home_ended(axis_number, false, Code::home_failed);
     let_go(axis_number);
     return;
@@ -61,16 +63,17 @@ void Super40nc::start_home(int axis_number, int order) {
     return;
   }
   const bool limit_stops_at_once =
-      chose(option("home_el_stop", "by_d9x01")) && !settings.is_on(kept_x(1), axis_number);
-  const motion::SpeedLaw fast = settings.law(axis_number, rpm(kept_x(79)));
+      chose(option("home_el_stop", "by_d9x01")) && !settings.is_on(kept_x(d9x::kOtStop), axis_number);
+  const motion::SpeedLaw fast = settings.law(axis_number, rpm(kept_x(d9x::kHomeSpeed)));
   const motion::HomingProgram program = motion::super40nc_homing(
       {.mode = mode,
        .direction = direction,
        .fast = fast,
-       .creep = settings.law(axis_number, rpm(kept_x(80))),
-       .index_count = static_cast<std::int32_t>(settings.of(kept_x(22), axis_number) + 1),
-       .leave_pulses = settings.of(kept_x(93), axis_number),
-       .offset_pulses = home_pulses(settings.scale(axis_number), settings.of(kept_x(83), axis_number)),
+       .creep = settings.law(axis_number, rpm(kept_x(d9x::kCreepSpeed))),
+       .index_count = static_cast<std::int32_t>(settings.of(kept_x(d9x::kCNumber), axis_number) + 1),
+       .leave_pulses = settings.of(kept_x(d9x::kMoveOff), axis_number),
+       .offset_pulses =
+           home_pulses(settings.scale(axis_number), settings.of(kept_x(d9x::kHomeOffset), axis_number)),
        .limit_stops_at_once = limit_stops_at_once,
        .leaves_fast = chose(option("home_leave_speed", "home_speed")),
        .offset_creeps = chose(option("home_offset_speed", "creep")),
@@ -94,7 +97,7 @@ void Super40nc::start_zero(int axis_number, int order) {
   const std::int64_t distance =
       home_pulses(settings.scale(axis_number), -state.offset_lu) - machine_pulses(axis_number);
   const motion::SpeedLaw law =
-      settings.law(axis_number, static_cast<double>(settings.of(kept_x(77), axis_number)));
+      settings.law(axis_number, static_cast<double>(settings.of(kept_x(d9x::kZeroSpeed), axis_number)));
   begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Activity::zero);
   if (state.holder != Activity::zero) {
     state_.zeroing_by_key.has_failed = state_.zeroing_by_key.has_failed || order != 0;
@@ -123,16 +126,16 @@ void Super40nc::home_ended(int axis_number, bool found, Code code) {
   AxisState& state = axis(axis_number);
   const Settings settings = registers();
   const bool ends_contact = chose(option("edge_contacts_fall", "m8x05_behind_its_search"));
-  if (ends_contact) set_contact(8105 + 100 * axis_number, false);
+  if (ends_contact) set_contact(of_axis(m8x::kHome, axis_number), false);
   if (!found) {
     if (code != Code::none) fail(axis_number, code);
     if (state.order != 0) state_.homing_by_key.has_failed = true;
     return;
   }
   state.homed = true;
-  if (settings.is_on(kept_x(5), axis_number)) give_erc(axis_number);
-  const std::int32_t cleared = settings.raw(kept_x(28), axis_number);
-  const std::int64_t home_lu = settings.of(kept_x(82), axis_number);
+  if (settings.is_on(kept_x(d9x::kHomeErc), axis_number)) give_erc(axis_number);
+  const std::int32_t cleared = settings.raw(kept_x(d9x::kHomeResetC), axis_number);
+  const std::int64_t home_lu = settings.of(kept_x(d9x::kHomePosition), axis_number);
   const motion::UnitScale scale = settings.scale(axis_number);
   if ((cleared & 1) != 0) {
     set_counter(axis_number, 0, static_cast<std::int32_t>(home_pulses(scale, home_lu)));

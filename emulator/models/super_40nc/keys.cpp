@@ -9,6 +9,7 @@
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/marks.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -20,8 +21,6 @@ namespace understudy::emulator::models::super_40nc {
 namespace {
 
 constexpr int kOrders = 4;
-constexpr int kFirstJogKey = 8560;  // the older keys come before
-constexpr int kOriginKey = 8514;
 
 bool has_digit(std::int32_t mask, int digits, int digit) {
   std::int64_t rest = mask < 0 ? 0 : mask;
@@ -30,7 +29,9 @@ bool has_digit(std::int32_t mask, int digits, int digit) {
 }
 
 /// Returns contact M8x03 or M8x04.
-int jog_contact(int axis, int direction) { return 8100 + 100 * axis + (direction > 0 ? 3 : 4); }
+int jog_contact(int axis, int direction) {
+  return of_axis(direction > 0 ? m8x::kJogPlus : m8x::kJogMinus, axis);
+}
 
 /// Returns which of its two meanings M8514 has.
 bool is_origin_the_home_key(const Super40nc& device) { return device.chose(option("m8514_meaning", "home")); }
@@ -41,14 +42,14 @@ bool is_origin_the_home_key(const Super40nc& device) { return device.chose(optio
 bool Super40nc::is_wheel_locked(int axis) const {
   constexpr int kWheelDigit = 1;
   return chose(option("lock_scope", "keys_and_d8020")) &&
-         has_digit(registers().raw(kept_x(98), axis), kAxisLockDigits, kWheelDigit);
+         has_digit(registers().raw(kept_x(d9x::kKeyLock), axis), kAxisLockDigits, kWheelDigit);
 }
 
 bool Super40nc::is_locked(const Key& key) const {
   if (chose(option("lock_scope", "nothing"))) return false;
   const Settings settings = registers();
-  return key.axis < 0 ? has_digit(settings.raw(kept_d(9025)), kMainLockDigits, key.lock)
-                      : has_digit(settings.raw(kept_x(98), key.axis), kAxisLockDigits, key.lock);
+  return key.axis < 0 ? has_digit(settings.raw(kept_d(d9::kKeyLock)), kMainLockDigits, key.lock)
+                      : has_digit(settings.raw(kept_x(d9x::kKeyLock), key.axis), kAxisLockDigits, key.lock);
 }
 
 /// A jog key writes its contact in each scan while it is pressed, and clears it when it is released. Its lock
@@ -56,7 +57,7 @@ bool Super40nc::is_locked(const Key& key) const {
 void Super40nc::read_jog_keys() {
   const bool knows_older = !chose(option("jog_aliases", "plain_contacts"));
   for (int number = 0; number < kAxisCount; ++number) {
-    const int sense = registers().is_on(kept_x(97), number) ? -1 : +1;
+    const int sense = registers().is_on(kept_x(d9x::kJogDirection), number) ? -1 : +1;
     auto& driven = axis(number).jog_keys;
     for (std::size_t i = 0; i < driven.size(); ++i) {
       const int direction = i == 0 ? +1 : -1;
@@ -90,19 +91,19 @@ void Super40nc::read_keys() {
   };
   for (const Key& key : kKeys) {
     if (key.does == KeyDoes::jog || !rises(key.contact) || is_locked(key)) continue;
-    const int axis_contacts = 8100 + 100 * key.axis;
     switch (key.does) {
       case KeyDoes::jog: break;
-      case KeyDoes::home: press(axis_contacts + 5); break;
-      case KeyDoes::zero: press(axis_contacts + 6); break;
-      case KeyDoes::oset: press(axis_contacts + 7); break;
-      case KeyDoes::start: press(axis_contacts); break;
-      case KeyDoes::start_c: press(8000); break;
-      case KeyDoes::pause_c: press(8006); break;
+      case KeyDoes::home: press(of_axis(m8x::kHome, key.axis)); break;
+      case KeyDoes::zero: press(of_axis(m8x::kZero, key.axis)); break;
+      case KeyDoes::oset: press(of_axis(m8x::kZeroSet, key.axis)); break;
+      case KeyDoes::start: press(of_axis(m8x::kStart, key.axis)); break;
+      case KeyDoes::start_c: press(m8::kStartOfC); break;
+      case KeyDoes::pause_c: press(m8::kPause); break;
       case KeyDoes::set_zero:
         if (key.contact == kOriginKey && is_origin_the_home_key(*this)) break;
         for (int number = 0; number < kAxisCount; ++number) {
-          if (registers().raw(kept_x(74), number) == enabled) press(8107 + 100 * number);
+          if (registers().raw(kept_x(d9x::kZeroSetEnable), number) == enabled)
+            press(of_axis(m8x::kZeroSet, number));
         }
         break;
       // These have no contact of their own: obey_contacts() checks them.
@@ -159,8 +160,8 @@ void Super40nc::obey_order_keys() {
   const Key as_home{.contact = kOriginKey, .does = KeyDoes::home_by_order, .lock = kHomeDigit};
   if (is_home_key && !state_.homing_by_key.runs && !is_locked(as_home)) state_.homing_by_key = {.runs = true};
   press(state_.zeroing_by_key, KeyDoes::zero_by_order);
-  follow_order(state_.homing_by_key, Activity::home, kept_x(99), &Super40nc::start_home);
-  follow_order(state_.zeroing_by_key, Activity::zero, kept_x(84), &Super40nc::start_zero);
+  follow_order(state_.homing_by_key, Activity::home, kept_x(d9x::kHomeSequence), &Super40nc::start_home);
+  follow_order(state_.zeroing_by_key, Activity::zero, kept_x(d9x::kZeroSequence), &Super40nc::start_zero);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -30,6 +30,10 @@ struct Key {
   int lock = 0;       // the lock digit, counted from the left from 1
 };
 
+// Keys to which more than their row refers.
+inline constexpr int kFirstJogKey = 8560;  // the older jog keys come before
+inline constexpr int kOriginKey = 8514;    // the older name of the key that sets zero
+
 inline constexpr int kMainLockDigits = 6;
 inline constexpr int kAxisLockDigits = 9;
 
@@ -45,7 +49,7 @@ inline constexpr auto kKeys = [] {
   for (const auto& [contact, older, does, lock] :
        {std::array{8592, 0, static_cast<int>(KeyDoes::home_by_order), 1},
         std::array{8593, 8513, static_cast<int>(KeyDoes::zero_by_order), 2},
-        std::array{8594, 8514, static_cast<int>(KeyDoes::set_zero), 3},
+        std::array{8594, kOriginKey, static_cast<int>(KeyDoes::set_zero), 3},
         std::array{8597, 8510, static_cast<int>(KeyDoes::pause_c), 4},
         std::array{8595, 8508, static_cast<int>(KeyDoes::start_c), 5},
         std::array{8596, 8509, static_cast<int>(KeyDoes::stop_c), 6}}) {
@@ -55,8 +59,12 @@ inline constexpr auto kKeys = [] {
     add({.contact = older, .does = key.does, .lock = lock});
   }
   for (int axis = 0; axis < 4; ++axis) {
-    add({.contact = 8560 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .direction = +1, .lock = 2});
-    add({.contact = 8561 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .direction = -1, .lock = 3});
+    add({.contact = kFirstJogKey + 2 * axis, .does = KeyDoes::jog, .axis = axis, .direction = +1, .lock = 2});
+    add({.contact = kFirstJogKey + 1 + 2 * axis,
+         .does = KeyDoes::jog,
+         .axis = axis,
+         .direction = -1,
+         .lock = 3});
     add({.contact = 8568 + axis, .does = KeyDoes::home, .axis = axis, .lock = 4});
     add({.contact = 8572 + axis, .does = KeyDoes::zero, .axis = axis, .lock = 5});
     add({.contact = 8576 + axis, .does = KeyDoes::oset, .axis = axis, .lock = 6});

@@ -15,6 +15,7 @@
 #include "emulator/models/super_40nc/data_rows.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
@@ -35,7 +36,7 @@ void for_each_kept_slot(Visit visit) {
 }
 
 bool is_parameter(const RegisterRow& row) {
-  return row.table == Table::holding && row.address >= data_address(9000);
+  return row.table == Table::holding && row.address >= data_address(d9::kStation);
 }
 
 }  // namespace
@@ -44,27 +45,31 @@ bool is_parameter(const RegisterRow& row) {
 /// in every axis, the decimals, the logo).
 std::uint32_t Super40nc::factory_bits(const RegisterRow& row) const {
   struct Panel {
-    int d9;
+    int number;
     std::int32_t value;
   };
-  static constexpr Panel kPanels[] = {{9007, 2000}, {9165, 2}, {9178, 500}, {9181, 1}, {9183, 1000}};
-  constexpr int kOffset = 9183;
-  constexpr int kDefaultFeed = 9004;
+  static constexpr Panel kPanels[] = {{d9::kLogoTime, 2000},
+                                      {of_x(d9x::kDotPosition), 2},
+                                      {of_x(d9x::kDefaultSpeed), 500},
+                                      {of_x(d9x::kHomeDirection), 1},
+                                      {of_x(d9x::kHomeOffset), 1000}};
   for (const Panel& panel : kPanels) {
-    if (row.table == Table::holding && row.address == data_address(panel.d9) &&
+    if (row.table == Table::holding && row.address == data_address(panel.number) &&
         chose(option("factory_values", "panels"))) {
-      const bool is_one_lu = panel.d9 == kOffset && chose(option("x30_unit", "0_001_mm_with_panel_values"));
+      const bool is_one_lu =
+          panel.number == of_x(d9x::kHomeOffset) && chose(option("x30_unit", "0_001_mm_with_panel_values"));
       return is_one_lu ? 1 : static_cast<std::uint32_t>(panel.value);
     }
   }
   constexpr std::uint32_t kPrintedWithD9 = 5000;
-  const bool is_feed = row.table == Table::holding && row.address == data_address(kDefaultFeed);
+  const bool is_feed = row.table == Table::holding && row.address == data_address(d9::kSystemSpeed);
   if (is_feed && chose(option("d9004_factory", "5_mm_s"))) return kPrintedWithD9;
   return static_cast<std::uint32_t>(row.factory);
 }
 
 bool Super40nc::keeps(const RegisterRow& row) const {
-  const bool is_of_timer_or_counter = row.table == Table::coil && row.address >= 600 && row.address < 1000;
+  const bool is_of_timer_or_counter =
+      row.table == Table::coil && row.address >= kFirstTimerContact && row.address < relay_address(0);
   const bool is_of_user_buffer = row.table == Table::holding && row.address >= kFirstUserAddress &&
                                  row.address < kFirstUserAddress + 2 * kUserRegisters;
   if (is_of_user_buffer) return chose(option("user_buffer", "is_kept"));
@@ -81,8 +86,8 @@ Eeprom Super40nc::factory_memory() const {
   return Eeprom(factory, is_kept, is_kept);
 }
 
-void Super40nc::put(Kept kept, std::int32_t value, int of_axis) {
-  const std::size_t slot = kept.slot + static_cast<std::size_t>(of_axis);
+void Super40nc::put(Kept kept, std::int32_t value, int axis) {
+  const std::size_t slot = kept.slot + static_cast<std::size_t>(axis);
   state_.image[slot] = static_cast<std::uint32_t>(value);
   keep_slot(slot);
   if (slot >= kFirstParameterSlot && !state_.parameters_in_force.empty()) {
@@ -100,10 +105,10 @@ void Super40nc::take_parameters() {
 /// Puts X14 and C0 into force as they are at power-up.
 void Super40nc::take_power_up_parameters() {
   const Settings settings = registers();
-  state_.logo_ms = static_cast<std::int32_t>(settings.of(kept_d(9007)));
+  state_.logo_ms = static_cast<std::int32_t>(settings.of(kept_d(d9::kLogoTime)));
   for (int number = 0; number < kAxisCount; ++number) {
     state_.rpm_at_power_up[static_cast<std::size_t>(number)] =
-        static_cast<std::int32_t>(settings.of(kept_x(78), number));
+        static_cast<std::int32_t>(settings.of(kept_x(d9x::kDefaultSpeed), number));
   }
 }
 
@@ -156,13 +161,13 @@ void Super40nc::power_up() {
   });
   take_parameters();
   const Settings settings = registers();
-  put(kept_d(8006), settings.raw(kept_d(9004)));
-  put(kept_d(8007), settings.raw(kept_d(9016)));
-  state_.station = settings.raw(kept_d(9000));
-  if (chose(option("version_number", "0"))) put(kept_d(8099), 0);
-  if (chose(option("override_at_power_up", "0"))) put(kept_d(8005), 0);
-  state_.file = settings.raw(kept_d(9001));
-  state_.recipe = settings.raw(kept_d(9002));
+  put(kept_d(d8::kFeed), settings.raw(kept_d(d9::kSystemSpeed)));
+  put(kept_d(d8::kPlane), settings.raw(kept_d(d9::kArcPlane)));
+  state_.station = settings.raw(kept_d(d9::kStation));
+  if (chose(option("version_number", "0"))) put(kept_d(d8::kVersion), 0);
+  if (chose(option("override_at_power_up", "0"))) put(kept_d(d8::kFeedPercentage), 0);
+  state_.file = settings.raw(kept_d(d9::kFileNumber));
+  state_.recipe = settings.raw(kept_d(d9::kRecipeNumber));
   state_.wheel_edges = input(kWheelTerminal);
   take_power_up_parameters();
   if (chose(option("power_up_files", "read_from_file_and_recipe_again"))) read_files_again();
@@ -177,7 +182,8 @@ void Super40nc::power_up() {
 void Super40nc::reset_parameters() {
   const bool leaves_some = chose(option("m8008_scope", "but_for_d9000_and_d9026"));
   const auto stays = [&](const RegisterRow& row) {
-    return leaves_some && (row.address == data_address(9000) || row.address == data_address(9026));
+    return leaves_some &&
+           (row.address == data_address(d9::kStation) || row.address == data_address(d9::kPassword));
   };
   for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
     if (is_parameter(row) && !stays(row)) put({.slot = slot}, static_cast<std::int32_t>(factory_bits(row)));

@@ -11,6 +11,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
 #include "emulator/models/super_40nc/settings.h"
@@ -108,8 +109,9 @@ void Super40nc::step_arc_backlash(const std::array<std::int8_t, kAxisCount>& way
     motion::Axis& motor = chip(number);
     const std::int8_t direction = motor.last_direction;
     const bool turns = is_on_path(number) && ways_before[n] != 0 && direction != ways_before[n];
-    if (turns && settings.of(kept_x(57), number) == kBacklash) {
-      state.arc_backlash = direction * (settings.of(kept_x(56), number) - std::abs(state.arc_backlash));
+    if (turns && settings.of(kept_x(d9x::kCorrectMode), number) == kBacklash) {
+      state.arc_backlash =
+          direction * (settings.of(kept_x(d9x::kBacklash), number) - std::abs(state.arc_backlash));
       state.arc_backlash_part = 0;
     }
     if (state.arc_backlash == 0) continue;

@@ -11,6 +11,7 @@
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/marks.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -36,7 +37,7 @@ double pulses_per_lu(const Settings& settings, int axis) { return settings.scale
 /// Returns D8005 within its limits.
 double Super40nc::override_percent() const {
   constexpr double kMax = 100;
-  const auto percent = static_cast<double>(registers().of(kept_d(8005)));
+  const auto percent = static_cast<double>(registers().of(kept_d(d8::kFeedPercentage)));
   return chose(option("override_range", "0_to_100")) ? std::min(percent, kMax) : percent;
 }
 
@@ -50,7 +51,8 @@ double Super40nc::path_feed() const {
 double Super40nc::feed_scale(const motion::Path& path) const {
   static constexpr std::array<double, 4> kUnits{0.001, 0.01, 0.1, 1};
   const bool goes_by_decimals = chose(option("feed_unit", "0_001_mm_by_the_decimals_of_x"));
-  const double unit = goes_by_decimals ? kUnits[static_cast<std::size_t>(registers().of(kept_x(65)))] : 1.0;
+  const double unit =
+      goes_by_decimals ? kUnits[static_cast<std::size_t>(registers().of(kept_x(d9x::kDotPosition)))] : 1.0;
   const motion::Point way = path.end - path.begin;
   const double of_xyz = way.head<3>().norm();
   const bool carries_u = way[3] != 0 && of_xyz > 0 && chose(option("vector_feed", "u_is_carried_along"));
@@ -81,7 +83,7 @@ motion::Cause Super40nc::blocked_on_path(int axis_number, const motion::Path& pa
 bool Super40nc::begin_path(const PathPlan& plan) {
   const Settings settings = registers();
   const bool takes_default = plan.feed_lu_per_s <= 0 && chose(option("feed_not_positive", "default_feed"));
-  state_.path_feed_lu_s = takes_default ? settings.raw(kept_d(9004)) : plan.feed_lu_per_s;
+  state_.path_feed_lu_s = takes_default ? settings.raw(kept_d(d9::kSystemSpeed)) : plan.feed_lu_per_s;
   motion::Coordinated path;
   state_.path_feed_scale = feed_scale(plan.path);
   // The limit of each axis along its own direction, in LU a second, and its acceleration.
@@ -90,6 +92,7 @@ bool Super40nc::begin_path(const PathPlan& plan) {
   double target_lu_s = std::numeric_limits<double>::infinity();
   double fastest_pps = 0;
   double longest = 0;  // pulses of an axis for a LU of the path
+  const auto number_of = [&](Kept kept) { return static_cast<double>(settings.of(kept)); };
   const bool goes_by_longest = chose(option("path_law", "slope_of_the_longest_axis"));
   double fastest_ppu = 1;
   const motion::Point direction = motion::greatest_direction(plan.path);
@@ -103,7 +106,7 @@ bool Super40nc::begin_path(const PathPlan& plan) {
     most[number] = settings.top_pps(number) / ppu;
     const double share = direction[number];
     if (share <= 0) continue;
-    const double slope_lu_s = settings.pps(number, static_cast<double>(settings.of(kept_d(9011)))) / ppu;
+    const double slope_lu_s = settings.pps(number, number_of(kept_d(d9::kTargetSpeed))) / ppu;
     if (!goes_by_longest) target_lu_s = std::min(target_lu_s, slope_lu_s);
     if (goes_by_longest && share * ppu > longest) target_lu_s = slope_lu_s;
     longest = std::max(longest, share * ppu);
@@ -116,11 +119,10 @@ bool Super40nc::begin_path(const PathPlan& plan) {
   state_.path_limit_lu_s = motion::speed_within(plan.path, most);
   const double top = std::max(std::min(path_feed(), state_.path_limit_lu_s), 1e-3);
   const double step_lu_s = multiplier_of(std::max(fastest_pps, 1.0)) / fastest_ppu;
-  const auto number_of = [&](Kept kept) { return static_cast<double>(settings.of(kept)); };
-  const motion::SpeedLaw law =
-      law_by(0, top, target_lu_s, number_of(kept_d(9014)),
-             settings.down_ms(number_of(kept_d(9015)), number_of(kept_d(9014))),
-             number_of(kept_d(9012)) * step_lu_s, number_of(kept_d(9013)) * step_lu_s);
+  const motion::SpeedLaw law = law_by(
+      0, top, target_lu_s, number_of(kept_d(d9::kAccelerationTime)),
+      settings.down_ms(number_of(kept_d(d9::kDecelerationTime)), number_of(kept_d(d9::kAccelerationTime))),
+      number_of(kept_d(d9::kSAcceleration)) * step_lu_s, number_of(kept_d(d9::kSDeceleration)) * step_lu_s);
   path.run.append(plan.path, {}, before_motion());
   path.run.set_speed(law, before_motion());
   bool is_blocked = false;
@@ -159,7 +161,7 @@ bool Super40nc::begin_path(const PathPlan& plan) {
 }
 
 bool Super40nc::joins_paths() const {
-  return options_.joins_paths && state_.path.engaged && registers().is_on(kept_d(9005));
+  return options_.joins_paths && state_.path.engaged && registers().is_on(kept_d(d9::kContinuousPath));
 }
 
 bool Super40nc::has_room_on_path(const std::array<bool, kAxisCount>& takes) const {

@@ -9,6 +9,7 @@
 #include "base/simulated_time.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
@@ -47,13 +48,14 @@ void Super40nc::see_pins() {
   for (int number = 0; number < kAxisCount; ++number) {
     const auto n = static_cast<std::size_t>(number);
     const bool clears = input(chip_pin_of(number, kClearPin)) != 0;
-    const auto mode = registers().of(kept_x(9), number);
+    const auto mode = registers().of(kept_x(d9x::kClrSignal), number);
     const bool has_edge = clears != state_.clears_seen[n] && state_.has_ticked;
     if (has_edge && mode == (clears ? kAtOn : kAtOff)) clear_by_pin(number);
     state_.clears_seen[n] = clears;
     const bool latches = input(chip_pin_of(number, kLatchPin)) != 0;
     const bool rises = latches && !state_.latches_seen[n] && state_.has_ticked;
-    if (rises && registers().of(kept_x(50), number) == 0) take_latch(number, chip(number).travel_pulses);
+    if (rises && registers().of(kept_x(d9x::kLatchOfCounters), number) == 0)
+      take_latch(number, chip(number).travel_pulses);
     state_.latches_seen[n] = latches;
   }
 }
@@ -63,13 +65,14 @@ void Super40nc::hold_cleared() {
   if (!has_chip_pins()) return;
   for (int number = 0; number < kAxisCount; ++number) {
     const bool is_on = state_.clears_seen[static_cast<std::size_t>(number)];
-    if (registers().of(kept_x(9), number) == (is_on ? kWhileOn : kWhileOff)) clear_by_pin(number);
+    if (registers().of(kept_x(d9x::kClrSignal), number) == (is_on ? kWhileOn : kWhileOff))
+      clear_by_pin(number);
   }
 }
 
 /// Clears the counters in the mask D9x27.
 void Super40nc::clear_by_pin(int axis) {
-  const std::int32_t mask = registers().raw(kept_x(27), axis);
+  const std::int32_t mask = registers().raw(kept_x(d9x::kClrResetC), axis);
   for (int which = 0; which < static_cast<int>(kCounters); ++which) {
     if ((mask >> which & 1) != 0 && counter(axis, which) != 0) set_counter(axis, which, 0);
   }
@@ -77,7 +80,7 @@ void Super40nc::clear_by_pin(int axis) {
 
 void Super40nc::give_erc(int axis) {
   if (!has_chip_pins()) return;
-  const Tick ticks = kErcTicks[static_cast<std::size_t>(registers().of(kept_x(6), axis))];
+  const Tick ticks = kErcTicks[static_cast<std::size_t>(registers().of(kept_x(d9x::kErcSignal), axis))];
   state_.erc_until[static_cast<std::size_t>(axis)] = ticks == kNever ? kNever : now() + 1 + ticks;
 }
 
@@ -85,10 +88,10 @@ void Super40nc::give_erc(int axis) {
 void Super40nc::give_erc_behind(int axis, Code code) {
   const Settings settings = registers();
   const bool is_limit = code == Code::limit_positive || code == Code::limit_negative;
-  const bool at_once = (is_limit && !settings.is_on(kept_x(1), axis)) ||
-                       (code == Code::alarm && !settings.is_on(kept_x(3), axis)) ||
+  const bool at_once = (is_limit && !settings.is_on(kept_x(d9x::kOtStop), axis)) ||
+                       (code == Code::alarm && !settings.is_on(kept_x(d9x::kAlmStop), axis)) ||
                        code == Code::emergency_input;
-  if (at_once && settings.is_on(kept_x(4), axis)) give_erc(axis);
+  if (at_once && settings.is_on(kept_x(d9x::kElAlmErc), axis)) give_erc(axis);
 }
 
 /// If D8x17 is a counter of its own, another CMX or CDV leaves it unchanged.

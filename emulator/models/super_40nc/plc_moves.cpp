@@ -5,6 +5,7 @@
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/manual_motions.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/program_machine.h"
@@ -64,7 +65,7 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
   const bool swaps = device_.chose(option("x52_scope", "pjg_and_mjg_as_well"));
   for (int axis = 0; axis < kAxisCount; ++axis) {
     AxisState& state = device_.axis(axis);
-    const bool is_swapped = swaps && device_.registers().is_on(kept_x(97), axis);
+    const bool is_swapped = swaps && device_.registers().is_on(kept_x(d9x::kJogDirection), axis);
     const bool positive = ((is_swapped ? jogs.negative : jogs.positive) >> axis & 1) != 0;
     const bool negative = ((is_swapped ? jogs.positive : jogs.negative) >> axis & 1) != 0;
     const int running = state.asked_by_plc ? device_.chip(axis).last_direction : 0;

@@ -37,14 +37,14 @@ Mover mover_of(Area area) { return static_cast<Mover>(area); }
 // ---- contacts and registers
 
 language::CellLayout ProgramMachine::layout() const {
-  return {.x = cell_of_slot(kept_at(Table::discrete, 0)),
-          .y = cell_of_slot(kept_y(0)),
-          .m = cell_of_slot(kept_m(0)),
-          .t = cell_of_slot(kept_at(Table::coil, 600)),
-          .c = cell_of_slot(kept_at(Table::coil, 800)),
-          .t_value = cell_of_slot(kept_at(Table::holding, 2000)),
-          .c_value = cell_of_slot(kept_at(Table::holding, 2500)),
-          .d = cell_of_slot(kept_d(0))};
+  return {.x = cell_of_slot(kFirstX),
+          .y = cell_of_slot(kFirstY),
+          .m = cell_of_slot(kFirstM),
+          .t = cell_of_slot(kept_at(Table::coil, kFirstTimerContact)),
+          .c = cell_of_slot(kept_at(Table::coil, kFirstCounterContact)),
+          .t_value = cell_of_slot(kept_at(Table::holding, kFirstTimerValue)),
+          .c_value = cell_of_slot(kept_at(Table::holding, kFirstCounterValue)),
+          .d = cell_of_slot(kFirstD)};
 }
 
 void ProgramMachine::kept_cell_written(std::uint32_t cell) { device_.keep_slot(cell); }

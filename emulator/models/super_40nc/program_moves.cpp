@@ -7,6 +7,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -108,7 +109,8 @@ bool Super40nc::begin_mark(int axis_number, std::int64_t distance, std::int64_t 
       {.distance_pulses = distance,
        .search_pulses = search,
        .fast = fast,
-       .creep = line_law(axis_number, static_cast<double>(settings.of(kept_x(80), axis_number)), mover),
+       .creep = line_law(axis_number, static_cast<double>(settings.of(kept_x(d9x::kCreepSpeed), axis_number)),
+                         mover),
        .slows_behind = chose(option("mrk_course", "slows_behind_the_target")),
        .looks_all_the_way = chose(option("mrk_course", "signal_before_it_counts")),
        .mark_slows = chose(option("mrk_course", "stops_by_a_ramp")),
@@ -278,7 +280,7 @@ void Super40nc::cannot_go_on(int axis_number, const Rest& rest, Mover mover, boo
 /// Returns X16, for MRK.
 std::int64_t Super40nc::search_pulses(int axis) const {
   const Settings settings = registers();
-  const Value distance = settings.of(kept_x(90), axis);
+  const Value distance = settings.of(kept_x(d9x::kLowSpeedLength), axis);
   const bool is_in_pulses = chose(option("mark_distance_unit", "pulses"));
   return is_in_pulses ? distance : settings.scale(axis).to_pulses(distance).value_or(0);
 }
@@ -298,7 +300,7 @@ void Super40nc::break_program(Mover mover, int but_for) {
         state.holder == Activity::wheel) {
       continue;
     }
-    const bool ramp = registers().is_on(kept_x(1), number) && state.holder != Activity::rest;
+    const bool ramp = registers().is_on(kept_x(d9x::kOtStop), number) && state.holder != Activity::rest;
     state.is_held = state.awaited = state.shows_finish = false;
     if (ramp) {
       chip(number).slow_down(now());

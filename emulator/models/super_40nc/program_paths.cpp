@@ -8,6 +8,7 @@
 
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/program_machine.h"
@@ -146,7 +147,7 @@ Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mo
 
 /// Returns the turn in a plane, which C24 to C26 swap. Seen from the third axis, Z comes before X.
 motion::Turn ProgramMachine::turn_of(language::Turn turn, language::Plane plane) const {
-  const std::array<Kept, 3> swaps{kept_d(9017), kept_d(9018), kept_d(9019)};
+  const std::array<Kept, 3> swaps{kept_d(d9::kSwapXy), kept_d(d9::kSwapXz), kept_d(d9::kSwapYz)};
   const bool is_seen_from_behind =
       plane == language::Plane::xz && device_.chose(option("arc_axes", "seen_from_the_third_axis"));
   const bool is_swapped_by_parameter = !device_.chose(option("plane_swap_registers", "none")) &&

@@ -24,6 +24,7 @@
 #include "emulator/models/super_40nc/language.h"
 #include "emulator/models/super_40nc/manual_motions.h"
 #include "emulator/models/super_40nc/marks.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -86,7 +87,8 @@ void Super40nc::make_programs_ready() {
 /// Shows in D9036 to D9042 the stored lines, not the capacities, if that is chosen.
 void Super40nc::show_line_counts() {
   if (!shows_line_counts()) return;
-  const Kept shown[] = {kept_d(9042), kept_d(9037), kept_d(9038), kept_d(9039), kept_d(9040), kept_d(9036)};
+  const Kept shown[] = {kept_d(d9::kLinesOfC), kept_d(d9::kLinesOfX), kept_d(d9::kLinesOfY),
+                        kept_d(d9::kLinesOfZ), kept_d(d9::kLinesOfU), kept_d(d9::kLinesOfPlc)};
   for (const language::AreaRow& row : language::kAreas) {
     const auto program = stored_area(state_.blocks, kPrograms, row.name, row.area, options_);
     std::int32_t count = 0;
@@ -100,7 +102,7 @@ void Super40nc::show_line_counts() {
 /// Returns the options with D9042, the room of C and of each file.
 language::Options Super40nc::options_with_room() const {
   language::Options options = options_;
-  if (registers().raw(kept_d(9045)) > 0) options.c_capacity = room_of_c();  // 0 before power-up
+  if (registers().raw(kept_d(d9::kLinesOfAFile)) > 0) options.c_capacity = room_of_c();  // 0 before power-up
   return options;
 }
 
@@ -130,7 +132,8 @@ std::vector<ProgramMistake> Super40nc::warnings_about(std::string_view text) con
 }
 
 void Super40nc::load_program(std::string_view text) {
-  if (powered() && registers().is_on(kept_d(9021)) && chose(option("edit_lock", "d9021_refuses_programs"))) {
+  if (powered() && registers().is_on(kept_d(d9::kEditLock)) &&
+      chose(option("edit_lock", "d9021_refuses_programs"))) {
     throw ProgramError(0, 0, "D9021 (C15) locks programs; expected 0 there");
   }
   const language::Checked checked = language::check(text, options_with_room());
@@ -250,16 +253,15 @@ void Super40nc::plc_to_stop() {
   for (int number = 0; number < kAxisCount; ++number) handle(number, ManualEvent::plc_stop);
   if (chose(option("plc_stop_timers", "are_cleared"))) clear_timers();
   if (!chose(option("plc_stop_outputs", "off"))) return;
-  const std::span outputs = std::span(state_.image).subspan(kept_y(0).slot, kOutputCount);
+  const std::span outputs = std::span(state_.image).subspan(kFirstY.slot, kOutputCount);
   std::fill(outputs.begin(), outputs.end(), 0U);
 }
 
 /// Clears values and contacts of timers that are not latched.
 void Super40nc::clear_timers() {
-  constexpr int kTimers = 56;
   for (int i = 0; i < kTimers; ++i) {
-    put({.slot = kept_at(Table::coil, 600).slot + static_cast<std::size_t>(i)}, 0);
-    put({.slot = kept_at(Table::holding, 2000).slot + static_cast<std::size_t>(i)}, 0);
+    put({.slot = kept_at(Table::coil, kFirstTimerContact).slot + static_cast<std::size_t>(i)}, 0);
+    put({.slot = kept_at(Table::holding, kFirstTimerValue).slot + static_cast<std::size_t>(i)}, 0);
   }
 }
 
@@ -298,18 +300,18 @@ void Super40nc::flash_written(bool is_recipe) {
 /// Saves the C program in memory, and loads that of another file.
 void Super40nc::change_file(std::int32_t number) {
   if (chose(option("file_number_range", "nearest_one"))) {
-    number = std::clamp(number, 0, std::max(registers().raw(kept_d(9043)) - 1, 0));
-    put(kept_d(9001), number);
+    number = std::clamp(number, 0, std::max(registers().raw(kept_d(d9::kFileCount)) - 1, 0));
+    put(kept_d(d9::kFileNumber), number);
   }
-  if (number < 0 || number >= registers().raw(kept_d(9043))) {
-    put(kept_d(9001), state_.file);
+  if (number < 0 || number >= registers().raw(kept_d(d9::kFileCount))) {
+    put(kept_d(d9::kFileNumber), state_.file);
     report(Code::no_such_file);
     return;
   }
   if (number == state_.file) return;
   const bool c_runs = state_.steps.programs[0].phase != language::Phase::idle;
   if (c_runs && chose(option("file_change_running", "refused"))) {
-    put(kept_d(9001), state_.file);
+    put(kept_d(d9::kFileNumber), state_.file);
     report(Code::no_such_file);
     return;
   }

@@ -8,6 +8,7 @@
 
 #include "emulator/models/super_40nc/contact_rows.h"
 #include "emulator/models/super_40nc/data_rows.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/parameter_rows.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -63,7 +64,7 @@ consteval Kept kept_at(Table table, int address) {
 }
 
 /// Where the special contacts M8000 to M8699 are stored; views of other state are not stored.
-inline constexpr int kFirstSpecialContact = 8000;
+inline constexpr int kFirstSpecialContact = m8::kStartOfC;
 inline constexpr std::size_t kNotKept = SIZE_MAX;
 inline constexpr auto kSpecialContactSlots = [] {
   std::array<std::size_t, 700> slots{};
@@ -71,7 +72,7 @@ inline constexpr auto kSpecialContactSlots = [] {
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {
     for (int i = 0; i < row.count && row.table == Table::coil; ++i) {
-      const int number = row.address + i * row.stride + 6000 - kFirstSpecialContact;
+      const int number = row.address + i * row.stride - relay_address(kFirstSpecialContact);
       if (number >= 0 && !row.is_view) {
         slots[static_cast<std::size_t>(number)] = next + static_cast<std::size_t>(i);
       }
@@ -111,7 +112,7 @@ inline constexpr auto kIsUnlisted = [] {
   for (const RegisterRow& row : kRegisters) {
     if (row.is_view) continue;
     const bool is_special =
-        (row.table == Table::coil || row.table == Table::holding) && row.first_number >= 8000;
+        (row.table == Table::coil || row.table == Table::holding) && row.first_number >= kFirstSpecialContact;
     for (int i = 0; i < row.count; ++i, ++next) {
       unlisted[next] = is_special && names(row.table, row.first_number + i * row.number_step);
     }
@@ -121,9 +122,12 @@ inline constexpr auto kIsUnlisted = [] {
 
 /// Find a register by number; an unknown number is a compile error.
 consteval Kept kept_d(int number) { return kept_at(Table::holding, data_address(number)); }
-consteval Kept kept_m(int number) { return kept_at(Table::coil, relay_address(number)); }
-consteval Kept kept_y(int number) { return kept_at(Table::coil, number); }
 /// Finds D9x00 + number, for the first axis.
-consteval Kept kept_x(int number) { return kept_d(9100 + number); }
+consteval Kept kept_x(int number) { return kept_d(of_x(number)); }
+
+inline constexpr Kept kFirstX = kept_at(Table::discrete, 0);
+inline constexpr Kept kFirstY = kept_at(Table::coil, 0);
+inline constexpr Kept kFirstM = kept_at(Table::coil, relay_address(0));
+inline constexpr Kept kFirstD = kept_d(0);
 
 }  // namespace understudy::emulator::models::super_40nc

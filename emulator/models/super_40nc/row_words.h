@@ -57,8 +57,10 @@ constexpr RegisterRow axis_data(int of_x, Access access = RW) {
 constexpr RegisterRow axis_data(int first_of_x, int last_of_x, int axis) {
   return data(first_of_x + 100 * axis, last_of_x + 100 * axis);
 }
-/// Makes a row of D9n00 + number of each axis.
-constexpr RegisterRow parameter(int number) { return axis_data(9100 + number).kept_at_once(); }
+/// Returns the number of a parameter D9x00 + number of X.
+constexpr int of_x(int number) { return 9100 + number; }
+/// Makes a row of D9x00 + number of each axis.
+constexpr RegisterRow parameter(int number) { return axis_data(of_x(number)).kept_at_once(); }
 
 template <std::size_t N>
 consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {

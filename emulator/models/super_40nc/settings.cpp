@@ -1,4 +1,5 @@
 #include "emulator/models/super_40nc/settings.h"
+#include "emulator/models/super_40nc/names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,22 +45,25 @@ double Settings::multiplier(int axis, double pps) const {
 motion::SpeedLaw Settings::law(int axis, double rpm) const {
   const auto number = [&](Kept kept) { return static_cast<double>(of(kept, axis)); };
   return law_with(axis, rpm,
-                  {number(kept_x(66)), number(kept_x(67)), number(kept_x(68)), number(kept_x(69))});
+                  {number(kept_x(d9x::kAccelerationTime)), number(kept_x(d9x::kDecelerationTime)),
+                   number(kept_x(d9x::kSAcceleration)), number(kept_x(d9x::kSDeceleration))});
 }
 
 motion::SpeedLaw Settings::law_of_c(int axis, double rpm) const {
   const auto number = [&](Kept kept) { return static_cast<double>(of(kept)); };
   return law_with(axis, rpm,
-                  {number(kept_d(9014)), number(kept_d(9015)), number(kept_d(9012)), number(kept_d(9013))});
+                  {number(kept_d(d9::kAccelerationTime)), number(kept_d(d9::kDecelerationTime)),
+                   number(kept_d(d9::kSAcceleration)), number(kept_d(d9::kSDeceleration))});
 }
 
 motion::SpeedLaw Settings::law_with(int axis, double rpm, const Ramps& ramps) const {
-  const auto start_rpm = static_cast<double>(of(kept_x(76), axis));
+  const auto start_rpm = static_cast<double>(of(kept_x(d9x::kBiasSpeed), axis));
   const double least_rpm = readings_.starts_as_fast ? start_rpm : 1.0;
   const double top = std::min(pps(axis, std::max(rpm, least_rpm)), top_pps(axis));
   const double step = multiplier(axis, top);
-  return law_by(pps(axis, start_rpm), top, pps(axis, static_cast<double>(of(kept_d(9011)))), ramps.up_ms,
-                down_ms(ramps.down_ms, ramps.up_ms), ramps.up_steps * step, ramps.down_steps * step);
+  return law_by(pps(axis, start_rpm), top, pps(axis, static_cast<double>(of(kept_d(d9::kTargetSpeed)))),
+                ramps.up_ms, down_ms(ramps.down_ms, ramps.up_ms), ramps.up_steps * step,
+                ramps.down_steps * step);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "motion/move.h"
 #include "motion/unit_scale.h"
@@ -20,7 +21,7 @@ inline constexpr double kFastestPps = 6'553'500;
 using Image = std::array<std::uint32_t, kSlotCount>;
 
 /// The registers from D9000 on are the last of the image.
-inline constexpr std::size_t kFirstParameterSlot = kept_d(9000).slot;
+inline constexpr std::size_t kFirstParameterSlot = kept_d(d9::kStation).slot;
 inline constexpr std::size_t kParameterCount = kSlotCount - kFirstParameterSlot;
 
 /// The choices that affect numbers.
@@ -51,14 +52,16 @@ class Settings {
   bool is_on(Kept kept, int axis = 0) const { return raw(kept, axis) != 0; }
 
   motion::UnitScale scale(int axis) const {
-    return {.multiplier = of(kept_x(71), axis),
-            .divider = of(kept_x(72), axis),
+    return {.multiplier = of(kept_x(d9x::kCmx), axis),
+            .divider = of(kept_x(d9x::kCdv), axis),
             .truncates = readings_.truncates};
   }
-  double pps(int axis, double rpm) const { return rpm * static_cast<double>(of(kept_x(70), axis)) / 60.0; }
+  double pps(int axis, double rpm) const {
+    return rpm * static_cast<double>(of(kept_x(d9x::kPpr), axis)) / 60.0;
+  }
   /// Returns the highest speed of any motion of the axis.
   double top_pps(int axis) const {
-    return std::min(pps(axis, static_cast<double>(of(kept_x(75), axis))), kFastestPps);
+    return std::min(pps(axis, static_cast<double>(of(kept_x(d9x::kMaxSpeed), axis))), kFastestPps);
   }
   /// Returns the chip's speed multiplier for a motion with the top speed `pps`.
   double multiplier(int axis, double pps) const;

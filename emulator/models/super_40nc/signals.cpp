@@ -9,6 +9,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
@@ -21,8 +22,9 @@
 namespace understudy::emulator::models::super_40nc {
 
 Value Super40nc::limit_logic(int axis, int direction) const {
-  if (!has_limit_copies()) return registers().of(direction > 0 ? kept_x(63) : kept_x(64), axis);
-  return registers().of(direction > 0 ? kept_d(8118) : kept_d(8119), axis);
+  if (!has_limit_copies())
+    return registers().of(direction > 0 ? kept_x(d9x::kPlusOtSignal) : kept_x(d9x::kMinusOtSignal), axis);
+  return registers().of(direction > 0 ? kept_d(d8x::kPlusLimitPort) : kept_d(d8x::kMinusLimitPort), axis);
 }
 
 void Super40nc::update_environment(int axis_number) {
@@ -46,7 +48,7 @@ void Super40nc::update_environment(int axis_number) {
     const bool is_mark = rest.kind == RestKind::mark && rest.marks_positive == (direction > 0);
     return is_mark ? std::optional(true) : limit_of_line(direction);
   };
-  const bool dog_level = !settings.is_on(kept_x(2), axis_number);
+  const bool dog_level = !settings.is_on(kept_x(d9x::kOrgLogic), axis_number);
   const int dog =
       chose(option("dog_inputs", "x0_x3_x6_x9")) ? dog_input(axis_number) : kFirstDogTerminal + axis_number;
   const Function functions[] = {
@@ -79,7 +81,7 @@ void Super40nc::update_environment(int axis_number) {
     }
   }
   seen.encoder = edges.encoder.as<motion::EncoderLine>();
-  seen.encoder.turned = settings.is_on(kept_x(13), axis_number);
+  seen.encoder.turned = settings.is_on(kept_x(d9x::kEncoderDirection), axis_number);
   seen.version = environment(axis_number).version;
   if (seen == environment(axis_number)) return;
   ++seen.version;
@@ -115,26 +117,32 @@ void Super40nc::apply_axis_parameters(int axis_number, int number) {
     return static_cast<std::int32_t>(wrapped);
   };
   switch (number) {
-    case 13: {
+    case d9x::kEncoderDirection: {
       // It counts in the other direction from here on, and has met nothing.
       motion::Axis& motor = chip(axis_number);
       const std::int64_t counts = axis(axis_number).encoder_counts;
-      motor.encoder_pulses = motor.encoder_seen = settings.is_on(kept_x(13), axis_number) ? -counts : counts;
+      motor.encoder_pulses = motor.encoder_seen =
+          settings.is_on(kept_x(d9x::kEncoderDirection), axis_number) ? -counts : counts;
       break;
     }
-    case 63:
-      if (has_limit_copies()) put(kept_d(8118), settings.raw(kept_x(63), axis_number), axis_number);
+    case d9x::kPlusOtSignal:
+      if (has_limit_copies())
+        put(kept_d(d8x::kPlusLimitPort), settings.raw(kept_x(d9x::kPlusOtSignal), axis_number), axis_number);
       break;
-    case 64:
-      if (has_limit_copies()) put(kept_d(8119), settings.raw(kept_x(64), axis_number), axis_number);
+    case d9x::kMinusOtSignal:
+      if (has_limit_copies())
+        put(kept_d(d8x::kMinusLimitPort), settings.raw(kept_x(d9x::kMinusOtSignal), axis_number),
+            axis_number);
       break;
-    case 71:
-    case 72:
-    case 85:
-    case 86:
-      if (number != 86) put(kept_d(8144), limit_pulses(kept_x(85)), axis_number);
-      if (number != 85) put(kept_d(8145), limit_pulses(kept_x(86)), axis_number);
-      if (number <= 72) {
+    case d9x::kCmx:
+    case d9x::kCdv:
+    case d9x::kPlusSoftLimit:
+    case d9x::kMinusSoftLimit:
+      if (number != d9x::kMinusSoftLimit)
+        put(kept_d(d8x::kRcmp1), limit_pulses(kept_x(d9x::kPlusSoftLimit)), axis_number);
+      if (number != d9x::kPlusSoftLimit)
+        put(kept_d(d8x::kRcmp2), limit_pulses(kept_x(d9x::kMinusSoftLimit)), axis_number);
+      if (number <= d9x::kCdv) {
         axis(axis_number).stands_on_target = false;
         keep_display(axis_number);
       }
@@ -149,7 +157,8 @@ void Super40nc::apply_axis_parameters(int axis_number, int number) {
 
 void Super40nc::apply_all_axis_parameters() {
   for (int number = 0; number < kAxisCount; ++number) {
-    for (const int parameter : {63, 64, 71}) apply_axis_parameters(number, parameter);
+    for (const int parameter : {d9x::kPlusOtSignal, d9x::kMinusOtSignal, d9x::kCmx})
+      apply_axis_parameters(number, parameter);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/effects.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -140,7 +141,7 @@ std::int32_t Super40nc::chip_speed(int axis_number) const {
 /// Adds to one of COUNTER2 to COUNTER4.
 void Super40nc::add_to_counter(int axis_number, int which, std::int64_t counts) {
   constexpr int kDeviation = 2;
-  if (counts == 0 || is_bit(registers().raw(kept_x(30), axis_number), which - 1)) return;
+  if (counts == 0 || is_bit(registers().raw(kept_x(d9x::kDisableC2ToC4), axis_number), which - 1)) return;
   std::int32_t& its_count = axis(axis_number).counts[static_cast<std::size_t>(which - 1)];
   its_count = wrapped(its_count + counts);
   if (which == kDeviation) its_count = static_cast<std::int16_t>(its_count);  // 16 bits on the chip
@@ -149,17 +150,19 @@ void Super40nc::add_to_counter(int axis_number, int which, std::int64_t counts) 
 /// Returns true if COUNTER4 counts now; it may count only while the axis moves.
 bool Super40nc::counts_now(int axis_number) const {
   const AxisState& state = axis(axis_number);
-  return !registers().is_on(kept_x(26), axis_number) || state.moves() || state.followed_pulses != 0;
+  return !registers().is_on(kept_x(d9x::kC4Enable), axis_number) || state.moves() ||
+         state.followed_pulses != 0;
 }
 
 bool Super40nc::counts_a_clock(int axis) const {
-  return chose(option("counter4_clock", "9_8304_mhz")) && registers().of(kept_x(25), axis) == 3;
+  return chose(option("counter4_clock", "9_8304_mhz")) && registers().of(kept_x(d9x::kC4Source), axis) == 3;
 }
 
 /// Sets the machine's encoder, which has moved by the pulses of this tick.
 void Super40nc::set_encoder(int axis_number, std::int64_t counts) {
   count_encoder(axis_number, counts);
-  chip(axis_number).set_encoder(registers().is_on(kept_x(13), axis_number) ? -counts : counts);
+  chip(axis_number)
+      .set_encoder(registers().is_on(kept_x(d9x::kEncoderDirection), axis_number) ? -counts : counts);
 }
 
 void Super40nc::count_encoder(int axis_number, std::int64_t counts) {
@@ -167,13 +170,13 @@ void Super40nc::count_encoder(int axis_number, std::int64_t counts) {
   const Settings settings = registers();
   const std::int64_t turned = counts - state.encoder_counts;
   state.encoder_counts = counts;
-  if (turned == 0 || !powered() || settings.is_on(kept_x(19), axis_number)) return;
-  const std::int64_t counted = settings.is_on(kept_x(13), axis_number) ? -turned : turned;
-  if (settings.of(kept_x(23), axis_number) == 0) add_to_counter(axis_number, 1, counted);
-  const Value deviation = settings.of(kept_x(24), axis_number);
+  if (turned == 0 || !powered() || settings.is_on(kept_x(d9x::kEncoderDisable), axis_number)) return;
+  const std::int64_t counted = settings.is_on(kept_x(d9x::kEncoderDirection), axis_number) ? -turned : turned;
+  if (settings.of(kept_x(d9x::kC2Source), axis_number) == 0) add_to_counter(axis_number, 1, counted);
+  const Value deviation = settings.of(kept_x(d9x::kC3Source), axis_number);
   if (deviation == 0) add_to_counter(axis_number, 2, -counted);
   if (deviation == 2) add_to_counter(axis_number, 2, counted);
-  if (settings.of(kept_x(25), axis_number) == 1 && counts_now(axis_number))
+  if (settings.of(kept_x(d9x::kC4Source), axis_number) == 1 && counts_now(axis_number))
     add_to_counter(axis_number, 3, counted);
 }
 
@@ -194,7 +197,7 @@ void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t 
   state.backlash_seen = chip(axis_number).backlash_sent;
   const CountedThisTick now_counted{
       .pulses = chip(axis_number).travel_pulses - travel_before, .backlash = extra, .wheel = wheel_counts};
-  const std::int32_t with_backlash = settings.raw(kept_x(29), axis_number);
+  const std::int32_t with_backlash = settings.raw(kept_x(d9x::kCountCorrect), axis_number);
   if (extra != 0 && is_bit(with_backlash, 0)) {
     state.command.set(machine_pulses(axis_number) + extra, chip(axis_number).travel_pulses);
     apply_axis_parameters(axis_number, 0);
@@ -204,18 +207,18 @@ void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t 
     return now_counted.pulses + (is_bit(with_backlash, counter) ? now_counted.backlash : 0);
   };
   const auto add = [&](int counter, std::int64_t counts) { add_to_counter(axis_number, counter, counts); };
-  switch (settings.of(kept_x(23), axis_number)) {
+  switch (settings.of(kept_x(d9x::kC2Source), axis_number)) {
     case 0: break;
     case 1: add(1, pulses_for(1)); break;
     default: add(1, now_counted.wheel); break;
   }
-  switch (settings.of(kept_x(24), axis_number)) {
+  switch (settings.of(kept_x(d9x::kC3Source), axis_number)) {
     case 0: add(2, pulses_for(2)); break;
     case 1: add(2, pulses_for(2) - now_counted.wheel); break;
     default: add(2, -now_counted.wheel); break;
   }
   if (counts_now(axis_number)) {
-    switch (settings.of(kept_x(25), axis_number)) {
+    switch (settings.of(kept_x(d9x::kC4Source), axis_number)) {
       case 0: add(3, pulses_for(3)); break;
       case 2: add(3, now_counted.wheel); break;
       case 3:
@@ -255,7 +258,7 @@ void Super40nc::count_until(const motion::SharedTick& tick, int axis_number) {
 /// D9x50: latches at the DOG's edge, and at the comparators 4 and 5 if the chip compares them.
 void Super40nc::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) {
   const int axis_number = static_cast<int>(axis);
-  const Value by = registers().of(kept_x(50), axis_number);
+  const Value by = registers().of(kept_x(d9x::kLatchOfCounters), axis_number);
   constexpr Value kDog = 1;
   const motion::Events latches =
       by == kDog ? motion::bit(motion::Event::mark_on) : this->axis(axis_number).latching;
@@ -267,7 +270,7 @@ void Super40nc::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Even
 /// Latches by a comparator that the chip does not check within the tick: when it is true at the tick's end.
 void Super40nc::latch_by_comparator(int axis_number) {
   AxisState& state = axis(axis_number);
-  const Value by = registers().of(kept_x(50), axis_number);
+  const Value by = registers().of(kept_x(d9x::kLatchOfCounters), axis_number);
   const bool is_on = by == 2 ? comparator_holds(axis_number, 3) : by == 3 && comparator_holds(axis_number, 4);
   const bool comes = is_on && !state.latch_was_on && state.latching == 0;
   state.latch_was_on = is_on;
@@ -277,13 +280,13 @@ void Super40nc::latch_by_comparator(int axis_number) {
 void Super40nc::take_latch(int axis_number, std::int64_t travel) {
   AxisState& state = axis(axis_number);
   const Settings settings = registers();
-  if (settings.is_on(kept_x(52), axis_number)) return;
+  if (settings.is_on(kept_x(d9x::kStopLatch), axis_number)) return;
   state.latched[0] = wrapped(state.command.at(travel));
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
     state.latched[static_cast<std::size_t>(which)] = counter(axis_number, which);
   }
-  if (settings.is_on(kept_x(51), axis_number)) state.latched[2] = chip_speed(axis_number);
-  const std::int32_t cleared = settings.raw(kept_x(55), axis_number);
+  if (settings.is_on(kept_x(d9x::kC3LatchSpeed), axis_number)) state.latched[2] = chip_speed(axis_number);
+  const std::int32_t cleared = settings.raw(kept_x(d9x::kLatchResetC), axis_number);
   if (is_bit(cleared, 0)) {
     state.command.set(0, travel);
     apply_axis_parameters(axis_number, 0);

@@ -11,6 +11,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/contact_rows.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"  // IWYU pragma: keep (namespace language)
 #include "emulator/models/super_40nc/registers.h"
@@ -60,9 +61,10 @@ Operand coil_at(std::uint32_t address) {
   const auto number = static_cast<std::int32_t>(std::min(address, kNoCoil));
   Operand coil;
   if (number < kOutputCount) coil = {Letter::y, number};
-  if (number >= relay_address(0) && number < relay_address(8000))
+  if (number >= relay_address(0) && number < relay_address(kFirstSpecialContact))
     coil = {Letter::m, number - relay_address(0)};
-  if (number >= relay_address(8000)) coil = {Letter::m, number - relay_address(8000) + 8000};
+  if (number >= relay_address(kFirstSpecialContact))
+    coil = {Letter::m, number - relay_address(kFirstSpecialContact) + kFirstSpecialContact};
   return language::block_of(coil) != nullptr ? coil : Operand{};
 }
 
@@ -113,16 +115,17 @@ TableProgram program_of_table(std::span<const std::uint32_t> words) {
 
 void Super40nc::take_user_command(std::int32_t number) {
   if (number < kFirstCommand || !chose(option("user_table", "on"))) return;
-  put(kept_d(8020), 0);
+  put(kept_d(d8::kUserCommand), 0);
   if (state_.steps.programs[0].phase != language::Phase::idle) return report(Code::axis_taken);
   const bool is_table = number == kFirstCommand;
   const auto image = std::span<const std::uint32_t>(state_.image);
   std::vector<std::uint32_t> words;
   if (is_table) {
-    const auto lines = image.subspan(kept_at(Table::holding, 3000).slot, kTableLines * kWordsOfATableLine);
+    const auto lines =
+        image.subspan(kept_at(Table::holding, kFirstUserAddress).slot, kTableLines * kWordsOfATableLine);
     words.assign(lines.begin(), lines.end());
   } else {
-    const auto data = image.subspan(kept_d(8021).slot, kWordsOfATableLine - 1);
+    const auto data = image.subspan(kept_d(d8::kUserData1).slot, kWordsOfATableLine - 1);
     words.push_back(static_cast<std::uint32_t>(number - kFirstCommand));
     words.insert(words.end(), data.begin(), data.end());
   }
@@ -131,16 +134,16 @@ void Super40nc::take_user_command(std::int32_t number) {
   put_table_in_place();
   const language::StepState before = state_.steps.programs[0];
   const Settings settings = registers();
-  const std::int32_t feed = settings.raw(kept_d(8006));
-  const std::int32_t plane = settings.raw(kept_d(8007));
+  const std::int32_t feed = settings.raw(kept_d(d8::kFeed));
+  const std::int32_t plane = settings.raw(kept_d(d8::kPlane));
   tell(language::Event::start, language::Area::c);
   if (!is_table && before.has_modes) {  // F and RPM apply to later commands
     language::StepState& program = state_.steps.programs[0];
     program.targets = before.targets;
     program.rpm = before.rpm;
     program.waits_for_drive = before.waits_for_drive;
-    put(kept_d(8006), feed);
-    put(kept_d(8007), plane);
+    put(kept_d(d8::kFeed), feed);
+    put(kept_d(d8::kPlane), plane);
   }
   state_.touched = true;
   leave_table();  // if it did not start

@@ -8,6 +8,7 @@
 
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/names.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -21,19 +22,19 @@ namespace understudy::emulator::models::super_40nc {
 
 std::int64_t Super40nc::wheel_lu_per_count(int axis_number) const {
   const Settings settings = registers();
-  if (settings.is_on(kept_x(20), axis_number)) return 0;
+  if (settings.is_on(kept_x(d9x::kMpgDisable), axis_number)) return 0;
   switch (axis(axis_number).wheel) {
     case WheelSource::none: return 0;
     case WheelSource::mpg_line: return axis(axis_number).wheel_lu;
-    case WheelSource::contact_1: return settings.of(kept_x(87), axis_number);
-    case WheelSource::contact_10: return settings.of(kept_x(88), axis_number);
-    case WheelSource::contact_100: return settings.of(kept_x(89), axis_number);
+    case WheelSource::contact_1: return settings.of(kept_x(d9x::kMpg1Rate), axis_number);
+    case WheelSource::contact_10: return settings.of(kept_x(d9x::kMpg10Rate), axis_number);
+    case WheelSource::contact_100: return settings.of(kept_x(d9x::kMpg100Rate), axis_number);
     case WheelSource::selector: break;
   }
-  switch (settings.raw(kept_d(8021))) {
-    case 0: return settings.of(kept_x(87), axis_number);
-    case 1: return settings.of(kept_x(88), axis_number);
-    case 2: return settings.of(kept_x(89), axis_number);
+  switch (settings.raw(kept_d(d8::kUserData1))) {
+    case 0: return settings.of(kept_x(d9x::kMpg1Rate), axis_number);
+    case 1: return settings.of(kept_x(d9x::kMpg10Rate), axis_number);
+    case 2: return settings.of(kept_x(d9x::kMpg100Rate), axis_number);
     default: return 0;
   }
 }
@@ -43,7 +44,7 @@ void Super40nc::follow_ratio(int axis) {
   motion::Follower& follower = chip(axis).follower;
   const Settings settings = registers();
   const motion::UnitScale scale = settings.scale(axis);
-  const int sense = settings.is_on(kept_x(16), axis) ? -1 : +1;
+  const int sense = settings.is_on(kept_x(d9x::kMpgDirection), axis) ? -1 : +1;
   constexpr std::int64_t kMax = INT32_MAX;
   follower.numerator =
       std::clamp<std::int64_t>(wheel_lu_per_count(axis) * scale.multiplier, -kMax, kMax) * sense;
@@ -83,7 +84,7 @@ void Super40nc::feed_wheel(std::int32_t edges) {
     follow_ratio(number);
     static constexpr std::array<std::int32_t, 4> kEdgesOfACount{4, 2, 1, 1};
     const bool is_decoded = chose(option("wheel_input", "counts"));
-    const auto decoding = static_cast<std::size_t>(registers().of(kept_x(15), number));
+    const auto decoding = static_cast<std::size_t>(registers().of(kept_x(d9x::kMpgMode), number));
     const std::int32_t each = is_decoded ? 1 : kEdgesOfACount[decoding];
     const std::int64_t sum = std::int64_t{state.wheel_edges} + edges;
     const std::int64_t counts = (sum - ((sum % each) + each) % each) / each;
