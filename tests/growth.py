@@ -27,22 +27,18 @@ CIRCLE = Rule("files in a circle by calls of members", 3, 0, {
     "emulator/models/simple2_r3": 4,
     "emulator/models/slim": 8,
     "emulator/models/slim (2)": 5,
-    "emulator/models/super_40nc": 19,
 })
 MEMBERS = Rule("member functions", 60, 2, {
     "emulator/models/rs_m8194h/device.h RsM8194h": 202,
     "emulator/models/simple2_r3/device.h Simple2R3": 130,
     "emulator/models/slim/chain.h Chain": 156,
     "emulator/models/slim/device.h Slim": 109,
-    "emulator/models/super_40nc/device.h Super40nc": 265,
 })
 LINES = Rule("lines", 60, 4, {
     "emulator/command_line/poll_command.cpp parse_item": 61,
     "emulator/models/rs_m8194h/path_drawing.cpp RsM8194h::draw": 191,
     "emulator/models/rs_m8194h/power.cpp RsM8194h::reset_card": 61,
     "emulator/models/slim/chain_queues.cpp Chain::start_group": 66,
-    "emulator/models/super_40nc/language_choices.cpp Super40nc::chosen_options": 79,
-    "emulator/models/super_40nc/paths.cpp Super40nc::begin_path": 79,
     "motion/homing_tables.cpp super40nc_homing": 64,
 })
 RULES = (CIRCLE, MEMBERS, LINES)
