@@ -1,21 +1,24 @@
-// What a scan does with command contacts, in this order: emergency, resets, STOP keys, M8008, ZERO SET, HOME,
-// ZERO, jog, hand-wheel. Levels that stay ON after they were void, or after a stop, need to go OFF first.
+#include "emulator/models/super_40nc/commands.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <optional>
-#include "emulator/models/super_40nc/axis_state.h"
-#include "emulator/models/super_40nc/device.h"
-#include "emulator/models/super_40nc/keys.h"
-#include "emulator/models/super_40nc/manual_motions.h"
-#include "emulator/models/super_40nc/marks.h"
-#include "emulator/models/super_40nc/options.h"
-#include "emulator/models/super_40nc/ownership.h"
-#include "emulator/models/super_40nc/registers.h"
-#include "emulator/models/super_40nc/row_words.h"
+
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis/axis_state.h"
+#include "emulator/models/super_40nc/axis/marks.h"
+#include "emulator/models/super_40nc/axis/ownership.h"
+#include "emulator/models/super_40nc/ground/ground.h"
+#include "emulator/models/super_40nc/panel/keys.h"
+#include "emulator/models/super_40nc/path/manual_motions.h"
+#include "emulator/models/super_40nc/rows/names.h"
+#include "emulator/models/super_40nc/rows/options.h"
+#include "emulator/models/super_40nc/rows/registers.h"
+#include "emulator/models/super_40nc/rows/row_words.h"
 #include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/events.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -24,285 +27,203 @@ namespace language = interpreter::super_40nc;
 
 namespace {
 
-/// Returns the contact M8x00 + number.
-constexpr int of_axis(int axis, int number) { return 8100 + 100 * axis + number; }
-
-constexpr int kRun = 0;
-constexpr int kReset = 2;
-constexpr int kJogPlus = 3;
-constexpr int kJogMinus = 4;
-constexpr int kHome = 5;
-constexpr int kZero = 6;
-constexpr int kZeroSet = 7;
-constexpr int kWheelContacts[] = {8, 9, 10};
-constexpr WheelSource kWheelSources[] = {WheelSource::contact_1, WheelSource::contact_10,
-                                         WheelSource::contact_100};
-
 /// All contacts that a scan reads.
 constexpr auto kCommandContacts = [] {
-  constexpr int kGeneral[] = {8000, 8001, 8002, 8004, 8005, 8006, 8008, 8500, 8501, 8507};
-  constexpr int kOfEachAxis = 11;
+  constexpr int kGeneral[] = {m8::kStartOfC,          m8::kSingleStep,         m8::kEmergencyStop,
+                              m8::kMotionInhibit,     m8::kMCodeFinished,      m8::kPause,
+                              m8::kFactoryParameters, m85::kParameterPageLeft, m85::kEditPageLeft,
+                              m85::kEditPageEntered};
+  constexpr int kOfEachAxis = m8x::kMpg100 - m8x::kStart + 1;
   std::array<int, std::size(kGeneral) + kAxisCount * kOfEachAxis + kKeys.size()> all{};
   std::size_t next = 0;
   for (const int number : kGeneral) all[next++] = number;
   for (int axis = 0; axis < kAxisCount; ++axis) {
-    for (int i = 0; i < kOfEachAxis; ++i) all[next++] = of_axis(axis, i);
+    for (int i = 0; i < kOfEachAxis; ++i) all[next++] = of_axis(m8x::kStart + i, axis);
   }
   for (const Key& key : kKeys) all[next++] = key.contact;
   return all;
 }();
 
+bool is_parameter(const RegisterRow& row) {
+  return row.table == Table::holding && row.address >= data_address(d9::kStation);
+}
+
 }  // namespace
 
-bool Super40nc::is_on(int contact_number) const {
-  return state_.contacts.on(contact_number, contact(contact_number));
-}
-bool Super40nc::rises(int contact_number) const {
-  return state_.contacts.rose(contact_number, contact(contact_number));
-}
-
-bool Super40nc::is_stopped_by_emergency() const {
-  return is_on(8002) || (state_.emergency && !chose(option("cemg_input", "only_shown")));
-}
-
-bool Super40nc::is_held_in_reset(int axis) const {
-  return is_stopped_by_emergency() || is_on(of_axis(axis, kReset)) || is_pressed(KeyDoes::stop, axis);
-}
-
-bool Super40nc::is_inhibited(int axis) const { return is_held_in_reset(axis) || is_on(8004); }
-
-std::optional<ManualMotion> Super40nc::manual_motion(int axis_number) const {
-  const AxisState& state = axis(axis_number);
-  const bool is_by_order = state.order != 0;
-  const bool is_behind_end = state.mover < Mover::plc && !state.awaited;
-  if (state.mover < Mover::plc && state.awaited) return std::nullopt;
-  switch (state.holder) {
-    case Activity::nobody:
-    case Activity::rest: return std::nullopt;
-    case Activity::jog: return state.asked_by_plc ? ManualMotion::plc_jog : ManualMotion::jog;
-    case Activity::home: return is_by_order ? ManualMotion::home_by_order : ManualMotion::home;
-    case Activity::zero: return is_by_order ? ManualMotion::zero_by_order : ManualMotion::zero;
-    case Activity::move:
-    case Activity::vdrv:
-    case Activity::wheel: break;
-  }
-  if (is_behind_end)
-    return state.mover == Mover::c ? ManualMotion::behind_end_of_c : ManualMotion::behind_end;
-  if (state.holder != Activity::wheel) return ManualMotion::plc_drive;
-  return state.wheel == WheelSource::selector ? ManualMotion::selected_wheel : ManualMotion::wheel;
-}
-
-void Super40nc::handle(int axis, ManualEvent event, Code code) {
-  const std::optional<ManualMotion> motion = manual_motion(axis);
-  if (motion) handle(axis, *motion, event, code);
-}
-
-/// Applies the table of manual_motions.h.
-void Super40nc::handle(int axis, ManualMotion motion, ManualEvent event, Code code) {
-  switch (answer_of(motion, event)) {
-    case ManualAnswer::goes_on: break;
-    case ManualAnswer::slows:
-      release_jog(axis,
-                  motion == ManualMotion::plc_jog ? &AxisState::asked_by_plc : &AxisState::asked_by_contact);
-      break;
-    case ManualAnswer::ends: {
-      const bool is_stopped =
-          event == ManualEvent::stop || event == ManualEvent::stop_of_c || event == ManualEvent::main_stop;
-      is_stopped ? stop_by_command(axis) : stop_axis(axis, code);
-      break;
-    }
-  }
-}
-
-bool Super40nc::has_errors_for_a_scan() const {
-  const bool has_one = std::any_of(state_.axes.begin(), state_.axes.end(),
-                                   [](const AxisState& axis) { return axis.has_error; });
+bool Commands::has_errors_for_a_scan() const {
+  const bool has_one =
+      std::any_of(axes_.axes.begin(), axes_.axes.end(), [](const AxisState& axis) { return axis.has_error; });
   return has_one && chose(option("serr_clears", "one_scan"));
 }
 
 /// While the emergency lasts, resets a program, or pauses an axis program at its line.
-void Super40nc::stop_by_emergency(language::Area area, bool is_new) {
-  const language::Phase phase = state_.steps.programs[language::index_of(area)].phase;
+void Commands::stop_by_emergency(language::Area area, bool is_new) {
+  const language::Phase phase = program_state_.steps.programs[language::index_of(area)].phase;
   const bool pauses =
       area != language::Area::c && chose(option("emergency_of_axis_programs", "they_pause_at_their_line"));
-  if (!pauses || (is_new && phase == language::Phase::held)) return tell(language::Event::emergency, area);
+  if (!pauses || (is_new && phase == language::Phase::held))
+    return programs_.tell(language::Event::emergency, area);
   if (!is_new) return;
-  tell(language::Event::limit_pauses, area);  // the motion of its line is over
-  tell(language::Event::hold, area);          // its wait, or its lines
+  programs_.tell(language::Event::limit_pauses, area);  // the motion of its line is over
+  programs_.tell(language::Event::hold, area);          // its wait, or its lines
 }
 
-void Super40nc::obey_stops() {
+void Commands::obey_emergency() {
+  const Code code = is_on(m8::kEmergencyStop) ? Code::emergency_stop : Code::emergency_input;
+  const bool is_new = code == Code::emergency_stop ? rises(m8::kEmergencyStop) : !state_.emergency_obeyed;
+  if (is_new) report(code);
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (axis(number).holder == Activity::nobody) continue;
+    moves_.manual_motion(number) ? moves_.handle(number, ManualEvent::emergency, code)
+                                 : moves_.stop_axis(number, code);
+    if (code == Code::emergency_input) axis(number).has_error = true;
+    parts_.pins.give_erc_behind(number, code);
+  }
+  hands_.give_up_orders();
+  for (const language::AreaRow& row : language::kAreas) {
+    if (row.area != language::Area::plc) stop_by_emergency(row.area, is_new);
+  }
+}
+
+void Commands::obey_stops() {
   using language::Area;
   using language::Event;
   if (has_errors_for_a_scan()) {
-    for (AxisState& each : state_.axes) each.has_error = false;  // the scan has seen it
+    for (AxisState& each : axes_.axes) each.has_error = false;  // the scan has seen it
   }
-  if (is_stopped_by_emergency()) {
-    const Code code = is_on(8002) ? Code::emergency_stop : Code::emergency_input;
-    const bool is_new = code == Code::emergency_stop ? rises(8002) : !state_.emergency_obeyed;
-    if (is_new) report(code);
-    for (int number = 0; number < kAxisCount; ++number) {
-      if (axis(number).holder == Activity::nobody) continue;
-      manual_motion(number) ? handle(number, ManualEvent::emergency, code) : stop_axis(number, code);
-      if (code == Code::emergency_input) axis(number).has_error = true;
-      give_erc_behind(number, code);
-    }
-    give_up_orders();
-    for (const language::AreaRow& row : language::kAreas) {
-      if (row.area != Area::plc) stop_by_emergency(row.area, is_new);
-    }
-  }
-  state_.emergency_obeyed = state_.emergency;
+  if (keys_.is_stopped_by_emergency()) obey_emergency();
+  state_.emergency_obeyed = ground_.state().emergency;
   for (int number = 0; number < kAxisCount; ++number) {
-    const bool is_reset = is_on(of_axis(number, kReset));
+    const bool is_reset = is_on(of_axis(m8x::kReset, number));
     if (is_reset) take_off(axis(number), MarkEvent::reset);
-    if (is_reset) tell(Event::reset, language::area_of_axis(number));
-    if (!is_pressed(KeyDoes::stop, number)) continue;
-    tell(Event::stop, language::area_of_axis(number));
-    set_contact(of_axis(number, kRun), false);  // also cancels a start in the same scan
+    if (is_reset) programs_.tell(Event::reset, language::area_of_axis(number));
+    if (!keys_.is_pressed(KeyDoes::stop, number)) continue;
+    programs_.tell(Event::stop, language::area_of_axis(number));
+    ground_.set_contact(of_axis(m8x::kStart, number), false);  // also cancels a start in the same scan
   }
-  if (is_pressed(KeyDoes::stop_c, -1)) {
-    for (int number = 0; number < kAxisCount; ++number) handle(number, ManualEvent::main_stop);
-    give_up_orders();
-    tell(Event::stop, Area::c);
-    set_contact(8000, false);
+  if (keys_.is_pressed(KeyDoes::stop_c, -1)) {
+    for (int number = 0; number < kAxisCount; ++number) moves_.handle(number, ManualEvent::main_stop);
+    hands_.give_up_orders();
+    programs_.tell(Event::stop, Area::c);
+    ground_.set_contact(m8::kStartOfC, false);
   }
-  if (rises(8006)) {
-    tell(Event::hold, Area::c);
+  if (rises(m8::kPause)) {
+    programs_.tell(Event::hold, Area::c);
     const bool ends = chose(option("manual_motion_events", "end_by_a_ramp"));
-    for (int number = 0; number < kAxisCount && ends; ++number) slow_by_hand(number);
+    for (int number = 0; number < kAxisCount && ends; ++number) hands_.slow_by_hand(number);
   }
   for (int number = 0; number < kAxisCount; ++number) {
-    if (!is_pressed(KeyDoes::pause, number)) continue;
-    tell(Event::hold, language::area_of_axis(number));
+    if (!keys_.is_pressed(KeyDoes::pause, number)) continue;
+    programs_.tell(Event::hold, language::area_of_axis(number));
     const Activity holder = axis(number).holder;
     const bool is_manual = holder == Activity::jog || holder == Activity::home || holder == Activity::zero;
-    if (is_manual && chose(option("pause_manual", "ends_it_by_a_ramp"))) slow_by_hand(number);
+    if (is_manual && chose(option("pause_manual", "ends_it_by_a_ramp"))) hands_.slow_by_hand(number);
   }
-}
-
-/// PAUSE and M8006: slow down motion by hand, if that is chosen.
-void Super40nc::slow_by_hand(int axis_number) {
-  if (manual_motion(axis_number)) end_by_ramp(axis_number, Mover::hand);
 }
 
 /// Executes what the panel triggers when it turns its pages.
-void Super40nc::obey_pages() {
-  if (rises(8500)) {
+void Commands::obey_pages() {
+  if (rises(m85::kParameterPageLeft)) {
     const bool renews_all = chose(option("parameter_moment", "when_m8500_rises"));
     if (renews_all) {
-      take_parameters();
-      apply_all_axis_parameters();
+      ground_.take_parameters();
+      parts_.parameters.apply_all_axis_parameters();
     }
-    if (renews_all || chose(option("page_contacts", "m8500_renews_x14_and_c0"))) take_power_up_parameters();
+    if (renews_all || chose(option("page_contacts", "m8500_renews_x14_and_c0")))
+      ground_.take_power_up_parameters();
   }
   const bool stops = chose(option("page_contacts", "m8507_stops_the_plc"));
-  if (rises(8507) && stops && state_.plc.runs) plc_to_stop();
+  if (rises(m85::kEditPageEntered) && stops && program_state_.plc.runs) programs_.plc_to_stop();
   const bool runs = !chose(option("m8501_runs_plc", "nothing"));
-  if (rises(8501) && runs && state_.run_switch && !state_.plc.runs) plc_to_run();
+  if (rises(m85::kEditPageLeft) && runs && state_.run_switch && !program_state_.plc.runs)
+    programs_.plc_to_run();
 }
 
-bool Super40nc::acts_behind_reset(int axis) const {
-  return state_.were_held[static_cast<std::size_t>(axis)] && chose(option("level_after_stop", "act_at_once"));
-}
-
-/// Returns true for a level that has stayed ON through a stop, if a choice makes it act.
-bool Super40nc::is_level_again(int axis, int contact) const {
-  return is_on(contact) && acts_behind_reset(axis);
-}
-
-void Super40nc::obey_jogs(int axis) {
-  for (const int direction : {+1, -1}) {
-    const int contact = of_axis(axis, direction > 0 ? kJogPlus : kJogMinus);
-    const bool asks = rises(contact) || is_level_again(axis, contact);
-    if (asks && !is_inhibited(axis)) start_jog(axis, direction, &AxisState::asked_by_contact);
-  }
-  const int contact = of_axis(axis, chip(axis).last_direction > 0 ? kJogPlus : kJogMinus);
-  if (!is_on(contact)) handle(axis, ManualMotion::jog, ManualEvent::contact_off);
-}
-
-void Super40nc::obey_wheel() {
-  for (int number = 0; number < kAxisCount; ++number) {
-    for (std::size_t i = 0; i < std::size(kWheelContacts); ++i) {
-      const int contact = of_axis(number, kWheelContacts[i]);
-      const bool asks = rises(contact) || is_level_again(number, contact);
-      if (asks && !is_inhibited(number)) start_wheel(number, kWheelSources[i]);
-      if (axis(number).wheel == kWheelSources[i] && !is_on(contact)) handle(number, ManualEvent::contact_off);
-    }
-  }
-  if (!state_.wheel_selected) return;
-  state_.wheel_selected = false;
-  const std::int32_t selected = registers().raw(kept_d(8020)) - 1;
-  for (int number = 0; number < kAxisCount; ++number) {
-    const bool is_left = number != selected && axis(number).wheel == WheelSource::selector;
-    if (is_left) handle(number, ManualEvent::contact_off);
-  }
-  if (selected >= 0 && selected < kAxisCount && !is_inhibited(selected) && !is_wheel_locked(selected)) {
-    start_wheel(selected, WheelSource::selector);
-  }
-}
-
-void Super40nc::obey_contacts() {
+void Commands::obey_contacts() {
   obey_stops();
   obey_pages();
   const bool needs_rest = chose(option("m8008_running", "void"));
-  if (rises(8008) && !(needs_rest && programs_are_busy())) reset_parameters();
+  if (rises(m8::kFactoryParameters) && !(needs_rest && programs_.are_busy())) reset_parameters();
   for (int number = 0; number < kAxisCount; ++number) {
-    if (rises(of_axis(number, kZeroSet))) set_zero(number);
+    if (rises(of_axis(m8x::kZeroSet, number))) parts_.parameters.set_zero(number);
   }
-  for (int number = 0; number < kAxisCount; ++number) {
-    if (rises(of_axis(number, kHome)) && !is_inhibited(number)) start_home(number);
-  }
-  for (int number = 0; number < kAxisCount; ++number) {
-    if (rises(of_axis(number, kZero)) && !is_inhibited(number)) start_zero(number);
-  }
-  obey_order_keys();
-  for (int number = 0; number < kAxisCount; ++number) obey_jogs(number);
-  obey_wheel();
-  if (!chose(option("m8005_falls", "by_a_write_alone"))) set_contact(8005, false);
+  hands_.obey_contacts();
+  if (!chose(option("m8005_falls", "by_a_write_alone"))) ground_.set_contact(m8::kMCodeFinished, false);
   hold_while_inhibited();
+  keys_.see_held();
+  if (chose(option("edge_contacts_fall", "when_served"))) drop_edges();
+}
+
+void Commands::drop_edges() {
+  for (const int contact : {m8::kPause, m8::kFactoryParameters}) ground_.set_contact(contact, false);
   for (int number = 0; number < kAxisCount; ++number) {
-    state_.were_held[static_cast<std::size_t>(number)] = is_held_in_reset(number);
-  }
-  if (!chose(option("edge_contacts_fall", "when_served"))) return;
-  for (const int contact : {8006, 8008}) set_contact(contact, false);
-  for (int number = 0; number < kAxisCount; ++number) {
-    for (const int contact : {kHome, kZero, kZeroSet}) set_contact(of_axis(number, contact), false);
+    for (const int contact : {m8x::kHome, m8x::kZero, m8x::kZeroSet})
+      ground_.set_contact(of_axis(contact, number), false);
   }
 }
 
 /// M8004: holds running motions of programs and the PLC like a pause, if that is chosen.
-void Super40nc::hold_while_inhibited() {
-  const bool is_inhibited_now = is_on(8004);
+void Commands::hold_while_inhibited() {
+  const bool is_inhibited_now = is_on(m8::kMotionInhibit);
   const bool has_changed = is_inhibited_now != state_.was_inhibited;
   state_.was_inhibited = is_inhibited_now;
   if (!has_changed || !chose(option("m8004_scope", "running_ones_are_held"))) return;
   if (is_inhibited_now) {
-    hold_path();
+    paths_.hold_path();
     for (int number = 0; number < kAxisCount; ++number) {
       const Activity holder = axis(number).holder;
-      if ((holder == Activity::move || holder == Activity::vdrv) && !is_on_path(number)) hold_axis(number);
+      if ((holder == Activity::move || holder == Activity::vdrv) && !is_on_path(number))
+        moves_.hold_axis(number);
     }
     return;
   }
   // Except those that a pause holds as well.
   const auto is_paused = [&](Mover mover) {
-    return mover < Mover::plc && state_.steps.programs[static_cast<std::size_t>(mover)].machine_holds;
+    return mover < Mover::plc && program_state_.steps.programs[static_cast<std::size_t>(mover)].machine_holds;
   };
-  if (!is_paused(Mover::c)) go_on_path();
+  if (!is_paused(Mover::c)) paths_.go_on_path();
   for (int number = 0; number < kAxisCount; ++number) {
-    if (!is_on_path(number) && !is_paused(axis(number).mover)) go_on_axis(number);
+    if (is_on_path(number) || is_paused(axis(number).mover)) continue;
+    if (const auto broken = moves_.go_on_axis(number)) programs_.broken(*broken);
   }
 }
 
-void Super40nc::see_contacts() {
-  state_.touched = false;
+void Commands::see_contacts() {
+  ground_.state().touched = false;
   for (const int number : kCommandContacts) {
-    const bool level = contact(number);
+    const bool level = ground_.contact(number);
     // A contact that was ON for this scan only falls in the next one.
-    if (!level && is_on(number)) state_.touched = true;
-    state_.contacts.see(number, level);
+    if (!level && is_on(number)) ground_.touch();
+    ground_.state().contacts.see(number, level);
   }
+}
+
+void Commands::look_at_contacts() {
+  if (!ground_.state().touched) return;
+  program_state_.shows_file_changed = program_state_.file_changed;
+  keys_.read_keys();
+  obey_contacts();
+  see_contacts();
+  // M8023 is ON for one scan.
+  ground_.state().touched = ground_.state().touched || program_state_.shows_file_changed;
+  program_state_.file_changed = false;
+}
+
+/// M8008. File and recipe change as if they had been written.
+void Commands::reset_parameters() {
+  const bool leaves_some = chose(option("m8008_scope", "but_for_d9000_and_d9026"));
+  const auto stays = [&](const RegisterRow& row) {
+    return leaves_some &&
+           (row.address == data_address(d9::kStation) || row.address == data_address(d9::kPassword));
+  };
+  for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
+    if (is_parameter(row) && !stays(row))
+      ground_.put({.slot = slot}, static_cast<std::int32_t>(ground_.factory_bits(row)));
+  });
+  programs_.change_file(0);
+  programs_.stored().change_recipe(0);
+  programs_.stored().show_line_counts();
+  parts_.parameters.apply_all_axis_parameters();
 }
 
 }  // namespace understudy::emulator::models::super_40nc

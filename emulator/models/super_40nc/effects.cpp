@@ -1,19 +1,20 @@
-#include "emulator/models/super_40nc/effects.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/device.h"
-#include "emulator/models/super_40nc/options.h"
-#include "emulator/models/super_40nc/registers.h"
-#include "emulator/models/super_40nc/terminals.h"
+#include "emulator/models/super_40nc/ground/ground.h"
+#include "emulator/models/super_40nc/rows/effects.h"
+#include "emulator/models/super_40nc/rows/names.h"
+#include "emulator/models/super_40nc/rows/options.h"
+#include "emulator/models/super_40nc/rows/registers.h"
+#include "emulator/models/super_40nc/rows/terminals.h"
 
 namespace understudy::emulator::models::super_40nc {
 
 Value read_status(const Super40nc& device, Cell cell) {
-  return device.status(cell.index, static_cast<AxisStatus>(cell.argument)) ? 1 : 0;
+  return device.parts().axes.flags.status(cell.index, static_cast<AxisStatus>(cell.argument)) ? 1 : 0;
 }
 
 Value read_analog(const Super40nc& device, Cell cell) {
@@ -34,93 +35,102 @@ Value read_receive_errors(const Super40nc& device, Cell cell) {
 }
 
 Value read_work_position(const Super40nc& device, Cell cell) {
-  return static_cast<std::int32_t>(device.work_lu(cell.index));
+  return static_cast<std::int32_t>(device.parts().axes.chips.work_lu(cell.index));
 }
 
-Value read_counter(const Super40nc& device, Cell cell) { return device.counter(cell.index, cell.argument); }
-Value read_operation(const Super40nc& device, Cell cell) { return device.operation_of(cell.index); }
+Value read_counter(const Super40nc& device, Cell cell) {
+  return device.parts().axes.chips.counter(cell.index, cell.argument);
+}
+Value read_operation(const Super40nc& device, Cell cell) {
+  return device.parts().axes.chips.operation_of(cell.index);
+}
 
 Value read_latch(const Super40nc& device, Cell cell) {
   if (device.chose(option("latch_registers", "0"))) return 0;
-  return device.axis(cell.index).latched[static_cast<std::size_t>(cell.argument)];
+  return device.parts().axes.chips.axis(cell.index).latched[static_cast<std::size_t>(cell.argument)];
 }
 
 Value read_remainder(const Super40nc& device, Cell cell) {
-  return static_cast<std::int32_t>(device.remaining_pulses(cell.index));
+  return static_cast<std::int32_t>(device.parts().axes.chips.remaining_pulses(cell.index));
 }
 
-Value read_chip_speed(const Super40nc& device, Cell cell) { return device.chip_speed(cell.index); }
+Value read_chip_speed(const Super40nc& device, Cell cell) {
+  return device.parts().axes.chips.chip_speed(cell.index);
+}
 
-Value read_index_count(const Super40nc& device, Cell cell) { return device.axis(cell.index).index_count; }
+Value read_index_count(const Super40nc& device, Cell cell) {
+  return device.parts().axes.chips.axis(cell.index).index_count;
+}
 
 Value read_braking_distance(const Super40nc& device, Cell cell) {
-  return static_cast<std::int32_t>(device.braking_pulses(cell.index));
+  return static_cast<std::int32_t>(device.parts().axes.chips.braking_pulses(cell.index));
 }
 
 Value read_pointer(const Super40nc& device, Cell cell) {
-  return device.shown_step(static_cast<std::size_t>(cell.argument == 0 ? 0 : 1 + cell.index));
+  return device.parts().programs.shown_step(
+      static_cast<std::size_t>(cell.argument == 0 ? 0 : 1 + cell.index));
 }
-Value read_table_line(const Super40nc& device, Cell) { return device.table_line(); }
-Value read_pausing(const Super40nc& device, Cell) { return device.is_pausing() ? 1 : 0; }
+Value read_table_line(const Super40nc& device, Cell) { return device.parts().programs.table_line(); }
+Value read_pausing(const Super40nc& device, Cell) { return device.parts().programs.is_pausing() ? 1 : 0; }
 Value read_file_changed(const Super40nc& device, Cell) { return device.state().shows_file_changed ? 1 : 0; }
 
 void write_command(Super40nc& device, Cell cell, Value level) {
-  const bool is_of_axes = cell.argument >= 8100 && cell.argument < 8500;
-  const int contact = cell.argument + cell.index * (is_of_axes ? 100 : 1);
+  const bool is_of_axes = cell.argument >= m8x::kStart && cell.argument < m85::kParameterPageLeft;
+  const int contact = is_of_axes ? of_axis(cell.argument, cell.index) : cell.argument + cell.index;
   if (device.chose(option("command_latch", "lost"))) return;  // only its level at the scan counts
-  device.state().contacts.write(contact, level != 0);
+  device.parts().ground.state().contacts.write(contact, level != 0);
 }
 
 void write_pointer(Super40nc& device, Cell cell, Value step) {
   const int program = cell.argument == 0 ? 0 : 1 + cell.index;
-  const int base = device.shown_base(static_cast<std::size_t>(program));
-  device.set_pointer(program, static_cast<std::int32_t>(step) - base);
+  const int base = device.parts().programs.shown_base(static_cast<std::size_t>(program));
+  device.parts().programs.set_pointer(program, static_cast<std::int32_t>(step) - base);
 }
 void write_nothing(Super40nc&, Cell, Value) {}
 
 void select_file(Super40nc& device, Cell, Value number) {
-  device.change_file(static_cast<std::int32_t>(number));
+  device.parts().programs.change_file(static_cast<std::int32_t>(number));
 }
 
 void select_file_by_alias(Super40nc& device, Cell, Value number) {
   if (device.chose(option("d8002_alias", "plain_register"))) return;
-  device.put(kept_d(9001), static_cast<std::int32_t>(number));
-  device.change_file(static_cast<std::int32_t>(number));
+  device.parts().ground.put(kept_d(d9::kFileNumber), static_cast<std::int32_t>(number));
+  device.parts().programs.change_file(static_cast<std::int32_t>(number));
 }
 
 void select_recipe(Super40nc& device, Cell, Value number) {
-  device.change_recipe(static_cast<std::int32_t>(number));
+  device.parts().programs.stored().change_recipe(static_cast<std::int32_t>(number));
 }
 
-void lay_out_files(Super40nc& device, Cell, Value) { device.show_capacities(); }
+void lay_out_files(Super40nc& device, Cell, Value) { device.parts().programs.stored().show_capacities(); }
 
 void limit_voltage(Super40nc& device, Cell cell, Value thousandths) {
   const auto limited = static_cast<std::int32_t>(std::clamp<Value>(thousandths, 0, kVoltageSteps));
-  device.put(cell.argument == 0 ? kept_d(8003) : kept_d(8004), limited);
+  device.parts().ground.put(cell.argument == 0 ? kept_d(d8::kVout1) : kept_d(d8::kVout2), limited);
 }
 
-void change_override(Super40nc& device, Cell, Value) { device.apply_override(); }
+void change_override(Super40nc& device, Cell, Value) { device.parts().paths.apply_override(); }
 
-void select_wheel(Super40nc& device, Cell, Value) { device.state().wheel_selected = true; }
+void select_wheel(Super40nc& device, Cell, Value) { device.parts().keys.select_wheel(); }
 
 void select_wheel_or_command(Super40nc& device, Cell, Value number) {
-  device.state().wheel_selected = true;
-  device.take_user_command(static_cast<std::int32_t>(number));
+  device.parts().keys.select_wheel();
+  device.parts().programs.take_user_command(static_cast<std::int32_t>(number));
 }
 
-void select_jog_speed(Super40nc& device, Cell, Value) { device.change_jog_speed(); }
+void select_jog_speed(Super40nc& device, Cell, Value) { device.parts().axes.jogs.change_jog_speed(); }
 
 void change_axis(Super40nc& device, Cell cell, Value) {
-  device.apply_axis_parameters(cell.index, cell.argument);
+  device.parts().axes.parameters.apply_axis_parameters(cell.index, cell.argument);
 }
 
 void set_work_position(Super40nc& device, Cell cell, Value position) {
-  device.set_work_lu(cell.index, position);
+  device.parts().axes.parameters.set_work_lu(cell.index, position);
 }
 
 void set_counter(Super40nc& device, Cell cell, Value pulses) {
   if (cell.argument == 0 && device.chose(option("d8x40_write", "ignored"))) return;
-  device.set_counter(cell.index, cell.argument, static_cast<std::int32_t>(pulses));
+  device.parts().axes.parameters.set_counter(cell.index, cell.argument, static_cast<std::int32_t>(pulses));
 }
 
 }  // namespace understudy::emulator::models::super_40nc

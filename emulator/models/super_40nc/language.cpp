@@ -82,10 +82,10 @@ class ProgramListing final : public ProgramLanguage {
   }
   /// Checks a listing; some rules are choices.
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
-    return Super40nc(settings).mistakes_in(text);
+    return Super40nc(settings).parts().programs.stored().mistakes_in(text);
   }
   std::vector<ProgramMistake> warnings(std::string_view text, const DeviceSettings& settings) const override {
-    return Super40nc(settings).warnings_about(text);
+    return Super40nc(settings).parts().programs.stored().warnings_about(text);
   }
   /// A key acts when it goes ON, so it is released first.
   std::span<const ProgramControl> controls() const override {
@@ -110,14 +110,6 @@ class ProgramListing final : public ProgramLanguage {
 const ProgramLanguage& program_language() {
   static const ProgramListing listing;
   return listing;
-}
-
-std::vector<ProgramMistake> mistakes_of(const lang::Checked& checked) {
-  std::vector<ProgramMistake> mistakes;
-  for (const lang::Diagnostic& error : checked.errors) {
-    mistakes.push_back({error.line, error.column, error.message()});
-  }
-  return mistakes;
 }
 
 }  // namespace understudy::emulator::models::super_40nc

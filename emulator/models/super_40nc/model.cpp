@@ -11,13 +11,13 @@
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
-#include "emulator/models/super_40nc/choices.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/first_files.h"
 #include "emulator/models/super_40nc/language.h"
-#include "emulator/models/super_40nc/parameters.h"
-#include "emulator/models/super_40nc/registers.h"
-#include "emulator/models/super_40nc/terminals.h"
+#include "emulator/models/super_40nc/rows/choices.h"
+#include "emulator/models/super_40nc/rows/parameters.h"
+#include "emulator/models/super_40nc/rows/registers.h"
+#include "emulator/models/super_40nc/rows/terminals.h"
 
 namespace understudy::emulator::models::super_40nc {
 

@@ -13,13 +13,13 @@
 #include "emulator/device/memory/register_memory.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
-#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/axis/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
-#include "emulator/models/super_40nc/files.h"
-#include "emulator/models/super_40nc/registers.h"
-#include "emulator/models/super_40nc/settings.h"
+#include "emulator/models/super_40nc/programs/files.h"
+#include "emulator/models/super_40nc/programs/user_table.h"
+#include "emulator/models/super_40nc/rows/registers.h"
+#include "emulator/models/super_40nc/rows/settings.h"
 #include "emulator/models/super_40nc/state_fields.h"
-#include "emulator/models/super_40nc/user_table.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -95,12 +95,8 @@ std::function<void()> Super40nc::read_own_state(StateReader& reader) {
   check_restored_registers(*this, restored->image, restored->eeprom.kept());
   return [this, restored] {
     state_ = *restored;
-    is_restored_.fill(true);
-    const auto texts = state_.blocks.all().find(kPrograms);
-    const bool has_texts = texts != state_.blocks.all().end();
-    const bool are_ready = has_texts ? texts->second == ready_texts_ : ready_texts_.empty();
-    const bool has_table = state_.table.runs != UserTable::Runs::nothing || !table_lines_.empty();
-    if (!are_ready || has_table) make_programs_ready();
+    parts_.axes.inputs.await_edges();
+    parts_.programs.restored();
   };
 }
 

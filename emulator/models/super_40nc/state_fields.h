@@ -1,6 +1,7 @@
 // The fields of a SUPER-40NC's state (base/state/fields.h), in the order of the bytes.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "base/state/fields.h"
@@ -15,6 +16,15 @@ namespace understudy {
 namespace emulator::models::super_40nc {
 /// Returns the name of the register at a slot of the image: "D9100", "M8000".
 std::string register_at_slot(std::size_t slot);
+/// Returns the number of fields of a part's state.
+template <class T, std::size_t count = 1>
+constexpr std::size_t count_members() {
+  if constexpr (state_fields::has_members<T, count>()) {
+    return count;
+  } else {
+    return count_members<T, count + 1>();
+  }
+}
 }  // namespace emulator::models::super_40nc
 
 template <>
@@ -140,6 +150,13 @@ struct StateOf<emulator::models::super_40nc::UserTable> {
 template <>
 struct StateOf<emulator::models::super_40nc::State> {
   using Value = emulator::models::super_40nc::State;
+  static constexpr std::size_t members =
+      emulator::models::super_40nc::count_members<emulator::models::super_40nc::GroundState>() +
+      emulator::models::super_40nc::count_members<emulator::models::super_40nc::AxesState>() +
+      emulator::models::super_40nc::count_members<emulator::models::super_40nc::PathState>() +
+      emulator::models::super_40nc::count_members<emulator::models::super_40nc::PanelState>() +
+      emulator::models::super_40nc::count_members<emulator::models::super_40nc::ProgramState>() +
+      emulator::models::super_40nc::count_members<emulator::models::super_40nc::ScanState>();
   static constexpr auto fields =
       FieldList{field("image", &Value::image, emulator::models::super_40nc::register_at_slot),
                 field("chips", &Value::chips),

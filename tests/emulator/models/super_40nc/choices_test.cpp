@@ -1,6 +1,6 @@
 // Choices of the SUPER-40NC where they meet what else it does; each one alone is told apart by
 // docs/fidelity/proofs/super-40nc/.
-#include "emulator/models/super_40nc/choices.h"
+#include "emulator/models/super_40nc/rows/choices.h"
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
 

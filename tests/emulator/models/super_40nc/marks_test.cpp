@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "emulator/models/super_40nc/marks.h"
+#include "emulator/models/super_40nc/axis/marks.h"
 #include "emulator/world/snapshot.h"
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
 

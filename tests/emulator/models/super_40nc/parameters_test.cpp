@@ -164,8 +164,8 @@ TEST(Super40ncParameters, BacklashComesBeforeAPath) {
       EXPECT_EQ(one.get("D8217"), row.y);
       all_x += x;
       all_y += y;
-      EXPECT_EQ(one.it().chip(0).backlash_sent, all_x) << kind << ", to " << row.x;
-      EXPECT_EQ(one.it().chip(1).backlash_sent, all_y) << kind << ", to " << row.x;
+      EXPECT_EQ(one.it().parts().axes.chips.chip(0).backlash_sent, all_x) << kind << ", to " << row.x;
+      EXPECT_EQ(one.it().parts().axes.chips.chip(1).backlash_sent, all_y) << kind << ", to " << row.x;
       EXPECT_EQ(one.get("D8141"), (row.x + all_x) / 4) << kind;  // the encoder has 1 count in 4 pulses
     }
   }
@@ -181,8 +181,8 @@ TEST(Super40ncParameters, AnArcIsNotCorrectedWithin) {
   one.set("M8000", 1);
   one.run_while("M8000");
   // It ends going up and to the right: X turns round for the line.
-  EXPECT_EQ(one.it().chip(0).backlash_sent, -40);
-  EXPECT_EQ(one.it().chip(1).backlash_sent, 0);
+  EXPECT_EQ(one.it().parts().axes.chips.chip(0).backlash_sent, -40);
+  EXPECT_EQ(one.it().parts().axes.chips.chip(1).backlash_sent, 0);
   EXPECT_EQ(one.get("D8117"), -100);
 }
 
@@ -203,12 +203,12 @@ TEST(Super40ncParameters, BacklashBeforeAPathCanBeHeld) {
   one.run(150);
   one.set("M8006", 1);
   one.run(5);
-  const std::int64_t held_at = one.it().chip(0).backlash_sent;
+  const std::int64_t held_at = one.it().parts().axes.chips.chip(0).backlash_sent;
   EXPECT_NEAR(static_cast<double>(held_at), -200, 4);
   EXPECT_EQ(one.get("D8164"), 0);
   EXPECT_TRUE(one.on("M8022"));
   one.run(500);
-  EXPECT_EQ(one.it().chip(0).backlash_sent, held_at);
+  EXPECT_EQ(one.it().parts().axes.chips.chip(0).backlash_sent, held_at);
   EXPECT_EQ(one.get("D8117"), 1000);
   one.set("M8006", 0);
   one.set("M8000", 1);
@@ -218,12 +218,12 @@ TEST(Super40ncParameters, BacklashBeforeAPathCanBeHeld) {
   one.run(2);
   one.set("M8002", 0);
   one.run(100);
-  const std::int64_t stopped_at = one.it().chip(0).backlash_sent;
+  const std::int64_t stopped_at = one.it().parts().axes.chips.chip(0).backlash_sent;
   EXPECT_NEAR(static_cast<double>(stopped_at), -334, 5);
   EXPECT_EQ(one.get("D8117"), 1000);
   go(0);
   one.run_while("M8000");
-  EXPECT_EQ(one.it().chip(0).backlash_sent, -400);
+  EXPECT_EQ(one.it().parts().axes.chips.chip(0).backlash_sent, -400);
   EXPECT_EQ(one.get("D8117"), 0);
 }
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "emulator/device/memory/kept_memory.h"
-#include "emulator/models/super_40nc/files.h"
+#include "emulator/models/super_40nc/programs/files.h"
 #include "tests/emulator/models/super_40nc/listings.h"
 
 namespace understudy::emulator::models::super_40nc {

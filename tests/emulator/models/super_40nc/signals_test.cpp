@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "emulator/device/machine_edges.h"
-#include "emulator/models/super_40nc/terminals.h"
+#include "emulator/models/super_40nc/rows/terminals.h"
 #include "motion/environment.h"
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
 
@@ -11,7 +11,7 @@ namespace understudy::emulator::models::super_40nc {
 namespace signals_test {
 
 bool index_is_on(OneSuper40nc& one, std::int64_t travel) {
-  return (one.it().environment(0).at(travel) & motion::bit(motion::Signal::index)) != 0;
+  return (one.it().parts().axes.chips.environment(0).at(travel) & motion::bit(motion::Signal::index)) != 0;
 }
 
 /// The input changes at 100 to 102 and every 1000 pulses from there.
@@ -22,7 +22,7 @@ TEST(Super40ncSignals, AnIndexThatIsOffInsideIsOnOutside) {
       // X0, the sense of the motor, counts from the next start.
       one.press("M8103");
       one.run(300);
-      ASSERT_EQ(one.it().chip(0).inverted, is_inverted);
+      ASSERT_EQ(one.it().parts().axes.chips.chip(0).inverted, is_inverted);
       MachineEdges edges;
       edges.index = {
           .input = pin_of(0, kIndexPin), .level_inside = level_inside, .at = 100, .width = 3, .period = 1000};

@@ -1,6 +1,6 @@
 // The user table and the direct command, which a bench has to choose: of their codes only 1, a line, is
 // printed (《命令範例》 24), so what is held against it is what the header of user_table.h says.
-#include "emulator/models/super_40nc/user_table.h"
+#include "emulator/models/super_40nc/programs/user_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,32 @@
+// What the axes encounter: switches along their travel, the drive's alarm, the encoder's index.
+#pragma once
+
+#include <array>
+
+#include "emulator/device/machine_edges.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis/chips.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+class AxisInputs : protected Chips {
+ public:
+  explicit AxisInputs(const Chips& chips) : Chips(chips) {}
+
+  /// Returns X33 or X34: 0 not in use, 1 NO, 2 NC.
+  Value limit_logic(int axis, int direction) const;
+  /// Returns true if D8x18 and D8x19 are what acts of X33 and X34.
+  bool has_limit_copies() const { return !chose(option("limit_copies", "plain_registers")); }
+  void update_environment(int axis_number);
+  void see_first_signals();
+  void set_edges(int axis, const MachineEdges& edges);
+  /// The edges of a restored state are set again before anything has changed.
+  void await_edges() { is_restored_.fill(true); }
+  void await_no_edges() { is_restored_.fill(false); }
+
+ private:
+  std::array<MachineEdges, kAxisCount> edges_{};  // not state: set again after a restore
+  std::array<bool, kAxisCount> is_restored_{};    // restored, and its edges not set again yet
+};
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,95 @@
+// The axes of a SUPER-40NC as values, and what follows from them alone: counters, positions, speeds. Each
+// part of the axes is such a view, with functions of its own.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/models/super_40nc/axis/axis_state.h"
+#include "emulator/models/super_40nc/axis/ownership.h"
+#include "emulator/models/super_40nc/ground/ground.h"
+#include "motion/axis.h"
+#include "motion/environment.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+class Chips : protected OnGround {
+ public:
+  Chips(Ground& ground, AxesState& axes)
+      : OnGround(ground), axes_(axes), lines_wait_(chose(option("axis_conflicts", "programs_always_wait"))) {}
+
+  AxisState& axis(int number) { return axes_.axes[static_cast<std::size_t>(number)]; }
+  const AxisState& axis(int number) const { return axes_.axes[static_cast<std::size_t>(number)]; }
+  motion::Axis& chip(int number) { return axes_.chips[static_cast<std::size_t>(number)]; }
+  const motion::Axis& chip(int number) const { return axes_.chips[static_cast<std::size_t>(number)]; }
+  motion::Environment& environment(int axis) { return axes_.environment[static_cast<std::size_t>(axis)]; }
+  const motion::Environment& environment(int axis) const {
+    return axes_.environment[static_cast<std::size_t>(axis)];
+  }
+  bool is_on_path(int axis) const { return axes_.path.takes(static_cast<std::size_t>(axis)); }
+  bool has_signal(int number, motion::Signal signal) const {
+    return (chip(number).signals & motion::bit(signal)) != 0;
+  }
+
+  // --- positions
+  /// Returns COUNTER1.
+  std::int64_t machine_pulses(int number) const {
+    return axis(number).command.at(chip(number).travel_pulses);
+  }
+  std::int32_t counter(int axis_number, int number) const;
+  /// Returns the position that D8x17 shows, in the work coordinate.
+  std::int64_t work_lu(int axis_number) const;
+  std::int64_t relative_base_lu(int axis_number) const;
+  /// Returns pulses to the target; not 0 if PSET, another D8x40 or CMX moved a target that was reached.
+  std::int64_t distance_to(int axis_number, std::int64_t target_lu) const;
+  std::int64_t remaining_pulses(int axis_number) const;
+  std::int64_t braking_pulses(int axis) const;
+  std::int64_t search_pulses(int axis) const;
+  std::int64_t place_pulses(int axis) const;
+  std::int64_t pulses_to_come(int axis_number) const;
+
+  // --- speeds
+  /// Returns the value of D8x64.
+  std::int32_t operation_of(int axis_number) const;
+  /// Returns the speed in the axis's own direction.
+  double commanded_pps(int axis_number) const;
+  /// Returns the speed in the motor's direction.
+  double speed_pps(int axis_number) const;
+  /// Returns the speed in steps of the chip (D8x70).
+  std::int32_t chip_speed(int axis_number) const;
+
+  // --- who has an axis
+  /// Looks up the table of ownership.h, under the chosen option.
+  Grant granted(Activity holder, Request request) const { return grant(holder, request, lines_wait_); }
+  bool is_awaited_by(Mover mover) const;
+
+ protected:
+  /// Drops an end between ticks that has been handled.
+  void forget_end(int axis);
+
+  AxesState& axes_;
+
+ private:
+  bool lines_wait_;
+};
+
+/// The values of D8x64, by the chip's numbers.
+enum Operation : std::int32_t {
+  kStopped = 0,
+  kBacklash = 7,
+  kByWheel = 8,
+  kAtFa = 9,
+  kAtFl = 10,
+  kSpeedingUp = 11,
+  kAtFh = 12,
+  kSlowingDown = 13,
+};
+
+/// Makes 32 bits of a sum that wraps, as the chip does.
+inline std::int32_t wrapped(std::int64_t number) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(number));
+}
+inline int direction_of(std::int64_t distance) { return distance < 0 ? -1 : +1; }
+inline bool is_bit(std::int32_t mask, int bit) { return (mask >> bit & 1) != 0; }
+
+}  // namespace understudy::emulator::models::super_40nc

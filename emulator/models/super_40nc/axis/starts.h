@@ -1,0 +1,38 @@
+// How motions of an axis begin and end, whatever kind they are.
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/models/super_40nc/axis/axis_inputs.h"
+#include "emulator/models/super_40nc/axis/axis_parameters.h"
+#include "emulator/models/super_40nc/axis/chip_pins.h"
+#include "emulator/models/super_40nc/axis/chips.h"
+#include "motion/axis.h"
+#include "motion/move.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+class Starts : protected Chips {
+ public:
+  Starts(const Chips& chips, AxisInputs& inputs, AxisParameters& parameters, ChipPins& pins)
+      : Chips(chips), inputs_(inputs), parameters_(parameters), pins_(pins) {}
+
+  /// Returns what the axis's holder grants; a refusal is reported at the PLC's line.
+  Grant ask(int axis_number, Request request);
+  /// Takes from the parameters what a motion needs when it starts.
+  void prepare(int axis_number, bool homes = false);
+  void begun(int axis_number, motion::Cause why_not, Activity holder);
+  /// Writes to the chip's registers what a start leaves there.
+  void mirror_start(int axis_number, int mode, std::int64_t distance_pulses, const motion::SpeedLaw& law);
+  void fail(int axis_number, Code code);
+  void let_go(int axis_number);
+  /// Returns the limit that the axis stands on, if that blocks both directions.
+  motion::Cause blocked_both_ways(int axis) const;
+
+ private:
+  AxisInputs& inputs_;
+  AxisParameters& parameters_;
+  ChipPins& pins_;
+};
+
+}  // namespace understudy::emulator::models::super_40nc

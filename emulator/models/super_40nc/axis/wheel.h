@@ -1,0 +1,28 @@
+// The hand-wheel: one for all axes. Each axis decodes and scales its counts by its own parameters (《X40.》
+// to 《X44.》).
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/models/super_40nc/axis/chips.h"
+#include "emulator/models/super_40nc/axis/starts.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+class Wheel : protected Chips {
+ public:
+  Wheel(const Chips& chips, Starts& starts) : Chips(chips), starts_(starts) {}
+
+  void start_wheel(int axis_number, WheelSource source);
+  /// Feeds the edges to each axis, which decodes them by its own parameters.
+  void feed_wheel(std::int32_t edges);
+  void wheel_ended(int axis);
+
+ private:
+  std::int64_t wheel_lu_per_count(int axis_number) const;
+  void follow_ratio(int axis);
+
+  Starts& starts_;
+};
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,54 @@
+// What stops, holds and continues an axis, whether it moves alone or on a path.
+#pragma once
+
+#include <optional>
+
+#include "emulator/models/super_40nc/axis/axis_parts.h"
+#include "emulator/models/super_40nc/path/manual_motions.h"
+#include "emulator/models/super_40nc/path/paths.h"
+#include "motion/axis.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+/// A program has lost a motion, because its axis met something. The axis is released; -1: several axes.
+struct Broken {
+  Mover mover = Mover::c;
+  int axis = -1;
+  bool is_awaited = false;  // by a line
+  motion::Cause why = motion::Cause::none;
+};
+
+class Moves : protected Chips {
+ public:
+  Moves(AxisParts& parts, Paths& paths) : Chips(parts.chips), parts_(parts), paths_(paths) {}
+
+  /// Stops at once. A home or zero return that is abandoned has no further effect.
+  void stop_axis(int axis_number, Code code = Code::none);
+  /// VDRV 0. Returns true if the axis has to come to rest first.
+  bool end_by_ramp(int axis_number, Mover mover);
+  /// Stops by STP, a STOP key or M8x02.
+  void stop_by_command(int axis_number);
+  void stop_all_of(Mover mover);
+  /// Stops all axes that a program moves, after one of them has met something.
+  void break_program(Mover mover, int but_for = -1);
+  /// Called when the motor has come to rest without a command.
+  std::optional<Broken> ended(int axis_number);
+
+  void hold_axis(int axis_number);
+  std::optional<Broken> go_on_axis(int axis_number);
+
+  /// Returns the motion by hand, or nothing if a program's line waits for the axis.
+  std::optional<ManualMotion> manual_motion(int axis_number) const;
+  /// Handles an event by the table in manual_motions.h.
+  void handle(int axis, ManualEvent event, Code code = Code::none);
+  void handle(int axis, ManualMotion motion, ManualEvent event, Code code = Code::none);
+
+ private:
+  void rest_axis(int axis_number);
+  std::optional<Broken> cannot_go_on(int axis_number, const Rest& rest, Mover mover, bool is_awaited);
+
+  AxisParts& parts_;
+  Paths& paths_;
+};
+
+}  // namespace understudy::emulator::models::super_40nc

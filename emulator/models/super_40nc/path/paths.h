@@ -1,0 +1,76 @@
+// LIN and arcs of the C program, on which the chip carries several axes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "base/simulated_time.h"
+#include "emulator/models/super_40nc/axis/axis_parts.h"
+#include "emulator/models/super_40nc/path/path_backlash.h"
+#include "emulator/models/super_40nc/path/path_state.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
+#include "motion/move.h"
+#include "motion/path.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+/// A LIN or an arc, in the machine coordinate.
+struct PathPlan {
+  motion::Path path;
+  std::array<bool, kAxisCount> takes{};
+  std::array<std::int64_t, kAxisCount> target_lu{};  // in the work coordinate
+  std::int32_t feed_lu_per_s = 0;
+  int mode = 0;  // the value of the chip's PRMD
+};
+
+class Paths : protected Chips {
+ public:
+  Paths(AxisParts& parts, PathState& state)
+      : Chips(parts.chips), parts_(parts), state_(state), backlash_(parts.chips, state) {}
+
+  /// Returns what the axes of a path get together.
+  Grant ask_for_path(const std::array<bool, kAxisCount>& takes);
+  /// Returns true if the path has begun; if not, it reports its error.
+  bool begin_path(const PathPlan& plan);
+  /// Returns true if a new path continues the current one (D9005).
+  bool joins_paths() const;
+  /// Returns true if the current path can take one more piece with the same axes.
+  bool has_room_on_path(const std::array<bool, kAxisCount>& takes) const;
+  void join_path(const PathPlan& plan);
+  /// Returns where the next LIN or arc begins.
+  std::int64_t path_base_lu(int axis_number) const;
+  void apply_override();
+
+  bool is_engaged() const { return axes_.path.engaged; }
+  bool is_held() const { return axes_.path_is_held; }
+  void hold_path();
+  void go_on_path();
+  /// VDRV 0: slows down by the path's ramp, and ends.
+  void slow_path();
+  void stop_path();
+  /// Stops all axes of the path for `why`; path_ended() follows.
+  void break_off(motion::Cause why) { axes_.path.stop(axes_.chips, why); }
+  void slow_path_for(motion::Cause why) { axes_.path.slow_down(now(), why); }
+  void step_axes(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
+  /// Called when the path has arrived, or an axis of it has met something. Returns what has broken the
+  /// program that waits for it.
+  std::optional<motion::Cause> path_ended();
+
+ private:
+  double path_feed() const;
+  double feed_scale(const motion::Path& path) const;
+  motion::SpeedLaw prepare_axes(const PathPlan& plan, motion::Coordinated& path);
+  bool is_blocked(const PathPlan& plan);
+  motion::Cause blocked_on_path(int axis_number, const motion::Path& path) const;
+  void take_axis(int number, const PathPlan& plan, const motion::Coordinated& path,
+                 const motion::SpeedLaw& law);
+
+  AxisParts& parts_;
+  PathState& state_;
+  PathBacklash backlash_;
+};
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,36 @@
+// Whether a PLC that has settled needs to scan. A scan that has changed nothing is the same again until
+// something that it reads changes. Writes by hosts and step programs are noted; other values are checked in
+// each tick that is run. In skipped ticks only moving values change, as their rows say (Varies).
+#pragma once
+
+#include <vector>
+
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "interpreter/super_40nc/ladder.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+class PlcWatch {
+ public:
+  explicit PlcWatch(const RegisterBank& bank) : bank_(bank) {}
+
+  /// Finds what the ladder reads and others write without notice.
+  void find(const interpreter::super_40nc::Ladder& ladder);
+  /// Remembers what the PLC sees now.
+  void note();
+  /// Returns true if all is as it was noted.
+  bool is_as_seen() const;
+  /// Returns true if some of it changes with an axis's pulses.
+  bool some_move() const { return some_move_; }
+
+ private:
+  // Working values; none of them is state.
+  const RegisterBank& bank_;
+  std::vector<Place> places_;
+  bool some_move_ = false;
+  std::vector<Value> seen_;  // values that the PLC saw in the current tick
+};
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,95 @@
+// What step programs are told, and what they show.
+#include "emulator/models/super_40nc/programs/programs.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/models/super_40nc/programs/program_machine.h"
+#include "emulator/models/super_40nc/rows/options.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/events.h"
+#include "interpreter/super_40nc/step_programs.h"
+#include "motion/axis.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+void Programs::tell(language::Event event, language::Area area) {
+  ProgramMachine machine(*this, controls_);
+  language::StepPrograms(state_.steps, codes_, machine, options_).take(event, area);
+}
+
+void Programs::broken(const Broken& broken) {
+  const motion::Cause why = broken.why;
+  controls_.moves.break_program(broken.mover, broken.axis);
+  const auto area = static_cast<language::Area>(broken.mover);
+  const language::Phase phase = state_.steps.programs[language::index_of(area)].phase;
+  // A motion beside the lines also resets a running program; a program that is over is left alone.
+  const bool runs_on = !broken.is_awaited && phase != language::Phase::idle;
+  const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus;
+  const bool is_soft = why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;
+  const bool pauses =
+      (is_limit && chose(option("el_resets", "pauses_at_the_line"))) ||
+      (is_soft && chose(option("soft_limit_resets", "pauses_at_the_line"))) ||
+      (why == motion::Cause::alarm && chose(option("alm_resets", "pauses_at_the_line"))) ||
+      (why == motion::Cause::comparator && chose(option("comparator_resets", "pauses_at_the_line")));
+  if (pauses && !runs_on) return tell(language::Event::limit_pauses, area);
+  if (pauses) return;
+  tell(runs_on ? language::Event::stop : language::Event::broken, area);
+}
+
+void Programs::path_broken(motion::Cause why) {
+  const language::Phase phase = state_.steps.programs[0].phase;
+  // false while paths are joined
+  const bool is_awaited = phase == language::Phase::moving || phase == language::Phase::held;
+  broken({.is_awaited = is_awaited, .why = why});
+}
+
+void Programs::run_steps() {
+  if (!are_busy()) return;
+  ProgramMachine machine(*this, controls_);
+  language::StepPrograms(state_.steps, codes_, machine, options_).run_slices();
+  state_.plc_quiet_scans = 0;  // they may have written what the PLC reads
+}
+
+bool Programs::are_busy() const {
+  return std::any_of(language::kAreas.begin(), language::kAreas.end(), [&](const language::AreaRow& row) {
+    if (row.area == language::Area::plc) return false;
+    const language::Phase phase = state_.steps.programs[language::index_of(row.area)].phase;
+    const bool rests =
+        phase == language::Phase::idle || phase == language::Phase::paused || phase == language::Phase::held;
+    return !rests || ground_.contact(row.run_contact);
+  });
+}
+
+bool Programs::is_pausing() const {
+  const auto pauses = [](const language::StepState& program) {
+    const bool rests = program.phase == language::Phase::paused || program.phase == language::Phase::held;
+    return rests && program.is_paused_by_key;
+  };
+  const auto& all = state_.steps.programs;
+  const bool rests = all[0].phase == language::Phase::paused || all[0].phase == language::Phase::held;
+  if (rests && chose(option("m8022_scope", "c_also_by_m8000"))) return true;
+  if (!chose(option("m8022_scope", "every_program"))) return pauses(all[0]);
+  return std::any_of(all.begin(), all.end(), pauses);
+}
+
+int Programs::shown_base(std::size_t program) const {
+  const bool is_absolute = chose(option("step_numbers_relative", "absolute"));
+  return is_absolute ? language::base_of(static_cast<language::Area>(program), options_) : 0;
+}
+
+std::int32_t Programs::shown_step(std::size_t program) const {
+  const language::StepState& steps = state_.steps.programs[program];
+  const bool moves = steps.phase == language::Phase::moving || steps.phase == language::Phase::homing;
+  const bool shows_next = moves && chose(option("step_shown", "the_next_ones"));
+  return shown_base(program) + (shows_next ? steps.next_step : steps.step);
+}
+
+void Programs::set_pointer(int program, std::int32_t step) {
+  ProgramMachine machine(*this, controls_);
+  language::StepPrograms(state_.steps, codes_, machine, options_)
+      .set_step(static_cast<language::Area>(program), step);
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,67 @@
+// The flash of a SUPER-40NC: its programs, path files and recipes, each a text (files.h), and how much room
+// they have.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/device/program_error.h"
+#include "emulator/models/super_40nc/ground/ground.h"
+#include "emulator/models/super_40nc/programs/program_state.h"
+#include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/program.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+class StoredPrograms : protected OnGround {
+ public:
+  StoredPrograms(Ground& ground, ProgramState& state)
+      : OnGround(ground), state_(state), options_(ground.language_options()) {}
+
+  std::string program_text() const;
+  /// Returns the errors of `text` as a program.
+  std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
+  /// Returns the warnings about `text`: it loads, but something is odd.
+  std::vector<ProgramMistake> warnings_about(std::string_view text) const;
+  interpreter::super_40nc::Checked check(std::string_view text) const;
+  /// Returns the program of an area that is stored so, or nothing.
+  std::optional<interpreter::super_40nc::AreaProgram> area(std::string_view kind, std::string_view name,
+                                                           Area area) const;
+  /// Stores the areas and files that a program has; an empty area is erased.
+  void store(const interpreter::super_40nc::Program& program);
+  /// Returns true if a stored program has more lines than D9042 allows.
+  bool is_too_long(std::string_view kind, std::string_view name) const;
+  /// Stores the C program as the present file, and takes that of `number` in its place.
+  void change_c(std::int32_t number);
+  void flash_written(bool is_recipe);
+
+  /// Changes the recipe (D9002).
+  void change_recipe(std::int32_t number);
+  /// Reads the stored file and recipe again at power-up, if that is chosen.
+  void read_files_again();
+  /// Computes D9042 and D9043 from D9045.
+  void show_capacities();
+  /// Shows in D9036 to D9042 the stored lines, not the capacities, if that is chosen.
+  void show_line_counts();
+
+ private:
+  interpreter::super_40nc::Options options_with_room() const;
+  std::int32_t room_of_c() const;
+  bool shows_line_counts() const { return chose(option("line_counts", "steps_of_the_programs")); }
+  int first_of_recipe() const;
+  void take_recipe(std::int32_t number);
+  void copy(std::string_view from, const std::string& from_name, std::string_view to,
+            const std::string& to_name);
+
+  ProgramState& state_;
+  const interpreter::super_40nc::Options& options_;
+};
+
+/// Returns all errors of a checked listing.
+std::vector<ProgramMistake> mistakes_of(const interpreter::super_40nc::Checked& checked);
+
+}  // namespace understudy::emulator::models::super_40nc

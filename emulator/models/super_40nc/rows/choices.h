@@ -1,0 +1,25 @@
+// SUPER-40NC: what its manual leaves open, and what we chose. docs/fidelity/super-40nc.md is generated from
+// these rows; a bench overrides one with `choices: { ID: OPTION }`.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "emulator/device/choices.h"
+#include "emulator/models/super_40nc/rows/choices_of_motion.h"
+#include "emulator/models/super_40nc/rows/choices_of_programs.h"
+#include "emulator/models/super_40nc/rows/choices_of_registers.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+inline constexpr auto kChoices = [] {
+  std::array<ChoiceRow, std::size(kRegisterChoices) + std::size(kProgramChoices) + std::size(kMotionChoices)>
+      all{};
+  std::size_t next = 0;
+  for (const ChoiceRow& row : kRegisterChoices) all[next++] = row;
+  for (const ChoiceRow& row : kProgramChoices) all[next++] = row;
+  for (const ChoiceRow& row : kMotionChoices) all[next++] = row;
+  return all;
+}();
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,69 @@
+// SUPER-40NC's terminals: X, Y, and the pins without a number. The names of these pins are ours, since the
+// wiring pictures are lost.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "emulator/device/model.h"
+#include "emulator/models/super_40nc/rows/contact_rows.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+inline constexpr int kFirstOutput = kInputCount;
+inline constexpr int kFirstPin = kFirstOutput + kOutputCount;
+
+/// Pins of each axis.
+enum Pin : int { kAlarmPin, kIndexPin, kInPositionPin, kReadyPin, kPinsOfAxis };
+constexpr int pin_of(int axis, Pin pin) { return kFirstPin + axis * kPinsOfAxis + pin; }
+
+inline constexpr int kWheelTerminal = kFirstPin + kAxisCount * kPinsOfAxis;  // MPG
+inline constexpr int kEmergencyTerminal = kWheelTerminal + 1;                // CEMG
+inline constexpr int kFirstAnalogIn = kEmergencyTerminal + 1;                // VR1 to VR3
+inline constexpr int kAnalogInCount = 3;
+inline constexpr int kFirstAnalogOut = kFirstAnalogIn + kAnalogInCount;  // Vout1, Vout2
+inline constexpr int kAnalogOutCount = 2;
+inline constexpr int kRunSwitch = kFirstAnalogOut + kAnalogOutCount;  // PLC_RUN
+// Terminals that exist only by choice: DOG_X on (dog_inputs), Vin1 on (analog_counts), SVON_X on (servo_on),
+// CLR_X on and so forth (pins_fitted).
+inline constexpr int kFirstDogTerminal = kRunSwitch + 1;
+inline constexpr int kFirstVoltageIn = kFirstDogTerminal + kAxisCount;
+inline constexpr int kFirstServoTerminal = kFirstVoltageIn + kAnalogInCount;
+inline constexpr int kFirstChipPin = kFirstServoTerminal + kAxisCount;
+enum ChipPin : int { kClearPin, kLatchPin, kErcPin, kChipPinsOfAxis };
+constexpr int chip_pin_of(int axis, ChipPin pin) { return kFirstChipPin + axis * kChipPinsOfAxis + pin; }
+inline constexpr int kTerminalCount = kFirstChipPin + kAxisCount * kChipPinsOfAxis;
+
+// Inputs by 《X33./X34.》; DOG fills the gap in that list.
+constexpr int dog_input(int axis) { return 3 * axis; }
+constexpr int limit_plus_input(int axis) { return 3 * axis + 1; }
+constexpr int limit_minus_input(int axis) { return 3 * axis + 2; }
+
+inline constexpr std::int32_t kMaxAnalogCount = 1023;
+inline constexpr std::int32_t kVoltageSteps = 1000;
+inline constexpr std::int32_t kMaxMillivolts = 3300;
+inline constexpr std::int32_t kMaxMillivoltsIn = 5000;
+
+inline constexpr std::array<std::string_view, kAxisCount> kAxisNames{"X", "Y", "Z", "U"};
+inline constexpr int kFactoryPulsesPerRevolution = 4000;
+
+inline constexpr std::array<AxisRow, kAxisCount> kAxes = [] {
+  std::array<AxisRow, kAxisCount> rows;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    rows[static_cast<std::size_t>(axis)] = {.name = kAxisNames[static_cast<std::size_t>(axis)],
+                                            .upper_limit_input = limit_plus_input(axis),
+                                            .lower_limit_input = limit_minus_input(axis),
+                                            .home_input = dog_input(axis),
+                                            .alarm_input = pin_of(axis, kAlarmPin),
+                                            .ready_input = pin_of(axis, kReadyPin),
+                                            .pulses_per_revolution = kFactoryPulsesPerRevolution,
+                                            .index_input = pin_of(axis, kIndexPin)};
+  }
+  return rows;
+}();
+
+/// Returns the rows of all terminals; their names are made once.
+std::span<const TerminalRow> terminals();
+
+}  // namespace understudy::emulator::models::super_40nc
