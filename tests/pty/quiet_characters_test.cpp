@@ -76,6 +76,15 @@ TEST(QuietCharacters, OfAFramerAreNotDueBeforeTheLast) {
   EXPECT_GT(jumps, 1000);
 }
 
+TEST(QuietCharacters, AreThoseThatAWriteStillLacks) {
+  for (const bool is_strict : {false, true}) {
+    RtuFramer framer({.strict = is_strict, .silence = 750us, .patience = 10ms});
+    for (const std::uint8_t value : hex("01 10 1F 40 00 02 04"))
+      framer.push({.start = 1ms, .end = 1ms, .value = value});
+    EXPECT_EQ(framer.quiet_characters(), is_strict ? 0U : 6U);
+  }
+}
+
 /// Tells the line how long it is quiet.
 class QuietSlave final : public FakeSlave {
  public:

@@ -317,6 +317,14 @@ TEST(RsM8194hRun, InputsAreWaitedForUpToTheTimeout) {
   EXPECT_EQ(edge.machine.log.back(), "10 end");
 }
 
+TEST(RsM8194hRun, InputsAreWaitedForWithoutEndAtANegativeTime) {
+  Bench bench(mp(1, "SET_VAR VAR1 -5|FRNET_WAIT 8 3 1 VAR1|DRV_HOLD X"));
+  bench.start();
+  bench.run(1);
+  EXPECT_EQ(bench.execution.mp.hold, Hold::frnet);
+  EXPECT_EQ(bench.execution.mp.until_ms, kNever);
+}
+
 TEST(RsM8194hRun, EachWaitForAChangeWantsOneOfItsOwn) {
   Bench bench(mp(1, "FRNET_WAIT 8 3 1 0|DRV_HOLD X|FRNET_WAIT 8 3 1 0|DRV_HOLD Y"),
               {.frnet_wait_needs_edge = true});

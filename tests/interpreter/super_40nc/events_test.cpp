@@ -121,6 +121,7 @@ TEST(Super40ncEvents, APausedWaitStandsAndGoesOn) {
     running.tick(100);
     EXPECT_EQ(running.state(Area::x).left_ms, 6);
     running.start(Area::x);
+    EXPECT_EQ(running.phase(Area::x), Phase::waiting);
     running.tick(5);
     EXPECT_FALSE(running.machine.contact(y(1)));
     running.tick();

@@ -184,6 +184,18 @@ TEST(RsM8194hEvents, EachDriveAndPresetDoesWhatItsLineSays) {
   }
 }
 
+TEST(RsM8194hEvents, ASpeedPresetOfZeroLeavesTheSpeed) {
+  SteadyRsm rsm;
+  rsm.send({"RSM_SYNC_ACTION X Y 16 0 0 4 0 0 0 0 0 0", "RSM_SET_PRESET Y 0", "RSM_CONTINUE_MOVE Y 2000"});
+  rsm.run(100);
+  rsm.send("RSM_FIXED_MOVE X 2");
+  rsm.run(100);
+  EXPECT_EQ(rsm.get("CV_Y"), 2000);
+  rsm.send({"RSM_STOP_SUDDENLY Y", "RSM_CLEAR_STOP Y", "RSM_FIXED_MOVE Y 1000"});
+  rsm.run(100);
+  EXPECT_EQ(rsm.get("CV_Y"), 2000);
+}
+
 TEST(RsM8194hEvents, LineScansTriggerAtTheirPitch) {
   SteadyRsm rsm;
   rsm.send({"RSM_LINE_SCAN X 0 0 0 -39"});

@@ -65,6 +65,17 @@ TEST(RsM8194hPaths, AbsoluteFormsGoByTheAbsoluteCounters) {
   EXPECT_EQ(rsm.get("ABS_Y"), 5000);
 }
 
+TEST(RsM8194hPaths, OfOnePulseGiveItAndOfNoneAreOver) {
+  ConstantRsm rsm;
+  rsm.send("RSM_LINE_2D 0 0");
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+  rsm.send("RSM_LINE_2D 1 0");
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 3);
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 1);
+  EXPECT_EQ(rsm.get("LP_Y"), 0);
+}
+
 TEST(RsM8194hPaths, AnyAxesMayBeAssigned) {
   ConstantRsm rsm("U Y X", 7);
   rsm.send("RSM_LINE_3D 6000 -3000 2000");

@@ -140,6 +140,18 @@ TEST(RsM8194hAxis, RingsGoRoundAtTheirTop) {
   EXPECT_EQ(rsm.get("EP_X"), 9999);
 }
 
+TEST(RsM8194hAxis, ARingEndsTheSoftLimitsForGood) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000", "RSM_SET_SLMT X 500 -300 0", "RSM_VRING_ENABLE X 9999",
+            "RSM_FIXED_MOVE X 1000"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 1000);
+  rsm.send({"RSM_VRING_DISABLE X", "RSM_FIXED_MOVE X 1000"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 2000);
+  EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
+}
+
 TEST(RsM8194hAxis, SoftLimitsStopAndOnlyTheWayBackIsFree) {
   OneRsm rsm;
   rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000", "RSM_SET_SLMT X 500 -300 0", "RSM_FIXED_MOVE X 2000"});
@@ -230,6 +242,18 @@ TEST(RsM8194hAxis, NewTotalsAndSpeedsActOnTheWay) {
   rsm.send("RSM_SET_V X 4000");
   rsm.run(1500);
   EXPECT_EQ(rsm.get("CV_X"), 4000);
+}
+
+TEST(RsM8194hAxis, SlowsDownByItsRampToASpeedBelowSv) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_SV X 5000", "RSM_SET_A X 10000", "RSM_CONTINUE_MOVE X 10000"});
+  rsm.run(1000);
+  EXPECT_EQ(rsm.get("CV_X"), 10000);
+  rsm.send("RSM_SET_V X 1000");
+  rsm.run(700);
+  EXPECT_NEAR(static_cast<double>(rsm.get("CV_X")), 3000, 100);
+  rsm.run(300);
+  EXPECT_EQ(rsm.get("CV_X"), 1000);
 }
 
 TEST(RsM8194hAxis, ExternalDrivesFollowTheirEdges) {

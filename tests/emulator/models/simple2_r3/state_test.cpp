@@ -172,6 +172,12 @@ TEST(Simple2State, NumbersBeyondTheirBoundsAreRefused) {
       {"target_urpm", [](State& s, Number v) { s.axes[1].target_urpm = v; }, INT32_MIN * Number{1000},
        INT32_MAX * Number{1000}},
       {"speed_urpm", [](State& s, Number v) { s.axes[0].speed_urpm = v; }, -kFastest, kFastest},
+      {"speed_urpm of one pulse a revolution",
+       [](State& s, Number v) {
+         s.image[kAxisSlots[0].resolution] = 1;
+         s.axes[0].speed_urpm = v;
+       },
+       -INT64_MAX / 4, INT64_MAX / 4},
       {"velocity_phase", [](State& s, Number v) { s.axes[0].velocity_phase = v; }, -kVelocityPhase,
        kVelocityPhase},
       {"velocity_resolution",

@@ -66,6 +66,25 @@ TEST(SlimGroups, TheMapCountsWhenACommandIsIssued) {
   EXPECT_EQ(bench.travel(5), 0);
 }
 
+TEST(SlimGroups, APathBehindAJogEndsByWhereTheJogStopped) {
+  OneChain bench;
+  bench.map({0, 1});
+  bench.jog_speed(0, 1000);
+  bench.chain.jog(0, +1);
+  bench.steps(500);
+  ASSERT_EQ(bench.line({100, 50}), Error::none);
+  bench.steps(300);
+  bench.chain.jog(0, 0);
+  bench.finish();
+  EXPECT_GT(bench.travel(0), 800);
+  EXPECT_EQ(bench.travel(1), 50);
+  // What follows begins at its end.
+  ASSERT_EQ(bench.line({0, 0}, true), Error::none);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 0);
+  EXPECT_EQ(bench.travel(1), 0);
+}
+
 TEST(SlimGroups, ACommandStartsAtTheHeadOfAllItsFifos) {
   OneChain bench;
   bench.speeds(1, 1000, 10'000);

@@ -102,6 +102,20 @@ TEST(SlimQueues, ClrBufInAPathStopsAtTheFirstBorderWithinReach) {
   }
 }
 
+TEST(SlimQueues, APathBehindClrBufBeginsWhereWhatIsLeftEnds) {
+  OneChain bench;
+  bench.scale_all(100);
+  bench.map({0, 1});
+  bench.chain.set_continuous_path(1);
+  for (int i = 0; i < 5; ++i) bench.line({20, 0});
+  bench.steps(151);
+  bench.chain.clear_queues();  // 20 are left
+  bench.line({20, 0});
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 4000);
+  EXPECT_EQ(bench.travel(1), 0);
+}
+
 TEST(SlimQueues, ClrBufInTapzStaysInPause) {
   OneChain bench = two_moves();
   bench.chain.pause();

@@ -41,6 +41,15 @@ TEST(WatchTable, ShowsWhatMovesAndWhatIsOn) {
   EXPECT_EQ(lines.back(), "  outputs    -");
 }
 
+TEST(WatchTable, FillsItsColumnsToTheLast) {
+  DaemonRig rig;
+  const std::string status = rig.reply_to(R"({"do":"status"})");
+  const std::string line = watch_table(status, "", 0).at(7);
+  ASSERT_TRUE(line.starts_with("  registers  STATUS ")) << line;
+  EXPECT_EQ(watch_table(status, "", 0, line.size()).at(7), line);
+  EXPECT_EQ(watch_table(status, "", 0, line.size() - 1).at(7), line.substr(0, line.rfind("  ")));
+}
+
 TEST(WatchTable, CountsFramesASecond) {
   DaemonRig rig;
   const std::string before = rig.reply_to(R"({"do":"status"})");

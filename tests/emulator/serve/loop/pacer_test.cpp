@@ -166,6 +166,9 @@ TEST(Pacer, BeingWokenEarlyByAHostIsNotLateness) {
   pacer.woke(kStart + 10ms, kStart + 10ms + 40us);
   EXPECT_EQ(pacer.lateness().count(), 1u);
   EXPECT_EQ(pacer.lateness().greatest(), 40us);
+  // One who is woken just in time counts, with none.
+  pacer.woke(kStart + 10ms, kStart + 10ms);
+  EXPECT_EQ(pacer.lateness().count(), 2u);
 }
 
 TEST(Lateness, OfNothingIsZero) {

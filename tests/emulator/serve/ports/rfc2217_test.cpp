@@ -207,7 +207,7 @@ TEST(Rfc2217, PassesOverWhatIsMalformed) {
   const Bytes kOverlong = [] {
     Bytes said = hex("FF FA 2C 01");
     said.insert(said.end(), 20'000, 0x55);
-    said.insert(said.end(), {0xFF, 0xFF, 0xFF, 0xF0});
+    said.insert(said.end(), {0xFF, 0xFF, 0x55, 0xFF, 0xFF, 0xFF, 0xF0});
     return said;
   }();
   struct Case {

@@ -8,6 +8,8 @@
 #include <memory>
 #include <optional>
 
+#include "emulator/serve/ports/tcp_places.h"
+#include "pty/port_link.h"
 #include "tests/emulator/serve/ports/door_rig.h"
 #include "tests/pty/pty_host.h"
 
@@ -48,6 +50,14 @@ const std::vector<Protocol> kProtocols{
      {"00 00 00 00 00 00 00 00", "00 00 00 00 00 01 00 00", "00 01 00 00 01 2C 01 06 10 02 00 C8",
       "00 01 00 00 FF FF 01 03 00 01 00 01", "00 01 00 07 00 06 01 06 10 02 00 C8", "01 03 00 01 00 01 D5 CA",
       "47 45 54 20 2F 20 48 54 54 50"}}};
+
+// Of a name that stands for several addresses, too.
+TEST(TcpPlaces, AreAllTakenOrNone) {
+  world::TcpAddress first = world::parse_tcp_address("rtu://127.0.0.1:0");
+  const std::vector<Descriptor> listeners = listen_at(first);
+  world::TcpAddress second = world::parse_tcp_address("rtu://localhost:" + std::to_string(first.port));
+  EXPECT_THROW(listen_at(second), pty::PortError);
+}
 
 class EachProtocol : public testing::TestWithParam<std::size_t> {
  protected:

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "emulator/world/bench_file/yaml_fields.h"
 #include "tests/emulator/world/bench_file/bench_texts.h"
 #include "tests/emulator/world/bench_file/mutated_text.h"
 
@@ -112,6 +113,17 @@ TEST(BenchMutation, ReferencesToReferencesDoNotExplode) {
   EXPECT_TRUE(is_handled("understudy: 1\nlines: { a: &l { stations: &s [ *l, *s ] } }\n"));
   EXPECT_TRUE(is_handled("understudy: 1\nlines: { a: { stations: &s [ *s ] } }\n"));
   EXPECT_TRUE(is_handled("&a { understudy: 1, lines: *a, devices: *a }\n"));
+}
+
+TEST(BenchMutation, DefaultsThatHoldThemselvesHaveAnEnd) {
+  const auto own = YamlFields::parse("&a { one: 1, more: *a }\n", "f.yaml", "file", "something");
+  const auto defaults = YamlFields::parse("&a { two: 2, more: *a }\n", "f.yaml", "file", "something");
+  YamlFields both = own.with_defaults(defaults);
+  for (int depth = 0; depth < 10; ++depth) {
+    EXPECT_EQ(both.at("one").text(), "1") << depth;
+    EXPECT_EQ(both.at("two").text(), "2") << depth;
+    both = both.at("more");
+  }
 }
 
 }  // namespace bench_mutation_test

@@ -151,6 +151,8 @@ TEST(ExpressionRefusals, BitOperatorsOnRealNumbersAreRefused) {
       {"a & 1.5", 3, "'&' takes whole numbers"},
       {"1.5 << 2", 5, "'<<' takes whole numbers"},
       {"(a + 1.5) | 1", 11, "'|' takes whole numbers"},
+      {"(a ? 1.5 : 2.5) & 1", 17, "'&' takes whole numbers"},
+      {"min(1.5, 2.5) | 1", 15, "'|' takes whole numbers"},
       {"7 % 2.0", 3, "'%' takes whole numbers"},
       {"~1.5", 1, "'~' takes whole numbers"},
       {"(time * 0.5) % 1s", 14, "'%' takes whole numbers"},
