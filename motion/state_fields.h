@@ -30,356 +30,326 @@ struct StateOf<motion::Point> {
 
 template <>
 struct StateOf<motion::Segment> {
-  static constexpr auto fields = FieldList{field("begin_s", &motion::Segment::begin_s),
-                                           field("position_u", &motion::Segment::position_u),
-                                           field("speed_u_s", &motion::Segment::speed_u_s),
-                                           field("acceleration_u_s2", &motion::Segment::acceleration_u_s2),
-                                           field("jerk_u_s3", &motion::Segment::jerk_u_s3)};
+  static constexpr auto fields =
+      FieldList{field<&motion::Segment::begin_s>(), field<&motion::Segment::position_u>(),
+                field<&motion::Segment::speed_u_s>(), field<&motion::Segment::acceleration_u_s2>(),
+                field<&motion::Segment::jerk_u_s3>()};
   static void check(const motion::Segment& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::Profile> {
-  static constexpr auto fields = FieldList{field("segments", &motion::Profile::segments),
-                                           field("segment_count", &motion::Profile::segment_count),
-                                           field("duration_s", &motion::Profile::duration_s),
-                                           field("end_position_u", &motion::Profile::end_position_u),
-                                           field("end_speed_u_s", &motion::Profile::end_speed_u_s)};
+  static constexpr auto fields =
+      FieldList{field<&motion::Profile::segments>(), field<&motion::Profile::segment_count>(),
+                field<&motion::Profile::duration_s>(), field<&motion::Profile::end_position_u>(),
+                field<&motion::Profile::end_speed_u_s>()};
   static void check(const motion::Profile& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::RampLaw> {
-  static constexpr auto fields = FieldList{
-      field("kind", &motion::RampLaw::kind), field("acceleration_u_s2", &motion::RampLaw::acceleration_u_s2),
-      field("jerk_u_s3", &motion::RampLaw::jerk_u_s3), field("section_u_s", &motion::RampLaw::section_u_s),
-      field("duration_s", &motion::RampLaw::duration_s)};
+  static constexpr auto fields =
+      FieldList{field<&motion::RampLaw::kind>(), field<&motion::RampLaw::acceleration_u_s2>(),
+                field<&motion::RampLaw::jerk_u_s3>(), field<&motion::RampLaw::section_u_s>(),
+                field<&motion::RampLaw::duration_s>()};
   static void check(const motion::RampLaw& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::SpeedLaw> {
-  static constexpr auto fields =
-      FieldList{field("start_speed_u_s", &motion::SpeedLaw::start_speed_u_s),
-                field("top_speed_u_s", &motion::SpeedLaw::top_speed_u_s),
-                field("up", &motion::SpeedLaw::up),
-                field("down", &motion::SpeedLaw::down),
-                field("when_short", &motion::SpeedLaw::when_short),
-                field("slow_down_reckoned_by", &motion::SpeedLaw::slow_down_reckoned_by),
-                field("slow_down_at_u", &motion::SpeedLaw::slow_down_at_u),
-                field("slow_down_offset_u", &motion::SpeedLaw::slow_down_offset_u)};
+  static constexpr auto fields = FieldList{field<&motion::SpeedLaw::start_speed_u_s>(),
+                                           field<&motion::SpeedLaw::top_speed_u_s>(),
+                                           field<&motion::SpeedLaw::up>(),
+                                           field<&motion::SpeedLaw::down>(),
+                                           field<&motion::SpeedLaw::when_short>(),
+                                           field<&motion::SpeedLaw::slow_down_reckoned_by>(),
+                                           field<&motion::SpeedLaw::slow_down_at_u>(),
+                                           field<&motion::SpeedLaw::slow_down_offset_u>()};
   static void check(const motion::SpeedLaw& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::TickSegment> {
   static constexpr auto fields =
-      FieldList{field("begin_ticks", &motion::TickSegment::begin_ticks),
-                field("place", &motion::TickSegment::place), field("first", &motion::TickSegment::first),
-                field("second", &motion::TickSegment::second), field("third", &motion::TickSegment::third)};
+      FieldList{field<&motion::TickSegment::begin_ticks>(), field<&motion::TickSegment::place>(),
+                field<&motion::TickSegment::first>(), field<&motion::TickSegment::second>(),
+                field<&motion::TickSegment::third>()};
   static void check(const motion::TickSegment& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::Instant> {
   static constexpr auto fields =
-      FieldList{field("tick", &motion::Instant::tick), field("after_s", &motion::Instant::after_s)};
+      FieldList{field<&motion::Instant::tick>(), field<&motion::Instant::after_s>()};
   static void check(const motion::Instant& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::PulseDrive> {
-  static constexpr auto fields = FieldList{field("now", &motion::PulseDrive::now),
-                                           field("begin_tick", &motion::PulseDrive::begin_tick),
-                                           field("next_look", &motion::PulseDrive::next_look),
-                                           field("sent_pulses", &motion::PulseDrive::sent_pulses),
-                                           field("direction", &motion::PulseDrive::direction),
-                                           field("drive", &motion::PulseDrive::drive),
-                                           field("begin_after_s", &motion::PulseDrive::begin_after_s),
-                                           field("tolerance", &motion::PulseDrive::tolerance),
-                                           field("profile", &motion::PulseDrive::profile)};
+  static constexpr auto fields =
+      FieldList{field<&motion::PulseDrive::now>(),           field<&motion::PulseDrive::begin_tick>(),
+                field<&motion::PulseDrive::next_look>(),     field<&motion::PulseDrive::sent_pulses>(),
+                field<&motion::PulseDrive::direction>(),     field<&motion::PulseDrive::drive>(),
+                field<&motion::PulseDrive::begin_after_s>(), field<&motion::PulseDrive::tolerance>(),
+                field<&motion::PulseDrive::profile>()};
   static void check(const motion::PulseDrive& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::Counter> {
   static constexpr auto fields =
-      FieldList{field("range", &motion::Counter::range), field("ring_top", &motion::Counter::ring_top),
-                field("offset", &motion::Counter::offset)};
+      FieldList{field<&motion::Counter::range>(), field<&motion::Counter::ring_top>(),
+                field<&motion::Counter::offset>()};
   static void check(const motion::Counter& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::UnitScale> {
-  static constexpr auto fields = FieldList{field("multiplier", &motion::UnitScale::multiplier),
-                                           field("divider", &motion::UnitScale::divider),
-                                           field("truncates", &motion::UnitScale::truncates)};
+  static constexpr auto fields =
+      FieldList{field<&motion::UnitScale::multiplier>(), field<&motion::UnitScale::divider>(),
+                field<&motion::UnitScale::truncates>()};
   static void check(const motion::UnitScale& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::Comparator> {
-  static constexpr auto fields = FieldList{
-      field("relation", &motion::Comparator::relation), field("count", &motion::Comparator::count),
-      field("reaction", &motion::Comparator::reaction), field("was_true", &motion::Comparator::was_true),
-      field("counter", &motion::Comparator::counter),   field("value", &motion::Comparator::value)};
+  static constexpr auto fields =
+      FieldList{field<&motion::Comparator::relation>(), field<&motion::Comparator::count>(),
+                field<&motion::Comparator::reaction>(), field<&motion::Comparator::was_true>(),
+                field<&motion::Comparator::counter>(),  field<&motion::Comparator::value>()};
   static void check(const motion::Comparator& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::Environment::Zone> {
-  static constexpr auto fields = FieldList{
-      field("signal", &motion::Environment::Zone::signal), field("from", &motion::Environment::Zone::from),
-      field("to", &motion::Environment::Zone::to), field("slack", &motion::Environment::Zone::slack)};
+  static constexpr auto fields =
+      FieldList{field<&motion::Environment::Zone::signal>(), field<&motion::Environment::Zone::from>(),
+                field<&motion::Environment::Zone::to>(), field<&motion::Environment::Zone::slack>()};
   static void check(const motion::Environment::Zone& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::EncoderLine> {
-  static constexpr auto fields = FieldList{
-      field("counts", &motion::EncoderLine::counts),     field("pulses", &motion::EncoderLine::pulses),
-      field("origin", &motion::EncoderLine::origin),     field("first", &motion::EncoderLine::first),
-      field("last", &motion::EncoderLine::last),         field("mirrored", &motion::EncoderLine::mirrored),
-      field("reversed", &motion::EncoderLine::reversed), field("surplus", &motion::EncoderLine::surplus),
-      field("factor", &motion::EncoderLine::factor),     field("zero", &motion::EncoderLine::zero),
-      field("divider", &motion::EncoderLine::divider),   field("turned", &motion::EncoderLine::turned)};
+  static constexpr auto fields =
+      FieldList{field<&motion::EncoderLine::counts>(),   field<&motion::EncoderLine::pulses>(),
+                field<&motion::EncoderLine::origin>(),   field<&motion::EncoderLine::first>(),
+                field<&motion::EncoderLine::last>(),     field<&motion::EncoderLine::mirrored>(),
+                field<&motion::EncoderLine::reversed>(), field<&motion::EncoderLine::surplus>(),
+                field<&motion::EncoderLine::factor>(),   field<&motion::EncoderLine::zero>(),
+                field<&motion::EncoderLine::divider>(),  field<&motion::EncoderLine::turned>()};
   static void check(const motion::EncoderLine& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::Environment> {
-  static constexpr auto fields = FieldList{field("version", &motion::Environment::version),
-                                           field("steady", &motion::Environment::steady),
-                                           field("zone_count", &motion::Environment::zone_count),
-                                           field("zones", &motion::Environment::zones),
-                                           field("index_period", &motion::Environment::index_period),
-                                           field("index_at", &motion::Environment::index_at),
-                                           field("index_width", &motion::Environment::index_width),
-                                           field("index_from", &motion::Environment::index_from),
-                                           field("index_to", &motion::Environment::index_to),
-                                           field("encoder", &motion::Environment::encoder)};
+  static constexpr auto fields =
+      FieldList{field<&motion::Environment::version>(),      field<&motion::Environment::steady>(),
+                field<&motion::Environment::zone_count>(),   field<&motion::Environment::zones>(),
+                field<&motion::Environment::index_period>(), field<&motion::Environment::index_at>(),
+                field<&motion::Environment::index_width>(),  field<&motion::Environment::index_from>(),
+                field<&motion::Environment::index_to>(),     field<&motion::Environment::encoder>()};
   static void check(const motion::Environment& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::Follower> {
-  static constexpr auto fields = FieldList{field("numerator", &motion::Follower::numerator),
-                                           field("denominator", &motion::Follower::denominator),
-                                           field("period_ticks", &motion::Follower::period_ticks),
-                                           field("top_speed_pps", &motion::Follower::top_speed_pps),
-                                           field("slope_pps", &motion::Follower::slope_pps),
-                                           field("catches_up", &motion::Follower::catches_up),
-                                           field("gathered", &motion::Follower::gathered),
-                                           field("left_over", &motion::Follower::left_over),
-                                           field("behind_pulses", &motion::Follower::behind_pulses),
-                                           field("period_pulses", &motion::Follower::period_pulses),
-                                           field("phase", &motion::Follower::phase),
-                                           field("speed_left_over", &motion::Follower::speed_left_over)};
+  static constexpr auto fields =
+      FieldList{field<&motion::Follower::numerator>(),     field<&motion::Follower::denominator>(),
+                field<&motion::Follower::period_ticks>(),  field<&motion::Follower::top_speed_pps>(),
+                field<&motion::Follower::slope_pps>(),     field<&motion::Follower::catches_up>(),
+                field<&motion::Follower::gathered>(),      field<&motion::Follower::left_over>(),
+                field<&motion::Follower::behind_pulses>(), field<&motion::Follower::period_pulses>(),
+                field<&motion::Follower::phase>(),         field<&motion::Follower::speed_left_over>()};
   static void check(const motion::Follower& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::ExternalDrive> {
   static constexpr auto fields =
-      FieldList{field("mode", &motion::ExternalDrive::mode), field("pulses", &motion::ExternalDrive::pulses),
-                field("plus_high", &motion::ExternalDrive::plus_high),
-                field("minus_high", &motion::ExternalDrive::minus_high),
-                field("running", &motion::ExternalDrive::running)};
+      FieldList{field<&motion::ExternalDrive::mode>(), field<&motion::ExternalDrive::pulses>(),
+                field<&motion::ExternalDrive::plus_high>(), field<&motion::ExternalDrive::minus_high>(),
+                field<&motion::ExternalDrive::running>()};
   static void check(const motion::ExternalDrive& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::HomingPhase> {
-  static constexpr auto fields = FieldList{field("does", &motion::HomingPhase::does),
-                                           field("way", &motion::HomingPhase::direction),
-                                           field("speed", &motion::HomingPhase::speed),
-                                           field("until", &motion::HomingPhase::until),
-                                           field("until_on", &motion::HomingPhase::until_on),
-                                           field("then", &motion::HomingPhase::then),
-                                           field("marks", &motion::HomingPhase::marks),
-                                           field("code", &motion::HomingPhase::code),
-                                           field("count", &motion::HomingPhase::count),
-                                           field("again_while", &motion::HomingPhase::again_while),
-                                           field("distance_pulses", &motion::HomingPhase::distance_pulses),
-                                           field("within_pulses", &motion::HomingPhase::within_pulses),
-                                           field("ignores", &motion::HomingPhase::ignores),
-                                           field("if_far", &motion::HomingPhase::if_far),
-                                           field("next", &motion::HomingPhase::next),
-                                           field("if_already", &motion::HomingPhase::if_already),
-                                           field("if_gone", &motion::HomingPhase::if_gone),
-                                           field("if_limit", &motion::HomingPhase::if_limit)};
+  static constexpr auto fields = FieldList{field<&motion::HomingPhase::does>(),
+                                           field<&motion::HomingPhase::direction>(),
+                                           field<&motion::HomingPhase::speed>(),
+                                           field<&motion::HomingPhase::until>(),
+                                           field<&motion::HomingPhase::until_on>(),
+                                           field<&motion::HomingPhase::then>(),
+                                           field<&motion::HomingPhase::marks>(),
+                                           field<&motion::HomingPhase::code>(),
+                                           field<&motion::HomingPhase::count>(),
+                                           field<&motion::HomingPhase::again_while>(),
+                                           field<&motion::HomingPhase::distance_pulses>(),
+                                           field<&motion::HomingPhase::within_pulses>(),
+                                           field<&motion::HomingPhase::ignores>(),
+                                           field<&motion::HomingPhase::if_far>(),
+                                           field<&motion::HomingPhase::next>(),
+                                           field<&motion::HomingPhase::if_already>(),
+                                           field<&motion::HomingPhase::if_gone>(),
+                                           field<&motion::HomingPhase::if_limit>()};
   static void check(const motion::HomingPhase& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::HomingProgram> {
-  static constexpr auto fields =
-      FieldList{field("phases", &motion::HomingProgram::phases),
-                field("phase_count", &motion::HomingProgram::phase_count),
-                field("speeds", &motion::HomingProgram::speeds),
-                field("soft_limits_lead_on", &motion::HomingProgram::soft_limits_lead_on)};
+  static constexpr auto fields = FieldList{
+      field<&motion::HomingProgram::phases>(), field<&motion::HomingProgram::phase_count>(),
+      field<&motion::HomingProgram::speeds>(), field<&motion::HomingProgram::soft_limits_lead_on>()};
   static void check(const motion::HomingProgram& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::Homing> {
-  static constexpr auto fields = FieldList{field("program", &motion::Homing::program),
-                                           field("phase", &motion::Homing::phase),
-                                           field("ended_in", &motion::Homing::ended_in),
-                                           field("ended_by", &motion::Homing::ended_by),
-                                           field("met", &motion::Homing::met),
-                                           field("counted", &motion::Homing::counted),
-                                           field("began_pulses", &motion::Homing::began_pulses),
-                                           field("reference_known", &motion::Homing::reference_known),
-                                           field("reference_pulses", &motion::Homing::reference_pulses)};
+  static constexpr auto fields = FieldList{field<&motion::Homing::program>(),
+                                           field<&motion::Homing::phase>(),
+                                           field<&motion::Homing::ended_in>(),
+                                           field<&motion::Homing::ended_by>(),
+                                           field<&motion::Homing::met>(),
+                                           field<&motion::Homing::counted>(),
+                                           field<&motion::Homing::began_pulses>(),
+                                           field<&motion::Homing::reference_known>(),
+                                           field<&motion::Homing::reference_pulses>()};
   static void check(const motion::Homing& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::AxisSettings> {
-  static constexpr auto fields =
-      FieldList{field("at_limit_plus", &motion::AxisSettings::at_limit_plus),
-                field("at_limit_minus", &motion::AxisSettings::at_limit_minus),
-                field("at_soft_limit", &motion::AxisSettings::at_soft_limit),
-                field("at_soft_limit_minus", &motion::AxisSettings::at_soft_limit_minus),
-                field("at_alarm", &motion::AxisSettings::at_alarm),
-                field("at_emergency", &motion::AxisSettings::at_emergency),
-                field("at_mark_on", &motion::AxisSettings::at_mark_on),
-                field("at_mark_off", &motion::AxisSettings::at_mark_off),
-                field("needs_servo", &motion::AxisSettings::needs_servo),
-                field("waits_for_in_position", &motion::AxisSettings::waits_for_in_position),
-                field("waits_beside_limits", &motion::AxisSettings::waits_beside_limits),
-                field("raises", &motion::AxisSettings::raises),
-                field("soft_limit_plus", &motion::AxisSettings::soft_limit_plus),
-                field("soft_limit_minus", &motion::AxisSettings::soft_limit_minus),
-                field("soft_limits_of", &motion::AxisSettings::soft_limits_of),
-                field("backlash_pulses", &motion::AxisSettings::backlash_pulses),
-                field("backlash_speed_pps", &motion::AxisSettings::backlash_speed_pps),
-                field("slips", &motion::AxisSettings::slips)};
+  static constexpr auto fields = FieldList{field<&motion::AxisSettings::at_limit_plus>(),
+                                           field<&motion::AxisSettings::at_limit_minus>(),
+                                           field<&motion::AxisSettings::at_soft_limit>(),
+                                           field<&motion::AxisSettings::at_soft_limit_minus>(),
+                                           field<&motion::AxisSettings::at_alarm>(),
+                                           field<&motion::AxisSettings::at_emergency>(),
+                                           field<&motion::AxisSettings::at_mark_on>(),
+                                           field<&motion::AxisSettings::at_mark_off>(),
+                                           field<&motion::AxisSettings::needs_servo>(),
+                                           field<&motion::AxisSettings::waits_for_in_position>(),
+                                           field<&motion::AxisSettings::waits_beside_limits>(),
+                                           field<&motion::AxisSettings::raises>(),
+                                           field<&motion::AxisSettings::soft_limit_plus>(),
+                                           field<&motion::AxisSettings::soft_limit_minus>(),
+                                           field<&motion::AxisSettings::soft_limits_of>(),
+                                           field<&motion::AxisSettings::backlash_pulses>(),
+                                           field<&motion::AxisSettings::backlash_speed_pps>(),
+                                           field<&motion::AxisSettings::slips>()};
   static void check(const motion::AxisSettings& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::Axis> {
   // In the order of the bytes; in memory the members that a tick needs come first.
-  static constexpr auto fields = FieldList{field("travel_pulses", &motion::Axis::travel_pulses),
-                                           field("watch_low", &motion::Axis::watch_low),
-                                           field("watch_high", &motion::Axis::watch_high),
-                                           field("base_pulses", &motion::Axis::base_pulses),
-                                           field("seen_version", &motion::Axis::seen_version),
-                                           field("events", &motion::Axis::events),
-                                           field("attentive", &motion::Axis::must_recheck),
-                                           field("inverted", &motion::Axis::inverted),
-                                           field("drive", &motion::Axis::drive),
-                                           field("settings", &motion::Axis::settings),
-                                           field("comparators", &motion::Axis::comparators),
-                                           field("encoder_pulses", &motion::Axis::encoder_pulses),
-                                           field("encoder_seen", &motion::Axis::encoder_seen),
-                                           field("backlash_sent", &motion::Axis::backlash_sent),
-                                           field("play_pulses", &motion::Axis::backlash_taken_pulses),
-                                           field("signals", &motion::Axis::signals),
-                                           field("events_between", &motion::Axis::events_between),
-                                           field("event_at", &motion::Axis::event_at),
-                                           field("constant_pps", &motion::Axis::constant_pps),
-                                           field("cause", &motion::Axis::cause),
-                                           field("last_direction", &motion::Axis::last_direction),
-                                           field("servo_on", &motion::Axis::servo_on),
-                                           field("task", &motion::Axis::task),
-                                           field("in_backlash", &motion::Axis::in_backlash),
-                                           field("slowing", &motion::Axis::slowing),
-                                           field("comes_back", &motion::Axis::comes_back),
-                                           field("settling", &motion::Axis::settling),
-                                           field("encoder_is_known", &motion::Axis::encoder_is_known),
-                                           field("target_pulses", &motion::Axis::target_pulses),
-                                           field("law", &motion::Axis::law),
-                                           field("follower", &motion::Axis::follower),
-                                           field("homing", &motion::Axis::homing)};
+  static constexpr auto fields = FieldList{field<&motion::Axis::travel_pulses>(),
+                                           field<&motion::Axis::watch_low>(),
+                                           field<&motion::Axis::watch_high>(),
+                                           field<&motion::Axis::base_pulses>(),
+                                           field<&motion::Axis::seen_version>(),
+                                           field<&motion::Axis::events>(),
+                                           field<&motion::Axis::must_recheck>(),
+                                           field<&motion::Axis::inverted>(),
+                                           field<&motion::Axis::drive>(),
+                                           field<&motion::Axis::settings>(),
+                                           field<&motion::Axis::comparators>(),
+                                           field<&motion::Axis::encoder_pulses>(),
+                                           field<&motion::Axis::encoder_seen>(),
+                                           field<&motion::Axis::backlash_sent>(),
+                                           field<&motion::Axis::backlash_taken_pulses>(),
+                                           field<&motion::Axis::signals>(),
+                                           field<&motion::Axis::events_between>(),
+                                           field<&motion::Axis::event_at>(),
+                                           field<&motion::Axis::constant_pps>(),
+                                           field<&motion::Axis::cause>(),
+                                           field<&motion::Axis::last_direction>(),
+                                           field<&motion::Axis::servo_on>(),
+                                           field<&motion::Axis::task>(),
+                                           field<&motion::Axis::in_backlash>(),
+                                           field<&motion::Axis::slowing>(),
+                                           field<&motion::Axis::comes_back>(),
+                                           field<&motion::Axis::settling>(),
+                                           field<&motion::Axis::encoder_is_known>(),
+                                           field<&motion::Axis::target_pulses>(),
+                                           field<&motion::Axis::law>(),
+                                           field<&motion::Axis::follower>(),
+                                           field<&motion::Axis::homing>()};
   static void check(const motion::Axis& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::SyncAction> {
-  static constexpr auto fields = FieldList{field("drive", &motion::SyncAction::drive),
-                                           field("latch_command", &motion::SyncAction::latch_command),
-                                           field("latch_encoder", &motion::SyncAction::latch_encoder),
-                                           field("preset", &motion::SyncAction::preset),
-                                           field("preset_value", &motion::SyncAction::preset_value),
-                                           field("output", &motion::SyncAction::output),
-                                           field("interrupt", &motion::SyncAction::interrupt)};
+  static constexpr auto fields =
+      FieldList{field<&motion::SyncAction::drive>(),         field<&motion::SyncAction::latch_command>(),
+                field<&motion::SyncAction::latch_encoder>(), field<&motion::SyncAction::preset>(),
+                field<&motion::SyncAction::preset_value>(),  field<&motion::SyncAction::output>(),
+                field<&motion::SyncAction::interrupt>()};
   static void check(const motion::SyncAction& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::SyncTable::Trigger> {
-  static constexpr auto fields = FieldList{field("factors", &motion::SyncTable::Trigger::factors),
-                                           field("activates", &motion::SyncTable::Trigger::activates)};
+  static constexpr auto fields = FieldList{field<&motion::SyncTable::Trigger::factors>(),
+                                           field<&motion::SyncTable::Trigger::activates>()};
   static void check(const motion::SyncTable::Trigger& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::SyncTable::Latch> {
   static constexpr auto fields =
-      FieldList{field("taken", &motion::SyncTable::Latch::taken),
-                field("travel_pulses", &motion::SyncTable::Latch::travel_pulses),
-                field("encoder_pulses", &motion::SyncTable::Latch::encoder_pulses)};
+      FieldList{field<&motion::SyncTable::Latch::taken>(), field<&motion::SyncTable::Latch::travel_pulses>(),
+                field<&motion::SyncTable::Latch::encoder_pulses>()};
   static void check(const motion::SyncTable::Latch& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::SyncTable> {
   static constexpr auto fields =
-      FieldList{field("triggers", &motion::SyncTable::triggers),
-                field("actions", &motion::SyncTable::actions), field("latches", &motion::SyncTable::latches),
-                field("distance_pulses", &motion::SyncTable::distance_pulses),
-                field("speeds", &motion::SyncTable::speeds)};
+      FieldList{field<&motion::SyncTable::triggers>(), field<&motion::SyncTable::actions>(),
+                field<&motion::SyncTable::latches>(), field<&motion::SyncTable::distance_pulses>(),
+                field<&motion::SyncTable::speeds>()};
   static void check(const motion::SyncTable& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::Path> {
-  static constexpr auto fields = FieldList{field("kind", &motion::Path::kind),
-                                           field("measure", &motion::Path::measure),
-                                           field("begin", &motion::Path::begin),
-                                           field("end", &motion::Path::end),
-                                           field("length_u", &motion::Path::length_u),
-                                           field("centre", &motion::Path::centre),
-                                           field("abscissa", &motion::Path::abscissa),
-                                           field("ordinate", &motion::Path::ordinate),
-                                           field("rise", &motion::Path::rise),
-                                           field("begin_angle_rad", &motion::Path::begin_angle_rad),
-                                           field("sweep_rad", &motion::Path::sweep_rad),
-                                           field("begin_radius_u", &motion::Path::begin_radius_u),
-                                           field("radius_slope_u_rad", &motion::Path::radius_slope_u_rad)};
+  static constexpr auto fields = FieldList{field<&motion::Path::kind>(),
+                                           field<&motion::Path::measure>(),
+                                           field<&motion::Path::begin>(),
+                                           field<&motion::Path::end>(),
+                                           field<&motion::Path::length_u>(),
+                                           field<&motion::Path::centre>(),
+                                           field<&motion::Path::abscissa>(),
+                                           field<&motion::Path::ordinate>(),
+                                           field<&motion::Path::rise>(),
+                                           field<&motion::Path::begin_angle_rad>(),
+                                           field<&motion::Path::sweep_rad>(),
+                                           field<&motion::Path::begin_radius_u>(),
+                                           field<&motion::Path::radius_slope_u_rad>()};
   static void check(const motion::Path& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::PathRun::Piece> {
-  static constexpr auto fields = FieldList{field("path", &motion::PathRun::Piece::path),
-                                           field("begin_u", &motion::PathRun::Piece::begin_u),
-                                           field("joined", &motion::PathRun::Piece::joined)};
+  static constexpr auto fields =
+      FieldList{field<&motion::PathRun::Piece::path>(), field<&motion::PathRun::Piece::begin_u>(),
+                field<&motion::PathRun::Piece::joined>()};
   static void check(const motion::PathRun::Piece& value) { motion::check_restored(value); }
 };
 
 template <>
 struct StateOf<motion::PathRun> {
-  static constexpr auto fields = FieldList{field("pieces", &motion::PathRun::pieces_),
-                                           field("head", &motion::PathRun::head_),
-                                           field("count", &motion::PathRun::count_),
-                                           field("chain_count", &motion::PathRun::chain_count_),
-                                           field("chain_end_u", &motion::PathRun::chain_end_u_),
-                                           field("profile", &motion::PathRun::profile_),
-                                           field("begin_tick", &motion::PathRun::begin_tick_),
-                                           field("begin_after_s", &motion::PathRun::begin_after_s_),
-                                           field("law", &motion::PathRun::law_),
-                                           field("override", &motion::PathRun::override_),
-                                           field("late_joint", &motion::PathRun::late_joint_),
-                                           field("running", &motion::PathRun::running_),
-                                           field("paused", &motion::PathRun::paused_),
-                                           field("open", &motion::PathRun::open_),
-                                           field("ran_dry", &motion::PathRun::ran_dry_),
-                                           field("completed", &motion::PathRun::completed_),
-                                           field("last_place", &motion::PathRun::last_place_)};
+  static constexpr auto fields =
+      FieldList{field<&motion::PathRun::pieces_>(),      field<&motion::PathRun::head_>(),
+                field<&motion::PathRun::count_>(),       field<&motion::PathRun::chain_count_>(),
+                field<&motion::PathRun::chain_end_u_>(), field<&motion::PathRun::profile_>(),
+                field<&motion::PathRun::begin_tick_>(),  field<&motion::PathRun::begin_after_s_>(),
+                field<&motion::PathRun::law_>(),         field<&motion::PathRun::override_>(),
+                field<&motion::PathRun::late_joint_>(),  field<&motion::PathRun::running_>(),
+                field<&motion::PathRun::paused_>(),      field<&motion::PathRun::open_>(),
+                field<&motion::PathRun::ran_dry_>(),     field<&motion::PathRun::completed_>(),
+                field<&motion::PathRun::last_place_>()};
   static constexpr std::size_t members = 17;
   static void name_all(motion::PathRun& run) {  // does not compile if there are others
     [[maybe_unused]] auto& [pieces, head, count, chain_count, chain_end_u, profile, begin_tick, begin_after,
@@ -391,13 +361,11 @@ struct StateOf<motion::PathRun> {
 
 template <>
 struct StateOf<motion::Coordinated> {
-  static constexpr auto fields = FieldList{field("run", &motion::Coordinated::run),
-                                           field("axis_of", &motion::Coordinated::axis_of),
-                                           field("scale", &motion::Coordinated::scale),
-                                           field("zero_pulses", &motion::Coordinated::zero_pulses),
-                                           field("engaged", &motion::Coordinated::engaged),
-                                           field("cause", &motion::Coordinated::cause),
-                                           field("slowing_for", &motion::Coordinated::slowing_for)};
+  static constexpr auto fields =
+      FieldList{field<&motion::Coordinated::run>(),        field<&motion::Coordinated::axis_of>(),
+                field<&motion::Coordinated::scale>(),      field<&motion::Coordinated::zero_pulses>(),
+                field<&motion::Coordinated::engaged>(),    field<&motion::Coordinated::cause>(),
+                field<&motion::Coordinated::slowing_for>()};
   static void check(const motion::Coordinated& value) { motion::check_restored(value); }
 };
 

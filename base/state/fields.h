@@ -1,8 +1,9 @@
-// Describes what a value consists of. Its fields are listed once with their names, beside its type:
+// Describes what a value consists of. Its fields are listed once, beside its type, and have their members'
+// names:
 //
 //   template <>
 //   struct understudy::StateOf<Timer> {
-//     static constexpr auto fields = FieldList{field("mode", &Timer::mode), field("since", &Timer::since)};
+//     static constexpr auto fields = FieldList{field<&Timer::mode>(), field<&Timer::since>()};
 //     static void check(const Timer& timer);   // optional: throws StateError if the value is impossible
 //   };
 //   template <>
@@ -46,9 +47,26 @@ struct NamedField {
   ElementName element = nullptr;  // null: by its number
 };
 
+/// A field that has another name than its member.
 template <class Owner, class T>
 constexpr NamedField<Owner, T> field(std::string_view name, T Owner::*at, ElementName element = nullptr) {
   return {name, at, element};
+}
+
+/// Returns the name of a member, without the underscore of a private one. Both compilers print it at the end
+/// of what they call this function: "[with auto member = &Timer::since; ...]", "[member = &Timer::since]".
+template <auto member>
+constexpr std::string_view member_name() {
+  constexpr std::string_view text = __PRETTY_FUNCTION__;
+  constexpr std::string_view path = text.substr(0, text.find_first_of(";]", text.find("member = ")));
+  constexpr std::string_view name = path.substr(path.rfind("::") + 2);
+  return name.ends_with('_') ? name.substr(0, name.size() - 1) : name;
+}
+
+/// A field that is called like its member.
+template <auto member>
+constexpr auto field(ElementName element = nullptr) {
+  return field(member_name<member>(), member, element);
 }
 
 namespace state_fields {

@@ -22,8 +22,8 @@ namespace understudy {
 template <>
 struct StateOf<emulator::Device> {
   using Value = emulator::Device;
-  static constexpr auto fields = FieldList{field("inputs", &Value::inputs_),
-                                           field("powered", &Value::powered_), field("now", &Value::now_)};
+  static constexpr auto fields =
+      FieldList{field<&Value::inputs_>(), field<&Value::powered_>(), field<&Value::now_>()};
   static constexpr std::size_t members = 9;
   /// Model, settings and choices are what it was made from; the log is its user's.
   static constexpr std::size_t apart = 6;

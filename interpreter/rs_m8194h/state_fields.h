@@ -46,15 +46,15 @@ struct StateOf<interpreter::rs_m8194h::Command> {
 template <>
 struct StateOf<interpreter::rs_m8194h::MacroName> {
   using Value = interpreter::rs_m8194h::MacroName;
-  static constexpr auto fields = FieldList{field("is_isr", &Value::is_isr), field("number", &Value::number)};
+  static constexpr auto fields = FieldList{field<&Value::is_isr>(), field<&Value::number>()};
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::Download> {
   using Value = interpreter::rs_m8194h::Download;
-  static constexpr auto fields = FieldList{
-      field("name", &Value::name), field("lines", &Value::lines), field("fault", &Value::fault),
-      field("code", &Value::code), field("line", &Value::line),   field("is_spoilt", &Value::is_spoilt)};
+  static constexpr auto fields =
+      FieldList{field<&Value::name>(), field<&Value::lines>(), field<&Value::fault>(),
+                field<&Value::code>(), field<&Value::line>(),  field<&Value::is_spoilt>()};
   static void check(const Value& download);
 };
 
@@ -62,62 +62,59 @@ template <>
 struct StateOf<interpreter::rs_m8194h::DownloadStatus> {
   using Value = interpreter::rs_m8194h::DownloadStatus;
   static constexpr auto fields =
-      FieldList{field("mp", &Value::mp), field("isr", &Value::isr), field("command", &Value::command),
-                field("line", &Value::line), field("error", &Value::error)};
+      FieldList{field<&Value::mp>(), field<&Value::isr>(), field<&Value::command>(), field<&Value::line>(),
+                field<&Value::error>()};
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::ExecutionFault> {
   using Value = interpreter::rs_m8194h::ExecutionFault;
-  static constexpr auto fields = FieldList{field("macro", &Value::macro), field("code", &Value::code),
-                                           field("line", &Value::line), field("fault", &Value::fault)};
+  static constexpr auto fields =
+      FieldList{field<&Value::macro>(), field<&Value::code>(), field<&Value::line>(), field<&Value::fault>()};
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::Trigger> {
   using Value = interpreter::rs_m8194h::Trigger;
   static constexpr auto fields =
-      FieldList{field("condition", &Value::condition), field("event", &Value::event),
-                field("argument", &Value::argument)};
+      FieldList{field<&Value::condition>(), field<&Value::event>(), field<&Value::argument>()};
   static void check(const Value& trigger);
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::Loop> {
   using Value = interpreter::rs_m8194h::Loop;
-  static constexpr auto fields = FieldList{field("line", &Value::line), field("left", &Value::left)};
+  static constexpr auto fields = FieldList{field<&Value::line>(), field<&Value::left>()};
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::Level> {
   using Value = interpreter::rs_m8194h::Level;
   static constexpr auto fields =
-      FieldList{field("number", &Value::number), field("line", &Value::line), field("loops", &Value::loops)};
+      FieldList{field<&Value::number>(), field<&Value::line>(), field<&Value::loops>()};
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::Run> {
   using Value = interpreter::rs_m8194h::Run;
   static constexpr auto fields =
-      FieldList{field("is_isr", &Value::is_isr),   field("levels", &Value::levels),
-                field("hold", &Value::hold),       field("until_ms", &Value::until_ms),
-                field("awaited", &Value::awaited), field("saw_other_level", &Value::saw_other_level)};
+      FieldList{field<&Value::is_isr>(),   field<&Value::levels>(),  field<&Value::hold>(),
+                field<&Value::until_ms>(), field<&Value::awaited>(), field<&Value::saw_other_level>()};
   static void check(const Value& run);
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::ReturnRegister> {
   using Value = interpreter::rs_m8194h::ReturnRegister;
-  static constexpr auto fields = FieldList{field("value", &Value::value), field("is_full", &Value::is_full)};
+  static constexpr auto fields = FieldList{field<&Value::value>(), field<&Value::is_full>()};
 };
 
 /// After a restore, the execution must also pass is_sound() with the macros of its machine.
 template <>
 struct StateOf<interpreter::rs_m8194h::Execution> {
   using Value = interpreter::rs_m8194h::Execution;
-  static constexpr auto fields =
-      FieldList{field("mp", &Value::mp), field("isrs", &Value::isrs), field("mp_return", &Value::mp_return),
-                field("isr_return", &Value::isr_return)};
+  static constexpr auto fields = FieldList{field<&Value::mp>(), field<&Value::isrs>(),
+                                           field<&Value::mp_return>(), field<&Value::isr_return>()};
   static void check(const Value& execution);
 };
 

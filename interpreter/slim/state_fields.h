@@ -45,52 +45,43 @@ template <>
 struct StateOf<interpreter::slim::Operand> {
   using Value = interpreter::slim::Operand;
   static constexpr auto fields =
-      FieldList{field("kind", &Value::kind), field("number", &Value::number), field("index", &Value::index),
-                field("index_is_variable", &Value::index_is_variable), field("text", &Value::text)};
+      FieldList{field<&Value::kind>(), field<&Value::number>(), field<&Value::index>(),
+                field<&Value::index_is_variable>(), field<&Value::text>()};
   static void check(const Value& operand);
 };
 
 template <>
 struct StateOf<interpreter::slim::Frame> {
   using Value = interpreter::slim::Frame;
-  static constexpr auto fields = FieldList{field("line", &Value::line), field("of_event", &Value::of_event),
-                                           field("hold", &Value::hold), field("until_ms", &Value::until_ms)};
+  static constexpr auto fields = FieldList{field<&Value::line>(), field<&Value::of_event>(),
+                                           field<&Value::hold>(), field<&Value::until_ms>()};
   static void check(const Value& frame) { require_reach(frame.until_ms); }
 };
 
 template <>
 struct StateOf<interpreter::slim::Event> {
   using Value = interpreter::slim::Event;
-  static constexpr auto fields = FieldList{field("has_condition", &Value::has_condition),
-                                           field("condition", &Value::condition),
-                                           field("operands", &Value::operands),
-                                           field("has_address", &Value::has_address),
-                                           field("address", &Value::address),
-                                           field("armed", &Value::armed),
-                                           field("pending", &Value::pending)};
+  static constexpr auto fields =
+      FieldList{field<&Value::has_condition>(), field<&Value::condition>(), field<&Value::operands>(),
+                field<&Value::has_address>(),   field<&Value::address>(),   field<&Value::armed>(),
+                field<&Value::pending>()};
   static void check(const Value& event);
 };
 
 template <>
 struct StateOf<interpreter::slim::Execution> {
   using Value = interpreter::slim::Execution;
-  static constexpr auto fields = FieldList{field("running", &Value::running),
-                                           field("ending", &Value::ending),
-                                           field("error", &Value::error),
-                                           field("line", &Value::line),
-                                           field("hold", &Value::hold),
-                                           field("until_ms", &Value::until_ms),
-                                           field("stack", &Value::stack),
-                                           field("events", &Value::events),
-                                           field("has_number", &Value::has_number),
-                                           field("number", &Value::number)};
+  static constexpr auto fields = FieldList{
+      field<&Value::running>(),    field<&Value::ending>(),   field<&Value::error>(), field<&Value::line>(),
+      field<&Value::hold>(),       field<&Value::until_ms>(), field<&Value::stack>(), field<&Value::events>(),
+      field<&Value::has_number>(), field<&Value::number>()};
   static void check(const Value& execution);
 };
 
 template <>
 struct StateOf<interpreter::slim::Editor> {
   using Value = interpreter::slim::Editor;
-  static constexpr auto fields = FieldList{field("mode", &Value::mode), field("line", &Value::line)};
+  static constexpr auto fields = FieldList{field<&Value::mode>(), field<&Value::line>()};
 };
 
 /// A program is saved as its lines, as they were entered. After reading, the program is that of the widest

@@ -14,16 +14,15 @@ struct StateOf<emulator::Eeprom::Slot> {
 template <>
 struct StateOf<emulator::Eeprom::Job> {
   using Value = emulator::Eeprom::Job;
-  static constexpr auto fields = FieldList{field("slot", &Value::slot), field("takes", &Value::takes)};
+  static constexpr auto fields = FieldList{field<&Value::slot>(), field<&Value::takes>()};
 };
 
 template <>
 struct StateOf<emulator::Eeprom> {
   using Value = emulator::Eeprom;
   static constexpr auto fields =
-      FieldList{field("kept", &Value::kept_),       field("slots", &Value::slots_),
-                field("jobs", &Value::jobs_),       field("rewriting", &Value::rewriting_),
-                field("done_at", &Value::done_at_), field("revision", &Value::revision_)};
+      FieldList{field<&Value::kept_>(),      field<&Value::slots_>(),   field<&Value::jobs_>(),
+                field<&Value::rewriting_>(), field<&Value::done_at_>(), field<&Value::revision_>()};
   static constexpr std::size_t members = 6;
   static void name_all(Value& all) {  // does not compile if a member is missing
     [[maybe_unused]] auto& [done_at, revision, kept, slots, jobs, rewriting] = all;

@@ -78,8 +78,7 @@ namespace understudy {
 template <>
 struct StateOf<emulator::TextBlocks> {
   using Value = emulator::TextBlocks;
-  static constexpr auto fields =
-      FieldList{field("blocks", &Value::all_), field("revision", &Value::revision_)};
+  static constexpr auto fields = FieldList{field("blocks", &Value::all_), field<&Value::revision_>()};
   static constexpr std::size_t members = 4;
   static constexpr std::size_t apart = 2;  // the model's table, and values derived from the blocks
   static void name_all(Value& all) {       // does not compile if a member is missing

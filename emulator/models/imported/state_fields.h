@@ -12,25 +12,24 @@ namespace understudy {
 template <>
 struct StateOf<emulator::models::imported::AxisState> {
   using Value = emulator::models::imported::AxisState;
-  static constexpr auto fields = FieldList{field("motor", &Value::motor),
-                                           field("here", &Value::environment),
-                                           field("counter", &Value::counter),
-                                           field("sent_pulses", &Value::sent_pulses),
-                                           field("encoder_counts", &Value::encoder_counts),
-                                           field("run_pps", &Value::run_pps),
-                                           field("wanted_way", &Value::wanted_direction),
-                                           field("way_is_spent", &Value::direction_is_spent),
-                                           field("arrived", &Value::arrived),
-                                           field("homed", &Value::homed)};
+  static constexpr auto fields = FieldList{field<&Value::motor>(),
+                                           field<&Value::environment>(),
+                                           field<&Value::counter>(),
+                                           field<&Value::sent_pulses>(),
+                                           field<&Value::encoder_counts>(),
+                                           field<&Value::run_pps>(),
+                                           field<&Value::wanted_direction>(),
+                                           field<&Value::direction_is_spent>(),
+                                           field<&Value::arrived>(),
+                                           field<&Value::homed>()};
 };
 
 template <>
 struct StateOf<emulator::models::imported::State> {
   using Value = emulator::models::imported::State;
   static constexpr auto fields =
-      FieldList{field("touched", &Value::touched),   field("image", &Value::image),
-                field("held", &Value::held),         field("axes", &Value::axes),
-                field("followed", &Value::followed), field("eeprom", &Value::eeprom)};
+      FieldList{field<&Value::touched>(), field<&Value::image>(),    field<&Value::held>(),
+                field<&Value::axes>(),    field<&Value::followed>(), field<&Value::eeprom>()};
 };
 
 }  // namespace understudy

@@ -19,8 +19,7 @@ struct StateOf<interpreter::rs_m8194h::State> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::Fifo> {
   using Value = emulator::models::rs_m8194h::Fifo;
-  static constexpr auto fields =
-      FieldList{field("waiting", &Value::waiting), field("stop_wait", &Value::stop_wait)};
+  static constexpr auto fields = FieldList{field<&Value::waiting>(), field<&Value::stop_wait>()};
   static void check(const Value& fifo) {
     // How many blocks a command takes is a choice, but each takes at least one.
     require_state(fifo.waiting.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
@@ -38,7 +37,7 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::HeldPath> {
   using Value = emulator::models::rs_m8194h::HeldPath;
-  static constexpr auto fields = FieldList{field("command", &Value::command), field("codes", &Value::codes)};
+  static constexpr auto fields = FieldList{field<&Value::command>(), field<&Value::codes>()};
   static void check(const Value& held) {
     for (const std::uint8_t code : held.codes) {
       require_state(code == 0 || emulator::models::rs_m8194h::axis_of_code(code) >= 0,
@@ -50,21 +49,17 @@ struct StateOf<emulator::models::rs_m8194h::HeldPath> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::LineScan> {
   using Value = emulator::models::rs_m8194h::LineScan;
-  static constexpr auto fields = FieldList{field("set", &Value::set),
-                                           field("type", &Value::type),
-                                           field("pitch", &Value::pitch),
-                                           field("running", &Value::running),
-                                           field("begin", &Value::begin),
-                                           field("triggered", &Value::triggered),
-                                           field("level_before", &Value::level_before),
-                                           field("width_before", &Value::width_before)};
+  static constexpr auto fields =
+      FieldList{field<&Value::set>(),          field<&Value::type>(),        field<&Value::pitch>(),
+                field<&Value::running>(),      field<&Value::begin>(),       field<&Value::triggered>(),
+                field<&Value::level_before>(), field<&Value::width_before>()};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::IsrMark> {
   using Value = emulator::models::rs_m8194h::IsrMark;
-  static constexpr auto fields = FieldList{field("tick", &Value::tick), field("axis", &Value::axis),
-                                           field("source", &Value::source), field("number", &Value::number)};
+  static constexpr auto fields = FieldList{field<&Value::tick>(), field<&Value::axis>(),
+                                           field<&Value::source>(), field<&Value::number>()};
   static void check(const Value& mark) {
     require_state(mark.axis < emulator::models::rs_m8194h::kAxes && mark.source <= Value::kCalled,
                   "an interrupt has no such source");
@@ -91,51 +86,51 @@ template <>
 struct StateOf<emulator::models::rs_m8194h::State> {
   using Value = emulator::models::rs_m8194h::State;
   static constexpr std::size_t members = emulator::models::rs_m8194h::kStateMembers;
-  static constexpr auto fields = FieldList{field("motors", &Value::motors),
-                                           field("here", &Value::environment),
-                                           field("units", &Value::units),
-                                           field("sync", &Value::sync),
-                                           field("paths", &Value::paths),
-                                           field("scans", &Value::scans),
-                                           field("scanning", &Value::scanning),
-                                           field("fifo", &Value::fifo),
-                                           field("held_paths", &Value::held_paths),
-                                           field("loaded", &Value::loaded),
-                                           field("rsm", &Value::rsm),
-                                           field("illegal_reason", &Value::illegal_reason),
-                                           field("download", &Value::download),
-                                           field("downloaded", &Value::downloaded),
-                                           field("emergency_state", &Value::emergency_state),
-                                           field("emergency_input", &Value::emergency_input),
-                                           field("emergency_since", &Value::emergency_since),
-                                           field("rint", &Value::rint),
-                                           field("interrupts", &Value::interrupts),
-                                           field("factor_axes", &Value::factor_axes),
-                                           field("marks", &Value::marks),
-                                           field("enabled", &Value::enabled),
-                                           field("execution", &Value::execution),
-                                           field("execution_fault", &Value::execution_fault),
-                                           field("paused", &Value::paused),
-                                           field("paused_by", &Value::paused_by),
-                                           field("queued_triggers", &Value::queued_triggers),
-                                           field("trigger_holds", &Value::trigger_holds),
-                                           field("outputs", &Value::outputs),
-                                           field("sent", &Value::sent),
-                                           field("inputs", &Value::inputs),
-                                           field("powered_at", &Value::powered_at),
-                                           field("at_init", &Value::at_init),
-                                           field("unscanned", &Value::unscanned),
-                                           field("holds_back", &Value::holds_back),
-                                           field("finished", &Value::finished),
-                                           field("finished_at", &Value::finished_at),
-                                           field("resetting_until", &Value::resetting_until),
-                                           field("steps_left", &Value::steps_left),
-                                           field("touched", &Value::touched),
-                                           field("parameters", &Value::parameters),
-                                           field("initial_table", &Value::initial_table),
-                                           field("blocks", &Value::blocks),
-                                           field("eeprom", &Value::eeprom),
-                                           field("image", &Value::image)};
+  static constexpr auto fields = FieldList{field<&Value::motors>(),
+                                           field<&Value::environment>(),
+                                           field<&Value::units>(),
+                                           field<&Value::sync>(),
+                                           field<&Value::paths>(),
+                                           field<&Value::scans>(),
+                                           field<&Value::scanning>(),
+                                           field<&Value::fifo>(),
+                                           field<&Value::held_paths>(),
+                                           field<&Value::loaded>(),
+                                           field<&Value::rsm>(),
+                                           field<&Value::illegal_reason>(),
+                                           field<&Value::download>(),
+                                           field<&Value::downloaded>(),
+                                           field<&Value::emergency_state>(),
+                                           field<&Value::emergency_input>(),
+                                           field<&Value::emergency_since>(),
+                                           field<&Value::rint>(),
+                                           field<&Value::interrupts>(),
+                                           field<&Value::factor_axes>(),
+                                           field<&Value::marks>(),
+                                           field<&Value::enabled>(),
+                                           field<&Value::execution>(),
+                                           field<&Value::execution_fault>(),
+                                           field<&Value::paused>(),
+                                           field<&Value::paused_by>(),
+                                           field<&Value::queued_triggers>(),
+                                           field<&Value::trigger_holds>(),
+                                           field<&Value::outputs>(),
+                                           field<&Value::sent>(),
+                                           field<&Value::inputs>(),
+                                           field<&Value::powered_at>(),
+                                           field<&Value::at_init>(),
+                                           field<&Value::unscanned>(),
+                                           field<&Value::holds_back>(),
+                                           field<&Value::finished>(),
+                                           field<&Value::finished_at>(),
+                                           field<&Value::resetting_until>(),
+                                           field<&Value::steps_left>(),
+                                           field<&Value::touched>(),
+                                           field<&Value::parameters>(),
+                                           field<&Value::initial_table>(),
+                                           field<&Value::blocks>(),
+                                           field<&Value::eeprom>(),
+                                           field<&Value::image>()};
   static void check(const Value& state) {
     constexpr std::size_t kMaxHeld = emulator::models::rs_m8194h::kFifoBlocks + motion::PathRun::kMaxPaths;
     require_state(state.held_paths.size() <= kMaxHeld, "more is held than there is room for");

@@ -31,65 +31,61 @@ struct StateOf<emulator::models::simple2_r3::Command> {
 template <>
 struct StateOf<emulator::models::simple2_r3::Timer> {
   using Value = emulator::models::simple2_r3::Timer;
-  static constexpr auto fields = FieldList{field("value", &Value::value), field("since", &Value::since),
-                                           field("running", &Value::running)};
+  static constexpr auto fields =
+      FieldList{field<&Value::value>(), field<&Value::since>(), field<&Value::running>()};
   static void check(const Value& timer) { require_reach(timer.since); }
 };
 
 template <>
 struct StateOf<emulator::models::simple2_r3::AxisState> {
   using Value = emulator::models::simple2_r3::AxisState;
-  static constexpr auto fields = FieldList{field("motor", &Value::motor),
-                                           field("signals", &Value::signals),
-                                           field("mode", &Value::mode),
-                                           field("command", &Value::command),
-                                           field("homed", &Value::homed),
-                                           field("has_own_speed", &Value::has_own_speed),
-                                           field("by_trigger", &Value::by_trigger),
-                                           field("cut_short", &Value::cut_short),
-                                           field("alarm_latched", &Value::alarm_latched),
-                                           field("coordinate_pulses", &Value::coordinate_pulses),
-                                           field("pulses_this_tick", &Value::pulses_this_tick),
-                                           field("alarm_clear_until", &Value::alarm_clear_until),
-                                           field("target_urpm", &Value::target_urpm),
-                                           field("speed_urpm", &Value::speed_urpm),
-                                           field("velocity_resolution", &Value::velocity_resolution),
-                                           field("velocity_step_urpm", &Value::velocity_step_urpm),
-                                           field("velocity_phase", &Value::velocity_phase),
-                                           field("pwm_percent", &Value::pwm_percent),
-                                           field("encoder_raw", &Value::encoder_raw),
-                                           field("encoder_counts", &Value::encoder_counts),
-                                           field("encoder_preset", &Value::encoder_preset),
-                                           field("encoder_followed", &Value::encoder_followed),
-                                           field("encoder_history", &Value::encoder_history),
-                                           field("encoder_changed", &Value::encoder_changed)};
+  static constexpr auto fields = FieldList{field<&Value::motor>(),
+                                           field<&Value::signals>(),
+                                           field<&Value::mode>(),
+                                           field<&Value::command>(),
+                                           field<&Value::homed>(),
+                                           field<&Value::has_own_speed>(),
+                                           field<&Value::by_trigger>(),
+                                           field<&Value::cut_short>(),
+                                           field<&Value::alarm_latched>(),
+                                           field<&Value::coordinate_pulses>(),
+                                           field<&Value::pulses_this_tick>(),
+                                           field<&Value::alarm_clear_until>(),
+                                           field<&Value::target_urpm>(),
+                                           field<&Value::speed_urpm>(),
+                                           field<&Value::velocity_resolution>(),
+                                           field<&Value::velocity_step_urpm>(),
+                                           field<&Value::velocity_phase>(),
+                                           field<&Value::pwm_percent>(),
+                                           field<&Value::encoder_raw>(),
+                                           field<&Value::encoder_counts>(),
+                                           field<&Value::encoder_preset>(),
+                                           field<&Value::encoder_followed>(),
+                                           field<&Value::encoder_history>(),
+                                           field<&Value::encoder_changed>()};
   static void check(const Value& axis);
 };
 
 template <>
 struct StateOf<emulator::models::simple2_r3::ProgramSpeed> {
   using Value = emulator::models::simple2_r3::ProgramSpeed;
-  static constexpr auto fields =
-      FieldList{field("speed_rpm", &Value::speed_rpm), field("acceleration_10ms", &Value::acceleration_10ms),
-                field("deceleration_10ms", &Value::deceleration_10ms)};
+  static constexpr auto fields = FieldList{field<&Value::speed_rpm>(), field<&Value::acceleration_10ms>(),
+                                           field<&Value::deceleration_10ms>()};
 };
 
 template <>
 struct StateOf<emulator::models::simple2_r3::MoveParameters> {
   using Value = emulator::models::simple2_r3::MoveParameters;
-  static constexpr auto fields = FieldList{field("distance_pulses", &Value::distance_pulses),
-                                           field("speed_rpm", &Value::speed_rpm),
-                                           field("acceleration_10ms", &Value::acceleration_10ms),
-                                           field("deceleration_10ms", &Value::deceleration_10ms),
-                                           field("of_the_axis", &Value::of_the_axis),
-                                           field("by_trigger", &Value::by_trigger)};
+  static constexpr auto fields = FieldList{
+      field<&Value::distance_pulses>(),   field<&Value::speed_rpm>(),   field<&Value::acceleration_10ms>(),
+      field<&Value::deceleration_10ms>(), field<&Value::of_the_axis>(), field<&Value::by_trigger>()};
 };
 
 template <>
 struct StateOf<emulator::models::simple2_r3::KeptCommand> {
   using Value = emulator::models::simple2_r3::KeptCommand;
-  static constexpr auto fields = FieldList{field("mode", &Value::mode), field("command", &Value::command),
-                                           field("move", &Value::move), field("value", &Value::value)};
+  static constexpr auto fields = FieldList{field<&Value::mode>(), field<&Value::command>(),
+                                           field<&Value::move>(), field<&Value::value>()};
   static void check(const Value& kept);
 };
 
@@ -97,23 +93,23 @@ template <>
 struct StateOf<emulator::models::simple2_r3::State> {
   using Value = emulator::models::simple2_r3::State;
   static constexpr auto fields =
-      FieldList{field("image", &Value::image, emulator::models::simple2_r3::register_at_slot),
-                field("axes", &Value::axes),
-                field("program", &Value::program),
-                field("execution", &Value::execution),
-                field("timers", &Value::timers),
-                field("eeprom", &Value::eeprom),
-                field("first_tick", &Value::first_tick),
-                field("switches", &Value::switches),
-                field("unlocked", &Value::unlocked),
-                field("password", &Value::password),
-                field("adc", &Value::adc),
-                field("inputs", &Value::inputs),
-                field("written_outputs", &Value::written_outputs),
-                field("assignments", &Value::assignments),
-                field("program_speeds", &Value::program_speeds),
-                field("kept", &Value::kept),
-                field("touched", &Value::touched)};
+      FieldList{field<&Value::image>(emulator::models::simple2_r3::register_at_slot),
+                field<&Value::axes>(),
+                field<&Value::program>(),
+                field<&Value::execution>(),
+                field<&Value::timers>(),
+                field<&Value::eeprom>(),
+                field<&Value::first_tick>(),
+                field<&Value::switches>(),
+                field<&Value::unlocked>(),
+                field<&Value::password>(),
+                field<&Value::adc>(),
+                field<&Value::inputs>(),
+                field<&Value::written_outputs>(),
+                field<&Value::assignments>(),
+                field<&Value::program_speeds>(),
+                field<&Value::kept>(),
+                field<&Value::touched>()};
   static void check(const Value& state);
 };
 

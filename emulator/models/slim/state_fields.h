@@ -13,37 +13,27 @@ namespace understudy {
 template <>
 struct StateOf<emulator::models::slim::Errors> {
   using Value = emulator::models::slim::Errors;
-  static constexpr auto fields =
-      FieldList{field("present", &Value::present), field("history", &Value::history)};
+  static constexpr auto fields = FieldList{field<&Value::present>(), field<&Value::history>()};
 };
 
 template <>
 struct StateOf<emulator::models::slim::Memory> {
   using Value = emulator::models::slim::Memory;
   static constexpr auto fields =
-      FieldList{field("parameters", &Value::parameters), field("integers", &Value::integers),
-                field("reals", &Value::reals), field("integer_array", &Value::integer_array),
-                field("real_array", &Value::real_array)};
+      FieldList{field<&Value::parameters>(), field<&Value::integers>(), field<&Value::reals>(),
+                field<&Value::integer_array>(), field<&Value::real_array>()};
   static void check(const Value& memory);
 };
 
 template <>
 struct StateOf<emulator::models::slim::State> {
   using Value = emulator::models::slim::State;
-  static constexpr auto fields = FieldList{field("ram", &Value::ram),
-                                           field("kept", &Value::kept),
-                                           field("kept_program", &Value::kept_program),
-                                           field("kept_revision", &Value::kept_revision),
-                                           field("chain", &Value::chain),
-                                           field("program", &Value::program),
-                                           field("editor", &Value::editor),
-                                           field("execution", &Value::execution),
-                                           field("errors", &Value::errors),
-                                           field("inputs", &Value::inputs),
-                                           field("powered_at", &Value::powered_at),
-                                           field("clock_zero", &Value::clock_zero),
-                                           field("speech", &Value::speech),
-                                           field("touched", &Value::touched)};
+  static constexpr auto fields =
+      FieldList{field<&Value::ram>(),           field<&Value::kept>(),       field<&Value::kept_program>(),
+                field<&Value::kept_revision>(), field<&Value::chain>(),      field<&Value::program>(),
+                field<&Value::editor>(),        field<&Value::execution>(),  field<&Value::errors>(),
+                field<&Value::inputs>(),        field<&Value::powered_at>(), field<&Value::clock_zero>(),
+                field<&Value::speech>(),        field<&Value::touched>()};
   static void check(const Value& state);
 };
 

@@ -51,10 +51,9 @@ template <>
 struct StateOf<emulator::models::super_40nc::Rest> {
   using Value = emulator::models::super_40nc::Rest;
   static constexpr auto fields =
-      FieldList{field("kind", &Value::kind),         field("travel", &Value::travel),
-                field("distance", &Value::distance), field("search", &Value::search),
-                field("searches", &Value::searches), field("marks_positive", &Value::marks_positive),
-                field("rpm", &Value::rpm),           field("limits_count", &Value::limits_count)};
+      FieldList{field<&Value::kind>(),   field<&Value::travel>(),      field<&Value::distance>(),
+                field<&Value::search>(), field<&Value::searches>(),    field<&Value::marks_positive>(),
+                field<&Value::rpm>(),    field<&Value::limits_count>()};
   static void check(const Value& rest);
 };
 
@@ -71,68 +70,68 @@ struct StateOf<interpreter::super_40nc::Area> {
 template <>
 struct StateOf<emulator::models::super_40nc::Contacts> {
   using Value = emulator::models::super_40nc::Contacts;
-  static constexpr auto fields = FieldList{field("flags", &Value::flags)};
+  static constexpr auto fields = FieldList{field<&Value::flags>()};
 };
 
 template <>
 struct StateOf<emulator::models::super_40nc::ErrorReport> {
   using Value = emulator::models::super_40nc::ErrorReport;
   static constexpr auto fields =
-      FieldList{field("code", &Value::code), field("step", &Value::step), field("area", &Value::area),
-                field("other_step", &Value::other_step), field("tick", &Value::tick)};
+      FieldList{field<&Value::code>(), field<&Value::step>(), field<&Value::area>(),
+                field<&Value::other_step>(), field<&Value::tick>()};
 };
 
 template <>
 struct StateOf<emulator::models::super_40nc::OrderKey> {
   using Value = emulator::models::super_40nc::OrderKey;
-  static constexpr auto fields = FieldList{field("runs", &Value::runs), field("order", &Value::order),
-                                           field("has_failed", &Value::has_failed)};
+  static constexpr auto fields =
+      FieldList{field<&Value::runs>(), field<&Value::order>(), field<&Value::has_failed>()};
 };
 
 template <>
 struct StateOf<emulator::models::super_40nc::AxisState> {
   using Value = emulator::models::super_40nc::AxisState;
-  static constexpr auto fields = FieldList{field("sent_pulses", &Value::sent_pulses),
-                                           field("followed_pulses", &Value::followed_pulses),
-                                           field("command", &Value::command),
-                                           field("counts", &Value::counts),
-                                           field("latched", &Value::latched),
-                                           field("index_count", &Value::index_count),
-                                           field("latch_was_on", &Value::latch_was_on),
-                                           field("clears", &Value::clears),
-                                           field("compares_by_tick", &Value::compares_by_tick),
-                                           field("latching", &Value::latching),
-                                           field("compared", &Value::compared),
-                                           field("offset_lu", &Value::offset_lu),
-                                           field("scale_seen", &Value::scale_seen),
-                                           field("encoder_counts", &Value::encoder_counts),
-                                           field("backlash_seen", &Value::backlash_seen),
-                                           field("path_backlash", &Value::path_backlash),
-                                           field("arc_backlash", &Value::arc_backlash),
-                                           field("arc_backlash_part", &Value::arc_backlash_part),
-                                           field("holder", &Value::holder),
-                                           field("asked_by_contact", &Value::asked_by_contact),
-                                           field("mover", &Value::mover),
-                                           field("awaited", &Value::awaited),
-                                           field("stop_awaited_by", &Value::stop_awaited_by),
-                                           field("shows_finish", &Value::shows_finish),
-                                           field("is_held", &Value::is_held),
-                                           field("rest", &Value::rest),
-                                           field("jog_keys", &Value::jog_keys),
-                                           field("plc_jog_way", &Value::plc_jog_direction),
-                                           field("asked_by_plc", &Value::asked_by_plc),
-                                           field("masked", &Value::masked),
-                                           field("homed", &Value::homed),
-                                           field("zeroed", &Value::zeroed),
-                                           field("has_ended", &Value::has_ended),
-                                           field("has_error", &Value::has_error),
-                                           field("order", &Value::order),
-                                           field("step_pps", &Value::step_pps),
-                                           field("stands_on_target", &Value::stands_on_target),
-                                           field("target_lu", &Value::target_lu),
-                                           field("wheel", &Value::wheel),
-                                           field("wheel_lu", &Value::wheel_lu),
-                                           field("wheel_edges", &Value::wheel_edges)};
+  static constexpr auto fields = FieldList{field<&Value::sent_pulses>(),
+                                           field<&Value::followed_pulses>(),
+                                           field<&Value::command>(),
+                                           field<&Value::counts>(),
+                                           field<&Value::latched>(),
+                                           field<&Value::index_count>(),
+                                           field<&Value::latch_was_on>(),
+                                           field<&Value::clears>(),
+                                           field<&Value::compares_by_tick>(),
+                                           field<&Value::latching>(),
+                                           field<&Value::compared>(),
+                                           field<&Value::offset_lu>(),
+                                           field<&Value::scale_seen>(),
+                                           field<&Value::encoder_counts>(),
+                                           field<&Value::backlash_seen>(),
+                                           field<&Value::path_backlash>(),
+                                           field<&Value::arc_backlash>(),
+                                           field<&Value::arc_backlash_part>(),
+                                           field<&Value::holder>(),
+                                           field<&Value::asked_by_contact>(),
+                                           field<&Value::mover>(),
+                                           field<&Value::awaited>(),
+                                           field<&Value::stop_awaited_by>(),
+                                           field<&Value::shows_finish>(),
+                                           field<&Value::is_held>(),
+                                           field<&Value::rest>(),
+                                           field<&Value::jog_keys>(),
+                                           field<&Value::plc_jog_direction>(),
+                                           field<&Value::asked_by_plc>(),
+                                           field<&Value::masked>(),
+                                           field<&Value::homed>(),
+                                           field<&Value::zeroed>(),
+                                           field<&Value::has_ended>(),
+                                           field<&Value::has_error>(),
+                                           field<&Value::order>(),
+                                           field<&Value::step_pps>(),
+                                           field<&Value::stands_on_target>(),
+                                           field<&Value::target_lu>(),
+                                           field<&Value::wheel>(),
+                                           field<&Value::wheel_lu>(),
+                                           field<&Value::wheel_edges>()};
   static void check(const Value& axis);
 };
 
@@ -144,7 +143,7 @@ struct StateOf<emulator::models::super_40nc::UserTable::Runs> {
 template <>
 struct StateOf<emulator::models::super_40nc::UserTable> {
   using Value = emulator::models::super_40nc::UserTable;
-  static constexpr auto fields = FieldList{field("runs", &Value::runs), field("words", &Value::words)};
+  static constexpr auto fields = FieldList{field<&Value::runs>(), field<&Value::words>()};
 };
 
 template <>
@@ -158,53 +157,53 @@ struct StateOf<emulator::models::super_40nc::State> {
       emulator::models::super_40nc::count_members<emulator::models::super_40nc::ProgramState>() +
       emulator::models::super_40nc::count_members<emulator::models::super_40nc::ScanState>();
   static constexpr auto fields =
-      FieldList{field("image", &Value::image, emulator::models::super_40nc::register_at_slot),
-                field("chips", &Value::chips),
-                field("here", &Value::environment),
-                field("axes", &Value::axes),
-                field("path", &Value::path),
-                field("path_is_held", &Value::path_is_held),
-                field("path_backlash_ticks", &Value::path_backlash_ticks),
-                field("path_feed_lu_s", &Value::path_feed_lu_s),
-                field("path_feed_scale", &Value::path_feed_scale),
-                field("path_limit_lu_s", &Value::path_limit_lu_s),
-                field("plc", &Value::plc),
-                field("plc_quiet_scans", &Value::plc_quiet_scans),
-                field("steps", &Value::steps),
-                field("contacts", &Value::contacts),
-                field("error", &Value::error),
-                field("touched", &Value::touched),
-                field("run_switch", &Value::run_switch),
-                field("emergency", &Value::emergency),
-                field("has_ticked", &Value::has_ticked),
-                field("emergency_obeyed", &Value::emergency_obeyed),
-                field("were_held", &Value::were_held),
-                field("was_inhibited", &Value::was_inhibited),
-                field("wheel_selected", &Value::wheel_selected),
-                field("analog", &Value::analog),
-                field("wheel_edges", &Value::wheel_edges),
-                field("signal_until", &Value::signal_until),
-                field("receive_errors", &Value::receive_errors),
-                field("homing_by_key", &Value::homing_by_key),
-                field("zeroing_by_key", &Value::zeroing_by_key),
-                field("logo_at", &Value::logo_at),
-                field("logo_over", &Value::logo_over),
-                field("file_changed", &Value::file_changed),
-                field("shows_file_changed", &Value::shows_file_changed),
-                field("file", &Value::file),
-                field("file_is_left_out", &Value::file_is_left_out),
-                field("recipe", &Value::recipe),
-                field("rpm_at_power_up", &Value::rpm_at_power_up),
-                field("logo_ms", &Value::logo_ms),
-                field("station", &Value::station),
-                field("parameters_in_force", &Value::parameters_in_force),
-                field("flash_until", &Value::flash_until),
-                field("erc_until", &Value::erc_until),
-                field("clears_seen", &Value::clears_seen),
-                field("latches_seen", &Value::latches_seen),
-                field("table", &Value::table),
-                field("eeprom", &Value::eeprom),
-                field("blocks", &Value::blocks)};
+      FieldList{field<&Value::image>(emulator::models::super_40nc::register_at_slot),
+                field<&Value::chips>(),
+                field<&Value::environment>(),
+                field<&Value::axes>(),
+                field<&Value::path>(),
+                field<&Value::path_is_held>(),
+                field<&Value::path_backlash_ticks>(),
+                field<&Value::path_feed_lu_s>(),
+                field<&Value::path_feed_scale>(),
+                field<&Value::path_limit_lu_s>(),
+                field<&Value::plc>(),
+                field<&Value::plc_quiet_scans>(),
+                field<&Value::steps>(),
+                field<&Value::contacts>(),
+                field<&Value::error>(),
+                field<&Value::touched>(),
+                field<&Value::run_switch>(),
+                field<&Value::emergency>(),
+                field<&Value::has_ticked>(),
+                field<&Value::emergency_obeyed>(),
+                field<&Value::were_held>(),
+                field<&Value::was_inhibited>(),
+                field<&Value::wheel_selected>(),
+                field<&Value::analog>(),
+                field<&Value::wheel_edges>(),
+                field<&Value::signal_until>(),
+                field<&Value::receive_errors>(),
+                field<&Value::homing_by_key>(),
+                field<&Value::zeroing_by_key>(),
+                field<&Value::logo_at>(),
+                field<&Value::logo_over>(),
+                field<&Value::file_changed>(),
+                field<&Value::shows_file_changed>(),
+                field<&Value::file>(),
+                field<&Value::file_is_left_out>(),
+                field<&Value::recipe>(),
+                field<&Value::rpm_at_power_up>(),
+                field<&Value::logo_ms>(),
+                field<&Value::station>(),
+                field<&Value::parameters_in_force>(),
+                field<&Value::flash_until>(),
+                field<&Value::erc_until>(),
+                field<&Value::clears_seen>(),
+                field<&Value::latches_seen>(),
+                field<&Value::table>(),
+                field<&Value::eeprom>(),
+                field<&Value::blocks>()};
   static void check(const Value& state);
 };
 

@@ -17,48 +17,44 @@ template <>
 struct StateOf<emulator::world::StationCounters> {
   using Value = emulator::world::StationCounters;
   static constexpr auto fields =
-      FieldList{field("requests", &Value::requests), field("replies", &Value::replies),
-                field("exceptions", &Value::exceptions)};
+      FieldList{field<&Value::requests>(), field<&Value::replies>(), field<&Value::exceptions>()};
 };
 
 template <>
 struct StateOf<emulator::world::FaultyWire::Late> {
   using Value = emulator::world::FaultyWire::Late;
-  static constexpr auto fields =
-      FieldList{field("at", &Value::at), field("is_reply", &Value::is_reply),
-                field("last_character", &Value::last_character), field("bytes", &Value::bytes)};
+  static constexpr auto fields = FieldList{field<&Value::at>(), field<&Value::is_reply>(),
+                                           field<&Value::last_character>(), field<&Value::bytes>()};
 };
 
 template <>
 struct StateOf<emulator::world::RtuStation::State> {
   using Value = emulator::world::RtuStation::State;
-  static constexpr auto fields = FieldList{field("framer", &Value::framer),
-                                           field("counters", &Value::counters), field("late", &Value::late)};
+  static constexpr auto fields =
+      FieldList{field<&Value::framer>(), field<&Value::counters>(), field<&Value::late>()};
   static void check(const Value& state) { emulator::world::FaultyWire::check(state.late); }
 };
 
 template <>
 struct StateOf<emulator::world::TextStation::Waiting> {
   using Value = emulator::world::TextStation::Waiting;
-  static constexpr auto fields = FieldList{field("has_heard", &Value::has_heard),
-                                           field("heard", &Value::heard), field("echo", &Value::echo)};
+  static constexpr auto fields =
+      FieldList{field<&Value::has_heard>(), field<&Value::heard>(), field<&Value::echo>()};
 };
 
 template <>
 struct StateOf<emulator::world::TextStation::Outgoing> {
   using Value = emulator::world::TextStation::Outgoing;
-  static constexpr auto fields =
-      FieldList{field("last_character", &Value::last_character), field("text", &Value::text)};
+  static constexpr auto fields = FieldList{field<&Value::last_character>(), field<&Value::text>()};
 };
 
 template <>
 struct StateOf<emulator::world::TextStation::State> {
   using Value = emulator::world::TextStation::State;
   static constexpr auto fields =
-      FieldList{field("lines", &Value::lines),         field("counters", &Value::counters),
-                field("waiting", &Value::waiting),     field("late", &Value::late),
-                field("outgoing", &Value::outgoing),   field("free_at", &Value::free_at),
-                field("speaks_at", &Value::speaks_at), field("is_held", &Value::is_held)};
+      FieldList{field<&Value::lines>(),     field<&Value::counters>(), field<&Value::waiting>(),
+                field<&Value::late>(),      field<&Value::outgoing>(), field<&Value::free_at>(),
+                field<&Value::speaks_at>(), field<&Value::is_held>()};
   static void check(const Value& state);
 };
 

@@ -49,40 +49,32 @@ struct StateOf<interpreter::simple2::FlagRules::Found> {
 template <>
 struct StateOf<interpreter::simple2::LoopState> {
   using Value = interpreter::simple2::LoopState;
-  static constexpr auto fields =
-      FieldList{field("counts", &Value::counts), field("first_line", &Value::first_line),
-                field("loop_line", &Value::loop_line), field("passes", &Value::passes)};
+  static constexpr auto fields = FieldList{field<&Value::counts>(), field<&Value::first_line>(),
+                                           field<&Value::loop_line>(), field<&Value::passes>()};
 };
 
 template <>
 struct StateOf<interpreter::simple2::Line> {
   using Value = interpreter::simple2::Line;
-  static constexpr auto fields = FieldList{field("command", &Value::command), field("data1", &Value::data1),
-                                           field("data2", &Value::data2), field("flag", &Value::flag)};
+  static constexpr auto fields = FieldList{field<&Value::command>(), field<&Value::data1>(),
+                                           field<&Value::data2>(), field<&Value::flag>()};
 };
 
 template <>
 struct StateOf<interpreter::simple2::FlagRules> {
   using Value = interpreter::simple2::FlagRules;
   static constexpr auto fields =
-      FieldList{field("several", &Value::several), field("after_end", &Value::after_end),
-                field("found", &Value::found)};
+      FieldList{field<&Value::several>(), field<&Value::after_end>(), field<&Value::found>()};
 };
 
 template <>
 struct StateOf<interpreter::simple2::Execution> {
   using Value = interpreter::simple2::Execution;
-  static constexpr auto fields = FieldList{field("running", &Value::running),
-                                           field("ending", &Value::ending),
-                                           field("now_line", &Value::now_line),
-                                           field("next_line", &Value::next_line),
-                                           field("phase", &Value::phase),
-                                           field("delay_until_ms", &Value::delay_until_ms),
-                                           field("waits_for_a", &Value::waits_for_a),
-                                           field("waits_for_b", &Value::waits_for_b),
-                                           field("waits", &Value::waits),
-                                           field("loop", &Value::loop),
-                                           field("held", &Value::held)};
+  static constexpr auto fields =
+      FieldList{field<&Value::running>(),     field<&Value::ending>(),      field<&Value::now_line>(),
+                field<&Value::next_line>(),   field<&Value::phase>(),       field<&Value::delay_until_ms>(),
+                field<&Value::waits_for_a>(), field<&Value::waits_for_b>(), field<&Value::waits>(),
+                field<&Value::loop>(),        field<&Value::held>()};
   static void check(const Value& execution);
 };
 
@@ -91,8 +83,7 @@ template <>
 struct StateOf<interpreter::simple2::ToldProgram> {
   using Value = interpreter::simple2::ToldProgram;
   static constexpr auto fields =
-      FieldList{field("lines", &Value::lines), field("flag_rules", &Value::flag_rules),
-                field("flag_lines", &Value::flag_lines)};
+      FieldList{field<&Value::lines>(), field<&Value::flag_rules>(), field<&Value::flag_lines>()};
 };
 
 template <>

@@ -80,8 +80,8 @@ struct StateOf<fields_test::Colour> {
 };
 template <>
 struct StateOf<fields_test::Lamp> {
-  static constexpr auto fields = FieldList{field("colour", &fields_test::Lamp::colour),
-                                           field("brightness", &fields_test::Lamp::brightness)};
+  static constexpr auto fields =
+      FieldList{field<&fields_test::Lamp::colour>(), field<&fields_test::Lamp::brightness>()};
   static void check(const fields_test::Lamp& lamp) {
     require_state(lamp.brightness >= 0, "a lamp must not be darker than dark");
   }
@@ -89,16 +89,16 @@ struct StateOf<fields_test::Lamp> {
 template <>
 struct StateOf<fields_test::Panel> {
   using Panel = fields_test::Panel;
-  static constexpr auto fields = FieldList{field("is_on", &Panel::is_on), field("number", &Panel::number),
-                                           field("spare", &Panel::spare), field("lamps", &Panel::lamps),
-                                           field("bytes", &Panel::bytes), field("since", &Panel::since)};
+  static constexpr auto fields =
+      FieldList{field<&Panel::is_on>(), field<&Panel::number>(), field<&Panel::spare>(),
+                field<&Panel::lamps>(), field<&Panel::bytes>(),  field<&Panel::since>()};
 };
 
 template <>
 struct StateOf<fields_test::Shelf> {
   using Shelf = fields_test::Shelf;
-  static constexpr auto fields = FieldList{field("label", &Shelf::label), field("lamps", &Shelf::lamps),
-                                           field("drawers", &Shelf::drawers, fields_test::drawer)};
+  static constexpr auto fields =
+      FieldList{field<&Shelf::label>(), field<&Shelf::lamps>(), field<&Shelf::drawers>(fields_test::drawer)};
 };
 template <>
 struct StateOf<fields_test::Ring> {
@@ -113,7 +113,7 @@ struct StateOf<fields_test::Ring> {
 template <>
 struct StateOf<fields_test::Counter> {
   using Counter = fields_test::Counter;
-  static constexpr auto fields = FieldList{field("runs", &Counter::runs), field("count", &Counter::count)};
+  static constexpr auto fields = FieldList{field<&Counter::runs>(), field<&Counter::count>()};
   static constexpr std::size_t members = 3;
   static constexpr std::size_t apart = 1;
 };

@@ -54,22 +54,21 @@ struct StateOf<state_bytes_test::Colour> {
 template <>
 struct StateOf<state_bytes_test::Point> {
   using Value = state_bytes_test::Point;
-  static constexpr auto fields = FieldList{field("x", &Value::x), field("y", &Value::y)};
+  static constexpr auto fields = FieldList{field<&Value::x>(), field<&Value::y>()};
   static void check(const Value& point) { require_within(point.x, -100, 100); }
 };
 template <>
 struct StateOf<state_bytes_test::Sample> {
   using Value = state_bytes_test::Sample;
   static constexpr auto fields = FieldList{
-      field("byte", &Value::byte),      field("number", &Value::number), field("yes", &Value::yes),
-      field("colour", &Value::colour),  field("real", &Value::real),     field("time", &Value::time),
-      field("maybe", &Value::maybe),    field("pair", &Value::pair),     field("points", &Value::points),
-      field("entries", &Value::entries)};
+      field<&Value::byte>(),   field<&Value::number>(), field<&Value::yes>(),   field<&Value::colour>(),
+      field<&Value::real>(),   field<&Value::time>(),   field<&Value::maybe>(), field<&Value::pair>(),
+      field<&Value::points>(), field<&Value::entries>()};
 };
 template <>
 struct StateOf<state_bytes_test::Secret> {
   using Value = state_bytes_test::Secret;
-  static constexpr auto fields = FieldList{field("value", &Value::value_)};
+  static constexpr auto fields = FieldList{field<&Value::value_>()};
   static constexpr std::size_t members = 1;
 };
 

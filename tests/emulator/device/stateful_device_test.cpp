@@ -43,7 +43,7 @@ class Gate final : public StatefulDevice<Gate, GateState> {
 template <>
 struct understudy::StateOf<understudy::emulator::stateful_device_test::GateState> {
   using Value = understudy::emulator::stateful_device_test::GateState;
-  static constexpr auto fields = FieldList{field("opened", &Value::opened), field("seen", &Value::seen)};
+  static constexpr auto fields = FieldList{field<&Value::opened>(), field<&Value::seen>()};
 };
 
 template class understudy::emulator::StatefulDevice<understudy::emulator::stateful_device_test::Gate,

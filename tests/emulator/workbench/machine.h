@@ -168,19 +168,16 @@ namespace understudy {
 template <>
 struct StateOf<emulator::workbench::Motor> {
   using Value = emulator::workbench::Motor;
-  static constexpr auto fields = FieldList{field("axis", &Value::axis), field("here", &Value::environment),
-                                           field("sent_pulses", &Value::sent_pulses)};
+  static constexpr auto fields =
+      FieldList{field<&Value::axis>(), field<&Value::environment>(), field<&Value::sent_pulses>()};
 };
 
 template <>
 struct StateOf<emulator::workbench::MotorsState> {
   using Value = emulator::workbench::MotorsState;
-  static constexpr auto fields = FieldList{field("motors", &Value::motors),
-                                           field("wheel_seen", &Value::wheel_seen),
-                                           field("external_seen", &Value::external_seen),
-                                           field("external_edges", &Value::external_edges),
-                                           field("compared", &Value::compared),
-                                           field("low_active", &Value::low_active)};
+  static constexpr auto fields =
+      FieldList{field<&Value::motors>(),         field<&Value::wheel_seen>(), field<&Value::external_seen>(),
+                field<&Value::external_edges>(), field<&Value::compared>(),   field<&Value::low_active>()};
 };
 
 }  // namespace understudy

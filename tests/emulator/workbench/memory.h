@@ -126,7 +126,7 @@ namespace understudy {
 template <>
 struct StateOf<emulator::workbench::Kept> {
   using Value = emulator::workbench::Kept;
-  static constexpr auto fields = FieldList{field("eeprom", &Value::eeprom), field("blocks", &Value::blocks)};
+  static constexpr auto fields = FieldList{field<&Value::eeprom>(), field<&Value::blocks>()};
 };
 
 }  // namespace understudy

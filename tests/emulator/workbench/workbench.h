@@ -52,18 +52,18 @@ namespace understudy {
 template <>
 struct StateOf<emulator::workbench::WorkbenchState> {
   using Value = emulator::workbench::WorkbenchState;
-  static constexpr auto fields = FieldList{field("image", &Value::image),
-                                           field("positions", &Value::positions),
-                                           field("targets", &Value::targets),
-                                           field("fifo", &Value::fifo),
-                                           field("done", &Value::done),
-                                           field("cause", &Value::cause),
-                                           field("reason", &Value::reason),
-                                           field("program_refused", &Value::program_refused),
-                                           field("motors", &Value::motors),
-                                           field("receive_errors", &Value::receive_errors),
-                                           field("last_receive_error", &Value::last_receive_error),
-                                           field("kept", &Value::kept)};
+  static constexpr auto fields = FieldList{field<&Value::image>(),
+                                           field<&Value::positions>(),
+                                           field<&Value::targets>(),
+                                           field<&Value::fifo>(),
+                                           field<&Value::done>(),
+                                           field<&Value::cause>(),
+                                           field<&Value::reason>(),
+                                           field<&Value::program_refused>(),
+                                           field<&Value::motors>(),
+                                           field<&Value::receive_errors>(),
+                                           field<&Value::last_receive_error>(),
+                                           field<&Value::kept>()};
 };
 
 }  // namespace understudy

@@ -207,65 +207,64 @@ struct StateOf<emulator::models::rs_m8194h::Drive::What> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::Drive> {
   using Value = emulator::models::rs_m8194h::Drive;
-  static constexpr auto fields = FieldList{field("what", &Value::what), field("value", &Value::value)};
+  static constexpr auto fields = FieldList{field<&Value::what>(), field<&Value::value>()};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::Compare> {
   using Value = emulator::models::rs_m8194h::Compare;
-  static constexpr auto fields = FieldList{field("value", &Value::value), field("source", &Value::source)};
+  static constexpr auto fields = FieldList{field<&Value::value>(), field<&Value::source>()};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::OutSettings> {
   using Value = emulator::models::rs_m8194h::OutSettings;
-  static constexpr auto fields =
-      FieldList{field("level", &Value::level), field("width_code", &Value::width_code),
-                field("pulses", &Value::pulses), field("pulse_until", &Value::pulse_until)};
+  static constexpr auto fields = FieldList{field<&Value::level>(), field<&Value::width_code>(),
+                                           field<&Value::pulses>(), field<&Value::pulse_until>()};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::FilteredPins> {
   using Value = emulator::models::rs_m8194h::FilteredPins;
   static constexpr auto fields =
-      FieldList{field("raw", &Value::raw), field("passed", &Value::passed), field("since", &Value::since)};
+      FieldList{field<&Value::raw>(), field<&Value::passed>(), field<&Value::since>()};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
   using Value = emulator::models::rs_m8194h::AxisUnit;
-  static constexpr auto fields = FieldList{field("basic", &Value::basic),
-                                           field("speed", &Value::speed),
-                                           field("homing", &Value::homing),
-                                           field("logic", &Value::logic),
-                                           field("absolute", &Value::absolute),
-                                           field("encoder", &Value::encoder),
-                                           field("has_encoder", &Value::has_encoder),
-                                           field("encoder_raw", &Value::encoder_raw),
-                                           field("encoder_zero", &Value::encoder_zero),
-                                           field("sent_pulses", &Value::sent_pulses),
-                                           field("error_code", &Value::error_code),
-                                           field("met", &Value::met),
-                                           field("locked", &Value::locked),
-                                           field("path_locked", &Value::path_locked),
-                                           field("held", &Value::held),
-                                           field("held_drive", &Value::held_drive),
-                                           field("paused_drive", &Value::paused_drive),
-                                           field("paused_to_pulses", &Value::paused_to_pulses),
-                                           field("pins", &Value::pins),
-                                           field("emergency", &Value::emergency),
-                                           field("external", &Value::external),
-                                           field("began_pulses", &Value::began_pulses),
-                                           field("external_pps", &Value::external_pps),
-                                           field("external_seen", &Value::external_seen),
-                                           field("external_waiting", &Value::external_waiting),
-                                           field("external_free_ns", &Value::external_free_ns),
-                                           field("compare", &Value::compare),
-                                           field("factors", &Value::factors),
-                                           field("isr_of", &Value::isr_of),
-                                           field("action_isr", &Value::action_isr),
-                                           field("out", &Value::out),
-                                           field("latched", &Value::latched)};
+  static constexpr auto fields = FieldList{field<&Value::basic>(),
+                                           field<&Value::speed>(),
+                                           field<&Value::homing>(),
+                                           field<&Value::logic>(),
+                                           field<&Value::absolute>(),
+                                           field<&Value::encoder>(),
+                                           field<&Value::has_encoder>(),
+                                           field<&Value::encoder_raw>(),
+                                           field<&Value::encoder_zero>(),
+                                           field<&Value::sent_pulses>(),
+                                           field<&Value::error_code>(),
+                                           field<&Value::met>(),
+                                           field<&Value::locked>(),
+                                           field<&Value::path_locked>(),
+                                           field<&Value::held>(),
+                                           field<&Value::held_drive>(),
+                                           field<&Value::paused_drive>(),
+                                           field<&Value::paused_to_pulses>(),
+                                           field<&Value::pins>(),
+                                           field<&Value::emergency>(),
+                                           field<&Value::external>(),
+                                           field<&Value::began_pulses>(),
+                                           field<&Value::external_pps>(),
+                                           field<&Value::external_seen>(),
+                                           field<&Value::external_waiting>(),
+                                           field<&Value::external_free_ns>(),
+                                           field<&Value::compare>(),
+                                           field<&Value::factors>(),
+                                           field<&Value::isr_of>(),
+                                           field<&Value::action_isr>(),
+                                           field<&Value::out>(),
+                                           field<&Value::latched>()};
   static void check(const Value& unit) {
     require_state(unit.speed.mode < 4, "a speed mode of an axis is not one of the manual's");
     for (const Tick since : unit.pins.since)

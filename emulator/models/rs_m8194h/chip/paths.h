@@ -81,25 +81,18 @@ template <>
 struct StateOf<emulator::models::rs_m8194h::StreamSettings> {
   using Value = emulator::models::rs_m8194h::StreamSettings;
   static constexpr auto fields =
-      FieldList{field("given", &Value::given),         field("axes", &Value::axes),
-                field("constant", &Value::constant),   field("start_pps", &Value::start_pps),
-                field("drive_pps", &Value::drive_pps), field("acceleration", &Value::acceleration)};
+      FieldList{field<&Value::given>(),     field<&Value::axes>(),      field<&Value::constant>(),
+                field<&Value::start_pps>(), field<&Value::drive_pps>(), field<&Value::acceleration>()};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::Paths> {
   using Value = emulator::models::rs_m8194h::Paths;
-  static constexpr auto fields = FieldList{field("together", &Value::together),
-                                           field("runs", &Value::runs),
-                                           field("stream", &Value::stream),
-                                           field("open", &Value::open),
-                                           field("broken", &Value::broken),
-                                           field("axes", &Value::axes),
-                                           field("assigned", &Value::assigned),
-                                           field("vector", &Value::vector),
-                                           field("streams", &Value::streams),
-                                           field("end", &Value::end),
-                                           field("constant_axis", &Value::constant_axis)};
+  static constexpr auto fields =
+      FieldList{field<&Value::together>(), field<&Value::runs>(),         field<&Value::stream>(),
+                field<&Value::open>(),     field<&Value::broken>(),       field<&Value::axes>(),
+                field<&Value::assigned>(), field<&Value::vector>(),       field<&Value::streams>(),
+                field<&Value::end>(),      field<&Value::constant_axis>()};
   static void check(const Value& paths) {
     require_state(paths.constant_axis >= -1 && paths.constant_axis < 4, "a path has no such axis");
     require_state(paths.broken >> emulator::models::rs_m8194h::kStreams == 0, "there is no such stream");

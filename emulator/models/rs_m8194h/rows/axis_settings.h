@@ -140,30 +140,30 @@ namespace understudy {
 template <>
 struct StateOf<emulator::models::rs_m8194h::BasicSettings> {
   using Value = emulator::models::rs_m8194h::BasicSettings;
-  static constexpr auto fields = FieldList{field("pulse_mode", &Value::pulse_mode),
-                                           field("max_v", &Value::max_v),
-                                           field("forward_limit_level", &Value::forward_limit_level),
-                                           field("reverse_limit_level", &Value::reverse_limit_level),
-                                           field("limit_stop_mode", &Value::limit_stop_mode),
-                                           field("near_home_level", &Value::near_home_level),
-                                           field("home_level", &Value::home_level),
-                                           field("soft_limits", &Value::soft_limits),
-                                           field("forward_soft_limit", &Value::forward_soft_limit),
-                                           field("reverse_soft_limit", &Value::reverse_soft_limit),
-                                           field("soft_limit_source", &Value::soft_limit_source),
-                                           field("encoder_mode", &Value::encoder_mode),
-                                           field("encoder_division", &Value::encoder_division),
-                                           field("index_level", &Value::index_level),
-                                           field("servo", &Value::servo),
-                                           field("alarm", &Value::alarm),
-                                           field("alarm_level", &Value::alarm_level),
-                                           field("in_position", &Value::in_position),
-                                           field("in_position_level", &Value::in_position_level),
-                                           field("filtered", &Value::filtered),
-                                           field("filter_time", &Value::filter_time),
-                                           field("ring", &Value::ring),
-                                           field("ring_top", &Value::ring_top),
-                                           field("avoids_triangles", &Value::avoids_triangles)};
+  static constexpr auto fields = FieldList{field<&Value::pulse_mode>(),
+                                           field<&Value::max_v>(),
+                                           field<&Value::forward_limit_level>(),
+                                           field<&Value::reverse_limit_level>(),
+                                           field<&Value::limit_stop_mode>(),
+                                           field<&Value::near_home_level>(),
+                                           field<&Value::home_level>(),
+                                           field<&Value::soft_limits>(),
+                                           field<&Value::forward_soft_limit>(),
+                                           field<&Value::reverse_soft_limit>(),
+                                           field<&Value::soft_limit_source>(),
+                                           field<&Value::encoder_mode>(),
+                                           field<&Value::encoder_division>(),
+                                           field<&Value::index_level>(),
+                                           field<&Value::servo>(),
+                                           field<&Value::alarm>(),
+                                           field<&Value::alarm_level>(),
+                                           field<&Value::in_position>(),
+                                           field<&Value::in_position_level>(),
+                                           field<&Value::filtered>(),
+                                           field<&Value::filter_time>(),
+                                           field<&Value::ring>(),
+                                           field<&Value::ring_top>(),
+                                           field<&Value::avoids_triangles>()};
   static void check(const Value& value) {
     constexpr std::uint32_t kMaxRing = 2'000'000'000;
     const bool fits = value.pulse_mode <= 5 && value.encoder_mode <= 3 && value.encoder_division <= 2 &&
@@ -175,14 +175,10 @@ struct StateOf<emulator::models::rs_m8194h::BasicSettings> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::SpeedSettings> {
   using Value = emulator::models::rs_m8194h::SpeedSettings;
-  static constexpr auto fields = FieldList{field("mode", &Value::mode),
-                                           field("start_pps", &Value::start_pps),
-                                           field("drive_pps", &Value::drive_pps),
-                                           field("acceleration", &Value::acceleration),
-                                           field("deceleration", &Value::deceleration),
-                                           field("jerk_up", &Value::jerk_up),
-                                           field("jerk_down", &Value::jerk_down),
-                                           field("offset_pulses", &Value::offset_pulses)};
+  static constexpr auto fields =
+      FieldList{field<&Value::mode>(),         field<&Value::start_pps>(),    field<&Value::drive_pps>(),
+                field<&Value::acceleration>(), field<&Value::deceleration>(), field<&Value::jerk_up>(),
+                field<&Value::jerk_down>(),    field<&Value::offset_pulses>()};
   static void check(const Value& value) {
     require_state(value.mode < 12, "a speed mode is not one of the manual's");
     require_state(value.offset_pulses >= INT16_MIN && value.offset_pulses <= INT16_MAX,
@@ -193,9 +189,8 @@ struct StateOf<emulator::models::rs_m8194h::SpeedSettings> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::HomeSettings> {
   using Value = emulator::models::rs_m8194h::HomeSettings;
-  static constexpr auto fields =
-      FieldList{field("home_pps", &Value::home_pps), field("limit_is_home", &Value::limit_is_home),
-                field("steps", &Value::steps), field("offset_pulses", &Value::offset_pulses)};
+  static constexpr auto fields = FieldList{field<&Value::home_pps>(), field<&Value::limit_is_home>(),
+                                           field<&Value::steps>(), field<&Value::offset_pulses>()};
   static void check(const Value& value) {
     constexpr std::uint32_t kMaxOffset = 2'000'000'000;
     require_state(value.offset_pulses <= kMaxOffset, "an offset of homing is too far");

@@ -42,76 +42,65 @@ struct StateOf<emulator::models::slim::Activity> {
 template <>
 struct StateOf<emulator::models::slim::ModuleSettings> {
   using Value = emulator::models::slim::ModuleSettings;
-  static constexpr auto fields =
-      FieldList{field("scale", &Value::scale),
-                field("pulses_per_revolution", &Value::pulses_per_revolution),
-                field("speed_unit", &Value::speed_unit),
-                field("working_speed", &Value::working_speed),
-                field("jog_speed", &Value::jog_speed),
-                field("acceleration", &Value::acceleration),
-                field("path_acceleration_units_s2", &Value::path_acceleration_units_s2),
-                field("path_speed_units_s", &Value::path_speed_units_s),
-                field("smooth_corner_deg", &Value::smooth_corner_deg),
-                field("line_speed_units_s", &Value::line_speed_units_s)};
+  static constexpr auto fields = FieldList{field<&Value::scale>(),
+                                           field<&Value::pulses_per_revolution>(),
+                                           field<&Value::speed_unit>(),
+                                           field<&Value::working_speed>(),
+                                           field<&Value::jog_speed>(),
+                                           field<&Value::acceleration>(),
+                                           field<&Value::path_acceleration_units_s2>(),
+                                           field<&Value::path_speed_units_s>(),
+                                           field<&Value::smooth_corner_deg>(),
+                                           field<&Value::line_speed_units_s>()};
   static void check(const Value& settings);
 };
 
 template <>
 struct StateOf<emulator::models::slim::Output> {
   using Value = emulator::models::slim::Output;
-  static constexpr auto fields = FieldList{field("mode", &Value::mode),
-                                           field("on", &Value::on),
-                                           field("since", &Value::since),
-                                           field("width", &Value::width),
-                                           field("frequency_hz", &Value::frequency_hz),
-                                           field("duty_percent", &Value::duty_percent)};
+  static constexpr auto fields =
+      FieldList{field<&Value::mode>(),  field<&Value::on>(),           field<&Value::since>(),
+                field<&Value::width>(), field<&Value::frequency_hz>(), field<&Value::duty_percent>()};
   static void check(const Value& output);
 };
 
 template <>
 struct StateOf<emulator::models::slim::OutputOrder> {
   using Value = emulator::models::slim::OutputOrder;
-  static constexpr auto fields = FieldList{field("kind", &Value::kind),
-                                           field("output", &Value::output),
-                                           field("mask", &Value::mask),
-                                           field("trigger", &Value::trigger),
-                                           field("trigger_sets", &Value::trigger_sets),
-                                           field("width", &Value::width),
-                                           field("frequency_hz", &Value::frequency_hz),
-                                           field("duty_percent", &Value::duty_percent),
-                                           field("at_units", &Value::at_units)};
+  static constexpr auto fields =
+      FieldList{field<&Value::kind>(),         field<&Value::output>(),       field<&Value::mask>(),
+                field<&Value::trigger>(),      field<&Value::trigger_sets>(), field<&Value::width>(),
+                field<&Value::frequency_hz>(), field<&Value::duty_percent>(), field<&Value::at_units>()};
   static void check(const Value& order);
 };
 
 template <>
 struct StateOf<emulator::models::slim::PositionTrigger> {
   using Value = emulator::models::slim::PositionTrigger;
-  static constexpr auto fields =
-      FieldList{field("armed", &Value::armed), field("sets", &Value::sets), field("output", &Value::output),
-                field("at_units", &Value::at_units)};
+  static constexpr auto fields = FieldList{field<&Value::armed>(), field<&Value::sets>(),
+                                           field<&Value::output>(), field<&Value::at_units>()};
   static void check(const Value& trigger);
 };
 
 template <>
 struct StateOf<emulator::models::slim::Job> {
   using Value = emulator::models::slim::Job;
-  static constexpr auto fields =
-      FieldList{field("kind", &Value::kind),
-                field("number", &Value::number),
-                field("module_of", &Value::module_of),
-                field("units", &Value::units),
-                field("absolute", &Value::absolute),
-                field("height_absolute", &Value::height_absolute),
-                field("sweep_deg", &Value::sweep_deg),
-                field("by_radius", &Value::by_radius),
-                field("growth_units_turn", &Value::growth_units_turn),
-                field("ends", &Value::ends),
-                field("continuous", &Value::continuous),
-                field("smooth_corner_deg", &Value::smooth_corner_deg),
-                field("path_acceleration_units_s2", &Value::path_acceleration_units_s2),
-                field("servo_on", &Value::servo_on),
-                field("begun", &Value::begun),
-                field("output", &Value::output)};
+  static constexpr auto fields = FieldList{field<&Value::kind>(),
+                                           field<&Value::number>(),
+                                           field<&Value::module_of>(),
+                                           field<&Value::units>(),
+                                           field<&Value::absolute>(),
+                                           field<&Value::height_absolute>(),
+                                           field<&Value::sweep_deg>(),
+                                           field<&Value::by_radius>(),
+                                           field<&Value::growth_units_turn>(),
+                                           field<&Value::ends>(),
+                                           field<&Value::continuous>(),
+                                           field<&Value::smooth_corner_deg>(),
+                                           field<&Value::path_acceleration_units_s2>(),
+                                           field<&Value::servo_on>(),
+                                           field<&Value::begun>(),
+                                           field<&Value::output>()};
   static void check(const Value& job);
 };
 
@@ -128,26 +117,17 @@ struct StateOf<
 template <>
 struct StateOf<emulator::models::slim::Module> {
   using Value = emulator::models::slim::Module;
-  static constexpr auto fields = FieldList{field("settings", &Value::settings),
-                                           field("linked", &Value::linked),
-                                           field("homed", &Value::homed),
-                                           field("activity", &Value::activity),
-                                           field("jog_way", &Value::jog_direction),
-                                           field("next_jog_way", &Value::next_jog_direction),
-                                           field("next_thrust", &Value::next_thrust),
-                                           field("held_jog_way", &Value::held_jog_direction),
-                                           field("held_thrust", &Value::held_thrust),
-                                           field("analog_speed", &Value::analog_speed),
-                                           field("starved", &Value::starved),
-                                           field("analog", &Value::analog),
-                                           field("thrust", &Value::thrust),
-                                           field("zero_pulses", &Value::zero_pulses),
-                                           field("place_units", &Value::place_units),
-                                           field("sent_pulses", &Value::sent_pulses),
-                                           field("late_error", &Value::late_error),
-                                           field("outputs", &Value::outputs),
-                                           field("triggers", &Value::triggers),
-                                           field("fifo", &Value::fifo)};
+  static constexpr auto fields =
+      FieldList{field<&Value::settings>(),      field<&Value::linked>(),
+                field<&Value::homed>(),         field<&Value::activity>(),
+                field<&Value::jog_direction>(), field<&Value::next_jog_direction>(),
+                field<&Value::next_thrust>(),   field<&Value::held_jog_direction>(),
+                field<&Value::held_thrust>(),   field<&Value::analog_speed>(),
+                field<&Value::starved>(),       field<&Value::analog>(),
+                field<&Value::thrust>(),        field<&Value::zero_pulses>(),
+                field<&Value::place_units>(),   field<&Value::sent_pulses>(),
+                field<&Value::late_error>(),    field<&Value::outputs>(),
+                field<&Value::triggers>(),      field<&Value::fifo>()};
   static void check(const Value& module);
 };
 
@@ -155,7 +135,7 @@ template <>
 struct StateOf<emulator::models::slim::Group> {
   using Value = emulator::models::slim::Group;
   static constexpr auto fields =
-      FieldList{field("motion", &Value::motion), field("paths", &Value::paths), field("end", &Value::end)};
+      FieldList{field<&Value::motion>(), field<&Value::paths>(), field<&Value::end>()};
   // Writes the group only if it is in use.
   static void write(const Value& group, StateWriter& writer);
   static void read(Value& group, StateReader& reader);
@@ -164,16 +144,11 @@ struct StateOf<emulator::models::slim::Group> {
 template <>
 struct StateOf<emulator::models::slim::ChainState> {
   using Value = emulator::models::slim::ChainState;
-  static constexpr auto fields = FieldList{field("modules", &Value::modules),
-                                           field("axes", &Value::axes),
-                                           field("surroundings", &Value::environment),
-                                           field("groups", &Value::groups),
-                                           field("map", &Value::map),
-                                           field("continuous", &Value::continuous),
-                                           field("paused", &Value::paused),
-                                           field("queues_paused", &Value::queues_paused),
-                                           field("last_number", &Value::last_number),
-                                           field("now", &Value::now)};
+  static constexpr auto fields =
+      FieldList{field<&Value::modules>(), field<&Value::axes>(),          field<&Value::environment>(),
+                field<&Value::groups>(),  field<&Value::map>(),           field<&Value::continuous>(),
+                field<&Value::paused>(),  field<&Value::queues_paused>(), field<&Value::last_number>(),
+                field<&Value::now>()};
   static constexpr std::size_t apart = 1;  // the options, which belong to the bench
   static void check(const Value& chain);
 };

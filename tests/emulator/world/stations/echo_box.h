@@ -53,9 +53,8 @@ template <>
 struct StateOf<emulator::world::EchoState> {
   using Value = emulator::world::EchoState;
   static constexpr auto fields =
-      FieldList{field("speech", &Value::speech), field("speaks_at", &Value::speaks_at),
-                field("n0", &Value::n0),         field("r0", &Value::r0),
-                field("echo", &Value::echo),     field("program", &Value::program)};
+      FieldList{field<&Value::speech>(), field<&Value::speaks_at>(), field<&Value::n0>(),
+                field<&Value::r0>(),     field<&Value::echo>(),      field<&Value::program>()};
 };
 
 }  // namespace understudy
