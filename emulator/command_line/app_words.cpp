@@ -165,7 +165,7 @@ std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, 
     if (option != nullptr && option->get_items_expected_max() == 0)
       return name + ": has a value; expected none";
     return name + ": " + quoted(told.substr(kBegin.size() + name.size() + 3)) +
-           " is not a whole number; expected one";
+           " is not a whole number, or too large; expected a whole number";
   }
   return told;
 }

@@ -168,6 +168,8 @@ struct PageArguments {
 };
 /// Serves the live page until it is ended.
 int show_page(const PageArguments& arguments);
+/// Throws UsageError if it is no TCP port. `flag` is the command and its flag: "serve: --page".
+void require_page_port(const std::string& flag, int port);
 /// Like show_page(), in a process of its own that ends with this one.
 void start_page_beside(const std::string& control, int port);
 

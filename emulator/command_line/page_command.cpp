@@ -40,7 +40,7 @@ int show_page(const PageArguments& arguments) {
                             .hosts = arguments.hosts,
                             .is_read_only = arguments.read_only,
                             .folder = arguments.folder};
-  if (arguments.port < 0 || arguments.port > 65535) throw UsageError("page: --port: expected 0 to 65535");
+  require_page_port("page: --port", arguments.port);
   options.address.port = static_cast<std::uint16_t>(arguments.port);
   if (options.sockets.empty()) options.sockets = daemons_to_show();
   std::signal(SIGPIPE, SIG_IGN);
@@ -53,6 +53,11 @@ int show_page(const PageArguments& arguments) {
   std::fflush(stdout);
   shown.run(true);
   return kExitWell;
+}
+
+void require_page_port(const std::string& flag, int port) {
+  if (port < 0 || port > 65535)
+    throw UsageError(flag + ": '" + std::to_string(port) + "' is not a port; expected 0 to 65535");
 }
 
 void start_page_beside(const std::string& control, int port) {

@@ -89,7 +89,7 @@ DeviceSettings program_settings(const Model& model, const ProgramTextArguments& 
     settings.firmware = parse_firmware(arguments.firmware);
     if (settings.firmware == 0) {
       throw UsageError("--firmware: " + quoted(arguments.firmware) +
-                       " is not a version; expected one like 1.52");
+                       " is not a version; expected one with two decimals, like 1.52");
     }
   }
   for (const std::string& choice : arguments.choices) {

@@ -117,6 +117,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
       !why.empty()) {
     throw world::RecordingError(arguments.recording + ":1: recording: " + why);
   }
+  if (arguments.page) require_page_port("replay: --page", *arguments.page);
   if (arguments.page) return travel_in(models, arguments, until);
   FileClaims claims;
   claims.add({arguments.recording, "the recording itself"});

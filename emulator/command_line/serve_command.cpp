@@ -15,6 +15,7 @@
 namespace understudy::emulator::command_line {
 
 int serve(ModelList models, const ServeArguments& arguments) {
+  if (arguments.page) require_page_port("serve: --page", *arguments.page);
   const Serving serving = make_serving(models, arguments, "serve");
   signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
   serve::Daemon daemon(serving.bench, serving.options, log_line);

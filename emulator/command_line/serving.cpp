@@ -79,7 +79,7 @@ world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
     device.settings.firmware = parse_firmware(arguments.firmware);
     if (device.settings.firmware == 0) {
       throw UsageError("--firmware: " + understudy::quoted(arguments.firmware) +
-                       " is not a version; expected one like 1.52");
+                       " is not a version; expected one with two decimals, like 1.52");
     }
   }
   require_possible(device);

@@ -149,10 +149,9 @@ void check(const Model& model, const DeviceSettings& settings) {
   }
   if (settings.modules != 0 && (settings.modules < 1 || settings.modules > model.most_modules)) {
     throw SettingError(
-        "modules",
-        std::to_string(settings.modules) + " is not possible: " + std::string(model.name) +
-            (model.most_modules == 0 ? " has no modules; expected none"
-                                     : " has 1 to " + std::to_string(model.most_modules) + " of them"));
+        "modules", "'" + std::to_string(settings.modules) + "' is not possible; expected " +
+                       (model.most_modules == 0 ? "none, as " + std::string(model.name) + " has no modules"
+                                                : "1 to " + std::to_string(model.most_modules)));
   }
   const auto& numbers = model.line.station_numbers;
   const auto& number = settings.address;

@@ -71,7 +71,8 @@ void read_firmwares(const world::YamlFields& fields, world::Bench& bench) {
   const auto read = [](const world::YamlFields& field) {
     const Firmware firmware = parse_firmware(field.text());
     if (firmware == 0)
-      field.fail(understudy::quoted(field.text()) + " is not a version; expected one like \"1.52\"");
+      field.fail(understudy::quoted(field.text()) +
+                 " is not a version; expected one with two decimals, like \"1.52\"");
     return firmware;
   };
   if (!fields.is_map()) {

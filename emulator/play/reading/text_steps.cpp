@@ -51,7 +51,7 @@ std::size_t read_line_of_text(const StepsReader& reader, const world::YamlFields
   const world::LineProtocol& speech = world::protocol_of(*bench.devices[line.stations.front().device].model);
   if (!speech.carries_text()) {
     value.fail("line '" + line.name + "' carries " + std::string(speech.messages()) +
-               "; expected a line of text here, or `bytes`");
+               "; expected a line that carries text, or `bytes`");
   }
   return number;
 }

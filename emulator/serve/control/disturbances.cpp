@@ -96,7 +96,7 @@ std::string why_refused(const Objection& refused) {
     case Refusal::no_register:
     case Refusal::bad_value: break;
   }
-  return "the command is not possible now" + reason;
+  return "the command is not accepted" + reason;
 }
 
 }  // namespace

@@ -239,7 +239,8 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
   read("firmware", [&](const YamlFields& field) {
     settings.firmware = parse_firmware(field.text());
     if (settings.firmware == 0)
-      field.fail(understudy::quoted(field.text()) + " is not a version; expected one like \"1.52\"");
+      field.fail(understudy::quoted(field.text()) +
+                 " is not a version; expected one with two decimals, like \"1.52\"");
   });
   const bool knows_modules = read("modules", [&](const YamlFields& field) {
     settings.modules = static_cast<int>(field.integer(kModulesSchema));

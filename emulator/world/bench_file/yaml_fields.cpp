@@ -246,8 +246,10 @@ std::int64_t YamlFields::integer(std::int64_t lowest, std::int64_t highest) cons
   const std::string digits = text();
   const auto value = parse_integer(digits);
   if (!value || *value < lowest || *value > highest) {
-    fail(understudy::quoted(digits) + " is not possible; expected a whole number from " +
-         std::to_string(lowest) + " to " + std::to_string(highest));
+    const std::string range =
+        "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest);
+    fail(understudy::quoted(digits) + " is not possible; expected " +
+         (lowest == highest ? std::to_string(lowest) : range));
   }
   return *value;
 }

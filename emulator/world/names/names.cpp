@@ -40,7 +40,8 @@ int number_of(const KnownDevices& devices, std::string_view name) {
 NameError no_device(const KnownDevices& devices, std::string_view name) {
   std::vector<std::string> names;
   for (const KnownDevice& device : devices) names.push_back(device.name);
-  return NameError("no device is called " + quoted(name) + suggestion(name, names));
+  const std::string what = name.empty() ? "the device is missing" : "no device is called " + quoted(name);
+  return NameError(what + suggestion(name, names));
 }
 
 NameError only_a_device(std::string_view name, std::string_view example) {

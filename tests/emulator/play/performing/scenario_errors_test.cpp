@@ -68,7 +68,8 @@ TEST_F(ScenarioErrors, TheBench) {
       {"understudy: 1\nbench: { lines: { a: { stations: [ { name: x, model: simple2-r4 } ] } } }\nsteps: "
        "[]\n",
        "2: bench.lines.a.stations[0].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'"},
-      {with("firmware: 1.5"), "3: firmware: '1.5' is not a version; expected one like \"1.52\""},
+      {with("firmware: 1.5"),
+       "3: firmware: '1.5' is not a version; expected one with two decimals, like \"1.52\""},
       {with("firmware: { feder: 1.52 }"),
        "3: firmware.feder: no device is called 'feder'; the nearest is 'feeder'"},
       {with("firmware: 1.43"),

@@ -176,9 +176,10 @@ TEST(TextSteps, WhatTheyCannotSayIsToldBeforehand) {
     parse_scenarios(models::all_models(), modbus, "test.yaml");
     ADD_FAILURE();
   } catch (const FileError& error) {
-    EXPECT_EQ(world::without_columns(error.what()),
-              "test.yaml:4: steps[0].send: line 'a' carries Modbus frames; expected a line of text here, or "
-              "`bytes`");
+    EXPECT_EQ(
+        world::without_columns(error.what()),
+        "test.yaml:4: steps[0].send: line 'a' carries Modbus frames; expected a line that carries text, or "
+        "`bytes`");
   }
 }
 

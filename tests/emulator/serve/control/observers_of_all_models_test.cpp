@@ -219,7 +219,7 @@ TEST(LineByHand, IsObeyedWithoutAWordOnTheLine) {
   EXPECT_EQ(bench.value("d.VM"), 321);
   EXPECT_EQ(refusal_of("G"), "");
   EXPECT_EQ(refusal_of("G"), "d refuses it: it is busy (reason 3)") << "it runs already";
-  EXPECT_EQ(refusal_of("nonsense"), "d refuses it: the command is not possible now (reason 1)");
+  EXPECT_EQ(refusal_of("nonsense"), "d refuses it: the command is not accepted (reason 1)");
   bench.run(20);
   EXPECT_EQ(frames(), before) << "its answers are nobody's";
   // A number is the program's.

@@ -74,7 +74,7 @@ bench.yaml:4: lines.a.bud: is not a key here; expected one of link, listen, pty,
 bench.yaml:5: lines.a.baud: 'fast' is not possible; expected a whole number from 1 to 4000000
 bench.yaml:6: lines.a.link: 'tcp://:1502' is a network address; expected a path for a pseudo-terminal (`listen` has addresses)
 bench.yaml:8: lines.a.stations[0].adress: is not a key here; expected one of name, model, address, port, firmware, modules, set, choices, dip, program, nv (the nearest is 'address')
-bench.yaml:8: lines.a.stations[0].firmware: 'new' is not a version; expected one like "1.52"
+bench.yaml:8: lines.a.stations[0].firmware: 'new' is not a version; expected one with two decimals, like "1.52"
 bench.yaml:8: lines.a.stations[0].set.Aaxis_Speed: 'fast' is not possible; expected a whole number from -2147483648 to 4294967295
 bench.yaml:9: lines.a.stations[1].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'
 bench.yaml:10: lines.a.stations[2]: address 1 is taken on this line; expected another
@@ -116,7 +116,7 @@ lines:
         program: "END\nNONSENSE\n"
 )"),
       R"(bench.yaml:7:19: lines.a.stations[0].firmware: '1.43' is unknown for simple2-r3; expected one of 1.39, 1.40, 1.41, 1.42, 1.50, 1.51, 1.52
-bench.yaml:8:18: lines.a.stations[0].modules: 3 is not possible: simple2-r3 has no modules; expected none
+bench.yaml:8:18: lines.a.stations[0].modules: '3' is not possible; expected none, as simple2-r3 has no modules
 bench.yaml:10:26: lines.a.stations[0].set.Aaxis_AccTime: 3001 is out of range; expected 0 to 3000
 bench.yaml:12:20: lines.a.stations[0].set.HW_Code: cannot be written; it is read-only
 bench.yaml:13:23: lines.a.stations[0].set.Aaxis_Sped: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'
@@ -137,7 +137,7 @@ TEST(AllDiagnostics, OfAChainWhateverItsLengthIs) {
       ".set.NOTHING: is not a parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
   EXPECT_EQ(diagnostic(bench + "8" + more), "bench.yaml:4: devices.r" + nothing);
   EXPECT_EQ(diagnostic(bench + "9" + more),
-            "bench.yaml:4: devices.r.modules: 9 is not possible: slim has 1 to 8 of them\n"
+            "bench.yaml:4: devices.r.modules: '9' is not possible; expected 1 to 8\n"
             "bench.yaml:4: devices.r" +
                 nothing);
   EXPECT_EQ(diagnostic(bench + "many" + more),
@@ -163,7 +163,7 @@ faults:
 )"),
             R"(bench.yaml:6: lines.a.stations[1]: address 2 is taken on this line; expected another
 bench.yaml:6: lines.a.stations[1].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'
-bench.yaml:6: lines.a.stations[1].firmware: 'new' is not a version; expected one like "1.52"
+bench.yaml:6: lines.a.stations[1].firmware: 'new' is not a version; expected one with two decimals, like "1.52"
 bench.yaml:6: lines.a.stations[1].modules: 'many' is not possible; expected a whole number from 1 to 255
 bench.yaml:6: lines.a.stations[1].nv: is empty; expected a path
 bench.yaml:7: lines.a.stations[1].set.P: 'fast' is not a number; expected one

@@ -66,14 +66,12 @@ TEST(BenchErrors, AFileThatIsNoYaml) {
 TEST(BenchErrors, TheFormatsVersion) {
   expect_diagnostics({
       {kLines, "1: bench: 'understudy' is missing; expected it here"},
-      {"understudy: 2\n" + kLines, "1: understudy: '2' is not possible; expected a whole number from 1 to 1"},
-      {"understudy: one\n" + kLines,
-       "1: understudy: 'one' is not possible; expected a whole number from 1 to 1"},
+      {"understudy: 2\n" + kLines, "1: understudy: '2' is not possible; expected 1"},
+      {"understudy: one\n" + kLines, "1: understudy: 'one' is not possible; expected 1"},
       {"understudy: [1]\n" + kLines, "1: understudy: expected a word or a number"},
-      {"understudy: 1.0\n" + kLines,
-       "1: understudy: '1.0' is not possible; expected a whole number from 1 to 1"},
+      {"understudy: 1.0\n" + kLines, "1: understudy: '1.0' is not possible; expected 1"},
       {"understudy: 99999999999999999999\n" + kLines,
-       "1: understudy: '99999999999999999999' is not possible; expected a whole number from 1 to 1"},
+       "1: understudy: '99999999999999999999' is not possible; expected 1"},
   });
 }
 
@@ -200,7 +198,8 @@ TEST(BenchErrors, Stations) {
        at + ".name: 'x y' is not a name; expected letters, digits, _ and -"},
       {with_station("{ name: '', model: simple2-r3 }"),
        at + ".name: '' is not a name; expected letters, digits, _ and -"},
-      {with("firmware: 1.5"), at + ".firmware: '1.5' is not a version; expected one like \"1.52\""},
+      {with("firmware: 1.5"),
+       at + ".firmware: '1.5' is not a version; expected one with two decimals, like \"1.52\""},
       {with("firmware: 1.43"), at +
                                    ".firmware: '1.43' is unknown for simple2-r3; expected one of 1.39, 1.40, "
                                    "1.41, 1.42, 1.50, 1.51, 1.52"},

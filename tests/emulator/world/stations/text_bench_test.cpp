@@ -91,10 +91,10 @@ TEST(TextBench, WhatSuchADeviceCannotBeIsToldWithItsLine) {
   EXPECT_EQ(refusal(with(robot + ", address: 1 }\n")),
             "b.yaml:5: lines.a.stations[0].address: echo-box has no station number; expected none");
   EXPECT_EQ(refusal(with(robot + ", modules: 9 }\n")),
-            "b.yaml:5: lines.a.stations[0].modules: 9 is not possible: echo-box has 1 to 8 of them");
+            "b.yaml:5: lines.a.stations[0].modules: '9' is not possible; expected 1 to 8");
   EXPECT_EQ(refusal(with(feeder + ", modules: 2 }\n")),
-            "b.yaml:5: lines.a.stations[0].modules: 2 is not possible: simple2-r3 has no modules; expected "
-            "none");
+            "b.yaml:5: lines.a.stations[0].modules: '2' is not possible; expected none, as simple2-r3 has "
+            "no modules");
   EXPECT_EQ(refusal(with(robot + ", set: { N0: 40000 } }\n")),
             "b.yaml:5: lines.a.stations[0].set.N0: is out of range; expected -32768 to 32767");
   EXPECT_EQ(refusal(with(robot + ", set: { N0: fast } }\n")),
