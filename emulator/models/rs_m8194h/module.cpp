@@ -65,7 +65,7 @@ void Module::sample_inputs(Tick tick, bool inputs_changed) {
 }
 
 void Module::update_outputs(Tick tick) {
-  if (machine_.pause_holds_axes && !state_.paused) stops.resume();
+  if (machine_options().pause_holds_axes && !state_.paused) stops.resume();
   stops.start_held();
   // Macros first; what they leave of the tick is the FIFO's.
   programs.run_tick(tick);
@@ -78,7 +78,7 @@ void Module::update_outputs(Tick tick) {
 /// Returns true if nothing at all happens, except for FRnet and what waits to be stored.
 bool Module::rests() const {
   if (status.changes() || state_.touched || !queue.is_empty() || state_.fifo.stop_wait != 0) return false;
-  if (state_.steps_left != options_.steps_a_tick || !state_.marks.empty()) return false;
+  if (state_.steps_left != language_options().steps_a_tick || !state_.marks.empty()) return false;
   return !programs.is_alive() && triggers.is_empty() && motion_step.rests();
 }
 
@@ -94,7 +94,7 @@ Tick Module::next_active_tick(Tick done) const {
 
 Tick Module::next_event_tick(Tick done, Tick max, const ClearTravel& ahead) const {
   const bool is_simple =
-      !state_.touched && state_.marks.empty() && state_.steps_left == options_.steps_a_tick;
+      !state_.touched && state_.marks.empty() && state_.steps_left == language_options().steps_a_tick;
   if (!is_simple || status.is_resetting() || programs.is_alive() || !triggers.is_empty()) return done + 1;
   Tick last = std::min(max, state_.eeprom.next_active_tick() - 1);
   last = std::min(last, frnet.next_active_tick(done) - 1);
@@ -110,6 +110,10 @@ void Module::prefetch() const {
     prefetch_line(&state_.environment[a]);
     prefetch_line(&state_.units[a].sent_pulses);
   }
+  const auto* const first_part = reinterpret_cast<const char*>(&memory);
+  understudy::prefetch(first_part, reinterpret_cast<const char*>(&programs) + kCacheLine - first_part);
+  prefetch_line(&queue);
+  prefetch_line(&triggers);
   prefetch_line(&state_.sync);
   prefetch_line(&state_.paths.together.engaged);
   prefetch_line(&state_.fifo);

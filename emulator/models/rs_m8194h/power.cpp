@@ -52,7 +52,7 @@ void Module::power_up() {
   state_.powered_at = now();
   state_.at_init = input(kInitSwitch) != 0;
   status.pass(kInitialised);
-  state_.steps_left = options_.steps_a_tick;
+  state_.steps_left = language_options().steps_a_tick;
   for (std::size_t a = 0; a < kAxes; ++a) external.take_levels(a);
   chip.pass_pins(now());
   chip.pass_all_pins();
@@ -100,7 +100,7 @@ void Module::reset_card() {
 
 void Module::load_initial() {
   for (std::size_t a = 0; a < kAxes; ++a) {
-    apply_basic(chip.unit(a), chip.motor(a), state_.initial_table[a], machine_.axis);
+    apply_basic(chip.unit(a), chip.motor(a), state_.initial_table[a], machine_options().axis);
     external.set(a, motion::ExternalDrive::Mode::off, 0);
     chip.rearm(a);
   }

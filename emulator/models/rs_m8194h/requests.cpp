@@ -163,7 +163,7 @@ DeviceAnswer Requests::admits(const RegisterRequest& request, Checked checked,
         return answer_of(*this, lang::Fault::no_module);
     }
   }
-  if (checked == Checked::everything && options_.command.variables_have_ends &&
+  if (checked == Checked::everything && language_options().command.variables_have_ends &&
       writes_beyond(request, module_.memory.low_word_first())) {
     return answer_of(*this, lang::Fault::parameter);
   }
@@ -173,7 +173,7 @@ DeviceAnswer Requests::admits(const RegisterRequest& request, Checked checked,
     return answer_of(*this, lang::Fault::real_time_in_macro);
   }
   if (takes_whole(request)) return admits_whole(request, checked);
-  if (is_downloading && is_table && machine_.table_writes_become_lines) return admits_lines(request);
+  if (is_downloading && is_table && machine_options().table_writes_become_lines) return admits_lines(request);
   const int commands = commands_of(request);
   if (commands == 0) return Refusal::none;
   if (is_downloading && !chose(option("table_writes", "all_allowed"))) {
@@ -199,7 +199,7 @@ DeviceAnswer Requests::admits_lines(const RegisterRequest& request) const {
 }
 
 bool Requests::diverts(const Place& place, std::uint32_t bits) {
-  if (!module_.programs.is_downloading() || !machine_.table_writes_become_lines) return false;
+  if (!module_.programs.is_downloading() || !machine_options().table_writes_become_lines) return false;
   const auto line = line_at(place.row->table, place.address(), bits);
   if (!line) return false;
   module_.programs.add_line(*line);
@@ -214,10 +214,10 @@ void Requests::read_answered(const RegisterRequest& request) {
     const std::size_t address = request.first + i;
     const auto is_in = [&](const Addresses& some) { return some.has(request.table, address); };
     if (is_in(kReasonWord) && chose(option("reason_lasts", "until_it_is_read"))) state_.illegal_reason = 0;
-    if (is_in(kFactorWords) && machine_.factors_clear_by_reading) {
+    if (is_in(kFactorWords) && machine_options().factors_clear_by_reading) {
       interrupts.factor_axes[address - kFactorWords.first] = 0;
     }
-    if (!machine_.rint_clears_by_reading) continue;
+    if (!machine_options().rint_clears_by_reading) continue;
     if (is_in(kRintWord)) interrupts.rint = 0;
     if (is_in(kRintBits)) interrupts.rint &= static_cast<std::uint8_t>(~(1U << (address - kRintBits.first)));
   }

@@ -55,7 +55,8 @@ DeviceAnswer Requests::admits_whole(const RegisterRequest& request, Checked chec
   if (request.table == Table::coil || checked != Checked::everything) return Refusal::none;
   const std::uint32_t number = number_in(request, module_.memory.low_word_first());
   if (number > UINT16_MAX && !lang::is_variable(number)) return answer_of(*this, lang::Fault::parameter);
-  if (!module_.programs.is_downloading() || !machine_.table_writes_become_lines) return Refusal::none;
+  if (!module_.programs.is_downloading() || !machine_options().table_writes_become_lines)
+    return Refusal::none;
   const lang::Command line = group_line(request.first, number);
   const lang::Fault not_here = lang::why_not_now(line.code, module_.programs.state().rsm);
   if (not_here != lang::Fault::none) return answer_of(*this, not_here);
@@ -84,7 +85,7 @@ DeviceAnswer Requests::take_whole(const RegisterRequest& request) {
 
 /// A number, or a variable that stands for it.
 void Requests::write_group(std::size_t group, std::uint32_t number) {
-  if (module_.programs.is_downloading() && machine_.table_writes_become_lines) {
+  if (module_.programs.is_downloading() && machine_options().table_writes_become_lines) {
     module_.programs.add_line(group_line(group, number));
     return;
   }

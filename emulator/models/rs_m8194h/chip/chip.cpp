@@ -36,7 +36,7 @@ double Chip::speed_pps(std::size_t axis) const {
 }
 
 motion::SpeedLaw Chip::law_of(std::size_t axis) const {
-  return rs_m8194h::law_of(state_.units[axis], machine_.speed);
+  return rs_m8194h::law_of(state_.units[axis], machine_options().speed);
 }
 
 bool Chip::is_active(std::size_t axis, motion::Signal signal) const {
@@ -62,14 +62,14 @@ std::uint16_t Chip::error_code(std::size_t axis) const {
 
 void Chip::connect_encoder(std::size_t axis, std::int64_t counts) {
   AxisUnit& unit = state_.units[axis];
-  unit.encoder_raw = counts * machine_.edges_per_encoder_count;  // EP counts from here
+  unit.encoder_raw = counts * machine_options().edges_per_encoder_count;  // EP counts from here
   if (unit.has_encoder) unit.encoder_zero = unit.encoder_raw;
   set_encoder(axis, counts);
 }
 
 void Chip::set_encoder(std::size_t axis, std::int64_t counts) {
   const bool is_first = !state_.units[axis].has_encoder;
-  tell_encoder(state_.units[axis], state_.motors[axis], counts * machine_.edges_per_encoder_count);
+  tell_encoder(state_.units[axis], state_.motors[axis], counts * machine_options().edges_per_encoder_count);
   if (is_first) rearm(axis);
 }
 
@@ -105,7 +105,7 @@ void Chip::blank_axis(std::size_t axis, const BasicSettings& basic) {
   set_logic_position(blank, motor, 0, true);
   set_absolute_position(blank, motor, 0, true);
   set_encoder_position(blank, motor, 0, true);
-  apply_basic(blank, motor, basic, machine_.axis);
+  apply_basic(blank, motor, basic, machine_options().axis);
 }
 
 void Chip::blank(const std::array<BasicSettings, kAxes>& basic) {
@@ -124,7 +124,7 @@ void Chip::blank(const std::array<BasicSettings, kAxes>& basic) {
 }
 
 void Chip::keep_counters_of(const ChipState& before) {
-  const bool ring_folds = machine_.axis.ring_folds;
+  const bool ring_folds = machine_options().axis.ring_folds;
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = state_.units[a];
     motion::Axis& motor = state_.motors[a];

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <memory>
 
 #include "base/simulated_time.h"
 #include "emulator/device/machine_edges.h"
@@ -114,7 +114,9 @@ class Chip final : public Part {
   void blank_axis(std::size_t axis, const BasicSettings& basic);
 
   ChipState& state_;
-  std::array<MachineEdges, kAxes> edges_{};  // not state: set again after a restore
+  // Not state: set again after a restore. Apart, because a tick reads it only when an input has changed.
+  const std::unique_ptr<std::array<MachineEdges, kAxes>> edges_ =
+      std::make_unique<std::array<MachineEdges, kAxes>>();
 };
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -21,10 +21,11 @@ void Interrupts::check_factors(std::size_t axis, motion::Events events, Tick tic
     const bool is_asked = (unit.factors >> i & 1) != 0;
     if ((events & motion::bit(kFactorEvents[i])) == 0) continue;
     if (is_asked && (is_noted_always || state_.interrupts)) note_factor(axis, static_cast<Factor>(i));
-    if (machine_.all_factors_are_noted) note_factor(axis, static_cast<Factor>(i));
+    if (machine_options().all_factors_are_noted) note_factor(axis, static_cast<Factor>(i));
     if (!is_asked || !state_.interrupts) continue;
     constexpr std::int64_t kMax = kMaxMarks;
-    const bool is_counted = machine_.each_pulse_is_an_event && kFactorEvents[i] == motion::Event::pulse;
+    const bool is_counted =
+        machine_options().each_pulse_is_an_event && kFactorEvents[i] == motion::Event::pulse;
     const std::int64_t times = is_counted ? std::min(std::abs(pulses), kMax) : 1;
     for (std::int64_t k = 0; k < times; ++k) mark_isr(axis, static_cast<std::uint8_t>(i), tick);
   }
@@ -50,10 +51,11 @@ void Interrupts::note_enabled(std::size_t axis, std::uint8_t source, bool is_on)
 
 void Interrupts::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
   const auto is_same = [&](const IsrMark& mark) { return mark.axis == axis && mark.source == source; };
-  const bool is_lost = !options_.isr_requests_are_counted || state_.marks.size() >= kMaxMarks;
+  const bool is_lost = !language_options().isr_requests_are_counted || state_.marks.size() >= kMaxMarks;
   if (is_lost && std::any_of(state_.marks.begin(), state_.marks.end(), is_same)) return;
   IsrMark made{.tick = tick, .axis = static_cast<std::uint8_t>(axis), .source = source};
-  const bool needs_number = options_.isrs_are_bound_at_the_event || options_.isrs_go_by_number;
+  const bool needs_number =
+      language_options().isrs_are_bound_at_the_event || language_options().isrs_go_by_number;
   if (needs_number) made.number = static_cast<std::uint8_t>(bound_isr(made));
   const auto& enabled = state_.enabled;
   const auto turn_of = [&](const IsrMark& mark) {
@@ -61,14 +63,14 @@ void Interrupts::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
            enabled.begin();
   };
   const auto is_before = [&](const IsrMark& one, const IsrMark& other) {
-    if (options_.isrs_go_by_enabling) {
+    if (language_options().isrs_go_by_enabling) {
       return std::tuple(one.tick, turn_of(one), one) < std::tuple(other.tick, turn_of(other), other);
     }
-    if (options_.isrs_go_by_number) {
+    if (language_options().isrs_go_by_number) {
       return std::tie(one.tick, one.number, one.axis, one.source) <
              std::tie(other.tick, other.number, other.axis, other.source);
     }
-    if (!options_.isrs_go_by_factor) return one < other;
+    if (!language_options().isrs_go_by_factor) return one < other;
     return std::tie(one.tick, one.source, one.axis) < std::tie(other.tick, other.source, other.axis);
   };
   state_.marks.insert(std::upper_bound(state_.marks.begin(), state_.marks.end(), made, is_before), made);
@@ -82,7 +84,7 @@ void Interrupts::call(int number) {
 }
 
 bool Interrupts::is_due() const {
-  return !state_.marks.empty() && state_.marks.front().tick + options_.isr_delay_ticks <= now();
+  return !state_.marks.empty() && state_.marks.front().tick + language_options().isr_delay_ticks <= now();
 }
 
 IsrMark Interrupts::take_mark() {
@@ -92,7 +94,7 @@ IsrMark Interrupts::take_mark() {
 }
 
 int Interrupts::isr_of(const IsrMark& mark) const {
-  return options_.isrs_are_bound_at_the_event ? mark.number : bound_isr(mark);
+  return language_options().isrs_are_bound_at_the_event ? mark.number : bound_isr(mark);
 }
 
 /// Returns what a mark calls, by what is bound and enabled now; 0: nothing.

@@ -68,7 +68,7 @@ std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin, const M
 }  // namespace
 
 bool Chip::is_filtered(std::size_t axis, Pin pin) const {
-  return filter_ticks(state_.units[axis], static_cast<int>(pin), machine_) > 0;
+  return filter_ticks(state_.units[axis], static_cast<int>(pin), machine_options()) > 0;
 }
 
 bool Chip::is_filtering(std::size_t axis) const {
@@ -91,17 +91,18 @@ void Chip::pass_pins(Tick tick) {
         unit.pins.since[static_cast<std::size_t>(i)] = tick;
       }
       const bool differs = ((unit.pins.raw ^ unit.pins.passed) & bit) != 0;
-      if (differs && tick - unit.pins.since[static_cast<std::size_t>(i)] >= filter_ticks(unit, i, machine_)) {
+      if (differs &&
+          tick - unit.pins.since[static_cast<std::size_t>(i)] >= filter_ticks(unit, i, machine_options())) {
         unit.pins.passed ^= bit;
       }
     }
   }
-  const bool is_emergency = (input(kEmergencyPin) != 0) != machine_.emergency_while_off;
+  const bool is_emergency = (input(kEmergencyPin) != 0) != machine_options().emergency_while_off;
   if (is_emergency != state_.emergency_input) state_.emergency_since = tick;
   state_.emergency_input = is_emergency;
   // Each axis has its own filter for it, that of its limits and home.
   for (AxisUnit& unit : state_.units) {
-    const Tick delay = filter_ticks(unit, static_cast<int>(Pin::limit_plus), machine_);
+    const Tick delay = filter_ticks(unit, static_cast<int>(Pin::limit_plus), machine_options());
     if (tick - state_.emergency_since >= delay) unit.emergency = is_emergency;
   }
   state_.holds_back = false;
@@ -119,10 +120,10 @@ void Chip::pass_all_pins() {
 /// Where an input changes with the place, the motor meets zones; else its level.
 void Chip::update_environment(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
-  const MachineEdges& edges = edges_[axis];
+  const MachineEdges& edges = (*edges_)[axis];
   motion::Environment found;
   for (const PinFunction& function : kFunctions) {
-    const auto active = active_while_on(unit.basic, function.pin, machine_);
+    const auto active = active_while_on(unit.basic, function.pin, machine_options());
     if (!active) continue;
     const int number = terminal(axis, function.pin);
     const bool delays = is_filtered(axis, function.pin);
@@ -144,7 +145,7 @@ void Chip::update_environment(std::size_t axis) {
   }
   found.set_steady(motion::Signal::emergency, unit.emergency);
   auto machine = edges.encoder.as<motion::EncoderLine>();
-  machine.factor = machine_.edges_per_encoder_count;
+  machine.factor = machine_options().edges_per_encoder_count;
   if (machine.is_known()) found.encoder = encoder_line(unit, machine);
   motion::Environment& environment = state_.environment[axis];
   found.version = environment.version;
@@ -157,7 +158,7 @@ void Chip::rearm(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
   motion::Events asked = state_.sync.triggers[axis].factors;
   for (std::size_t i = 0; i < kIsrFactors; ++i) {
-    const bool is_asked = machine_.all_factors_are_noted || (unit.factors >> i & 1) != 0;
+    const bool is_asked = machine_options().all_factors_are_noted || (unit.factors >> i & 1) != 0;
     if (is_asked) asked |= motion::bit(kFactorEvents[i]);
   }
   // A scan has C+ for itself (7.4.12).
@@ -165,7 +166,7 @@ void Chip::rearm(std::size_t axis) {
   constexpr motion::Events kOfPlus =
       motion::bit(motion::Event::comparator_0) | motion::bit(motion::Event::comparator_1);
   if (scan.set) asked &= static_cast<motion::Events>(~kOfPlus);
-  arm(unit, state_.motors[axis], asked, machine_.axis);
+  arm(unit, state_.motors[axis], asked, machine_options().axis);
   update_environment(axis);
 }
 
@@ -174,7 +175,7 @@ void Chip::rearm_all() {
 }
 
 void Chip::set_edges(std::size_t axis, const MachineEdges& edges) {
-  edges_[axis] = edges;
+  (*edges_)[axis] = edges;
   update_environment(axis);
 }
 

@@ -58,7 +58,8 @@ void Scans::step(Tick tick) {
     if (!scan.running) continue;
     const std::int64_t passed = std::abs(travel(a) - scan.begin) / spacing(scan);
     if (passed > scan.triggered) {
-      const std::int64_t most = machine_.all_scan_triggers_are_given ? INT64_MAX : kMaxTriggersOfATick;
+      const std::int64_t most =
+          machine_options().all_scan_triggers_are_given ? INT64_MAX : kMaxTriggersOfATick;
       const std::int64_t given = std::min(passed - scan.triggered, most);
       chip_.give_pulse(a, tick, given);
       scan.triggered = passed;
@@ -109,7 +110,7 @@ std::int64_t Scans::travel(std::size_t axis) const {
 }
 
 std::int64_t Scans::spacing(const LineScan& scan) const {
-  const bool is_as_printed = machine_.pitch_is_distance && scan.pitch > 0;
+  const bool is_as_printed = machine_options().pitch_is_distance && scan.pitch > 0;
   return std::max<std::int64_t>(std::abs(std::int64_t{scan.pitch}) + (is_as_printed ? 0 : 1), 1);
 }
 

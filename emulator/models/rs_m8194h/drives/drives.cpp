@@ -100,7 +100,7 @@ bool Drives::takes_place_of_endless(std::size_t axis, const Drive& what) {
     AxisUnit& unit = chip_.unit(axis);
     const auto drive_pps = static_cast<std::uint32_t>(std::abs(std::int64_t{what.value}));
     if (chose(option("continue_move_speed", "yes"))) unit.speed.drive_pps = drive_pps;
-    motor.change_speed(law_at(unit, drive_pps, machine_.speed), now());
+    motor.change_speed(law_at(unit, drive_pps, machine_options().speed), now());
   } else {
     motor.slow_down(now());
     chip_.unit(axis).held_drive = what;
@@ -123,7 +123,7 @@ void Drives::start(std::size_t axis, const Drive& what, bool without_ramps) {
   motion::SpeedLaw law = chip_.law_of(axis);
   if (what.what == Drive::What::endless) {
     const auto drive_pps = static_cast<std::uint32_t>(std::abs(distance));
-    law = law_at(unit, drive_pps, machine_.speed);
+    law = law_at(unit, drive_pps, machine_options().speed);
     if (chose(option("continue_move_speed", "yes"))) unit.speed.drive_pps = drive_pps;
   }
   if (without_ramps) law.start_speed_u_s = law.top_speed_u_s;
@@ -134,7 +134,7 @@ void Drives::start(std::size_t axis, const Drive& what, bool without_ramps) {
     const HomingOptions options{.fails_at_limit_in_step_1 = chose(option("home_step_1_limit", "fails")),
                                 .limit_is_near_home = chose(option("home_limit", "home_and_near_home")),
                                 .turns_at_soft_limits = chose(option("home_soft_limit", "turns_round"))};
-    refused = motor.home(homing_of(unit, machine_.speed, options), now());
+    refused = motor.home(homing_of(unit, machine_options().speed, options), now());
   } else if (what.what == Drive::What::endless) {
     refused = motor.run(direction, law, now());
   } else {
@@ -146,7 +146,7 @@ void Drives::start(std::size_t axis, const Drive& what, bool without_ramps) {
     return;
   }
   forget_errors(axis);
-  if (motor.homing.active() && !machine_.axis.homing_obeys_soft_limits) chip_.rearm(axis);
+  if (motor.homing.active() && !machine_options().axis.homing_obeys_soft_limits) chip_.rearm(axis);
   if (what.what == Drive::What::scan) scans_.begin(axis, distance);
 }
 

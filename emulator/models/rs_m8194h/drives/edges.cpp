@@ -75,7 +75,7 @@ void Edges::act_together(motion::SharedTick& tick, std::size_t trigger, motion::
                                                                     : unit.logic.at(latch.travel_pulses));
     }
     const auto preset = static_cast<std::int32_t>(action.preset_value);
-    const bool ring_folds = machine_.axis.ring_folds;
+    const bool ring_folds = machine_options().axis.ring_folds;
     if (has(outcome.presets_command, a))
       set_count(unit.logic, unit.basic, preset, latch.travel_pulses, ring_folds);
     if (has(outcome.presets_encoder, a)) set_count(unit.encoder, unit.basic, preset, encoder, ring_folds);

@@ -108,15 +108,15 @@ motion::Events Edges::on_axis_end(std::size_t axis, motion::Events events) {
   constexpr motion::Events kConstant =
       motion::bit(motion::Event::constant_started) | motion::bit(motion::Event::constant_ended);
   const bool has_ramps = motor.law.start_speed_u_s < motor.law.top_speed_u_s;
-  if (!machine_.constant_drives_have_c_sta && !has_ramps) {
+  if (!machine_options().constant_drives_have_c_sta && !has_ramps) {
     events &= static_cast<motion::Events>(~kConstant);
   }
   if ((events & motion::bit(motion::Event::ended)) == 0) return events;
   motion::Cause cause = motor.cause;
   if (cause != motion::Cause::arrived && cause != motion::Cause::stopped)
     drives_.take_off(axis, WayOut::cause);
-  if (!machine_.axis.homing_obeys_soft_limits) chip_.rearm(axis);
-  if (!machine_.d_end_after_stops && cause != motion::Cause::arrived && !homed) {
+  if (!machine_options().axis.homing_obeys_soft_limits) chip_.rearm(axis);
+  if (!machine_options().d_end_after_stops && cause != motion::Cause::arrived && !homed) {
     events &= static_cast<motion::Events>(~motion::bit(motion::Event::ended));
   }
   if (cause == motion::Cause::homing_failed) {

@@ -149,7 +149,7 @@ void External::set(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint
   if (mode == Mode::continuous) {
     // Another speed of what runs, which its input still stops.
     motion::SpeedLaw law = motor.law;
-    law.top_speed_u_s = law_at(unit, data, machine_.speed).top_speed_u_s;
+    law.top_speed_u_s = law_at(unit, data, machine_options().speed).top_speed_u_s;
     law.start_speed_u_s = std::min(law.start_speed_u_s, law.top_speed_u_s);
     motor.change_speed(law, now());
     return;

@@ -22,7 +22,7 @@ bool Drives::is_obstructed(std::size_t axis, Obstacle obstacle, bool on_path) co
       return unit.path_locked && (on_path || chose(option("v_lock_scope", "every_drive_of_these_axes")));
     case Obstacle::emergency_input: return chip_.is_active(axis, motion::Signal::emergency);
     case Obstacle::alarm: return chip_.is_active(axis, motion::Signal::alarm);
-    case Obstacle::servo_off: return machine_.drives_need_servo && !unit.basic.servo;
+    case Obstacle::servo_off: return machine_options().drives_need_servo && !unit.basic.servo;
     case Obstacle::hold: return unit.held;
   }
   return false;
@@ -88,7 +88,7 @@ bool Drives::holds_a_drive(AxisMask axes) const {
 }
 
 bool Drives::lacks_speed(std::size_t axis, Drive::What what) const {
-  if (!machine_.zero_speeds_drive_nothing || what == Drive::What::endless) return false;
+  if (!machine_options().zero_speeds_drive_nothing || what == Drive::What::endless) return false;
   const AxisUnit& unit = chip_.unit(axis);
   return unit.speed.drive_pps == 0 || (what == Drive::What::home && unit.homing.home_pps == 0);
 }

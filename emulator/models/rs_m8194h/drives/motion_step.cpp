@@ -49,7 +49,7 @@ void MotionStep::step_axes(Tick tick) {
   if (was_engaged) streams_.forget_done();
   for (std::size_t a = 0; a < kAxes; ++a) {
     chip_.unit(a).sent_pulses = pulses[a];
-    if (!machine_.axis.ring_folds && is_beyond_ring(chip_.unit(a))) {
+    if (!machine_options().axis.ring_folds && is_beyond_ring(chip_.unit(a))) {
       enter_ring(chip_.unit(a), chip_.motor(a));
       if (!is_beyond_ring(chip_.unit(a))) chip_.rearm(a);
     }
@@ -60,7 +60,7 @@ void MotionStep::step_axes(Tick tick) {
 
 /// C-STA and C-END of a path, for its axis1.
 void MotionStep::on_path_speed(Tick tick) {
-  if (!machine_.paths_have_c_sta) return;
+  if (!machine_options().paths_have_c_sta) return;
   Paths& paths = chip_.paths();
   const motion::Sample along = paths.together.engaged ? paths.together.run.sample(tick) : motion::Sample{};
   const bool is_constant = along.speed_u_s > 0 && along.acceleration_u_s2 == 0;

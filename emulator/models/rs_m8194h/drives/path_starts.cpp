@@ -118,7 +118,7 @@ Start PathStarts::may_begin(const HeldPath& path) {
   if (outcome == Start::waits || chip_.paths().together.engaged) return Start::waits;
   const bool is_single = row_of_path(path.command.verb()).runs == Paths::Runs::single;
   const bool has_no_speed = is_single && chip_.paths().vector.drive_pps == 0;
-  return has_no_speed && machine_.zero_speeds_drive_nothing ? Start::is_void : outcome;
+  return has_no_speed && machine_options().zero_speeds_drive_nothing ? Start::is_void : outcome;
 }
 
 Took PathStarts::hold(const HeldPath& path) {
@@ -160,7 +160,8 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
   }
   paths.open = is_stream && !is_last;
   if (is_stream && !goes_on) interrupts_.clear(Rint::stream);
-  const bool begins_to_slow_down = !machine_.last_ramp_is_in_last_segment || paths.together.run.queued() < 2;
+  const bool begins_to_slow_down =
+      !machine_options().last_ramp_is_in_last_segment || paths.together.run.queued() < 2;
   if (joins && is_last && begins_to_slow_down) paths.together.run.set_open(false, now());
 }
 

@@ -30,7 +30,7 @@ void Stops::leave_path(std::size_t axis, Halt halt) {
   unit.error_code |= std::exchange(unit.met, std::uint16_t{0});
   motion::Axis& motor = chip_.motor(axis);
   const auto drive_pps = static_cast<std::uint32_t>(std::ceil(std::abs(speed_pps)));
-  const motion::SpeedLaw law = law_at(chip_.unit(axis), drive_pps, machine_.speed);
+  const motion::SpeedLaw law = law_at(chip_.unit(axis), drive_pps, machine_options().speed);
   const motion::Events before = motor.events_between;
   const bool slows = halt == Halt::slows && std::abs(speed_pps) > law.start_speed_u_s;
   if (slows && motor.move_on(speed_pps, speed_pps < 0 ? -1 : +1, law, now()) == motion::Cause::none) {

@@ -81,9 +81,9 @@ void Streams::on_path_end(bool was_full) {
   Paths& paths = chip_.paths();
   const bool in_stream = paths.together.engaged && paths.runs == Paths::Runs::stream;
   const bool has_room = in_stream && paths.open && paths.together.run.queued() < 2;
-  if (machine_.a_segment_may_come_sets_rint && was_full && has_room) interrupts_.raise(Rint::stream);
+  if (machine_options().a_segment_may_come_sets_rint && was_full && has_room) interrupts_.raise(Rint::stream);
   // The last segment has begun.
-  const bool is_last = machine_.last_ramp_is_in_last_segment && in_stream && !paths.open &&
+  const bool is_last = machine_options().last_ramp_is_in_last_segment && in_stream && !paths.open &&
                        paths.together.run.open() && paths.together.run.queued() < 2;
   if (is_last) paths.together.run.set_open(false, now());
   if (paths.together.engaged || paths.runs == Paths::Runs::nothing) return;
@@ -110,7 +110,7 @@ motion::SpeedLaw Streams::law_to_slow_down() const {
   const Paths& paths = chip_.paths();
   motion::SpeedLaw law = paths.together.run.speed();
   const bool has_no_ramps = law.start_speed_u_s >= law.top_speed_u_s;
-  if (paths.together.engaged && has_no_ramps && machine_.constant_paths_slow_down) {
+  if (paths.together.engaged && has_no_ramps && machine_options().constant_paths_slow_down) {
     const bool is_stream = paths.runs == Paths::Runs::stream;
     const std::uint32_t start_pps =
         is_stream ? paths.streams[static_cast<std::size_t>(paths.stream)].start_pps : paths.vector.start_pps;

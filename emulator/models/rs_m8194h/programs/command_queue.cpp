@@ -22,12 +22,12 @@ int CommandQueue::blocks_of(const lang::Command& command) const {
   constexpr lang::Verb kHolds[] = {lang::Verb::drv_hold, lang::Verb::drv_start, lang::Verb::clear_stop,
                                    lang::Verb::clear_vstop};
   const bool is_hold = std::find(std::begin(kHolds), std::end(kHolds), command.verb()) != std::end(kHolds);
-  if (is_hold && machine_.holds_are_at_once) return 0;
-  if (command.verb() == lang::Verb::isr_call && machine_.isr_calls_are_at_once) return 0;
+  if (is_hold && machine_options().holds_are_at_once) return 0;
+  if (command.verb() == lang::Verb::isr_call && machine_options().isr_calls_are_at_once) return 0;
   const bool waits = row.use.real_time == lang::RealTime::queued ||
-                     (machine_.stops_wait && row.use.real_time == lang::RealTime::stop);
+                     (machine_options().stops_wait && row.use.real_time == lang::RealTime::stop);
   if (!waits) return 0;
-  return machine_.one_block_each ? 1 : row.cost;
+  return machine_options().one_block_each ? 1 : row.cost;
 }
 
 int CommandQueue::free_blocks() const {
@@ -73,11 +73,12 @@ void CommandQueue::drop_first() {
 
 /// While a macro lives, or a trigger has paused everything, nothing begins.
 bool CommandQueue::is_held() const {
-  if (programs_.is_alive() && !machine_.fifo_goes_on_beside_macros) return true;
-  if ((programs_.state().paused && machine_.pause_holds_fifo) || status_.is_resetting()) return true;
+  if (programs_.is_alive() && !machine_options().fifo_goes_on_beside_macros) return true;
+  if ((programs_.state().paused && machine_options().pause_holds_fifo) || status_.is_resetting()) return true;
   const Paths& paths = chip_.paths();
-  if (paths.together.engaged && paths.runs == Paths::Runs::helix && machine_.helix_is_macro) return true;
-  return machine_.fifo_waits_for_download && programs_.is_downloading();
+  if (paths.together.engaged && paths.runs == Paths::Runs::helix && machine_options().helix_is_macro)
+    return true;
+  return machine_options().fifo_waits_for_download && programs_.is_downloading();
 }
 
 void CommandQueue::run() {

@@ -30,7 +30,7 @@ void Frnet::write_bit(std::size_t group, std::size_t channel, bool is_on) {
 }
 
 bool Frnet::scans_at(Tick tick) const {
-  if (machine_.frnet_every_tick) return true;
+  if (machine_options().frnet_every_tick) return true;
   const Tick since = tick - state_.powered_at;
   if (since <= 0) return false;
   const Tick in_round = (since - 1) % kScanUnits + 1;  // as many ticks as a scan has units: whole scans

@@ -52,14 +52,16 @@ lang::Fault Programs::take_download(const lang::Decoded& decoded) {
     return lang::Fault::none;
   }
   if (decoded.fault != lang::Fault::none) {
-    lang::refuse(state_.download, code, decoded.fault, options_.download);
-    const bool shows_later = options_.download.faults_show_at_close && lang::is_download_error(decoded.fault);
+    lang::refuse(state_.download, code, decoded.fault, language_options().download);
+    const bool shows_later =
+        language_options().download.faults_show_at_close && lang::is_download_error(decoded.fault);
     return shows_later ? lang::Fault::none : decoded.fault;
   }
-  if (!decoded.command.row().closes()) return lang::add(state_.download, decoded.command, options_.download);
+  if (!decoded.command.row().closes())
+    return lang::add(state_.download, decoded.command, language_options().download);
   const lang::MacroName name = state_.download.name;
-  const lang::Closed closed = lang::close(state_.download, options_.download);
-  state_.downloaded = lang::status_of(state_.download, state_.downloaded, options_.download);
+  const lang::Closed closed = lang::close(state_.download, language_options().download);
+  state_.downloaded = lang::status_of(state_.download, state_.downloaded, language_options().download);
   state_.rsm = lang::State::ready;
   state_.download = kNoDownload;
   status_.pass(kDownloaded);
@@ -75,10 +77,12 @@ lang::Fault Programs::take_download(const lang::Decoded& decoded) {
 }
 
 bool Programs::has_room_for(int lines) const {
-  return lines <= lang::room_of(state_.download, options_.download);
+  return lines <= lang::room_of(state_.download, language_options().download);
 }
 
-void Programs::add_line(const lang::Command& line) { lang::add(state_.download, line, options_.download); }
+void Programs::add_line(const lang::Command& line) {
+  lang::add(state_.download, line, language_options().download);
+}
 
 // --- store ---------------------------------------------------------------------------------------------
 
@@ -113,7 +117,8 @@ const lang::TriggerTable& Programs::triggers() const {
 }
 
 std::vector<int> Programs::load(std::string_view text) {
-  const lang::ParsedListing parsed = lang::parse_listing(text, options_.command, options_.download);
+  const lang::ParsedListing parsed =
+      lang::parse_listing(text, language_options().command, language_options().download);
   if (!parsed.errors.empty()) throw ProgramError(mistakes_of(parsed.errors));
   for (const lang::ListedMacro& each : parsed.listing.macros) {
     lang::replaced(state_.execution, each.name, acts_on_);
@@ -149,16 +154,16 @@ std::string Programs::text() const {
 
 void Programs::run_tick(Tick tick) {
   const bool ran_isr = isr_runs();
-  state_.steps_left =
-      lang::run_tick(state_.execution, tick, options_.steps_a_tick, state_.paused, options_.run, acts_on_);
+  state_.steps_left = lang::run_tick(state_.execution, tick, language_options().steps_a_tick, state_.paused,
+                                     language_options().run, acts_on_);
   if (ran_isr && !isr_runs()) status_.pass(kIsrFinished);
-  if (machine_.fifo_goes_on_beside_macros) state_.steps_left = options_.steps_a_tick;
+  if (machine_options().fifo_goes_on_beside_macros) state_.steps_left = language_options().steps_a_tick;
 }
 
 void Programs::start_mp(int number) {
   interrupts_.clear(Rint::mp_completed);
   interrupts_.clear(Rint::module);
-  if (options_.run.missing_macro_is_error && !lang::has_lines({false, number}, acts_on_)) {
+  if (language_options().run.missing_macro_is_error && !lang::has_lines({false, number}, acts_on_)) {
     return report({.macro = {false, number},
                    .code = lang::real_time_code(Verb::mp_call),
                    .fault = lang::Fault::undefined_command});
@@ -166,8 +171,8 @@ void Programs::start_mp(int number) {
   const bool at_once = chose(option("first_line", "on_receipt"));
   lang::start_mp(state_.execution, number, at_once ? now() : now() + 1, acts_on_);
   if (!at_once || !mp_runs()) return;
-  state_.steps_left =
-      lang::run_tick(state_.execution, now(), state_.steps_left, state_.paused, options_.run, acts_on_);
+  state_.steps_left = lang::run_tick(state_.execution, now(), state_.steps_left, state_.paused,
+                                     language_options().run, acts_on_);
 }
 
 void Programs::terminate() {
@@ -191,13 +196,13 @@ int Programs::take_isr() {
     const IsrMark mark = interrupts_.take_mark();
     const int number = interrupts_.isr_of(mark);
     const bool is_missing = number < 1 || number > lang::kIsrCount || macro({true, number}) == nullptr;
-    if (is_missing && options_.run.missing_macro_is_error && mark.source == IsrMark::kCalled) {
+    if (is_missing && language_options().run.missing_macro_is_error && mark.source == IsrMark::kCalled) {
       report({.macro = {true, number},
               .code = lang::real_time_code(Verb::isr_call),
               .fault = lang::Fault::undefined_command});
     }
     if (is_missing) continue;
-    if (machine_.isrs_raise_user_rint) interrupts_.raise(Rint::user);
+    if (machine_options().isrs_raise_user_rint) interrupts_.raise(Rint::user);
     return number;
   }
   return 0;

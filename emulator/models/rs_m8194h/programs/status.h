@@ -35,13 +35,13 @@ class Status final : public Part {
   bool is_resetting() const { return state_.resetting_until > now(); }
   /// Records a state of input 101 that has passed within the tick.
   void pass(std::uint8_t finished) {
-    if (!machine_.finished_states_show) return;
+    if (!machine_options().finished_states_show) return;
     state_.finished = finished;
     state_.finished_at = now();
   }
   /// Returns true while the state of input 101 changes by itself.
   bool changes() const {
-    return is_resetting() || (machine_.finished_states_show && state_.finished_at + 1 >= now());
+    return is_resetting() || (machine_options().finished_states_show && state_.finished_at + 1 >= now());
   }
 
  private:

@@ -127,8 +127,8 @@ void Triggers::pause(int channel) {
       programs.paused && programs.paused_by == number && chose(option("pause_ends", "its_second_firing_too"));
   programs.paused = !ends;
   programs.paused_by = number;
-  if (programs.paused && machine_.pause_slows_axes) known_.stops.slow_down(kAllAxes);
-  if (programs.paused && machine_.pause_holds_axes) known_.stops.pause();
+  if (programs.paused && machine_options().pause_slows_axes) known_.stops.slow_down(kAllAxes);
+  if (programs.paused && machine_options().pause_holds_axes) known_.stops.pause();
 }
 
 /// By choice, a level that is still there calls its macro again.
@@ -151,7 +151,7 @@ bool Triggers::may_start() const {
 }
 
 void Triggers::start_queued() {
-  if (machine_.levels_repeat) repeat_levels();
+  if (machine_options().levels_repeat) repeat_levels();
   if (is_empty() || !may_start()) return;
   const lang::Trigger& trigger = known_.programs.triggers()[state_.queued_triggers.front()];
   state_.queued_triggers.erase(state_.queued_triggers.begin());

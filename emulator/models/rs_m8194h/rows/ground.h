@@ -27,24 +27,20 @@ struct Ground {
 class Part {
  public:
   bool chose(const Option& option) const { return ground_.device.chose(option); }
-  const LanguageOptions& language_options() const { return options_; }
-  const MachineOptions& machine_options() const { return machine_; }
+  const LanguageOptions& language_options() const { return ground_.language; }
+  const MachineOptions& machine_options() const { return ground_.machine; }
   Firmware firmware() const { return ground_.device.firmware(); }
   /// Returns the last completed tick.
   Tick now() const { return ground_.device.now(); }
   std::int32_t input(int terminal) const { return ground_.device.input(terminal); }
 
  protected:
-  explicit Part(const Ground& ground)
-      : options_(ground.language), machine_(ground.machine), ground_(ground) {}
+  explicit Part(const Ground& ground) : ground_(ground) {}
   ~Part() = default;
 
   void warn_not_implemented(std::string_view what, std::string_view why) const {
     ground_.device.warn_not_implemented(what, why);
   }
-
-  const LanguageOptions& options_;
-  const MachineOptions& machine_;
 
  private:
   const Ground& ground_;
