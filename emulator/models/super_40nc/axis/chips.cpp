@@ -124,7 +124,6 @@ bool Chips::is_awaited_by(Mover mover) const {
   });
 }
 
-/// Drops an end between ticks that has been handled.
 void Chips::forget_end(int axis) {
   motion::Axis& motor = chip(axis);
   motor.events_between =

@@ -55,19 +55,18 @@ void Counters::end_tick(int axis_number, const BeforeTick& before) {
 }
 
 /// Adds to one of COUNTER2 to COUNTER4.
-void Counters::add_to_counter(int axis_number, int which, std::int64_t counts) {
+void Counters::add_to_counter(const Settings& settings, int axis_number, int which, std::int64_t counts) {
   constexpr int kDeviation = 2;
-  if (counts == 0 || is_bit(registers().raw(kept_x(d9x::kDisableC2ToC4), axis_number), which - 1)) return;
+  if (counts == 0 || is_bit(settings.raw(kept_x(d9x::kDisableC2ToC4), axis_number), which - 1)) return;
   std::int32_t& its_count = axis(axis_number).counts[static_cast<std::size_t>(which - 1)];
   its_count = wrapped(its_count + counts);
   if (which == kDeviation) its_count = static_cast<std::int16_t>(its_count);  // 16 bits on the chip
 }
 
 /// Returns true if COUNTER4 counts now; it may count only while the axis moves.
-bool Counters::counts_now(int axis_number) const {
+bool Counters::counts_now(const Settings& settings, int axis_number) const {
   const AxisState& state = axis(axis_number);
-  return !registers().is_on(kept_x(d9x::kC4Enable), axis_number) || state.moves() ||
-         state.followed_pulses != 0;
+  return !settings.is_on(kept_x(d9x::kC4Enable), axis_number) || state.moves() || state.followed_pulses != 0;
 }
 
 bool Counters::counts_a_clock(int axis) const {
@@ -86,7 +85,6 @@ bool Counters::acts_each_tick(int axis) const {
   return counts_a_clock(axis) || registers().of(kept_x(d9x::kLatchOfCounters), axis) >= 2;
 }
 
-/// Sets the machine's encoder, which has moved by the pulses of this tick.
 void Counters::set_encoder(int axis_number, std::int64_t counts) {
   count_encoder(axis_number, counts);
   chip(axis_number)
@@ -100,15 +98,15 @@ void Counters::count_encoder(int axis_number, std::int64_t counts) {
   state.encoder_counts = counts;
   if (turned == 0 || !ground_.powered() || settings.is_on(kept_x(d9x::kEncoderDisable), axis_number)) return;
   const std::int64_t counted = settings.is_on(kept_x(d9x::kEncoderDirection), axis_number) ? -turned : turned;
-  if (settings.of(kept_x(d9x::kC2Source), axis_number) == 0) add_to_counter(axis_number, 1, counted);
+  if (settings.of(kept_x(d9x::kC2Source), axis_number) == 0)
+    add_to_counter(settings, axis_number, 1, counted);
   const Value deviation = settings.of(kept_x(d9x::kC3Source), axis_number);
-  if (deviation == 0) add_to_counter(axis_number, 2, -counted);
-  if (deviation == 2) add_to_counter(axis_number, 2, counted);
-  if (settings.of(kept_x(d9x::kC4Source), axis_number) == 1 && counts_now(axis_number))
-    add_to_counter(axis_number, 3, counted);
+  if (deviation == 0) add_to_counter(settings, axis_number, 2, -counted);
+  if (deviation == 2) add_to_counter(settings, axis_number, 2, counted);
+  if (settings.of(kept_x(d9x::kC4Source), axis_number) == 1 && counts_now(settings, axis_number))
+    add_to_counter(settings, axis_number, 3, counted);
 }
 
-/// Clears counters at the end of a home, after the counts of its last tick.
 void Counters::clear_counters(int axis_number) {
   const std::uint8_t cleared = std::exchange(axis(axis_number).clears, std::uint8_t{0});
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
@@ -116,7 +114,6 @@ void Counters::clear_counters(int axis_number) {
   }
 }
 
-/// Counts the pulses of one or several ticks, and those of the wheel; set_encoder() counts the encoder.
 void Counters::count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts,
                      Tick clock_ticks) {
   AxisState& state = axis(axis_number);
@@ -134,7 +131,9 @@ void Counters::count(int axis_number, std::int64_t travel_before, std::int64_t w
   const auto pulses_for = [&](int counter) {
     return now_counted.pulses + (is_bit(with_backlash, counter) ? now_counted.backlash : 0);
   };
-  const auto add = [&](int counter, std::int64_t counts) { add_to_counter(axis_number, counter, counts); };
+  const auto add = [&](int counter, std::int64_t counts) {
+    add_to_counter(settings, axis_number, counter, counts);
+  };
   switch (settings.of(kept_x(d9x::kC2Source), axis_number)) {
     case 0: break;
     case 1: add(1, pulses_for(1)); break;
@@ -145,7 +144,7 @@ void Counters::count(int axis_number, std::int64_t travel_before, std::int64_t w
     case 1: add(2, pulses_for(2) - now_counted.wheel); break;
     default: add(2, -now_counted.wheel); break;
   }
-  if (counts_now(axis_number)) {
+  if (counts_now(settings, axis_number)) {
     switch (settings.of(kept_x(d9x::kC4Source), axis_number)) {
       case 0: add(3, pulses_for(3)); break;
       case 2: add(3, now_counted.wheel); break;

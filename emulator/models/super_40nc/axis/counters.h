@@ -9,6 +9,7 @@
 #include "emulator/models/super_40nc/axis/axis_parameters.h"
 #include "emulator/models/super_40nc/axis/chips.h"
 #include "emulator/models/super_40nc/axis/comparators.h"
+#include "emulator/models/super_40nc/rows/settings.h"
 #include "motion/axis.h"
 #include "motion/shared_tick.h"
 
@@ -51,8 +52,8 @@ class Counters final : protected Chips, public motion::EdgeOwner {
   void at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) override;
   /// Returns true if a clock drives COUNTER4 (D9x25 = 3).
   bool counts_a_clock(int axis) const;
-  void add_to_counter(int axis_number, int which, std::int64_t counts);
-  bool counts_now(int axis_number) const;
+  void add_to_counter(const Settings& settings, int axis_number, int which, std::int64_t counts);
+  bool counts_now(const Settings& settings, int axis_number) const;
   void count_encoder(int axis_number, std::int64_t counts);
   void count_until(const motion::SharedTick& tick, int axis_number);
   void count_index(int axis_number, std::int8_t phase_before);

@@ -26,7 +26,6 @@ constexpr int kModeTurningBack = 0x08;
 
 }  // namespace
 
-/// Returns D8005 within its limits.
 double Drives::override_percent() const {
   constexpr double kMax = 100;
   const auto percent = static_cast<double>(registers().of(kept_d(d8::kFeedPercentage)));
@@ -40,7 +39,6 @@ motion::SpeedLaw Drives::line_law(int axis, double rpm, Mover mover) const {
   return is_by_times_of_c ? settings.law_of_c(axis, rpm) : settings.law(axis, rpm);
 }
 
-/// Returns the law of DRV, which the feed override does not scale unless that is chosen.
 motion::SpeedLaw Drives::drive_law(int axis, std::int32_t rpm, Mover mover) const {
   const bool is_scaled = chose(option("override_scope", "drv_as_well"));
   return line_law(axis, is_scaled ? rpm * override_percent() / 100 : rpm, mover);

@@ -113,7 +113,6 @@ void Homes::start_zero(int axis_number, int order) {
   state.zeroed = state.has_ended = true;
 }
 
-/// `code` says why it has failed; none: it was abandoned.
 void Homes::home_ended(int axis_number, bool found, Code code) {
   AxisState& state = axis(axis_number);
   const Settings settings = registers();

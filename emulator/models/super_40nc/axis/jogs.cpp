@@ -63,7 +63,6 @@ void Jogs::start_jog(int axis_number, int direction, bool AxisState::*asked_by) 
   starts_.mirror_start(axis_number, kModeContinuous + (direction < 0 ? kModeNegative : 0), 0, law);
 }
 
-/// Stops a jog by its ramp when no request is left.
 void Jogs::release_jog(int axis_number, bool AxisState::*asked_by) {
   AxisState& state = axis(axis_number);
   if (state.holder != Activity::jog || !(state.*asked_by)) return;

@@ -47,7 +47,6 @@ motion::Cause Starts::blocked_both_ways(int axis) const {
   return has_signal(axis, motion::Signal::limit_minus) ? motion::Cause::limit_minus : motion::Cause::none;
 }
 
-/// Takes from the parameters what a motion needs when it starts.
 void Starts::prepare(int axis_number, bool homes) {
   const Settings parameters = registers();
   AxisState& state = axis(axis_number);

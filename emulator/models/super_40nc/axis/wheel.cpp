@@ -77,7 +77,6 @@ void Wheel::start_wheel(int axis_number, WheelSource source) {
   starts_.mirror_start(axis_number, kModeWheel, 0, {});
 }
 
-/// Feeds the edges to each axis, which decodes them by its own parameters.
 void Wheel::feed_wheel(std::int32_t edges) {
   for (int number = 0; number < kAxisCount; ++number) {
     AxisState& state = axis(number);

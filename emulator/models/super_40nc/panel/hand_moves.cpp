@@ -48,7 +48,6 @@ void HandMoves::follow_order(OrderKey& key, Activity holder, Kept order_of_axis,
   }
 }
 
-/// Drops the orders: axes that are still stopping do not belong to a key pressed meanwhile.
 void HandMoves::give_up_orders() {
   axes_.homing_by_key = axes_.zeroing_by_key = {};
   for (AxisState& state : axes_.axes) take_off(state, MarkEvent::orders_given_up);
@@ -104,7 +103,6 @@ void HandMoves::obey_wheel() {
   }
 }
 
-/// PAUSE and M8006: slow down motion by hand, if that is chosen.
 void HandMoves::slow_by_hand(int axis_number) {
   if (moves_.manual_motion(axis_number)) moves_.end_by_ramp(axis_number, Mover::hand);
 }

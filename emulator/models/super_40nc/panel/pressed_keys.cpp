@@ -127,7 +127,6 @@ bool PressedKeys::acts_behind_reset(int axis) const {
   return state_.were_held[static_cast<std::size_t>(axis)] && chose(option("level_after_stop", "act_at_once"));
 }
 
-/// Returns true for a level that has stayed ON through a stop, if a choice makes it act.
 bool PressedKeys::is_level_again(int axis, int contact) const {
   return is_on(contact) && acts_behind_reset(axis);
 }

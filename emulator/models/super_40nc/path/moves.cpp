@@ -36,7 +36,6 @@ void Moves::stop_axis(int axis_number, Code code) {
   parts_.starts.let_go(axis_number);
 }
 
-/// VDRV 0. Returns true if the axis has to come to rest first.
 bool Moves::end_by_ramp(int axis_number, Mover mover) {
   AxisState& state = axis(axis_number);
   if (state.holder == Activity::nobody) return false;
@@ -55,7 +54,6 @@ bool Moves::end_by_ramp(int axis_number, Mover mover) {
   return true;
 }
 
-/// Stops by STP, a STOP key or M8x02.
 void Moves::stop_by_command(int axis_number) {
   if (!chose(option("stp_stops", "by_its_ramp")) || (is_on_path(axis_number) && axes_.path_is_held)) {
     return stop_axis(axis_number);
@@ -74,7 +72,6 @@ void Moves::stop_all_of(Mover mover) {
   }
 }
 
-/// Stops all axes that a program moves, after one of them has met something.
 void Moves::break_program(Mover mover, int but_for) {
   for (int number = 0; number < kAxisCount; ++number) {
     AxisState& state = axis(number);
@@ -92,7 +89,6 @@ void Moves::break_program(Mover mover, int but_for) {
   }
 }
 
-/// Called when the motor has come to rest without a command.
 std::optional<Broken> Moves::ended(int axis_number) {
   AxisState& state = axis(axis_number);
   const motion::Axis& motor = chip(axis_number);

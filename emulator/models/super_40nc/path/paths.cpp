@@ -239,7 +239,6 @@ void Paths::go_on_path() {
   if (!backlash_.awaits_path()) axes_.path.run.resume(now());
 }
 
-/// VDRV 0: slows down by the path's ramp, and ends.
 void Paths::slow_path() { axes_.path.slow_down(now()); }
 
 void Paths::stop_path() {
