@@ -128,6 +128,18 @@ TEST(SyncMode, FollowsItsEncoderByTheRatioAndKeepsTheRemainder) {
   EXPECT_EQ(feeder.coordinate('A'), 0);
 }
 
+TEST(SyncMode, IsDroppedInAnAlarmThatWasAssignedJustNow) {
+  ReadySimple2 feeder;
+  feeder.input(0, true);
+  feeder.run(10);
+  feeder.set("DIN0_Aaxis_Alarm", 1);
+  feeder.set("Aaxis_SyncMode", 1);
+  EXPECT_EQ(feeder.get("Aaxis_Mode"), 0);
+  feeder.set("DIN0_Aaxis_Alarm", 0);
+  feeder.set("Aaxis_SyncMode", 1);
+  EXPECT_EQ(feeder.get("Aaxis_Mode"), 3);
+}
+
 TEST(SyncMode, IsNoFasterThanItsTopSpeed) {
   ReadySimple2 feeder;
   feeder.set("Aaxis_Resoultion", 6000);
