@@ -42,8 +42,8 @@ void PerformanceRecorder::world_restored(std::size_t) {
 void PerformanceRecorder::step_over() { spool_->look(); }
 
 void PerformanceRecorder::finish(ScenarioResult& result) {
-  // Most recordings are discarded, so only these get a state at their end. The state of a world takes a third
-  // of the time of a short one.
+  // Most recordings are discarded, so only those of failures end with a state. The state of a world takes a
+  // third of the time of a short one.
   if (result.verdict != ScenarioResult::Verdict::passed) {
     spool_->finish(result.failure ? result.failure->what : std::string());
   }
