@@ -1,4 +1,5 @@
-// The flags of everything that serves a bench. Included by flags.cpp only: CLI11 is slow to compile.
+// The flags of all commands that serve a bench. Only flags.cpp includes this file, because CLI11 is slow to
+// compile.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +12,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// `--link "$UNSET"` is a slip, not a wish for the default.
+/// Rejects an empty value: `--link "$UNSET"` is a mistake, not a request for the default.
 inline const CLI::Validator kNotEmpty(
     [](const std::string& value) { return value.empty() ? std::string("is empty; expected a value") : ""; },
     "");
@@ -29,7 +30,7 @@ inline constexpr const char* kTraceAlsoHelp =
     "Also trace these: registers, or anything else that a condition can name, such as feeder.Cord_A";
 inline constexpr const char* kLintHelp = "At exit, report protocol violations by the host";
 
-/// What is served: a bench, or one device without one.
+/// Adds the flags that choose what is served: a bench, or a single device without one.
 inline void add_bench_flags(CLI::App& command, ServeArguments& serving) {
   command.add_option("BENCH", serving.bench, "A bench file, unless you use --model");
   command.add_option("--model", serving.model, "Serve one device of this model, without a bench file")
@@ -44,7 +45,7 @@ inline void add_bench_flags(CLI::App& command, ServeArguments& serving) {
   command.add_option("--baud", serving.baud, "Line speed (with --model) [the factory setting]");
 }
 
-/// How hosts reach its lines.
+/// Adds the flags that set how hosts reach the lines.
 inline void add_port_flags(CLI::App& command, ServeArguments& serving) {
   command
       .add_option("--link", serving.link,
@@ -80,7 +81,7 @@ inline void add_port_flags(CLI::App& command, ServeArguments& serving) {
       ->check(kNotEmpty);
 }
 
-/// How it runs, and which files it writes.
+/// Adds the flags that set how the bench runs and which files it writes.
 inline void add_running_flags(CLI::App& command, ServeArguments& serving) {
   command
       .add_option("--speed", serving.speed,
@@ -105,7 +106,7 @@ inline void add_running_flags(CLI::App& command, ServeArguments& serving) {
   command.add_flag("--lint", serving.lint, kLintHelp);
 }
 
-/// Those of everything that serves a bench, in the order in which --help lists them.
+/// Adds all flags of a command that serves a bench, in the order in which --help lists them.
 inline void add_serving_flags(CLI::App& command, ServeArguments& serving) {
   serving.version = UNDERSTUDY_VERSION;
   add_bench_flags(command, serving);

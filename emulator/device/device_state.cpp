@@ -1,4 +1,4 @@
-// The part of a device's state that all models share: its inputs, its power, its time.
+// Reads and writes the part of a device's state that all models share: its inputs, its power, its time.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -25,9 +25,10 @@ struct StateOf<emulator::Device> {
   static constexpr auto fields =
       FieldList{field<&Value::inputs_>(), field<&Value::powered_>(), field<&Value::now_>()};
   static constexpr std::size_t members = 9;
-  /// Model, settings and choices are what it was made from; the log is its user's.
+  /// These members are no part of the state: the device is made from its model, settings and choices, the log
+  /// and its memory of messages belong to the user, and the flag of changed inputs only saves work.
   static constexpr std::size_t apart = 6;
-  static void name_all(Value& all) {  // does not compile if there are others
+  static void name_all(Value& all) {  // does not compile if the members change
     [[maybe_unused]] auto& [model, now, powered, inputs_changed, choices, inputs, settings, log, mentioned] =
         all;
   }
@@ -41,7 +42,7 @@ namespace {
 
 using Common = CopiedFields<Device>;
 
-/// `common` is that of such a device.
+/// Reads the state that all models share and checks that it is that of a device of this model.
 void read_common(const Model& model, StateReader& reader, Common& common) {
   std::apply([&](auto&... field) { (reader.read(field), ...); }, common);
   const auto& inputs = std::get<std::vector<std::int32_t>>(common);
@@ -90,7 +91,7 @@ std::function<void()> Device::read_state(StateReader reader) {
 }
 
 std::uint64_t Device::state_hash() const {
-  SharedTexts shared;  // their digests are in the bytes
+  SharedTexts shared;  // the bytes hold only their digests
   return hash_of(save_state(shared));
 }
 

@@ -40,7 +40,8 @@ ProgramMistake no_program(const Model& model) {
 
 namespace {
 
-/// What every reader of a model takes for granted; its devices are asked for their facets when one is made.
+/// Checks what every reader of a model relies on. make_device() checks the facets of a device when it makes
+/// one.
 const Model& whole(const Model& model) {
   if (model.line.ports.empty())
     throw std::logic_error(std::string(model.name) + ": lacks a port on its line");
@@ -194,14 +195,15 @@ void require_choices(const Model& model, const DeviceSettings& settings) {
   }
 }
 
-/// The shortest text that reads back as this number.
+/// Returns the shortest text that reads back as this number.
 std::string shortest_text(double number) {
   std::array<char, 32> text{};
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc{} ? std::string(text.data(), end) : std::string();
 }
 
-/// `told`: the value as it was given; none: the register holds no such number.
+/// Writes a register. `told` is the value as it was given; `value_for` returns nothing if the register cannot
+/// hold it.
 void set_register(Device& device, const std::string& name, const std::string& told,
                   const std::function<std::optional<Value>(const NamedPlace&)>& value_for) {
   RegisterBank* const bank = device.register_bank();
@@ -247,7 +249,8 @@ void set_registers(Device& device, const DeviceSettings& settings) {
   }
 }
 
-/// Where it is kept in a register, that is written: what is not given is what the memory says.
+/// Writes the station number that the settings give to the register that keeps it. Without one in the
+/// settings, the number in the memory stays.
 void set_station_number(Device& device) {
   const auto& numbers = device.model().line.station_numbers;
   if (!numbers || numbers->kept_in.empty() || !device.settings().address) return;
@@ -259,7 +262,7 @@ void set_station_number(Device& device) {
 void load_memory(Device& device, const NvImage& image) {
   if (device.memory() == nullptr)
     throw NvError(std::string(device.model().name) + " has no non-volatile memory; expected none");
-  // A bench that says itself what a memory holds names no firmware.
+  // A memory whose content a bench gives names no firmware.
   const auto& firmwares = device.model().firmwares;
   if (!image.firmware.empty() && image.model == device.model().name &&
       std::find(firmwares.begin(), firmwares.end(), parse_firmware(image.firmware)) == firmwares.end()) {
@@ -269,7 +272,7 @@ void load_memory(Device& device, const NvImage& image) {
   device.memory()->load_nv(image);
 }
 
-/// What its model's tables list can be reached.
+/// Checks that the device has a facet for all that its model's tables list.
 void require_facets(const Device& device) {
   const Model& model = whole(device.model());
   const auto require = [&](bool is_there, std::string_view what) {

@@ -1,5 +1,5 @@
-// A model: a kind of controller, as its maker's manual defines it. All of it is data; what data cannot say is
-// in the device that `make` makes.
+// A model is a kind of controller, as its maker's manual defines it. All of it is data, except the device
+// class that `make` creates.
 #pragma once
 
 #include <cstdint>
@@ -25,18 +25,18 @@ class CommandWindow;
 class Device;
 class ProgramLanguage;
 
-/// A row of a model's parameter numbers: `count` numbers from `first` on name the registers called
-/// `register_name`, counted from its first one.
+/// A row of a model's parameter numbers: `count` numbers from `first` on stand for the registers called
+/// `register_name`, from its first one on.
 struct ParameterRow {
   int first = 0;
   int count = 1;
   std::string_view register_name;  // as in the register table, "{}" for the number
-  std::string_view letter{};       // before the number, where there is one: "X", of X20
-  bool of_each_axis = false;       // the one number names them all: X20 is a register for each axis
+  std::string_view letter{};       // before the number, if any: "X" in X20
+  bool of_each_axis = false;       // one number stands for all axes: X20 is a register for each axis
   std::string_view meaning{};
 };
 
-/// A row of a table of parameters, of a model whose values have no registers.
+/// A row of a table of parameters, for a model whose values have no registers.
 struct NamedParameterRow {
   std::string_view number;  // "PN10", if the maker counts them
   std::string_view name;    // "VM"
@@ -50,17 +50,18 @@ struct NamedParameterRow {
   std::string_view not_implemented{};  // what is missing, if it is only stored
 };
 
-/// A section of a manual that is not in English: a model's rows name it as the manual does, by its title or
+/// A section of a manual that is not in English. A model's rows name it as the manual does, by its title or
 /// its number.
 struct SectionRow {
   std::string_view name;
   std::string_view in_english;
 };
 
-/// A part of a manual whose choices are proved in one file, docs/fidelity/proofs/MODEL/NAME.yaml.
+/// A part of a manual whose choices one file proves: docs/fidelity/proofs/MODEL/NAME.yaml.
 struct ProofRow {
   std::string_view name;
-  /// Separated by '|'. A number stands for what is below it as well, as far as no row before this one has it.
+  /// The sections, separated by '|'. A number includes its subsections, except those that an earlier row
+  /// names.
   std::string_view sections;
 };
 
@@ -72,7 +73,7 @@ struct CommandRow {
   std::string_view where{};  // it may be given
 };
 
-/// A point where the device meets the outside, as its manual names it.
+/// A connection of the device with the outside, as its manual names it.
 struct TerminalRow {
   enum class Kind : std::uint8_t {
     digital_in,     // 1: conducting
@@ -80,7 +81,7 @@ struct TerminalRow {
     analog_in,      // millivolts
     analog_number,  // an analog input that the maker counts in no unit
     dip_switch,     // on the housing: 1 is ON
-    counted_in,     // a hand wheel, pulses, phases of an encoder: all counts so far, modulo 2^32
+    counted_in,     // a hand wheel, pulses or encoder phases: the total count so far, modulo 2^32
     analog_out,     // millivolts
     pulse_out,      // digital; its pulses may be shorter than a tick, and are counted
   } kind;
@@ -97,7 +98,7 @@ constexpr bool is_analog(TerminalRow::Kind kind) {
   return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_number ||
          kind == TerminalRow::Kind::analog_out;
 }
-/// 0 or 1, and nothing between.
+/// Returns true if the level is always 0 or 1.
 constexpr bool has_two_levels(TerminalRow::Kind kind) {
   return !is_analog(kind) && kind != TerminalRow::Kind::counted_in;
 }
@@ -105,8 +106,8 @@ constexpr bool is_in_millivolts(TerminalRow::Kind kind) {
   return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_out;
 }
 
-/// Neighbours in the table that come in hundreds: digital inputs, or digital outputs. Onlookers show them as
-/// one word, the first in bit 0; by their own names they are there as well.
+/// A group of neighbouring digital inputs or outputs, for models that have hundreds of them. Observers show
+/// the group as one word, with the first in bit 0. Each terminal can still be used by its own name.
 struct TerminalGroup {
   static constexpr int kMax = 32;
   std::string_view name;
@@ -114,7 +115,7 @@ struct TerminalGroup {
   int count = 1;
 };
 
-/// A motor axis, and the inputs to which the switches of its machine are wired.
+/// A motor axis, and the inputs that the switches of its machine are wired to.
 struct AxisRow {
   std::string_view name;       // "A": a bench calls its machine DEVICE.A
   int upper_limit_input = -1;  // numbers of terminals
@@ -130,20 +131,20 @@ struct AxisRow {
   int index_input = -1;  // of the encoder
 };
 
-/// What is spoken on a line: an object for each protocol, beside the facet that speaks it (modbus/, text/).
-/// What it means for a line and its hosts is said once, by the world's object for it (world/speech/).
+/// A protocol on a line. Each protocol has one object, beside the facet that speaks it (modbus/, text/). The
+/// world's object for the protocol (world/speech/) defines what it means for a line and its hosts.
 struct Protocol {
   std::string_view name;  // "Modbus", for messages
 };
 
-/// The station numbers that a device may have: one, whatever line it is asked on.
+/// The station numbers that a device may have. A device has one number, the same on all its lines.
 struct StationNumbers {
   int lowest = 1;
   int highest = 247;
-  std::string_view kept_in{};  // the register that holds it; empty: a bench says it, and it stays
+  std::string_view kept_in{};  // the register that holds it; empty: the bench sets it, and it never changes
 };
 
-/// A serial port, by which a device stands on a line.
+/// A serial port, which connects a device to a line.
 struct PortRow {
   enum class Kind : std::uint8_t {
     rs232,  // from one to one: the device is alone on that line
@@ -154,43 +155,43 @@ struct PortRow {
   pty::LineSettings settings;  // the rest; `baud` is replaced by the chosen one
 };
 
-/// How the model stands on its lines, whatever is spoken there.
+/// The model's rules for its lines, whatever their protocol.
 struct LineRules {
   const Protocol& protocol;
   std::span<const PortRow> ports;                   // one at least; a bench that names none means the first
   std::optional<StationNumbers> station_numbers{};  // none: it has no number, and is alone on its line
 };
 
-/// What a model allows in one request where that is less than the standard does.
+/// A limit for one request that is lower than the standard's.
 struct FunctionLimit {
   std::uint8_t code = 0;
   int most = 0;  // bits or registers
 };
 
-/// How the model takes frames of Modbus RTU.
+/// The model's rules for receiving Modbus RTU frames.
 struct RtuRules {
   pty::SimTime end_silence{0};              // its end-of-frame silence; it replies no earlier
   std::span<const std::uint8_t> functions;  // function codes it knows
   std::span<const FunctionLimit> limits{};
 };
 
-/// What makes one device of a model.
+/// The settings that one device of a model is made from.
 struct DeviceSettings {
   std::string name;
   Firmware firmware = 0;                           // 0: the model's default
-  std::optional<int> address{};                    // its station number; none: 1, or what its memory says
+  std::optional<int> address{};                    // its station number; none: 1, or the number in its memory
   std::vector<int> bauds{};                        // of its ports; 0, or none: the factory's
   int modules = 0;                                 // of a chain; 0: the model's default
   std::map<std::string, std::string> choices;      // overrides
   std::map<std::string, bool> dip;                 // switches on the housing, by the terminal's name
-  std::optional<NvImage> nv;                       // what its memory holds; by default the factory's
+  std::optional<NvImage> nv;                       // the content of its memory; by default the factory's
   std::string program;                             // text, loaded when it is made
   std::string program_name;                        // the file it is from, for messages
   std::vector<std::pair<std::string, Value>> set;  // registers written when it is made, in this order
   std::vector<std::pair<std::string, double>> assignments{};  // the same for a model without registers
 };
 
-/// What `understudy init` writes for whoever begins: a bench, and the steps of a first move on it.
+/// The files that `understudy init` writes for a beginner: a bench, and the steps of a first move on it.
 struct FirstFiles {
   std::string_view bench;
   std::string_view steps;
@@ -203,42 +204,43 @@ struct Model {
   const RegisterMap* registers = nullptr;  // null: it has none
   std::span<const ParameterRow> parameters{};
   std::span<const NamedParameterRow> named_parameters{};
-  const CommandWindow* window = nullptr;  // through which commands go that have names; null: there is none
+  const CommandWindow* window = nullptr;      // for commands that have names; null: there are none
   const ProgramLanguage* language = nullptr;  // of the programs that its devices take; null: they take none
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
   std::span<const ProofRow> proofs{};
-  bool csv_has_bits = true;  // false: its CSV of registers is older than the names of its bits
+  bool csv_has_bits = true;  // false: the columns of its register CSV were fixed before bits had names
   std::span<const TerminalRow> terminals;
   std::span<const TerminalGroup> terminal_groups{};
   std::span<const AxisRow> axes;
-  std::span<const std::string_view> state_registers;  // those that show best what it is doing
+  std::span<const std::string_view> state_registers;  // those that best show what the device is doing
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
   LineRules line;
-  std::optional<RtuRules> rtu{};            // of a model with ModbusStation
+  std::optional<RtuRules> rtu{};            // for a model with ModbusStation
   const FirstFiles* first_files = nullptr;  // null: there are none
-  int most_modules = 0;                     // the most that one device can consist of; 0: it is not a chain
-  /// Of a model that a file describes: that text, with all that belongs to it. ModelFiles::parse() makes the
-  /// same model of it.
+  int most_modules = 0;  // the largest number of modules in one device; 0: it is not a chain
+  /// The description file's text with everything that belongs to it, if a file describes the model.
+  /// ModelFiles::parse() makes the same model from it.
   std::string_view description{};
-  /// Settings are checked by make_device() before it is called.
+  /// Makes a device. make_device() checks the settings before it calls this.
   std::function<std::unique_ptr<Device>(const DeviceSettings& settings)> make;
 };
 
-/// Makes models of files that describe them (docs/import.md). They live as long as this does; a description
-/// that it has read before gives the same model again. Both throw FileError. Any thread may call them.
+/// Makes models from files that describe them (docs/import.md). The models live as long as this object. A
+/// description that was read before returns the same model again. Both functions throw FileError, and any
+/// thread may call them.
 class ModelFiles {
  public:
   virtual ~ModelFiles() = default;
-  /// `files` gets what was read.
+  /// Adds the files that it reads to `files`.
   virtual const Model& load(const std::string& path, std::vector<FileClaim>& files) = 0;
-  /// Of a text that has all in itself; `name` stands for the file in messages.
+  /// Parses a text that is complete in itself. `name` stands for the file in messages.
   virtual const Model& parse(const std::string& text, const std::string& name) = 0;
 };
 
-/// A model that a list knows by its name. Its tables are made when somebody asks for it: that takes longer
-/// than most commands do.
+/// A model in a list of names. Its tables are made on first use, because that takes longer than most commands
+/// do.
 class ListedModel {
  public:
   constexpr ListedModel(std::string_view name, const Model& (*make)()) : name_(name), make_(make) {}
@@ -255,62 +257,64 @@ class ListedModel {
   const Model& (*make_)() = nullptr;
 };
 
-/// The models that benches may name, handed down by whoever knows them; and what makes models of files, null
-/// where none are read.
+/// The models that benches may name, and the object that makes models from files, or null if no files are
+/// read.
 struct ModelList : std::span<const ListedModel> {
   using std::span<const ListedModel>::span;
   ModelList(std::span<const ListedModel> listed, ModelFiles* reader)
       : std::span<const ListedModel>(listed), files(reader) {}
   ModelFiles* files = nullptr;
 };
-/// Null if there is none of that name. Makes no other.
+/// Returns null if there is no model of that name. Makes no other model.
 const Model* find_model(ModelList models, std::string_view name);
-/// Whether a model is named by its file: "drive.yaml".
+/// Returns true if the name is that of a model file: "drive.yaml".
 bool names_model_file(std::string_view name);
 
-/// The number of a terminal or an axis in its model's table; -1 if there is none of that name.
+/// Returns the number of a terminal in its model's table, or -1 if there is no such name; find_axis() does so
+/// for axes.
 int find_terminal(const Model& model, std::string_view name);
-/// A group by its name, or the one that a terminal begins; null if there is none.
+/// Returns the group with that name; find_group_of() returns the group that begins with that terminal. Both
+/// return null if there is none.
 const TerminalGroup* find_group(const Model& model, std::string_view name);
 const TerminalGroup* find_group_of(const Model& model, int first_terminal);
 int find_axis(const Model& model, std::string_view name);
-/// The number of a port in its model's table; nothing if there is none of that name.
+/// Returns the number of a port in its model's table, or nothing if there is no such name.
 std::optional<std::size_t> find_port(const Model& model, std::string_view name);
-/// " (RS485)" where the model has several ports, nothing where it has one: behind the name of a device.
+/// Returns " (RS485)" to follow the name of a device, or an empty text if the model has only one port.
 std::string port_text(const Model& model, std::size_t port);
-/// The rows of its registers; none where it has no registers.
+/// Returns no rows if the model has no registers.
 std::span<const RegisterRow> register_rows(const Model& model);
-/// A register by its name; none where the model has no registers.
+/// Returns a register by its name, or nothing, also if the model has no registers.
 std::optional<NamedPlace> find_register(const Model& model, std::string_view name, Firmware firmware);
-/// Why there is none, as one line.
+/// Returns one line that explains why there is no such register.
 std::string why_no_register(const Model& model, std::string_view name, Firmware firmware);
 
-/// What is wrong with a device's settings: which of them, and what was expected.
+/// Reports a wrong setting of a device: its name, and what was expected.
 struct SettingError : std::runtime_error {
   SettingError(std::string setting_name, const std::string& what_is_wrong)
       : std::runtime_error(setting_name + ": " + what_is_wrong), setting(std::move(setting_name)) {}
   std::string setting;
 };
 
-/// Checks the settings against the model, makes the device, gives it its memory, power and program, and the
-/// registers of `set` their values; the persistent ones are kept at once. Throws SettingError, NvError,
-/// ProgramError. `log` gets what the device has to say, from its settings on.
+/// Checks the settings against the model and makes the device. Gives it its memory, power and program, and
+/// writes the registers of `set`; persistent ones are stored at once. Throws SettingError, NvError,
+/// ProgramError. `log` receives the device's messages, from the settings on.
 std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
                                     std::function<void(const std::string&)> log = {});
 
-/// The settings with the firmware that they mean. Throws SettingError: of what a model says by itself; what
-/// its switches and memory say is found when the device is made.
+/// Returns the settings with the firmware that they imply. Throws SettingError for errors that the model
+/// alone reveals; errors in the switches and the memory are found when the device is made.
 DeviceSettings checked_settings(const Model& model, const DeviceSettings& given);
-/// Everything that is wrong with a program for devices made so: what loading it would say. Throws
+/// Returns all mistakes that loading the program into a device with these settings would report. Throws
 /// SettingError.
 std::vector<ProgramMistake> check_program(const Model& model, std::string_view text,
                                           const DeviceSettings& given);
-/// What is odd about one that loads. Throws SettingError.
+/// Returns suspicious places in a program that loads. Throws SettingError.
 std::vector<ProgramMistake> program_warnings(const Model& model, std::string_view text,
                                              const DeviceSettings& given);
-/// What is wrong with every program for a model that has no language.
+/// Returns the mistake that every program has if the model has no language.
 ProgramMistake no_program(const Model& model);
-/// "1.52" as 152; 0 if it is not a version.
+/// Returns 152 for "1.52", or 0 if the text is not a version.
 Firmware parse_firmware(std::string_view text);
 
 }  // namespace understudy::emulator

@@ -26,7 +26,7 @@ namespace {
 
 using Kind = Fault::Kind;
 
-constexpr int kDeviceBusy = 6;  // the exception of that name
+constexpr int kDeviceBusy = 6;  // the Modbus exception of that name
 
 pty::WireFault stage_of(const Fault& fault) {
   using Stage = pty::WireFault::Kind;
@@ -57,7 +57,7 @@ pty::Strike strike_of(std::size_t number, const Fault& fault, bool is_request) {
   return {.fault = number, .kind = row.name, .effect = is_other ? row.effect_on_request : row.effect};
 }
 
-/// Of a reply: something of it is said at once.
+/// Returns true if the stage lets at least a part of a reply be sent at once.
 bool is_said_at_once(const pty::WireFault& stage) {
   using Stage = pty::WireFault::Kind;
   return stage.kind != Stage::drop && stage.kind != Stage::delay &&
@@ -98,7 +98,7 @@ FaultWatch::FaultWatch(World& world, Faults& faults, std::uint64_t seed)
   }
 }
 
-/// What has no result does not hold.
+/// Returns false for a condition without a result.
 bool FaultWatch::holds(const std::string& expression) {
   try {
     return is_true(conditions_.at(expression), probes_);
@@ -107,7 +107,7 @@ bool FaultWatch::holds(const std::string& expression) {
   }
 }
 
-/// Every fault has a stream of its own, whatever others there are.
+/// Returns the fault's own random stream, which does not depend on other faults.
 std::uint64_t FaultWatch::stream(std::size_t number) const { return draw(draw(seed_, 1), number); }
 
 // --- time ----------------------------------------------------------------------------------------
@@ -171,7 +171,8 @@ bool FaultWatch::is_hit(std::size_t number, ArmedFault& armed, const HeardFrame&
   return strikes_frame(armed.fault.trigger, armed.course, speech.facts_of(frame), *this, stream(number));
 }
 
-/// Every station of a line hears the same request: it is judged when the first of them asks.
+/// Returns true if the fault strikes the request. All stations of a line hear the same request, so the fault
+/// is judged once, when the first station asks.
 bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame) {
   FaultCourse& course = armed.course;
   if (!armed.fault.on_line) return frame.is_for_device && is_hit(number, armed, frame);
@@ -182,7 +183,7 @@ bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const Hea
   return frame.last_character == course.judged_character && course.was_hit;
 }
 
-/// Whoever looks at the line is told; it has no other effect.
+/// Reports strikes to those who observe the line. This has no other effect.
 void FaultWatch::tell(const HeardFrame& frame, bool is_reply, bool is_said,
                       std::span<const pty::Strike> strikes) {
   if (strikes.empty()) return;
@@ -205,12 +206,12 @@ std::vector<pty::WireFault> FaultWatch::on_request(const HeardFrame& frame) {
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
     if (!is_of_requests(armed.fault) || !is_at(armed.fault, frame)) continue;
-    // The stations of a line ask about one request; it is told of once.
+    // The stations of a line ask about the same request, which is reported once.
     const bool is_news = !armed.fault.on_line || frame.last_character > armed.course.judged_character;
     if (!is_request_hit(number, armed, frame)) continue;
     if (is_news) strikes.push_back(strike_of(number, armed.fault, true));
     stages.push_back(stage_of(armed.fault));
-    // What is dropped does not reach the stages behind.
+    // A dropped request does not reach the next stages.
     if (stages.back().kind == pty::WireFault::Kind::drop) break;
   }
   tell(frame, false, false, strikes);
@@ -229,7 +230,7 @@ FrameFaults::Treatment FaultWatch::on_serving(const HeardFrame& frame) {
       strikes.push_back(strike_of(number, fault, true));
       continue;
     }
-    // Machines and devices: while it is in force nothing strikes.
+    // A fault of a machine or device does not strike again while it is in force.
     if (is_of_frames(fault.kind) || !is_about_frames(fault.trigger) || course.in_force) continue;
     if (!is_hit(number, armed, frame)) continue;
     strikes.push_back(strike_of(number, fault, true));

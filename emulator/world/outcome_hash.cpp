@@ -16,7 +16,7 @@
 
 namespace understudy::emulator::world {
 
-/// What is said on one line.
+/// Hashes what hosts and stations send on one line.
 class OutcomeHash::LineHasher final : public pty::LineObserver {
  public:
   LineHasher(OutcomeHash& hash, std::size_t line) : hash_(hash), line_(line) {
@@ -86,8 +86,8 @@ std::vector<OutcomeHash::Outputs> OutcomeHash::outputs_of(const Model& model) {
   return all;
 }
 
-/// All that have two levels in words of 64, the first in the highest place, and then everything else that
-/// they give.
+/// Adds the two-level outputs in words of 64 bits, the first output in the highest bit, and then the analog
+/// levels and pulse counts.
 void OutcomeHash::add_outputs(const Device& device, const std::vector<Outputs>& outputs) {
   constexpr int kBits = 64;
   std::uint64_t word = 0;

@@ -36,7 +36,7 @@ using PlantStates = std::vector<std::vector<PlantAxis::State>>;
 using LineStates = std::vector<pty::Line::State>;
 
 using OfWorld = StateOf<World>;
-/// The world's own fields, as values.
+/// The world's own fields as values.
 using WorldValues = CopiedFields<World>;
 
 enum : std::size_t { kSentPulses, kInputs, kSupplies, kFaults, kNextFault, kDisturbed, kNow, kDone, kTurns };
@@ -57,10 +57,11 @@ WorldState::Part world_part(const World& world) {
   return {"world", writer.take()};
 }
 
-/// How it hears a host is not a state, but a world goes on as another one did only if it is the same.
+/// How a line hears its hosts. This is a setting, not a state, but the future of two worlds is the same only
+/// if it agrees.
 struct Hearing {
-  bool is_strict = false;         // about silence
-  bool enforces_settings = true;  // deaf to a host of another speed
+  bool is_strict = false;         // requires the silence between frames
+  bool enforces_settings = true;  // ignores a host with another speed
 };
 Hearing hearing_of(const WorldLine& line) {
   return {.is_strict = line.framing.strict, .enforces_settings = line.line.options().enforce_settings};
@@ -106,7 +107,7 @@ void check_pulses(const World& world, const WorldValues& values) {
   }
 }
 
-/// How many places a device of that model has for it.
+/// Returns how many places for the fault a device of that model has.
 std::size_t places_of(const Model& model, const Fault& fault) {
   switch (fault_kind(fault.kind).place) {
     case FaultKindRow::Place::axis: return model.axes.size();
@@ -133,7 +134,7 @@ void check_turns(const World& world, const WorldValues& values) {
   }
 }
 
-/// One that could have been injected.
+/// Checks that the fault could have been injected.
 void check_fault_value(const World& world, const Fault& fault) {
   require_state(fault.device < world.device_count(), "a fault belongs to no device");
   const Model& model = world.device(fault.device).model();
@@ -205,12 +206,12 @@ void read_hearing(const WorldLine& line, StateReader& reader) {
   }
 }
 
-/// The parts one after another, by the names that such a world's have.
+/// Reads the parts of a state one after another. They must have the names of this world's parts.
 class Parts {
  public:
   explicit Parts(const WorldState& state) : state_(state) {}
 
-  /// What is wrong with a part carries its name.
+  /// Calls `read` with the next part. Errors carry the part's name.
   template <class Read>
   auto read(const std::string& name, Read read) {
     if (next_ == state_.parts.size() || state_.parts[next_].name != name) {
@@ -358,7 +359,8 @@ void restore(World& world, const WorldState& state) { read_state(world, state)()
 std::string difference(const World& world, const WorldState& a, const WorldState& b) {
   Parts of_a(a);
   Parts of_b(b);
-  // The first is told, and all is read: a state that is not one is refused wherever it differs.
+  // All parts are read although only the first difference is returned, because an invalid part must be
+  // refused wherever it is.
   std::string first;
   const auto look = [&](const std::string& name, auto differ) {
     of_a.read(name, [&](const StateReader& of_first) {

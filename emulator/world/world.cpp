@@ -34,10 +34,10 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Devices that are made one after another lie one behind another, with what belongs to them in between.
+/// Asks for large pages if there are many devices. Made one after another, they are close in memory.
 void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
   constexpr std::size_t kCrowd = 100;
-  constexpr std::ptrdiff_t kMaxOfOne = std::ptrdiff_t{64} << 10;  // bytes; else something else lies between
+  constexpr std::ptrdiff_t kMaxOfOne = std::ptrdiff_t{64} << 10;  // bytes; more: other data is between
   if (devices.size() < kCrowd) return;
   const auto by_address = [](const auto& a, const auto& b) { return std::less<>()(a.get(), b.get()); };
   const auto [low, high] = std::minmax_element(devices.begin(), devices.end(), by_address);
@@ -47,7 +47,7 @@ void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
     ask_for_large_pages(first, last);
 }
 
-/// A time of the host's clock in simulated time, which may go faster: as `patience` says.
+/// Converts a time of the host's clock to simulated time, which may be faster, as `patience` tells.
 SimTime as_long_as(SimTime time, SimTime patience) {
   const double factor = static_cast<double>(patience.count()) / static_cast<double>(kFramePatience.count());
   const double scaled = static_cast<double>(time.count()) * factor;
@@ -55,7 +55,7 @@ SimTime as_long_as(SimTime time, SimTime patience) {
   return scaled >= kMax ? kHorizon : SimTime{static_cast<std::int64_t>(scaled)};
 }
 
-/// With the stations that it connects.
+/// Makes a line with its stations.
 std::unique_ptr<WorldLine> made_line(const LineSetup& setup,
                                      const std::vector<std::unique_ptr<Device>>& devices,
                                      const WorldOptions& options,
@@ -99,7 +99,7 @@ World::World(const Bench& bench, const WorldOptions& options,
     sent_pulses_.emplace_back(setup.model->axes.size(), 0);
     inputs_.emplace_back(setup.model->terminals.size());
     for (std::size_t i = 0; i < setup.model->terminals.size(); ++i) {
-      inputs_.back()[i].external = devices_.back()->input(static_cast<int>(i));  // its switches
+      inputs_.back()[i].external = devices_.back()->input(static_cast<int>(i));  // for DIP switches
     }
   }
   keep_together(devices_);
@@ -125,14 +125,14 @@ World::World(const Bench& bench, const WorldOptions& options,
   begin_edges();
   const auto is_of_machine = [](const WireSetup& wire) { return wire.from_axis >= 0; };
   if (std::any_of(wires_.begin(), wires_.end(), is_of_machine)) latch_wires();
-  // What they say at power-up: nobody could have looked on yet, so it begins with the first tick.
+  // Nobody could have seen what devices send at power-up, so the sending begins with the first tick.
   look_for_speech(kTickLength);
 }
 
 World::~World() = default;
 
-/// The contacts that the machines have. An alarm without a drive is injected; where its input is another's,
-/// it has none.
+/// Connects the contacts of the machines to inputs. Without a drive, an alarm can only be injected, and has
+/// no contact if its input is used by another.
 void World::wire_contacts(std::size_t number) {
   const auto rows = devices_[number]->model().axes;
   auto& wired = contacts_.emplace_back();
@@ -157,10 +157,10 @@ const PlantAxis& World::plant(std::size_t device, int axis) const {
 }
 
 void World::advance_to(SimTime time) {
-  // Ticks leave the lines alone, but for devices that speak unasked; watchers do not.
+  // Ticks do not change when lines are due, except for devices that send without being asked; watchers may.
   SimTime line_time = next_line_time();
-  bool is_at_rest =
-      false;  // the tick before was a quiet one that watchers have seen, and nothing was done since
+  // True if watchers have seen a quiet tick and nothing has happened since.
+  bool is_at_rest = false;
   while (true) {
     const SimTime tick_time = time_of(done_ + 1);
     if (std::min(line_time, tick_time) > time) break;
@@ -171,7 +171,7 @@ void World::advance_to(SimTime time) {
       is_at_rest = false;
       continue;
     }
-    // Ticks at which nothing happens by itself are left out, up to the next thing that does happen.
+    // Ticks in which nothing happens are skipped, up to the next one in which something does.
     const Tick reachable = tick_at(std::min(time, line_time));
     Tick active = bulk_ticks_ ? next_active_tick() : done_ + 1;
     if (active > done_ + 1) active = std::min(active, next_fault_tick());
@@ -208,7 +208,7 @@ void World::advance_to(SimTime time) {
   now_ = std::max(now_, time);
 }
 
-/// How far quiet ticks look like the last one to all who watch.
+/// Returns the last tick up to which quiet ticks look like the last one to all watchers.
 Tick World::last_alike() const {
   Tick next = kNever;
   for (const TickWatcher* watcher : watchers_) {
@@ -219,14 +219,14 @@ Tick World::last_alike() const {
 }
 
 void World::show_tick(bool is_rest) {
-  // One may take itself away.
+  // A watcher may remove itself, so this is a copy.
   const std::vector<TickWatcher*> present = watchers_;
   for (TickWatcher* watcher : present) is_rest ? watcher->on_rest(done_) : watcher->on_tick(done_);
 }
 
 std::optional<SimTime> World::next_due() const {
   Tick tick = std::min(next_active_tick(), next_fault_tick());
-  // Where axes only go on, nobody needs to be woken for it; watchers want to see it.
+  // While axes only move on, the process need not wake up, unless watchers want to see it.
   if (tick == done_ + 1 && !disturbed_ && watchers_.empty()) tick = next_event_tick(kNever);
   const SimTime due = std::min(next_line_time(), time_of(tick));
   if (due == kForever) return std::nullopt;
@@ -251,7 +251,7 @@ SimTime World::next_line_time() const {
   return next;
 }
 
-/// What is due at `time` on the lines, after the faults that strike at that moment.
+/// Runs what is due on the lines at `time`, after the faults that strike at that moment.
 void World::run_lines(SimTime time) {
   if (fault_watch_) {
     fault_watch_->look(now_, false);
@@ -261,7 +261,7 @@ void World::run_lines(SimTime time) {
   if (fault_watch_) settle_faults();
 }
 
-/// A tick, or an act from outside, may have given a device something to say; its line sends it from now on.
+/// Lets lines send what a tick or an act from outside gave a device to say.
 void World::look_for_speech(SimTime now) {
   for (WorldLine* line : unasked_lines_) {
     for (const auto& station : line->stations) {
@@ -274,7 +274,7 @@ void World::run_tick() {
   disturbed_ = false;
   ++done_;
   if (!input_turns_.empty()) turn_inputs();
-  // Devices meet by wires alone, latched when all are done: each runs all its phases while it is cached.
+  // Devices affect each other only by wires, latched last. So each runs all phases while it is cached.
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     prefetch_device(d + 2);
     run_device(d);
@@ -283,7 +283,7 @@ void World::run_tick() {
   ++ticks_.run;
 }
 
-/// What run_device() needs, and the first memory of the device two later, which says where the rest of it is.
+/// Prefetches what run_device() needs, and the device two later, which points to its other data.
 void World::prefetch_device(std::size_t number) const {
   if (number >= devices_.size()) return;
   if (number + 2 < devices_.size()) prefetch_line(devices_[number + 2].get());
@@ -304,7 +304,7 @@ void World::run_device(std::size_t number) {
   device.set_now(done_);
   if (!powered) return;
   device.update_outputs(done_);
-  // Its drives look in the next tick.
+  // The drives of the device see its outputs in the next tick.
   for (const std::size_t a : driven_axes_[number]) {
     if (plants_[number][a].seen_inputs() != drive_inputs(number, a)) disturbed_ = true;
   }
@@ -390,7 +390,7 @@ void World::apply_input(std::size_t device, int terminal) {
   devices_[device]->set_input(terminal, input.stuck ? *input.stuck : level);
 }
 
-/// What was due at this moment comes first: so it is when a recording of it is played.
+/// Runs what is due at this moment first, in the same order as the replay of a recording.
 void World::begin_act() {
   if (now_ > SimTime{0}) run_lines(now_);
 }
@@ -419,7 +419,7 @@ void World::switch_power(std::size_t device, bool on) {
   settle_power(device);
 }
 
-/// A device has power where it is switched on and no fault cuts it.
+/// Switches the power of a device: it is on if its supply is on and no fault cuts it.
 void World::settle_power(std::size_t device) {
   const auto cuts = [&](const auto& entry) {
     const auto& [fault, course] = entry.second;
@@ -436,7 +436,8 @@ void World::settle_power(std::size_t device) {
       station->reset();
       line->line.discard_pending(*station, now_);
     }
-    // A switch on its housing may have given it another speed; the wire takes that of the first station.
+    // DIP switches may have changed the device's speed. The line takes the settings of its first powered
+    // station.
     const auto speaks = std::find_if(line->stations.begin(), line->stations.end(),
                                      [](const auto& station) { return station->device().powered(); });
     if (speaks != line->stations.end()) line->line.set_settings((*speaks)->settings());

@@ -1,4 +1,4 @@
-// Many ticks of a world in one step, while its axes move and nothing else happens.
+// Moves a world many ticks in one step while its axes move and nothing else happens.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// The machines of one device.
+/// Tells a device how far its machines can move until a contact changes.
 class Machines final : public ClearTravel {
  public:
   explicit Machines(const std::vector<PlantAxis>& plants) : plants_(plants) {}
@@ -37,7 +37,7 @@ class Machines final : public ClearTravel {
 
 }  // namespace
 
-/// Whether a wire leads from what may change in ticks that only count on.
+/// Returns true if a wire leads from an output that may change in ticks in which axes only move on.
 bool World::has_moving_wires() const {
   return std::any_of(wires_.begin(), wires_.end(), [&](const WireSetup& wire) {
     const bool is_outputs = wire.from_axis < 0 && devices_[wire.from_device]->powered();
@@ -45,9 +45,9 @@ bool World::has_moving_wires() const {
   });
 }
 
-/// The first tick at which something happens besides motion that goes on; not beyond `most` + 1.
+/// Returns the first tick at which anything but continuous motion happens, at most `most` + 1.
 Tick World::next_event_tick(Tick most) const {
-  constexpr Tick kFarAhead = 1'000'000'000'000;  // so that closed forms stay within their numbers
+  constexpr Tick kFarAhead = 1'000'000'000'000;  // keeps closed forms within the range of their numbers
   if (!input_turns_.empty() || has_moving_wires()) return done_ + 1;
   Tick last = std::min({most, next_fault_tick() - 1, done_ + kFarAhead});
   for (std::size_t d = 0; d < devices_.size() && last > done_; ++d) {
@@ -58,7 +58,7 @@ Tick World::next_event_tick(Tick most) const {
   return last + 1;
 }
 
-/// The tick to which a crossing brings the world; done_ where it is not worth one.
+/// Returns the tick to fast-forward to, or done_ if that is not worthwhile.
 Tick World::last_tick_to_skip(Tick most) {
   const Tick last = next_event_tick(most) - 1;
   if (last - done_ >= kMinSkip) {

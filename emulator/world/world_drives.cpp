@@ -1,4 +1,4 @@
-// What the drives around a world's machines are given: by their controllers, and by wires.
+// Connects the drives of a world's machines to their controllers and to wires.
 #include <algorithm>
 #include <cstddef>
 
@@ -11,8 +11,7 @@
 
 namespace understudy::emulator::world {
 
-/// Where neither its controller nor a wire leads to the alarm-clear of a drive, disabling it clears its
-/// alarm.
+/// Adds a drive. If neither its controller nor a wire can clear its alarm, disabling it does.
 void World::connect_drive(const MachineSetup& machine) {
   if (!machine.plant.drive) return;
   driven_axes_[machine.device].push_back(static_cast<std::size_t>(machine.axis));
@@ -26,7 +25,8 @@ void World::connect_drive(const MachineSetup& machine) {
   plants_[machine.device][axis].clear_alarm_by_disabling();
 }
 
-/// What a controller gives the drive on one of its axes: by an output, or where it has none by itself.
+/// Returns the inputs that a controller gives to the drive of an axis. Without an output for it, the axis
+/// itself says whether the servo is on.
 DriveInputs World::drive_inputs(std::size_t number, std::size_t axis) const {
   const Device& device = *devices_[number];
   const AxisRow& row = device.model().axes[axis];
@@ -37,7 +37,7 @@ DriveInputs World::drive_inputs(std::size_t number, std::size_t axis) const {
           .alarm_clear = driven(row.alarm_clear_output)};
 }
 
-/// The drive looks in the next tick.
+/// Latches the wires to an input of a drive. The drive sees the level in the next tick.
 void World::latch_drive(const WireSetup& wire) {
   const bool is_on = std::any_of(wires_.begin(), wires_.end(), [&](const WireSetup& other) {
     return other.to_device == wire.to_device && other.to_axis == wire.to_axis &&

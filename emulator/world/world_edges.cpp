@@ -1,6 +1,6 @@
-// What devices that meet edges between ticks are told: where along an axis its machine's switches change the
-// levels of inputs. It is told when it changes: when the machine loses pulses or finds them again, is pushed,
-// when a switch comes on or lets go, when an input is held, stuck or on by a wire.
+// Tells devices that handle edges between ticks where along an axis its machine's switches change the levels
+// of inputs. They are told whenever that changes: when the machine loses pulses or gets them back, or is
+// pushed, when a switch turns on or off, when an input is held, stuck or on by a wire.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -13,11 +13,12 @@
 
 namespace understudy::emulator::world {
 
-/// In the machine's positions, less what the device has counted.
+/// Returns the edges in the machine's positions minus what the device has counted.
 MachineEdges World::edges_of(std::size_t device, std::size_t axis) const {
   MachineEdges edges;
   const PlantAxis& plant = plants_[device][axis];
-  if (!plant.steps_all()) return edges;  // nobody knows how far it will come: what a tick's end shows counts
+  // How far it will move is unknown, so only the levels at the end of a tick count.
+  if (!plant.steps_all()) return edges;
   const std::int64_t origin = plant.position_pulses() - axes_[device]->place_pulses(static_cast<int>(axis));
   if (plant.has_encoder() && !plant.setup().has_wheel) {
     const PlantSetup& setup = plant.setup();
@@ -83,7 +84,8 @@ void World::tell_edges_anew(std::size_t device) {
   tell_edges(device);
 }
 
-/// After a tick in which no switch has changed.
+/// Tells the edges anew if the machine has lost or gained pulses. Runs after ticks in which no switch has
+/// changed.
 void World::look_at_places(std::size_t device) {
   for (std::size_t a = 0; a < told_edges_[device].size(); ++a) {
     const std::int64_t place = axes_[device]->place_pulses(static_cast<int>(a));
@@ -92,7 +94,7 @@ void World::look_at_places(std::size_t device) {
   }
 }
 
-/// At the beginning of a tick: its part of the turns that are under way.
+/// Adds the part of each turn that falls into this tick. Runs at the beginning of the tick.
 void World::turn_inputs() {
   __extension__ using Wide = __int128;
   const auto turned = [](const InputTurn& turn) {
@@ -101,7 +103,7 @@ void World::turn_inputs() {
   for (InputTurn& turn : input_turns_) {
     const std::int64_t before = turned(turn);
     --turn.ticks_left;
-    // Counts wrap as a counter of 32 bits does.
+    // The count wraps like that of a 32-bit counter.
     std::int32_t& counts = inputs_[turn.device][static_cast<std::size_t>(turn.terminal)].external;
     counts = static_cast<std::int32_t>(static_cast<std::uint32_t>(counts) +
                                        static_cast<std::uint32_t>(turned(turn) - before));

@@ -1,4 +1,4 @@
-// What is wrong in a world: faults that are injected, wait for their moment, begin, end and are cleared.
+// Handles the faults of a world: they are injected, wait for their moment, begin, end and are cleared.
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -60,7 +60,7 @@ void World::clear_faults() {
   arm_faults();
 }
 
-/// Whoever looks after the others is to be armed anew afterwards.
+/// Removes a fault. The caller must call arm_faults() afterwards.
 void World::remove_fault(std::map<std::size_t, ArmedFault>::iterator fault) {
   begin_act();
   tell([&](OutsideListener& listener) { listener.on_clear_fault(fault->first); });
@@ -72,7 +72,7 @@ void World::remove_fault(std::map<std::size_t, ArmedFault>::iterator fault) {
   settle_power(device);
 }
 
-/// Whoever waits is looked after.
+/// Makes a watch if a fault waits or changes with time, and gives it to the stations.
 void World::arm_faults() {
   const auto needs_watch = [](const auto& entry) {
     return waits(entry.second.fault) || entry.second.fault.period_ticks != 0;
@@ -92,7 +92,7 @@ void World::arm_faults() {
 
 Tick World::next_fault_tick() const { return fault_watch_ ? fault_watch_->next_tick(done_) : kNever; }
 
-/// The end of a tick that was run.
+/// Looks at the faults at the end of a tick that was run.
 void World::look_at_faults() {
   now_ = std::max(now_, time_of(done_));
   fault_watch_->look(now_, true);
@@ -107,7 +107,7 @@ void World::look_at_faults() {
   }
 }
 
-/// Does what has begun or ended.
+/// Applies the faults that have begun or ended.
 void World::settle_faults() {
   for (auto& [number, armed] : faults_) {
     auto& [fault, course] = armed;
@@ -129,7 +129,7 @@ void World::settle_faults() {
   }
 }
 
-/// Of several of one kind on a line the last one counts.
+/// Applies the faults of adapters. If a line has several of one kind, the last one counts.
 void World::apply_adapters() {
   for (const auto& line : lines_) {
     pty::Adapter adapter;
@@ -146,7 +146,7 @@ void World::apply_adapters() {
   }
 }
 
-/// Of several of one kind at one place the last one counts.
+/// Applies the faults of a device. If a place has several of one kind, the last one counts.
 void World::apply_faults(std::size_t device) {
   for (PlantAxis& plant : plants_[device]) {
     plant.set_faults({.slipped_pulses = plant.faults().slipped_pulses});

@@ -1,4 +1,4 @@
-// What is given to a device in words: a program, or a command by its name.
+// Loads programs into devices and gives them commands by name.
 #include <cstddef>
 #include <string_view>
 
@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 
 void World::load_program(std::size_t device, std::string_view text) {
   begin_act();
-  // Also one that is refused, for its text or for what the device is doing: the device may show that it was.
+  // Refused programs are reported too, whatever the reason, because the device may show the refusal.
   const auto told = [&](bool is_refused) {
     if (devices_[device]->user_program() != nullptr) {
       tell([&](OutsideListener& listener) { listener.on_program(device, text, is_refused); });

@@ -39,7 +39,7 @@ std::string hex2(unsigned number) {
   return text.data();
 }
 
-/// As wide as its maker's are.
+/// Writes an opcode with as many digits as the maker's manual does.
 std::string opcode_text(int opcode) {
   return opcode > 0xFF ? hex4(static_cast<unsigned>(opcode)) : hex2(static_cast<unsigned>(opcode));
 }
@@ -57,7 +57,7 @@ std::uint16_t address_of(const RegisterRow& row, int index) {
   return static_cast<std::uint16_t>(row.address + index * row.stride);
 }
 
-/// What is English in the manual already stays as it is.
+/// Returns the English name of a section, or the section itself if the manual's name is English already.
 std::string_view section_in_english(const Model& model, std::string_view section) {
   for (const SectionRow& row : model.sections) {
     if (row.name == section) return row.in_english;
@@ -65,7 +65,7 @@ std::string_view section_in_english(const Model& model, std::string_view section
   return section;
 }
 
-/// "狀態相關 (status)"
+/// Returns "狀態相關 (status)".
 std::string section_for_people(const Model& model, std::string_view section) {
   const std::string_view english = section_in_english(model, section);
   return std::string(section) + (english == section ? "" : " (" + std::string(english) + ")");
@@ -73,7 +73,7 @@ std::string section_for_people(const Model& model, std::string_view section) {
 
 std::string width_of(const RegisterRow& row) { return std::to_string(emulator::width_of(row.type)); }
 
-/// "0 READY, 4-7 STATE"
+/// Returns "0 READY, 4-7 STATE".
 std::string fields_of(const RegisterRow& row) {
   std::string text;
   for (const BitField& field : row.fields) {
@@ -84,7 +84,7 @@ std::string fields_of(const RegisterRow& row) {
   return text;
 }
 
-/// People are told how it is kept as well.
+/// Returns "1" if the register is persistent, else "0". For people, it is "at once" if storing takes no time.
 std::string kept_text(const RegisterRow& row, bool for_people) {
   if (for_people && row.needs_no_time) return "at once";
   return row.persistent ? "1" : "0";
@@ -104,7 +104,7 @@ Sheet registers(const Model& model, SheetFormat format) {
   if (for_people) {
     for (const char* column : {"since", "section", "not modelled"}) sheet.columns.emplace_back(column);
   }
-  // Columns that only some models need.
+  // Only some models need these columns.
   const bool has_reals = any_row(model, [](const RegisterRow& row) { return row.type == Type::f32; });
   const bool may_have_fields = model.csv_has_bits || format != SheetFormat::csv;
   const bool has_fields =
@@ -131,12 +131,12 @@ Sheet registers(const Model& model, SheetFormat format) {
   return sheet;
 }
 
-/// "X20", or "20" where the maker counts them without a letter.
+/// Returns "X20", or "20" if the maker numbers parameters without a letter.
 std::string number_of(const ParameterRow& row, int index) {
   return std::string(row.letter) + std::to_string(row.first + (row.of_each_axis ? 0 : index));
 }
 
-/// Those that are registers have a row in the table of registers, with the rest.
+/// Lists the parameters. The table of registers holds the other facts of those that are registers.
 Sheet parameters(const Model& model) {
   const bool has_named = !model.named_parameters.empty();
   const bool has_meanings = std::any_of(model.parameters.begin(), model.parameters.end(),
@@ -170,7 +170,7 @@ Sheet parameters(const Model& model) {
   return sheet;
 }
 
-/// "target (D0 to D124); [speed (1 to 4000)]"
+/// Returns "target (D0 to D124); [speed (1 to 4000)]".
 std::string operands_text(std::span<const OperandRow> operands) {
   std::string text;
   for (const OperandRow& operand : operands) {
@@ -226,10 +226,10 @@ Sheet commands(const Model& model, SheetFormat format) {
   return sheet;
 }
 
-/// Where the page of a model stands, and the proofs of its choices below it.
+/// The folder of the models' fidelity pages. The proofs of their choices are below it.
 constexpr std::string_view kFidelityFolder = "docs/fidelity/";
 
-/// "7.4" has "7.4" and "7.4.12".
+/// Returns true if one of the sections is this one or contains it: "7.4" covers "7.4" and "7.4.12".
 bool covers(std::string_view sections, std::string_view section) {
   while (true) {
     const std::size_t bar = sections.find('|');
@@ -267,7 +267,7 @@ Sheet choices(const Model& model, SheetFormat format) {
   return sheet;
 }
 
-/// "8E1": bits, parity, stop bits.
+/// Returns "8E1": bits, parity, stop bits.
 std::string framing_text(const pty::LineSettings& settings) {
   const char parity = settings.parity == pty::Parity::even  ? 'E'
                       : settings.parity == pty::Parity::odd ? 'O'
@@ -286,7 +286,7 @@ Sheet ports(const Model& model) {
   return sheet;
 }
 
-/// What kinds of text a device keeps: only it knows.
+/// Lists the kinds of text blocks that a device keeps. It makes a device, because only that knows them.
 Sheet blocks(const Model& model) {
   Sheet sheet{.columns = {"kind", "most", "longest"}, .rows = {}};
   const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});

@@ -1,4 +1,4 @@
-// What a model's tables say, as sheets for people and scripts.
+// Presents a model's tables as sheets for people and scripts.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace understudy::emulator {
 
-/// `what` is registers, parameters, instructions, commands, choices, ports or blocks; nothing for another
-/// word. The columns of CSV, JSON and Markdown are fixed (docs/command_line.md); the table for people has
-/// more.
+/// Returns the sheet named by `what`: registers, parameters, instructions, commands, choices, ports or
+/// blocks. Returns nothing for another word. The columns of CSV, JSON and Markdown are fixed
+/// (docs/command_line.md); the table for people has more.
 std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format);
 
-/// The file with the play that tells the options of a choice apart, "docs/fidelity/proofs/MODEL/NAME.yaml";
-/// empty where there is one option only.
+/// Returns the path of the file with the scenario that distinguishes the options of a choice,
+/// "docs/fidelity/proofs/MODEL/NAME.yaml". Returns an empty text if the choice has only one option.
 std::string scenario_of_choice(const Model& model, const ChoiceRow& row);
 
 }  // namespace understudy::emulator

@@ -15,7 +15,8 @@ namespace understudy::emulator {
 
 namespace {
 
-/// Columns on a terminal: a code point counts one, a wide one (the manual's Chinese) two.
+/// Returns the width in columns of a terminal: a code point counts as one, a wide one (the manual's Chinese)
+/// as two.
 std::size_t display_width(std::string_view text) {
   std::size_t width = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -100,7 +101,7 @@ std::optional<std::int64_t> as_number(const std::string& text) {
 }
 
 std::string as_json(const Sheet& sheet) {
-  // A column is of numbers if all it holds are; what it does not hold is null.
+  // A column is numeric if all its values are numbers; a missing value is null.
   std::vector<bool> is_numeric(sheet.columns.size(), true);
   for (const auto& row : sheet.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {

@@ -34,7 +34,7 @@ void Eeprom::write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, b
   if (slots_[slot] != Slot::rests || (before[slot] == bits && !even_if_same)) return;
   slots_[slot] = Slot::waits;
   jobs_.push_back({static_cast<std::uint32_t>(slot), takes});
-  // The first of them begins with the next tick.
+  // The first job begins with the next tick.
   if (jobs_.size() == 1) begin(now + 1);
 }
 
@@ -53,7 +53,7 @@ void Eeprom::step(Tick tick, std::span<const std::uint32_t> image) {
     const Job done = jobs_.front();
     jobs_.erase(jobs_.begin());
     if (done.slot == kEverything) {
-      // Not what has been written since: that waits, and may yet be lost.
+      // Values written since then are not stored here: they wait, and may yet be lost.
       keep_all(rewriting_, false);
       rewriting_.clear();
     } else {
@@ -95,7 +95,7 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
   };
   require_state(kept_.size() == earlier.kept_.size() && std::ranges::equal(slots_, earlier.slots_, is_alike),
                 "it is the memory of other registers");
-  // A waiting register has one job, whose place it keeps; to write everything comes before all others.
+  // A waiting register has exactly one job. A job that writes everything comes before all others.
   std::vector<Slot> left = slots_;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     const Job& job = jobs_[i];

@@ -1,4 +1,4 @@
-// The only file that knows the JSON of NV images.
+// Reads and writes the JSON of NV images. No other file knows it.
 #include "emulator/device/memory/nv_image.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace understudy::emulator {
 namespace {
 
 using Json = nlohmann::json;
-using OrderedJson = nlohmann::ordered_json;  // looks keys up one by one: for writing only
+using OrderedJson = nlohmann::ordered_json;  // slow to look up keys in: for writing only
 
 constexpr const char* kKind = "nv-image";
 constexpr int kFormat = 1;
@@ -40,13 +40,13 @@ std::string text_of(const Json& object, const char* key) {
 
 std::string line_text(std::size_t line) { return line == 0 ? "" : "line " + std::to_string(line) + ": "; }
 
-/// The line of a place in the text, as the parser counts its bytes.
+/// Returns the line of a place in the text, given as the parser counts bytes.
 std::size_t line_of(const std::string& text, std::size_t byte) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
   return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
 }
 
-/// Tells the parser's place, which is right behind a key when it has read one.
+/// An iterator that reports the parser's place. When the parser has read a key, that is right behind it.
 struct JsonPlace {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -64,7 +64,7 @@ struct JsonPlace {
   bool operator!=(const JsonPlace& other) const { return at != other.at; }
 };
 
-/// Counts lines up to places that follow each other.
+/// Counts the lines up to places in the text; each place must come after the one before.
 class LineCount {
  public:
   explicit LineCount(const std::string& text) : counted_to_(text.data()) {}
@@ -85,7 +85,7 @@ struct BlockPlace {
   std::size_t line = 0;  // in the file
 };
 
-/// "blocks: files: 'A': "
+/// Returns "blocks: files: 'A': ".
 std::string text_of(const BlockPlace& place) {
   std::string text = "blocks: ";
   if (!place.kind.empty()) text += place.kind + ": ";
@@ -94,13 +94,13 @@ std::string text_of(const BlockPlace& place) {
 
 struct Parsed {
   Json file;
-  // Their names as they follow each other, which `file` forgets.
+  // The names in the order of the text, which `file` does not keep.
   std::vector<std::string> registers{};
   std::vector<std::string> reals{};
   std::vector<BlockPlace> blocks{};  // kinds (without a name) and entries
 };
 
-/// nlohmann keeps the last of two equal keys without a word; this one refuses them.
+/// Parses the text and refuses equal keys, of which nlohmann would silently keep the last.
 Parsed parse_strictly(const std::string& text) {
   std::vector<std::set<std::string>> keys;
   std::string outermost;
@@ -126,7 +126,8 @@ Parsed parse_strictly(const std::string& text) {
     if (depth == 2 && outermost == "reals") parsed.reals.push_back(key);
     if (outermost != "blocks" || depth < 2) return true;
     if (depth == 2) parsed.blocks.push_back({.kind = key, .name = {}, .line = lines.at(seen)});
-    if (depth == 3 && !parsed.blocks.empty()) {  // without a kind it is in a list, which is refused later
+    // Without a kind, the block is in a list, which is refused later.
+    if (depth == 3 && !parsed.blocks.empty()) {
       parsed.blocks.push_back({.kind = parsed.blocks.back().kind, .name = key, .line = lines.at(seen)});
     }
     return true;
@@ -136,14 +137,14 @@ Parsed parse_strictly(const std::string& text) {
     parsed.file = Json::parse(JsonPlace{begin, &seen}, JsonPlace{begin + text.size(), &seen}, take);
     return parsed;
   } catch (const Json::parse_error& error) {
-    // Whichever line the block began in, the one that is wrong is told.
+    // The message names the line that is wrong, not the line in which the block begins.
     const std::string block = end_of_block();
     const auto wrong = first_not_utf8(text);
     if (wrong && !block.empty()) {
       throw NvError(block + "is not UTF-8; expected text", line_of(text, *wrong));
     }
     throw NvError("is damaged or not JSON; expected an NV image", line_of(text, error.byte));
-  } catch (const Json::exception&) {  // a number that no type holds
+  } catch (const Json::exception&) {  // a number that fits into no type
     throw NvError("a number is too large; expected one that fits into 64 bits");
   }
 }
@@ -158,7 +159,8 @@ void read_reals(const Json& reals, const std::vector<std::string>& names, NvImag
   }
 }
 
-/// A line as text. JSON is UTF-8; a display may want another code, whose bytes are then numbers.
+/// Returns a line as text, or as a list of bytes if it is not UTF-8: JSON is UTF-8, and a display may use
+/// another encoding.
 OrderedJson json_of_line(const std::string& line) {
   const std::string text = OrderedJson(line).dump(-1, ' ', false, OrderedJson::error_handler_t::ignore);
   if (OrderedJson::parse(text) == line) return line;
@@ -185,7 +187,7 @@ void read_program(const Json& program, NvImage& image) {
   }
 }
 
-/// Its lines; the last is empty where the text ends with a line's end.
+/// Returns the lines of a block. The last one is empty if the text ends with a line end.
 OrderedJson json_of_block(const std::string& text) {
   OrderedJson::array_t lines;
   for (std::size_t begin = 0; begin <= text.size();) {

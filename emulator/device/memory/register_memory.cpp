@@ -25,16 +25,17 @@ namespace {
 
 using List = NvEntryError::List;
 
-/// Whether a register may hold a value: also beyond its range where values are stored as they come, or half
-/// of one has been written alone. What is not a finite number is not given by one who writes images by hand.
+/// Returns true if a register may hold a value. The value may be out of range if the policy stores any value,
+/// or if half of a pair can be written alone. A real that is not finite passes too, because no image written
+/// by hand can contain one.
 bool may_hold(const MapPolicy& policy, const RegisterRow& row, Value value) {
   const bool is_odd = row.type == Type::f32 && !std::isfinite(real_of(value));
   return is_odd || policy.out_of_range == MapPolicy::OutOfRange::stored ||
          (is_32_bit(row.type) && policy.halves != MapPolicy::Halves::come_whole) || is_in_range(row, value);
 }
 
-/// Whether it can have come there: by a write, from the factory, or from the device itself where nobody else
-/// writes it.
+/// Returns true if a register can have come to hold these bits: by a write, from the factory, or, if hosts
+/// cannot write it, from the device itself.
 bool can_hold(const MapPolicy& policy, const RegisterRow& row, std::uint32_t bits) {
   const Value value = value_of(bits, row.type);
   const auto whole = static_cast<std::uint32_t>(value);
@@ -55,7 +56,7 @@ void write_kept_registers(const RegisterMap& map, const std::vector<bool>& keeps
       if (!is_kept || kept[slot] == static_cast<std::uint32_t>(row.factory)) continue;
       const Value value = value_of(kept[slot], row.type);
       std::string name = map.unique_name(row, i);
-      // What is not a finite number is written as its bits.
+      // A real that is not finite is written as its bits.
       if (row.type == Type::f32 && std::isfinite(real_of(value))) {
         image.reals.emplace_back(std::move(name), real_of(value));
       } else {
@@ -71,14 +72,14 @@ void check_restored_registers(const RegisterBank& bank, std::span<const std::uin
                               std::span<const std::uint32_t> kept) {
   const auto slots = static_cast<std::size_t>(bank.map().slot_count());
   require_state(image.size() == slots && kept.size() == slots, "the image has another size");
-  // By choice a bench may be stricter with what hosts write: programs are not.
+  // This is the model's own policy: a choice of the bench may restrict what hosts write, but not programs.
   const MapPolicy& policy = bank.map().policy();
   std::size_t slot = 0;
   for (const RegisterRow& row : bank.map().rows()) {
     if (row.is_view) continue;
     const bool is_kept = bank.keeps(row);
     for (int i = 0; i < row.count; ++i, ++slot) {
-      // Without power the image is blank but for what is written meanwhile, and what is spent may be 0.
+      // Without power the image is blank except for later writes, and a register that is used up may be 0.
       const bool can_be = (image[slot] == 0 || can_hold(policy, row, image[slot])) &&
                           (!is_kept || can_hold(policy, row, kept[slot]));
       if (!can_be) throw StateError(bank.map().unique_name(row, i) + " holds what it cannot");

@@ -31,11 +31,11 @@ std::uint32_t with_word(std::uint32_t bits, Place::Part part, std::uint16_t word
   return bits;
 }
 
-/// One register that a request touches, with what the request makes of it.
+/// A register that a request touches, and the value that the request gives it.
 struct Change {
   Place place;
   std::uint32_t bits = 0;
-  bool low = false;  // which words the request brings
+  bool low = false;  // true for the words that the request brings
   bool high = false;
 };
 
@@ -58,8 +58,8 @@ void bring_into_range(Change& change) {
   }
 }
 
-// A Modbus request brings at most 123 words or 1,968 bits; programs, scenarios and the control socket at most
-// two words.
+// A Modbus request brings at most 123 words or 1,968 bits. Programs, scenarios and the control socket write
+// at most two words.
 constexpr std::size_t kManyWords = 128;
 constexpr std::size_t kMaxWords = 2000;
 
@@ -68,8 +68,8 @@ struct Changes {
   std::size_t count = 0;
 };
 
-/// Calls `act` with room for the changes of this many words. Clearing room for the most would cost more than
-/// all the rest of a program's write.
+/// Calls `act` with room for the changes of this many words. To clear room for the maximum would cost more
+/// than the rest of a program's write.
 template <typename Act>
 auto with_room_for(std::size_t words, Act act) {
   if (words <= 2) {
@@ -87,18 +87,17 @@ auto with_room_for(std::size_t words, Act act) {
   return act(changes);
 }
 
-/// The low half alone, where that means the whole.
+/// Extends the sign of a low half that was written alone, if that sets the whole value.
 void extend_sign(Change& change) {
   if (!is_32_bit(change.place.row->type) || !change.low || change.high) return;
   change.bits = static_cast<std::uint32_t>(static_cast<std::int16_t>(change.bits & 0xFFFF));
   change.high = true;
 }
 
-/// Whether a register may be written what a request makes of it; what the policy lets in is brought into
-/// range.
+/// Judges the value that a request gives to a register. Brings it into range if the policy says so.
 Objection judge(Change& change, const MapPolicy& policy) {
   if (policy.halves == MapPolicy::Halves::low_gives_the_sign) extend_sign(change);
-  // Half a value cannot be judged.
+  // Half of a value cannot be judged.
   if (!complete(change) && policy.halves == MapPolicy::Halves::may_be_written_alone) return {};
   if (policy.out_of_range == MapPolicy::OutOfRange::stored || in_range(change)) return {};
   if (policy.out_of_range == MapPolicy::OutOfRange::refused) {
@@ -108,7 +107,7 @@ Objection judge(Change& change, const MapPolicy& policy) {
   return {};
 }
 
-/// What each register would hold, wherever there is one that can be written.
+/// Collects the changes to all registers that the request can write, and judges its addresses.
 Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& request, Changes& changes) {
   const MapPolicy& policy = bank.map_policy();
   const bool low_first = bank.low_word_first();
@@ -146,8 +145,8 @@ Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& requ
   return {};
 }
 
-/// What each register would hold, and whether that may be. Addresses are judged before values. Behind a
-/// refusal only those changes are left that are made all the same.
+/// Collects the changes and judges addresses first, then values. After a refusal, `changes` keeps only those
+/// that are made nevertheless.
 Objection gather(const RegisterBank& bank, const RegisterRequest& request, Changes& changes) {
   Objection refused = gather_addresses(bank, request, changes);
   if (!refused) refused = admission(bank, request, Checked::addresses);
@@ -165,13 +164,13 @@ Objection gather(const RegisterBank& bank, const RegisterRequest& request, Chang
   return refused;
 }
 
-/// The window that a request begins in; none if it does not.
+/// Returns the window that a request begins in, or an empty place if there is none.
 Place window_at(const RegisterBank& bank, Table table, std::uint16_t first) {
   const Place place = bank.at(table, first);
   return place && place.row->message != nullptr ? place : Place{};
 }
 
-/// All its words from the window's first one on, or none.
+/// Passes on a whole message, or refuses it: all its words must be in the window.
 Objection write_message(RegisterBank& bank, const Place& window, const RegisterRequest& request) {
   const RegisterRow& row = *window.row;
   const auto most = static_cast<std::size_t>(row.count - window.index);
@@ -194,7 +193,7 @@ Objection write_message(RegisterBank& bank, const Place& window, const RegisterR
   return refused;
 }
 
-/// A write that is no window's, and one message all the same.
+/// Carries out a write outside windows that the device takes as one message.
 Objection write_whole(RegisterBank& bank, const RegisterRequest& request) {
   if (const Objection refused = admission(bank, request, Checked::addresses)) return refused;
   if (const Objection refused = admission(bank, request, Checked::everything)) return refused;
@@ -221,7 +220,8 @@ void take_effect(RegisterBank& bank, const Change& change) {
   if (!row.is_view) bank.register_written(row, static_cast<std::size_t>(change.place.slot));
 }
 
-/// Stores everything, then lets it take effect, both in ascending order; or each register in its turn.
+/// Carries out the changes in ascending order. By policy it first stores them all and then applies their
+/// effects, or does both for each register in turn.
 void carry_out(RegisterBank& bank, Changes& changes) {
   std::span all = std::span(changes.all).first(changes.count);
   const auto diverted = std::remove_if(
@@ -239,8 +239,8 @@ void carry_out(RegisterBank& bank, Changes& changes) {
   bank.registers_written();
 }
 
-/// What a value makes of the whole register, or of the half, that a name stands for; none if it does not fit
-/// there.
+/// Returns the new value of the register, or of its half, when a value is written to the part that a name
+/// stands for. Returns nothing if the value does not fit.
 std::optional<Value> merged(const RegisterBank& bank, const NamedPlace& named, Value value) {
   const Place& place = named.place;
   const bool half = place.part != Place::Part::whole;
@@ -249,10 +249,10 @@ std::optional<Value> merged(const RegisterBank& bank, const NamedPlace& named, V
     if (value < 0 || value > most) return std::nullopt;
     const Value whole = read_value(bank, place);
     value = (whole & ~(most << named.bit)) | value << named.bit;
-    // The sign bit is a bit as well.
+    // The sign bit counts as a bit like the others.
     if (!half) value = value_of(static_cast<std::uint32_t>(value), place.row->type);
   }
-  // What does not fit the register's words cannot even be sent.
+  // A value that does not fit the register's words cannot even be sent.
   const auto [lowest, highest] = half ? limits_of(Type::u16) : limits_of(place.row->type);
   if (value < lowest || value > highest) return std::nullopt;
   return value;
@@ -314,7 +314,7 @@ Tick next_change(const RegisterBank& bank, const NamedPlace& named, Tick done) {
 
 double number_of(const NamedPlace& place, Value value) {
   if (!place.is_real()) return static_cast<double>(value);
-  // 0.1 where a single is the nearest one to it: what a person has written is what comes back.
+  // This returns 0.1 for the single nearest to it, so that the value reads as a person wrote it.
   const double real = static_cast<double>(real_of(value));
   return parse_real(value_text(value, Type::f32)).value_or(real);
 }
@@ -357,7 +357,7 @@ Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write) {
 }
 
 Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value) {
-  // What its words would come to when they are looked up again: programs write like this all the time.
+  // This has the same result as a lookup of its words, but is faster: programs write like this all the time.
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
   if (row.access == Access::read || row.message != nullptr) return Refusal::no_register;

@@ -1,4 +1,4 @@
-// Requests that read consecutive words or bits.
+// Reads consecutive words or bits for requests.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace understudy::emulator {
 
 namespace {
 
-/// Whether a request may find nothing there, by the policy.
+/// Returns true if the policy lets a request read an address without a register.
 bool may_read_hole(const RegisterBank& bank, Table table, std::size_t address) {
   switch (bank.map_policy().unmapped) {
     case MapPolicy::Unmapped::refused: return false;
@@ -26,7 +26,7 @@ bool may_read_hole(const RegisterBank& bank, Table table, std::size_t address) {
   return false;
 }
 
-/// Whether the word at an address can be read; `place` is empty where it reads zero.
+/// Judges whether the word at an address can be read. Leaves `place` empty if it reads as zero.
 Objection readable(const RegisterBank& bank, Table table, std::size_t address, Place& place) {
   if (!place) {
     return may_read_hole(bank, table, address) ? Objection{}
@@ -40,7 +40,7 @@ Objection readable(const RegisterBank& bank, Table table, std::size_t address, P
   return {};
 }
 
-/// How many registers from a place on are neighbours of one row and simply what the image holds.
+/// Returns how many registers from a place on belong to one row and read exactly what the image holds.
 std::size_t stored_neighbours(const Place& place) {
   const RegisterRow& row = *place.row;
   if (row.is_view || row.reader != nullptr || !row.fields.empty() || place.part != Place::Part::whole)
@@ -53,18 +53,18 @@ void put_pair(std::span<std::uint16_t> words, std::uint32_t bits, bool low_first
   words[low_first ? 1 : 0] = static_cast<std::uint16_t>(bits >> 16);
 }
 
-/// Whether the word that a place is begins a 32-bit register, and the request brings both of its words.
+/// Returns true if the place is the first word of a 32-bit register and the request brings both words.
 bool is_whole_pair(const Place& place, bool low_first, std::size_t words_left) {
   return place.part != Place::Part::whole && !place.is_second_word(low_first) && words_left >= 2;
 }
 
-/// The lowest bit of each, from bit number `at` on; whole bytes at once.
+/// Packs the lowest bit of each word, from bit number `at` on, in whole bytes at once.
 void pack(std::span<const std::uint32_t> bits, std::size_t at, std::span<std::uint8_t> packed) {
   std::size_t i = 0;
   const auto one = [&] { packed[at / 8] |= static_cast<std::uint8_t>((bits[i++] & 1U) << at % 8); };
   for (; i < bits.size() && at % 8 != 0; ++at) one();
   for (; i + 8 <= bits.size(); i += 8, at += 8) {
-    const std::uint32_t* const of = &bits[i];  // written out: the compiler would not unroll it
+    const std::uint32_t* const of = &bits[i];  // written out, because the compiler would not unroll it
     const std::uint32_t low = (of[0] & 1U) | (of[1] & 1U) << 1 | (of[2] & 1U) << 2 | (of[3] & 1U) << 3;
     const std::uint32_t high = (of[4] & 1U) | (of[5] & 1U) << 1 | (of[6] & 1U) << 2 | (of[7] & 1U) << 3;
     packed[at / 8] = static_cast<std::uint8_t>(low | high << 4);
@@ -121,7 +121,7 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
   std::fill(packed.begin(), packed.end(), std::uint8_t{0});
   const auto sources = bank.map().bit_sources(table);
   const auto image = bank.image();
-  // Most are 0: a byte is not written for each of them.
+  // Most bits are 0, so only the ones are written.
   const auto put = [&](std::size_t i, std::uint32_t bit) {
     if ((bit & 1U) != 0) packed[i / 8] |= static_cast<std::uint8_t>(1U << i % 8);
   };

@@ -42,7 +42,7 @@ constexpr std::array<std::pair<std::string_view, Table>, 4> kTables{{{"holding",
                                                                      {"input", Table::input},
                                                                      {"discrete", Table::discrete}}};
 
-/// Whether reading it asks for nothing but its value, in every firmware.
+/// Returns true if a read of the row needs nothing but its value, in every firmware.
 bool reads_plainly(const RegisterRow& row) {
   return row.since == 0 && row.not_implemented.empty() && row.fields.empty() && row.access != Access::write &&
          row.message == nullptr;
@@ -106,7 +106,7 @@ void RegisterMap::place_words(const RegisterRow& row, int row_number) {
   }
 }
 
-/// Backwards, so that each knows how many follow it.
+/// Fills the table from the end, so that each entry knows how many like it follow.
 void RegisterMap::find_bit_sources(TableIndex& table) const {
   using How = BitSource::How;
   table.bits.resize(static_cast<std::size_t>(table.end));
@@ -166,7 +166,8 @@ Place RegisterMap::at(Table table, std::uint16_t address, Firmware firmware, boo
 
 namespace {
 
-/// "0x1000": the address that a name is. Behind its table it may be decimal as well: "coil.20".
+/// Returns the address that a name stands for: "0x1000". After the name of a table it may also be decimal:
+/// "coil.20".
 std::optional<std::uint16_t> address_of(std::string_view name, std::optional<Table> table) {
   std::uint16_t address = 0;
   const bool is_hexadecimal = name.starts_with("0x");
@@ -178,7 +179,8 @@ std::optional<std::uint16_t> address_of(std::string_view name, std::optional<Tab
   return address;
 }
 
-/// The word there, in the first table that has one; empty if none has. The model's own order of words counts.
+/// Returns the word at an address in the first table that has one, or an empty place. It follows the model's
+/// own order of words.
 Place word_at(const RegisterMap& map, std::optional<Table> only, std::uint16_t address, Firmware firmware) {
   for (const auto& [name, table] : kTables) {
     if (only && *only != table) continue;
@@ -187,7 +189,7 @@ Place word_at(const RegisterMap& map, std::optional<Table> only, std::uint16_t a
   return {};
 }
 
-/// "input.NAME" without its table, which is told.
+/// A name without its table, and that table: "input.NAME".
 struct InTable {
   std::optional<Table> table;
   std::string_view name;
@@ -199,13 +201,14 @@ InTable without_table(std::string_view name) {
   return {std::nullopt, name};
 }
 
-/// How many bits of a value are at a place.
+/// Returns how many bits of a value are at a place.
 int bits_at(const Place& place) {
   const int width = width_of(place.row->type);
   return place.part == Place::Part::whole ? width : 16;
 }
 
-/// The bits of a place that a number or a field's name stands for; none if it has no such bits.
+/// Returns the bits of a place that a number or a field's name stands for, or nothing if there are no such
+/// bits.
 std::optional<NamedPlace> bits_called(const Place& place, std::string_view name) {
   if (place.row->type == Type::bit) return std::nullopt;
   int bit = -1;
@@ -320,7 +323,7 @@ std::optional<Table> table_called(std::string_view name) {
 
 namespace {
 
-/// The shortest text that a single reads back as.
+/// Returns the shortest text that reads back as this single.
 std::string real_text(Value value) {
   std::array<char, 32> text{};
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), real_of(value));

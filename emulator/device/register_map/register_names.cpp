@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view kHole = "{}";
 
-/// FNV-1a of what a name begins with, a character at a time.
+/// Hashes the beginning of a name with FNV-1a, one character at a time.
 constexpr std::uint32_t begin_hash(Table table) { return 2166136261U + static_cast<std::uint32_t>(table); }
 constexpr std::uint32_t hash_on(std::uint32_t hash, char next) {
   return (hash ^ static_cast<unsigned char>(next)) * 16777619U;
@@ -33,7 +33,7 @@ std::string_view half_of(const RegisterRow& row, RegisterPart part) {
                                      : row.high_half;
 }
 
-/// "7", as it is written: not "07", nor "+7".
+/// Returns the number that a text like "7" stands for. Rejects "07" and "+7".
 std::optional<int> number_in(std::string_view text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -43,7 +43,7 @@ std::optional<int> number_in(std::string_view text) {
   return number;
 }
 
-/// Which of the row's registers has this between the pattern's ends.
+/// Returns which of the row's registers has this label between the pattern's ends.
 std::optional<int> index_of_label(const RegisterRow& row, std::string_view label) {
   if (!row.labels.empty()) {
     const auto found = std::find(row.labels.begin(), row.labels.end(), label);
@@ -93,7 +93,8 @@ std::string_view RegisterNames::text_of(const Pattern& pattern) const {
   return pattern.is_alias ? row.alias : row.name;
 }
 
-/// Of a name whose beginning has the pattern's length and hash; nothing if it is none of this pattern's.
+/// Returns the index in a name whose beginning has the pattern's length and hash, or nothing if the name does
+/// not match the pattern.
 std::optional<int> RegisterNames::index_of(const Pattern& pattern, std::size_t begins_with,
                                            std::string_view name) const {
   const RegisterRow& row = rows_[pattern.row];
@@ -112,7 +113,7 @@ std::optional<int> RegisterNames::index_of(const Pattern& pattern, std::size_t b
   return index_of_label(row, rest);
 }
 
-/// Until `act` returns true.
+/// Calls `act` with each match until it returns true.
 template <typename Act>
 void RegisterNames::for_each_match(Table table, std::string_view name, Act act) const {
   std::uint32_t hash = begin_hash(table);
@@ -140,7 +141,7 @@ std::optional<RegisterNames::Named> RegisterNames::find(Table table, std::string
 
 void RegisterNames::for_each(
     const std::function<void(const Named& named, const std::string& name)>& act) const {
-  // Those of a row stand together.
+  // The patterns of a row are neighbours.
   for (std::size_t first = 0; first < patterns_.size();) {
     const std::size_t number = patterns_[first].row;
     const RegisterRow& row = rows_[number];
@@ -149,7 +150,8 @@ void RegisterNames::for_each(
     for (int index = 0; index < row.count; ++index) {
       for (std::size_t i = first; i < end; ++i) {
         const std::string_view text = text_of(patterns_[i]);
-        if (index > 0 && text.find(kHole) == std::string_view::npos) continue;  // it is of the first alone
+        // Only the first register has this name.
+        if (index > 0 && text.find(kHole) == std::string_view::npos) continue;
         act({.row = number, .index = index, .part = patterns_[i].part},
             name_of(row, index, text) + std::string(half_of(row, patterns_[i].part)));
       }

@@ -15,7 +15,7 @@ namespace understudy::emulator {
 
 namespace {
 
-constexpr int kMaxOfARow = 32768;  // RegisterMap has 15 bits for their number
+constexpr int kMaxOfARow = 32768;  // RegisterMap has 15 bits for the index
 
 struct Require {
   const RegisterRow& row;
@@ -24,7 +24,8 @@ struct Require {
   }
 };
 
-/// Whether find() reaches it: "0x10" is an address, "A.B" a bit, "input.A" a register of a table.
+/// Returns true if find() can reach the name: "0x10" would be an address, "A.B" a bit, "input.A" a register
+/// of a table.
 bool is_name(std::string_view name) {
   return !name.empty() && name.find('.') == std::string_view::npos && (name[0] < '0' || name[0] > '9') &&
          !table_called(name);
@@ -58,7 +59,8 @@ void validate_place(const RegisterRow& row, const Require& require) {
   require(!is_read_only_table || row.access == Access::read, "is in a table that hosts cannot write");
 }
 
-/// Of reals as well, whose bits have another order.
+/// Returns true if the lower limit is not above the upper one. Reals are compared as reals, because their
+/// bits have another order.
 bool is_in_order(const RegisterRow& row) {
   if (row.type == Type::f32) return real_of(row.min) <= real_of(row.max);
   return row.min <= row.max;

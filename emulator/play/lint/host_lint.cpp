@@ -28,7 +28,7 @@ namespace {
 constexpr std::size_t kMaxWaiting = 4 * pty::kRtuMaxFrame;
 constexpr int kFastestByCharacters = 19200;
 
-/// t1.5, the longest silence within a frame (MODBUS over Serial Line V1.02, 2.5.1.1).
+/// Returns t1.5, the longest silence within a frame (MODBUS over Serial Line V1.02, 2.5.1.1).
 SimTime one_and_a_half_characters(const pty::LineSettings& settings) {
   if (settings.baud > kFastestByCharacters) return std::chrono::microseconds(750);
   return settings.duration_of(3) / 2;
@@ -36,7 +36,7 @@ SimTime one_and_a_half_characters(const pty::LineSettings& settings) {
 
 int number_at(std::span<const std::uint8_t> bytes, std::size_t at) { return bytes[at] << 8 | bytes[at + 1]; }
 
-/// The words or bits that a request writes; none if it is not a write, or is not whole.
+/// Returns the words or bits that a request writes, or none if it is incomplete or not a write.
 HostLint::Written written(std::span<const std::uint8_t> frame) {
   HostLint::Written made;
   if (frame.size() < 8) return made;
@@ -69,7 +69,8 @@ HostLint::HostLint(world::World& world, std::size_t line)
     : world_(world),
       number_(line),
       options_(world.line(line).line.options()),
-      // Whatever the devices make of it: it must hear frames that a strict one would not, to say why.
+      // The framer is never strict, whatever the devices are: it must receive frames that a strict one would
+      // drop, to say why.
       framer_({.strict = false,
                .silence = SimTime{0},
                .patience = world.line(line).framing.patience,
@@ -103,7 +104,7 @@ void HostLint::begin_anew() {
 
 void HostLint::on_character(const pty::TimedByte& character, bool is_heard) {
   const bool follows = last_number_ == 0 || character.number == last_number_ + 1;
-  if (!follows || !is_heard) begin_anew();  // a host that nobody hears has other troubles
+  if (!follows || !is_heard) begin_anew();  // a host that nobody hears has other problems
   last_number_ = character.number;
   under_way_.reset();
   if (!is_heard) return;

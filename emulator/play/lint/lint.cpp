@@ -17,19 +17,19 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// What small EEPROMs are made for: writes of one cell.
+// Small EEPROMs are specified for this many writes of one cell.
 constexpr std::int64_t kEndurance = 100'000;
-// Registers are reported that were changed more often than this, at a rate that would wear their cells out in
-// less than a year.
+// A register is reported if it changed more often than this, at a rate that would wear out its cells in less
+// than the minimum life.
 constexpr std::uint64_t kChangesAllowed = 10;
 constexpr SimTime kMinLife = std::chrono::hours(24 * 365);
 
-/// "3 requests", with what they do.
+/// Returns "3 requests", followed by the verb.
 std::string counted(std::uint64_t count, const char* one, const char* several) {
   return std::to_string(count) + " " + (count == 1 ? one : several);
 }
 
-/// "1.4 hours": coarse.
+/// Returns a rough time: "1.4 hours".
 std::string rough(SimTime time) {
   struct Scale {
     SimTime unit;
@@ -44,7 +44,8 @@ std::string rough(SimTime time) {
          scale.name;
 }
 
-/// How long a cell lasts at the rate of its changes; nothing if they are few, or it lasts for long.
+/// Returns how long a cell lasts at the rate of its changes, or nothing if there are few changes or it lasts
+/// long enough.
 std::optional<SimTime> life_of(const Finding& changes) {
   if (changes.count <= kChangesAllowed) return std::nullopt;
   const auto intervals = static_cast<std::int64_t>(changes.count - 1);
@@ -53,7 +54,8 @@ std::optional<SimTime> life_of(const Finding& changes) {
   return interval * kEndurance;
 }
 
-/// Without the line and the moment; empty if it is not worth telling.
+/// Returns the text of a finding without the line and the time, or an empty text if it is not worth
+/// reporting.
 std::string text_of(const HostLint& line, LintRule rule, const std::string& subject, const Finding& finding) {
   const std::uint64_t count = finding.count;
   switch (rule) {

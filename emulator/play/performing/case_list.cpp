@@ -32,7 +32,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// Reading a case again costs less than a tenth of playing it, but a suite as people write them need not.
+// To read a case again costs less than a tenth of a run, but suites of an ordinary size need not do so.
 constexpr std::size_t kMaxHeld = 1000;
 constexpr std::size_t kMaxShared = 256;  // benches and files of steps
 constexpr std::size_t kTrimEvery = 256;  // files
@@ -41,7 +41,7 @@ std::uint64_t hash_of_text(std::string_view text, std::uint64_t onto) {
   return hash_of(std::as_bytes(std::span(text)), onto);
 }
 
-/// What is shared between files is shared for a while only.
+/// Forgets shared files when there are many.
 void keep_few(SharedReading& shared) {
   if (shared.benches.size() > kMaxShared) shared.benches.clear();
   if (shared.included.size() > kMaxShared) shared.included.clear();
@@ -84,7 +84,8 @@ void CaseList::add(const std::string& path, const std::function<void(const Scena
   ScenarioFile opened(path, options_, shared_);
   File file{.path = path, .size = opened.size(), .is_varied = opened.is_varied(), .made_of = 0, .held = {}};
   const bool is_held = !file.is_varied && held_ + file.size <= kMaxHeld;
-  std::set<std::uint64_t> contents;  // wherever the files stand, and however their paths are spelled
+  // They do not depend on the place of the files or the spelling of their paths.
+  std::set<std::uint64_t> contents;
   opened.check([&](Scenario scenario) {
     look(scenario);
     for (const FileClaim& claim : scenario.files) contents.insert(hash_of_file(claim.path));
@@ -95,12 +96,12 @@ void CaseList::add(const std::string& path, const std::function<void(const Scena
     file.made_of = hash_of_text(identity_text(content), file.made_of);
   held_ += file.held.size();
   files_.push_back(std::move(file));
-  // The little that is kept of each file lies between what its world took, and glibc 2.36 uses aligned memory
-  // anew only if nothing does: 14 KiB a file, which are given back.
+  // The little data kept for each file lies between the memory of its worlds, and glibc 2.36 reuses aligned
+  // memory only if it is contiguous. This gives back 14 KiB per file.
   if (files_.size() % kTrimEvery == 0) ::malloc_trim(0);
 }
 
-/// Of listed cases this was asked when they were checked.
+/// Claims the paths that a case saves. Listed cases did this when they were checked.
 void CaseList::claim_saved(const Scenario& scenario) const {
   const std::uint64_t who = identity_of(scenario.which) ^ hash_of_text(scenario.file, hash_of({}));
   for (const std::string& path : scenario.saved) {

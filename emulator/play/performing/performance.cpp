@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::size_t kFramesTold = 10;
 
-/// Whether any expression asks for what is to be looked at in every tick from the beginning.
+/// Returns true if an expression needs a value that must be watched in every tick from the beginning.
 bool names_peaks(const Steps& steps);
 
 struct NamesPeaks {
@@ -58,7 +58,7 @@ bool names_peaks(const Steps& steps) {
                      [](const Step& step) { return std::visit(NamesPeaks{}, step.what); });
 }
 
-/// Whether a step lets time go on, or puts it back.
+/// Tells whether a step advances time or sets it back.
 struct MovesTime {
   bool operator()(const WriteStep&) const { return true; }
   bool operator()(const CommandStep&) const { return true; }
@@ -72,7 +72,7 @@ struct MovesTime {
 };
 bool moves_time(const Step& step) { return std::visit(MovesTime{}, step.what); }
 
-/// What is waited for, in these steps or a branch of them, before anything else moves time.
+/// Adds the conditions that these steps, or their branches, wait for before anything else moves time.
 void add_awaited(std::span<const Step> steps, std::vector<std::string>& conditions) {
   for (const Step& step : steps) {
     if (const auto* const wait = std::get_if<WaitStep>(&step.what); wait != nullptr && !wait->poll) {
@@ -103,7 +103,7 @@ Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> exe
   keeps_peaks_ = names_peaks(scenario.steps);
   executor_->with_world([&](world::World& world) {
     eyes_ = std::make_unique<Eyes>(world, with_hash);
-    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // before those who ask for them
+    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // before the watchers that ask for peaks
   });
 }
 
@@ -157,7 +157,7 @@ Failure Performance::explain_failure(const StepError& error) {
       .what = error.what(), .expected = error.expected, .came = error.came, .details = error.details};
   executor_->with_world([&](world::World& world) {
     failure.frames = eyes_->frames.last(kFramesTold);
-    // A broken span comes first: it was there before whatever else is wrong.
+    // A broken span comes first, because it happened before any other failure.
     if (const auto& violation = eyes_->spans.violation()) {
       failure.at = violation->at;
       failure.what = violation->what + " did not hold at " + format_duration(violation->at);
@@ -199,8 +199,7 @@ void Performance::restore(const Checkpoint& checkpoint) {
     if (!checkpoint.spans.empty()) world.add_watcher(eyes_->spans);
     std::vector<SpanWatch::Span> spans = checkpoint.spans;
     for (SpanWatch::Span& span : spans) {
-      // What its names stand for is known to the probes that found them, and those were another
-      // performance's.
+      // The condition is parsed anew, because its handles belong to the probes of another performance.
       span.condition = world::parse_expression(span.condition.text, eyes_->probes);
     }
     eyes_->spans.restore(spans);

@@ -1,4 +1,4 @@
-// Steps over the line: write, expect, send.
+// Performs steps over the line: write, expect, send.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -72,10 +72,10 @@ void Performance::require(const HostReply& reply, const Answer& answer, const st
                   what + ": " + to_text(reply));
 }
 
-/// A host that gives up after `within`, whatever comes.
+/// Requires silence. The host gives up after `within`, whatever it receives.
 void Performance::require_silence(const Place& place, const std::vector<std::uint8_t>& request,
                                   SimTime within, const std::string& what) {
-  moment_in(within);  // there is such a moment
+  moment_in(within);  // throws if there is no such moment
   const auto reply = executor_->exchange(place.line, request, SIZE_MAX, within);
   require(judge_reply(request, reply), {.silence = within}, what);
 }
@@ -151,7 +151,7 @@ void Performance::perform(const WriteStep& step) {
         require(reply, {}, "read " + targets[entry].name + place.on_line + " to write it");
         present = reply.words;
       }
-      // The order of words may be what an earlier request of this step has changed.
+      // An earlier request of this step may have changed the order of words.
       bool is_low_first = low_word_first[entry];
       executor_->with_world([&](world::World& world) {
         is_low_first = world.device(targets[entry].device).register_bank()->low_word_first();
@@ -176,7 +176,7 @@ void Performance::perform(const CommandStep& step) {
     std::string what;
     executor_->with_world([&](world::World& world) {
       const Device& device = world.device(entry.device);
-      message = window_message(device, entry.text);  // by the order of words at this moment
+      message = window_message(device, entry.text);  // uses the present order of words
       what = "command " + device.name() + ": " + entry.text + place.on_line;
     });
     if (step.answer.silence) {
@@ -201,7 +201,7 @@ void Performance::perform(const ExpectStep& step) {
   std::vector<std::string> expected;
   std::vector<std::string> came;
   std::vector<std::string> details;
-  std::size_t next = 0;  // of those that were read
+  std::size_t next = 0;  // the next of the values that were read
   for (const ExpectStep::Entry& entry : step.entries) {
     const Target& target = entry.target;
     std::string told;
@@ -231,7 +231,7 @@ void Performance::perform(const ExpectStep& step) {
 
 void Performance::perform(const SendStep& step) {
   const bool wants_bytes = step.reply && !step.reply->empty();
-  moment_in(step.within);  // there is such a moment
+  moment_in(step.within);  // throws if there is no such moment
   const std::size_t wanted = wants_bytes ? step.reply->size() : SIZE_MAX;
   const std::vector<std::uint8_t> reply = executor_->exchange(step.line, step.bytes, wanted, step.within);
   if (!step.reply || reply == *step.reply) return;

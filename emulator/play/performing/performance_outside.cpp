@@ -1,4 +1,4 @@
-// Steps that act on the bench from outside: inputs, faults, power, programs, memories.
+// Performs steps that act on the bench from outside: inputs, faults, power, programs, memories.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -33,10 +33,10 @@ namespace {
 std::string text_of_value(std::int64_t value) { return std::to_string(value); }
 std::string text_of_value(double value) {
   std::array<char, 32> digits{};
-  return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};  // the shortest
+  return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};  // the shortest text
 }
 
-/// Of registers or reals: one that an image leaves out has the factory's value.
+/// Compares registers or reals. A value that an image leaves out is the factory's.
 template <class Values>
 void compare_values(const Values& present, const Values& wanted, std::vector<std::string>& lines) {
   using Map = std::map<std::string, typename Values::value_type::second_type>;
@@ -58,7 +58,7 @@ void compare_values(const Values& present, const Values& wanted, std::vector<std
   }
 }
 
-/// The first line that differs.
+/// Reports the first line that differs.
 void compare_lines(const std::string& what, const std::vector<std::string>& present,
                    const std::vector<std::string>& wanted, std::vector<std::string>& lines) {
   const auto text = [](const std::vector<std::string>& all, std::size_t i) {
@@ -80,7 +80,7 @@ std::vector<std::string> lines_in(const std::string& text) {
   return lines;
 }
 
-/// A block that one of them lacks is told as a whole.
+/// Compares blocks. A block that only one image has is reported as a whole.
 void compare_blocks(const NamedBlocks& present, const NamedBlocks& wanted, std::vector<std::string>& lines) {
   std::map<std::string, std::pair<const SharedText*, const SharedText*>> both;
   for (const auto& [kind, entries] : present) {
@@ -101,7 +101,7 @@ void compare_blocks(const NamedBlocks& present, const NamedBlocks& wanted, std::
   }
 }
 
-/// What differs, a line each.
+/// Returns the differences, a line for each.
 std::vector<std::string> differences(const NvImage& present, const NvImage& wanted) {
   std::vector<std::string> lines;
   const auto has_other_model = present.model != wanted.model;
@@ -143,7 +143,7 @@ void Performance::perform(const ClearStep& step) {
     }
     std::erase_if(faults_, [&](const auto& fault) {
       if (fault.first != step.name) return false;
-      world.clear_fault(fault.second);  // one that was over at once is mended as well
+      world.clear_fault(fault.second);  // also clears one that ended at once
       return was_there = true;
     });
   });
@@ -179,7 +179,7 @@ void Performance::perform(const ProgramStep& step) {
 }
 
 void Performance::perform(const MemoryStep& step) {
-  // The image is made here, not on the world's thread: that takes time where a memory is big.
+  // The image is made here, not on the world's thread, because a large memory takes time.
   LateImage kept;
   executor_->with_world([&](world::World& world) { kept = world.device(step.device).memory()->kept_now(); });
   const NvImage present = kept();

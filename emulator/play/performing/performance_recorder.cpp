@@ -24,8 +24,9 @@ PerformanceRecorder::PerformanceRecorder(world::World& world, world::RecordingHe
 }
 
 void PerformanceRecorder::begin() {
-  spool_.reset();                              // the one before is over, and its file is free
-  const auto log = [](const std::string&) {};  // what breaks off is told when the play is over
+  // Finishes the recording before this one, so that its file is free.
+  spool_.reset();
+  const auto log = [](const std::string&) {};  // the end of the scenario reports an interruption
   spool_ = std::make_unique<world::RecordingSpool>(
       world_, header_, std::make_unique<GrowingFile>(path_, ContentKind::recording, log),
       world::kRecordingCapBytes, log);
@@ -41,7 +42,8 @@ void PerformanceRecorder::world_restored(std::size_t) {
 void PerformanceRecorder::step_over() { spool_->look(); }
 
 void PerformanceRecorder::finish(ScenarioResult& result) {
-  // Most recordings are thrown away; the state of a world is a third of what a short one costs.
+  // Most recordings are discarded, so only those of failures end with a state. The state of a world takes a
+  // third of the time of a short one.
   if (result.verdict != ScenarioResult::Verdict::passed) {
     spool_->finish(result.failure ? result.failure->what : std::string());
   }

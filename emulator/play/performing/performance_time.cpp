@@ -1,4 +1,4 @@
-// Steps that let time pass, or look at the truth.
+// Performs steps that let time pass, or look at the true state.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -76,13 +76,14 @@ void Performance::perform(const AdvanceStep& step) { pass_time(moment_in(step.by
 
 // --- waiting -----------------------------------------------------------------------------------
 
-/// By the tick that it acts from.
+/// Returns the tick from which the last write acts.
 Tick Performance::last_write() {
   const Tick tick = executor_->tick_of_last_write();
   return tick != 0 ? tick : last_write_;
 }
 
-/// What comes true while the reply to a write is still on the line has come true after that write.
+/// Begins to watch a condition. If it becomes true while the reply to a write is still on the line, it has
+/// become true after that write.
 void Performance::begin_history(const std::string& condition, const ConditionHistory::State& past) {
   executor_->with_world([&](world::World& world) {
     const auto [history, is_new] = eyes_->histories.try_emplace(

@@ -26,9 +26,9 @@ namespace {
 using Checkpoint = std::shared_ptr<const Performance::Checkpoint>;
 using Checkpoints = std::map<std::string, Checkpoint>;
 
-constexpr std::string_view kBranch = " / ";  // between a name and a branch's
+constexpr std::string_view kBranch = " / ";  // between the name of a scenario and that of a branch
 
-/// Those who look on at one performance.
+/// The observers of one performance.
 class Observers {
  public:
   Observers(Performance& performance, const std::vector<ObserverMaker>& makers) : performance_(performance) {
@@ -70,7 +70,7 @@ class Run {
  public:
   Run(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {}
 
-  /// From power-up on, or from a checkpoint.
+  /// Performs the steps from power-up, or from a checkpoint.
   void perform(const std::string& name, const Steps& steps, const Checkpoint& begin, Checkpoints known) {
     const std::size_t number = results_.size();
     results_.push_back(result_called(name));

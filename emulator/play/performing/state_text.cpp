@@ -48,7 +48,8 @@ std::string registers_text(const Device& device) {
   return text;
 }
 
-/// The device reads its inputs at each tick: until then the register of an input has the level before.
+/// Returns true if the register of an input still shows the earlier level, because the device reads its
+/// inputs only in a tick.
 bool is_read_later(const Device& device, const TerminalSight& sight, std::int64_t level) {
   if (sight.kind != TerminalRow::Kind::digital_in || !device.powered()) return false;
   const RegisterBank* const bank = device.register_bank();

@@ -19,11 +19,11 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// How many cases the threads may be ahead of the first one that is not over. One that takes its time does not
-// hold up the others soon, and results do not pile up for ever.
+// The threads may be this many cases ahead of the first one that is not over. So a slow case does not hold up
+// the others soon, but results do not pile up without limit.
 constexpr std::size_t kAhead = 256;
 
-/// What the threads share.
+/// The state that the threads share.
 class Board {
  public:
   explicit Board(const NextCase& next) : next_(next) {}
@@ -46,7 +46,7 @@ class Board {
     }
   }
 
-  /// Waits for the first case that was not told; false after the last one.
+  /// Waits for the next case in order and reports it. Returns false after the last one.
   bool tell_next(const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& tell) {
     std::unique_lock lock(mutex_);
     is_first_over_.wait(lock, [&] { return entries_.empty() ? is_last_taken_ : entries_.front().is_over; });
@@ -60,7 +60,7 @@ class Board {
     return true;
   }
 
-  /// Nobody begins another one.
+  /// Lets no thread begin another case.
   void stop() {
     const std::lock_guard lock(mutex_);
     is_last_taken_ = true;
@@ -75,7 +75,7 @@ class Board {
     std::exception_ptr error{};
   };
 
-  /// Stays where it is until it has been told.
+  /// Returns the next case. The entry does not move in memory until it is reported.
   Entry* take() {
     std::unique_lock lock(mutex_);
     has_room_.wait(lock, [&] { return is_last_taken_ || entries_.size() < kAhead; });
@@ -102,7 +102,7 @@ class Board {
   std::mutex mutex_;
   std::condition_variable has_room_;
   std::condition_variable is_first_over_;
-  std::deque<Entry> entries_;  // taken, and not yet told, in order
+  std::deque<Entry> entries_;  // taken but not reported yet, in order
   bool is_last_taken_ = false;
 };
 
@@ -114,7 +114,7 @@ void run_suite(const NextCase& next, const std::function<Play()>& make_play, int
   std::vector<std::jthread> threads;
   const auto stop_at_end = [&board](void*) { board.stop(); };
   for (int i = 0; i < std::max(jobs, 1); ++i) threads.emplace_back([&] { board.work(make_play); });
-  // Also when something is thrown the threads are not left to play on.
+  // If anything throws, the threads must stop too.
   const std::unique_ptr<void, decltype(stop_at_end)> guard(&board, stop_at_end);
   while (board.tell_next(tell)) {
   }

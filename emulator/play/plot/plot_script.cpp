@@ -20,7 +20,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// In pixels.
+// These sizes are in pixels.
 constexpr int kPlotWidth = 1200;
 constexpr int kTitleHeight = 46;
 constexpr int kPlotTimeHeight = 56;
@@ -28,7 +28,7 @@ constexpr int kPlotPanelGap = 34;
 constexpr int kPositionHeight = 230;
 constexpr int kPanelHeight = 140;
 constexpr int kPlotRowHeight = 20;
-constexpr double kRowsBetween = 1.5;  // from one row of bits to the next, which are 1 high
+constexpr double kRowsBetween = 1.5;  // the distance of two rows of bits, which are 1 high
 constexpr std::size_t kMaxStretches = 3000;
 constexpr int kPlotColours = 8;
 constexpr const char* kColourOf[kPlotColours] = {"#0969da", "#bc4c00", "#1a7f37", "#8250df",
@@ -37,7 +37,7 @@ constexpr const char* kColourOf[kPlotColours] = {"#0969da", "#bc4c00", "#1a7f37"
 constexpr const char* kPosition = ".position";
 constexpr const char* kPulses = ".pulses";
 
-/// As gnuplot quotes what it takes as it is.
+/// Quotes a text for gnuplot, which takes it literally in single quotes.
 std::string in_quotes(const std::string& text) {
   std::string quoted = "'";
   for (const char c : one_line(text)) quoted += c == '\'' ? std::string("''") : std::string(1, c);
@@ -101,11 +101,11 @@ std::vector<PlotPanel> panels_of(const TraceTable& table, std::span<const std::s
   return panels;
 }
 
-/// A column as gnuplot's data, time in seconds.
+/// Returns a column as data for gnuplot, with time in seconds.
 std::string data_of(const TraceTable& table, std::size_t column) {
   Envelope envelope(kMaxStretches);
   for (std::size_t i = 0; i < table.ticks.size(); ++i) {
-    // Rows are left out where nothing changes.
+    // Rows between two changes are left out.
     if (i > 0) envelope.add(table.ticks[i] - 1, table.columns[column][i - 1]);
     envelope.add(table.ticks[i], table.columns[column][i]);
   }
@@ -118,7 +118,7 @@ std::string data_of(const TraceTable& table, std::size_t column) {
   return text + "END\n";
 }
 
-/// An axis has one colour in all panels.
+/// Returns the colour of a column. An axis has the same colour in all panels.
 std::string colour_of(const TraceTable& table, std::size_t column) {
   const auto axis_of = [](const std::string& name) { return name.substr(0, name.rfind('.')); };
   std::vector<std::string> axes;
@@ -131,7 +131,7 @@ std::string colour_of(const TraceTable& table, std::size_t column) {
   return kColourOf[(found == axes.end() ? 0 : found - axes.begin()) % kPlotColours];
 }
 
-/// From the least to the greatest value of all its columns, and a little beyond.
+/// Returns the range from the minimum to the maximum of a panel's columns, and a little more.
 std::string range_of(const TraceTable& table, const PlotPanel& panel) {
   double least = table.columns[panel.columns.front()].front();
   double greatest = least;
@@ -144,7 +144,7 @@ std::string range_of(const TraceTable& table, const PlotPanel& panel) {
   return "set yrange [" + world::number_text(scale.low) + ":" + world::number_text(scale.high) + "]\n";
 }
 
-/// Pulses that the machine has followed say nothing that its position does not.
+/// Returns true if a machine has followed all pulses, which then show nothing new beside its position.
 bool is_followed(const TraceTable& table, std::size_t column) {
   const std::string& name = table.names[column];
   const std::string position = name.substr(0, name.rfind('.')) + kPosition;

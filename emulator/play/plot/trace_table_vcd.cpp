@@ -1,4 +1,4 @@
-// The part of IEEE 1364's value change dumps that this program writes.
+// Reads the value change dumps (IEEE 1364) that this program writes, and no other parts of the format.
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -39,7 +39,7 @@ class VcdReader {
     throw FileError(name_ + ":" + std::to_string(line_) + ": " + what);
   }
 
-  /// The next word; empty at the end.
+  /// Returns the next word, or an empty one at the end.
   std::string_view next() {
     const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
     while (at_ < text_.size() && is_blank(text_[at_])) {
@@ -50,7 +50,7 @@ class VcdReader {
     return text_.substr(begin, at_ - begin);
   }
 
-  /// The words up to $end.
+  /// Returns the words up to $end.
   std::vector<std::string> words() {
     std::vector<std::string> words;
     for (std::string_view word = next(); word != "$end"; word = next()) {
@@ -87,7 +87,7 @@ class VcdReader {
   }
 
   void read_change(std::string_view word) {
-    if (word.starts_with("$")) return;  // $dumpvars and the like: the changes within count as others do
+    if (word.starts_with("$")) return;  // $dumpvars and the like: the changes inside count like any others
     if (word.front() == '#') {
       end_row();
       Tick tick = 0;
@@ -140,7 +140,7 @@ class VcdReader {
   TraceTable table_;
   std::vector<std::string> scopes_;
   std::map<std::string, std::size_t> codes_;
-  std::vector<double> values_;  // at this moment
+  std::vector<double> values_;  // the present values
   Tick tick_ = 0;
   bool has_row_ = false;
   bool has_header_ = false;

@@ -16,7 +16,7 @@ namespace understudy::emulator::play {
 namespace {
 
 constexpr std::size_t kMaxDigits = 15;
-constexpr std::int64_t kMaxCounted = INT64_MAX / 2;  // the distance between two of them is counted as well
+constexpr std::int64_t kMaxCounted = INT64_MAX / 2;  // the difference of two amounts is counted too
 
 struct AmountUnit {
   std::string_view name;

@@ -1,6 +1,5 @@
-// The cases of a play, by number: each row of `cases`, or each option of a `choice`, with each combination of
-// what `vary` says.
-// They are never listed, so there may be any number.
+// The cases of a scenario, by number: each row of `cases`, or each option of a `choice`, with each
+// combination of the values of `vary`. The cases are never listed, so there may be any number of them.
 #pragma once
 
 #include <cstdint>
@@ -20,23 +19,24 @@ inline constexpr std::string_view kOptionParameter = "option";
 
 class CaseTable {
  public:
-  /// `seed` stands for the file's own, also in what is drawn. Throws FileError.
+  /// Reads the cases. `seed` replaces the file's own seed, also for drawn values. Throws FileError.
   CaseTable(const world::YamlFields& root, std::optional<std::uint64_t> seed);
 
-  /// 1 for a file with neither.
+  /// Returns 1 for a file with neither `cases` nor `vary`.
   std::uint64_t size() const { return size_; }
   bool is_varied() const { return !variations_.empty(); }
-  /// The choice whose options are its cases, or empty: then the first value of each case is that option.
+  /// Returns the choice whose options are the cases, or an empty text. The first value of each case is then
+  /// its option.
   const std::string& choice() const { return choice_; }
-  /// The last entry of `vary` changes fastest, the row slowest.
+  /// Returns a case by its number. The last entry of `vary` changes fastest, the row slowest.
   Case at(std::uint64_t number) const;
-  /// Where that case gets that parameter's value, for diagnostics.
+  /// Returns the place in the file of that parameter's value in that case, for diagnostics.
   world::YamlFields field_of(std::uint64_t number, const std::string& name) const;
-  /// Where the case as a whole stands.
+  /// Returns the place in the file of the case as a whole.
   world::YamlFields place_of(std::uint64_t number) const;
 
-  /// Cases that have each row and each listed value at least once, and both ends and some more of each range:
-  /// of a few all, of many hardly more than that.
+  /// Returns cases that have each row and each listed value at least once, and both ends and some more values
+  /// of each range. It returns all cases of a few, and hardly more than necessary of many.
   std::vector<std::uint64_t> typical() const;
 
  private:

@@ -1,4 +1,4 @@
-// Steps that say how the others follow each other: snapshot, restore, fork, repeat, for, include.
+// Reads steps that control the order of others: snapshot, restore, fork, repeat, for, include.
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -31,7 +31,7 @@ void define(const world::YamlFields& field, Parameters& parameters, const std::s
 void read_snapshot(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   const std::string name = value.text();
   if (name.empty()) value.fail("is empty; expected a name");
-  reader.story().snapshots[name] = reader.story();  // NOLINT(cppcoreguidelines-slicing): the moment of it
+  reader.story().snapshots[name] = reader.story();  // NOLINT(cppcoreguidelines-slicing): only the moment
   reader.add(step, "snapshot " + name, SnapshotStep{name});
 }
 

@@ -1,4 +1,4 @@
-// Steps that use the line: write, expect, send.
+// Reads steps that use the line: write, expect, send.
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
@@ -45,7 +45,7 @@ Answer read_answer(const world::YamlFields& step) {
   return answer;
 }
 
-/// Of a step about these devices.
+/// Reads the port of a step about these devices.
 Via read_via_of(const StepsReader& reader, const world::YamlFields& step,
                 const std::vector<std::size_t>& devices) {
   const auto field = step.find(kViaKey.key);
@@ -53,7 +53,7 @@ Via read_via_of(const StepsReader& reader, const world::YamlFields& step,
   return reader.trial().line_of_all(*field, devices);
 }
 
-/// Of a step about these entries.
+/// Reads the port of a step about these entries.
 template <typename Entries>
 Via read_via(const StepsReader& reader, const world::YamlFields& step, const Entries& entries) {
   const auto field = step.find(kViaKey.key);
@@ -67,7 +67,8 @@ Via read_via(const StepsReader& reader, const world::YamlFields& step, const Ent
   return read_via_of(reader, step, devices);
 }
 
-/// "write feeder.A=1, feeder.B=2", and "via rs485", "(exception 3)" or "(no reply)" behind it.
+/// Builds the text of a step: "write feeder.A=1, feeder.B=2", followed by "via rs485", "(exception 3)" or
+/// "(no reply)".
 struct Sentence {
   std::string text;
   bool is_first = true;
@@ -91,7 +92,7 @@ std::vector<std::pair<std::string, world::YamlFields>> require_registers(const w
   return entries;
 }
 
-constexpr std::size_t kMaxBytes = 1024;  // of one step
+constexpr std::size_t kMaxBytes = 1024;  // in one step
 
 std::vector<std::uint8_t> read_bytes(const world::YamlFields& field) {
   const std::string text = field.text();

@@ -1,4 +1,4 @@
-// Steps that do what people and machines do to devices: inputs, faults, power, programs, memories.
+// Reads steps that act as people and machines do on devices: inputs, faults, power, programs, memories.
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
@@ -34,7 +34,7 @@ std::vector<std::pair<std::string, world::YamlFields>> require_entries(const wor
   return entries;
 }
 
-/// What must be in the message of a refusal; for `true` anything will do.
+/// Returns the text that the message of a refusal must contain. For `true`, any message will do.
 std::string refusal_text(const world::YamlFields& field) {
   const std::string text = field.text();
   if (text == "false" || text.empty()) {
@@ -134,7 +134,7 @@ void read_program(StepsReader& reader, const world::YamlFields& step, const worl
   for (const auto& [name, field] : require_entries(value, "feeder: indexing.lst")) {
     ProgramStep program;
     program.device = reader.trial().device(field, name);
-    // The path of a listing, or the listing itself if it has several lines.
+    // The field holds the path of a listing, or the listing itself if it has several lines.
     const bool is_inline = field.text().find('\n') != std::string::npos;
     program.file = is_inline ? field.file() : field.path();
     if (is_inline) {

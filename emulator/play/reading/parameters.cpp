@@ -47,7 +47,7 @@ class NoNames final : public world::NameResolver {
   }
 };
 
-/// Parameters as the names of an expression: their handles count them in the order of its text.
+/// Provides parameters as names in an expression. A handle is the name's number in the order of the text.
 class Numbers final : public world::NameResolver, public world::ValueSource {
  public:
   explicit Numbers(const Parameters& parameters) : parameters_(parameters) {}
@@ -82,7 +82,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// A single word of the expression language that means nothing there yet.
+/// Returns true for a single word that has no meaning in expressions yet.
 bool is_name(const std::string& name) {
   try {
     world::Lexer lexer(name);
@@ -135,7 +135,7 @@ std::string Parameters::evaluated(std::string_view written) const {
 }
 
 std::string Parameters::apply(const std::string& written) const {
-  constexpr std::size_t kLongest = 1'000'000;  // bytes, which a few short lines could grow into
+  constexpr std::size_t kLongest = 1'000'000;  // bytes; a few short lines could grow beyond it
   std::string made;
   std::size_t at = 0;
   for (;;) {

@@ -41,19 +41,19 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// Wherever links lead.
+/// Returns true if the file is below the folder, after all links are followed.
 bool is_below(const std::string& path, const std::string& folder) {
   namespace fs = std::filesystem;
   std::string target = path;
   try {
     target = output_target(path);
   } catch (const OutputError&) {
-    // What is there is refused for what it is.
+    // A later check refuses the path for what it is.
   }
   const fs::path file = fs::weakly_canonical(fs::absolute(target));
   const fs::path top = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder));
   const auto [at_top, at_file] = std::mismatch(top.begin(), top.end(), file.begin(), file.end());
-  // A folder that is written with a slash at its end has an empty name there.
+  // A path with a slash at its end has an empty last name.
   return at_top == top.end() || (at_top->empty() && std::next(at_top) == top.end());
 }
 
@@ -85,13 +85,14 @@ void read_firmwares(const world::YamlFields& fields, world::Bench& bench) {
   }
 }
 
-/// The bench by itself has been checked, but a memory may not suit it, and another firmware may know less.
+/// Makes a trial bench. The bench itself has been checked, but a memory may not suit it, and another firmware
+/// may know fewer names.
 Trial make_trial(const world::YamlFields& root, world::Bench& bench) {
   const std::string key = root.has("firmware") ? "firmware" : "bench";
   const world::YamlFields field = root.at(key);
   try {
     serve::read_memories(bench, "");
-    // What is played leaves the files as they are; `save` writes them.
+    // A scenario must not change the memory files; `save` writes others.
     for (world::DeviceSetup& device : bench.devices) device.nv_path.clear();
     return Trial(bench);
   } catch (const SettingError& error) {
@@ -141,7 +142,8 @@ std::string PlayReader::written_name() const {
   return "";
 }
 
-/// The case's values, and the defaults of all others; a default may use what is defined before it.
+/// Defines the case's values, and the defaults of all other parameters. A default may use what is defined
+/// before it.
 void PlayReader::define_all(std::uint64_t number, const Case& which, Parameters& parameters) const {
   const auto define = [&](const auto& field, const std::string& name, const std::string& value) {
     try {
@@ -165,7 +167,7 @@ void PlayReader::define_all(std::uint64_t number, const Case& which, Parameters&
   }
 }
 
-/// Where one was meant and another was written, both are left over.
+/// Requires that every parameter is used. If one is written in place of another, the other is left over.
 void PlayReader::require_all_used(std::uint64_t number, const Case& which,
                                   const Parameters& parameters) const {
   const auto fail = [&](const std::string& name, const world::YamlFields& field) {
@@ -186,7 +188,7 @@ void PlayReader::require_all_used(std::uint64_t number, const Case& which,
   }
 }
 
-/// What is written, and the values that tell this case from the others.
+/// Returns the name of the file or scenario, with the values that distinguish this case from the others.
 std::string PlayReader::name_with(const Case& which, const Parameters& parameters) const {
   std::string name = std::filesystem::path(file_.path).stem().string();
   const std::string written = written_name();
@@ -229,7 +231,7 @@ world::Bench PlayReader::read_its_bench(const world::YamlFields& root) const {
   return bench;
 }
 
-/// Every device that has the choice gets the option, but for those to which the bench gives one.
+/// Sets the option of `choice` on every device that has that choice, unless the bench sets it there.
 void PlayReader::choose(std::uint64_t number, world::Bench& bench) const {
   const std::string& id = cases_.choice();
   if (id.empty()) return;
@@ -262,7 +264,7 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   scenario.file = file_.path;
   scenario.which = which;
   scenario.name = std::filesystem::path(file_.path).stem().string();
-  // Without its bench nothing can be said of the steps.
+  // Without its bench, the steps cannot be judged.
   scenario.bench = read_its_bench(root);
   choose(number, scenario.bench);
   for (const world::DeviceSetup& device : scenario.bench.devices) {
@@ -294,7 +296,8 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   return scenario;
 }
 
-/// What is saved may be saved again, but by the same case: several may be played at a time.
+/// Checks the paths that a case saves: they must be in the folder for that, and nothing else may use them. A
+/// case may save a path twice, but two cases may not share one, because several may run at once.
 void PlayReader::require_own_paths(const StepsReader& steps, Scenario& scenario) {
   FileClaims claims;
   claims.add(scenario.files);

@@ -27,7 +27,7 @@
 
 namespace understudy::emulator::play {
 
-/// Reads one case after the other, of one play after the other.
+/// Reads the cases one after another, scenario by scenario.
 class ScenarioFile::Reader {
  public:
   Reader(const world::YamlFields& root, std::string path, const ReadingOptions& options,
@@ -39,7 +39,7 @@ class ScenarioFile::Reader {
               .reading = {.shared = shared}} {
     head_.attempt([&] { root_.require_keys(kScenarioKeys); });
     head_.attempt([&] { root_.at("understudy").integer(world::kVersionSchema); });
-    // Without its cases nothing more can be said.
+    // Without the cases, nothing more can be reported.
     if (!head_.attempt([&] { read_plays(); })) head_.throw_if_any();
   }
 
@@ -85,7 +85,7 @@ class ScenarioFile::Reader {
     }
     if (root_.has("steps"))
       root_.at("steps").fail("stands beside `plays`; expected them in one of the plays");
-    // The file's own name says what its plays have in common; each of them has its own.
+    // The file's name describes all its scenarios; each of them has its own name.
     static constexpr std::array<std::string_view, 3> kOfTheFile{"understudy", "name", "plays"};
     const world::YamlFields common = root_.without(kOfTheFile);
     const auto plays = root_.at("plays").elements();
@@ -106,7 +106,7 @@ class ScenarioFile::Reader {
     diagnostics.throw_if_any();
   }
 
-  /// The play that a case is of, and its number there.
+  /// Returns the scenario of a case, and the number of the case in it.
   std::pair<std::size_t, std::uint64_t> find(std::uint64_t number) const {
     const auto behind = std::upper_bound(first_.begin(), first_.end(), number);
     const auto play = static_cast<std::size_t>(behind - first_.begin()) - 1;
@@ -123,14 +123,14 @@ class ScenarioFile::Reader {
       }
       take(std::move(scenario));
     } catch (const FileError& error) {
-      // What is wrong may be so in one case only.
+      // The error may occur in one case only, so the message names it.
       const Case which = play.cases().at(number);
       all.add(error, which.values.empty() ? "" : "  " + to_text(which));
     }
   }
 
   Scenario read_one(PlayReader& play, std::uint64_t number) {
-    // What is read one by one, as what `vary` makes is, is never all there at once.
+    // Cases that are read one by one, as those of `vary` are, never fill memory together.
     if (play.cases().is_varied() || !file_.saved_before) {
       file_.reading.steps = 0;
       file_.reading.bytes = 0;
@@ -149,9 +149,9 @@ class ScenarioFile::Reader {
 
   world::YamlFields root_;
   FilePlays file_;
-  world::Diagnostics head_;  // what is wrong beside the cases
+  world::Diagnostics head_;  // errors outside the cases
   std::vector<PlayReader> plays_;
-  std::vector<std::uint64_t> first_{0};  // the first case of each play, and behind the last
+  std::vector<std::uint64_t> first_{0};  // the first case of each scenario, and the end
 };
 
 ScenarioFile::ScenarioFile(const std::string& text, const std::string& path, const ReadingOptions& options,
@@ -218,7 +218,8 @@ FileKind kind_of_file(const std::string& path) {
   const world::YamlFields root = world::YamlFields::parse(
       *text, path, "file",
       "a bench (`lines:`), a scenario (`bench:` and `steps:`) or a model (`registers:`)");
-  const bool is_of_model = root.has("registers") || root.has("model");  // one of the two may be forgotten
+  // The user may have forgotten the other key.
+  const bool is_of_model = root.has("registers") || root.has("model");
   if (is_of_model && !root.has("lines")) return FileKind::model;
   if (root.has("plays")) return FileKind::scenario;
   if (!root.has("steps"))

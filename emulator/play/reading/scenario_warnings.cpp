@@ -31,7 +31,7 @@ void add_warnings(const Steps& steps, const world::Bench& bench, std::vector<Fil
       }
       continue;
     }
-    // It stands in the step.
+    // The program is written in the step.
     for (const ProgramMistake& odd : program_warnings(*device.model, program->text, device.settings)) {
       const std::string place = step.file + ":" + std::to_string(step.line) + ": ";
       all.push_back({.place = {.file = step.file, .line = step.line},

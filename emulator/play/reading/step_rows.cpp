@@ -11,7 +11,7 @@ namespace understudy::emulator::play {
 
 std::span<const StepRow> step_rows() {
   static constexpr std::array kRows{
-      // Over the line.
+      // These steps use the line.
       StepRow{{"write", "Writes registers over the line, in this order.", &world::kTextByRegister},
               read_write,
               kAnswerKeys},
@@ -24,7 +24,7 @@ std::span<const StepRow> step_rows() {
       StepRow{{"send", "Sends bytes as they are, or a line of text, and compares the reply.", &kSendSchema},
               read_send},
       StepRow{{"hear", "Expects lines that a device sends without a request.", &kHearSchema}, read_hear},
-      // Time and truth.
+      // These steps let time pass, or look at the true state.
       StepRow{{"wait", "Waits until a condition holds.", &kWaitSchema}, read_wait},
       StepRow{{"advance", "Advances simulated time.", &world::kDuration}, read_advance},
       StepRow{{"assert", "A condition that must be true now; does not use the line.", &kAssertSchema},
@@ -40,7 +40,7 @@ std::span<const StepRow> step_rows() {
       StepRow{{"end", "Ends an `always` or `never`.", &world::kText}, read_end, {}, StepRow::Names::wants},
       StepRow{{"reset", "Restarts the search for peak speeds and accelerations.", &kResetSchema}, read_reset},
       StepRow{{"say", "A sentence for the reader.", &world::kText}, read_say},
-      // From outside.
+      // These steps act from outside.
       StepRow{{"input", "Sets inputs, analog inputs and switches on the housing.", &world::kTextByInput},
               read_inputs},
       StepRow{{"turn", "Turns hand wheels and other counted inputs this far, `in` a time.",
@@ -63,7 +63,7 @@ std::span<const StepRow> step_rows() {
               read_save,
               {},
               StepRow::Names::gives},
-      // The course of things.
+      // These steps control the order of others.
       StepRow{{"snapshot", "Saves the state under this name.", &world::kText},
               read_snapshot,
               {},

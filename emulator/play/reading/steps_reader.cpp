@@ -31,7 +31,7 @@ const StepRow* find_row(std::string_view key) {
   return nullptr;
 }
 
-/// What kind of step it is, by its first key that is one; null: by none.
+/// Returns the kind of a step by the first of its keys that names one, or null.
 const StepRow* row_of(const world::YamlFields& step) {
   if (!step.is_map()) step.fail("expected a step, as in `- advance: 250ms`");
   for (const auto& [key, value] : step.entries()) {
@@ -49,7 +49,7 @@ const StepRow* row_of(const world::YamlFields& step) {
   entries.front().second.fail("is not a step" + suggestion(key, names));
 }
 
-/// What a step carries besides its text: of the kinds that may carry much.
+/// Returns the size of a step's data beside its text, for kinds that may have much.
 struct BytesOf {
   std::size_t operator()(const SendStep& step) const {
     return step.bytes.size() + (step.reply ? step.reply->size() : 0);
@@ -68,7 +68,7 @@ struct BytesOf {
   }
 };
 
-/// However it is spelled.
+/// Returns the same path for all spellings.
 std::string canonical(const std::string& path) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
 }
@@ -117,7 +117,7 @@ void StepsReader::read_here(const world::YamlFields& list, const Parameters& par
   --depth_;
 }
 
-/// What a step that cannot be read has begun is undone.
+/// Reads a step. If it cannot be read, undoes what it has begun.
 void StepsReader::read_or_complain(const world::YamlFields& step) {
   const auto before = std::tuple(parameters_, into_, paths_.size(), depth_);
   const StepRow* row = nullptr;

@@ -1,4 +1,4 @@
-// Steps with lines of text: send (with `text`), hear.
+// Reads steps with lines of text: send (with `text`), hear.
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -16,9 +16,9 @@ namespace understudy::emulator::play {
 
 namespace {
 
-constexpr std::size_t kLongestText = 1023;  // with its end 1024 bytes
+constexpr std::size_t kLongestText = 1023;  // 1024 bytes with its end
 
-/// A line as it is written there.
+/// Reads a line of text.
 std::string read_text(const world::YamlFields& field) {
   std::string text = field.text();
   if (text.find_first_of("\r\n") != std::string::npos) {
@@ -31,7 +31,7 @@ std::string read_text(const world::YamlFields& field) {
   return text;
 }
 
-/// One line, or a list of them; none for `nothing`.
+/// Reads one line, or a list of them. Returns none for `nothing`.
 std::vector<std::string> read_texts(const world::YamlFields& field) {
   std::vector<std::string> lines;
   if (field.is_list()) {
@@ -43,7 +43,7 @@ std::vector<std::string> read_texts(const world::YamlFields& field) {
   return lines;
 }
 
-/// The same, of a line that carries text.
+/// Returns the number of a line that carries text.
 std::size_t read_line_of_text(const StepsReader& reader, const world::YamlFields& value) {
   const std::size_t number = read_line_of(reader, value);
   const world::Bench& bench = reader.trial().bench();

@@ -43,7 +43,7 @@ std::string to_text(const Limits& limits) {
   return std::to_string(limits.low) + " to " + std::to_string(limits.high);
 }
 
-/// `feeder["Logic Position X"].4` without its quotes; anything else as it is.
+/// Returns `feeder["Logic Position X"].4` without its quotes, and other names unchanged.
 std::string plain_name(const world::YamlFields& field, const std::string& written) {
   if (written.find('[') == std::string::npos) return written;
   try {
@@ -148,7 +148,7 @@ world::Expression Trial::expression(const world::YamlFields& field) const {
     }
     world::Expression expression = parser.take();
     if (expression.names.empty())
-      world::evaluate(expression, probes_);  // it has no result, or has one for ever
+      world::evaluate(expression, probes_);  // throws now if it never has a result
     return expression;
   } catch (const world::ExpressionError& error) {
     field.fail(error.what());

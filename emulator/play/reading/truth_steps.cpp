@@ -1,4 +1,4 @@
-// Steps that look, without the line: wait, advance, assert, always, never, end, reset, say.
+// Reads steps that look without the line: wait, advance, assert, always, never, end, reset, say.
 #include <algorithm>
 #include <cstddef>
 #include <utility>

@@ -23,7 +23,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// SplitMix64's finishing step: every bit of the argument changes about half of the result's.
+/// Returns the result of SplitMix64's last step: every bit of the argument changes about half of the result's
+/// bits.
 constexpr std::uint64_t stirred(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -41,7 +42,7 @@ Amount amount_in(const world::YamlFields& field) {
   return *amount;
 }
 
-/// The three keys by which an entry's kind is told.
+/// Returns the keys that an entry may have, according to its kind.
 const std::span<const world::Key> keys_of(const world::YamlFields& field) {
   if (field.has("from")) return kRangeKeys;
   if (field.has("between")) return kBetweenKeys;
@@ -52,7 +53,7 @@ const std::span<const world::Key> keys_of(const world::YamlFields& field) {
 }  // namespace
 
 std::uint64_t shuffled(std::uint64_t number, std::uint64_t count, std::uint64_t seed) {
-  // A Feistel network permutes the numbers of an even count of bits; those that are too large go through
+  // A Feistel network permutes the numbers of an even count of bits. Results that are too large are permuted
   // again.
   constexpr int kRounds = 6;
   if (count < 2) return 0;
@@ -107,7 +108,7 @@ void Variation::read_list(const world::YamlFields& list) {
   if (listed_.empty()) list.fail("is empty; expected at least one value");
 }
 
-/// `from`, `to` and `step`, or the ends of `between`, which may have a step.
+/// Reads `from`, `to` and `step`, or the ends of `between`, which may have a step.
 void Variation::read_range(bool is_drawn) {
   world::YamlFields low = field_;
   world::YamlFields high = field_;
@@ -171,7 +172,7 @@ std::string Variation::value(std::uint64_t number) const {
 }
 
 std::string Variation::drawn_for(std::uint64_t hash) const {
-  // The upper half of the product is evenly spread over the places.
+  // The upper half of the product is spread evenly over the places.
   __extension__ using Wide = unsigned __int128;
   return value_at(static_cast<std::uint64_t>(static_cast<Wide>(stirred(hash ^ seed_)) * places_ >> 64));
 }

@@ -10,7 +10,7 @@ namespace understudy::emulator::play {
 
 AxisScale exact_scale_for(double low, double high, int most_marks) {
   AxisScale scale{.low = low, .high = high, .marks = {}, .decimals = 0};
-  // The smallest step of 1, 2, 5, 10, ... of which there are few enough.
+  // This finds the smallest step of 1, 2, 5, 10, ... that needs few enough marks.
   const double wanted = (high - low) / most_marks;
   double power = 1;
   int decimals = 0;

@@ -36,14 +36,14 @@ void Envelope::stay(Tick last) {
   if (stretches_.empty()) return;
   const double value = stretches_.back().last.value;
   while (stretches_.back().last.tick < last) {
-    // Between the first tick of a stretch and its last one nothing is kept but these two.
+    // Only these two points are kept between the first and the last tick of a stretch.
     const Tick at = stretches_.back().last.tick;
     const Tick end = origin_ + ((at - origin_) / length_ + 1) * length_ - 1;
     add(std::min(at < end ? end : at + 1, last), value);
   }
 }
 
-/// Stretches of twice the length.
+/// Joins stretches to twice their length.
 void Envelope::halve() {
   length_ *= 2;
   std::vector<Stretch> longer;

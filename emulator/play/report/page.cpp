@@ -35,7 +35,7 @@ std::string verdict_text(const ScenarioResult& result) {
 
 std::string id_of(std::size_t number) { return "s" + std::to_string(number + 1); }
 
-/// Seconds to the microsecond, the exact time behind them.
+/// Writes seconds to the microsecond, with the exact time in the title.
 std::string time_cell(SimTime time) {
   constexpr double kSecond = 1e9;
   return "<td class=\"time\" title=\"" + seconds_text(time) + " s\">" +
@@ -50,7 +50,7 @@ std::string in(const char* tag, const std::string& text) {
   return "<" + std::string(tag) + ">" + text + "</" + tag + ">";
 }
 
-/// A branch that was not played has nothing to show.
+/// Returns a link to a result. A branch that did not run has nothing to show.
 std::string linked(const ScenarioResult& result, const std::string& id) {
   const std::string name = xml_escaped(result.name);
   return result.verdict == Verdict::not_reached ? name : "<a href=\"#" + id + "\">" + name + "</a>";
@@ -99,7 +99,7 @@ std::string arrow(const char* sign, const char* meaning) {
   return std::string("<span role=\"img\" aria-label=\"") + meaning + "\">" + sign + "</span>";
 }
 
-/// Those of a stretch that began in [from, to).
+/// Returns the frames of a stretch that began in [from, to).
 std::string frames_text(const Stretch& stretch, SimTime from, SimTime to, bool is_open) {
   const auto begins_before = [](const SeenFrame& frame, SimTime time) { return frame.time < time; };
   const auto& all = stretch.frames;
@@ -137,7 +137,7 @@ std::string steps_text(std::span<const StepResult> steps, std::size_t first_numb
       "<th scope=\"col\" class=\"place\">where</th></tr>\n";
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StepResult& step = steps[i];
-    // Time that goes back belongs to the next stretch.
+    // When time goes back, the jump belongs to the next stretch.
     const SimTime takes = std::max(step.end - step.begin, SimTime{0});
     text += std::string("<tr") + (step.has_failed ? " class=\"failed\"" : "") + "><td class=\"time\">" +
             std::to_string(first_number + i) + "</td>" + time_cell(step.begin) + time_cell(takes) + "<td>" +
@@ -154,7 +154,7 @@ std::string steps_text(std::span<const StepResult> steps, std::size_t first_numb
   return text + "</table></div>\n";
 }
 
-/// What was on all the time, which no picture shows.
+/// Returns the names of signals that were on all the time, which no picture shows.
 std::string always_on(const Stretch& stretch) {
   std::string names;
   for (const SeenSignal& signal : stretch.signals) {
@@ -224,7 +224,7 @@ std::string report_page(std::span<const ScenarioResult> results, std::string_vie
            : "") +
       "</header>\n<main>\n<nav aria-label=\"scenarios\">\n<h2 class=\"unseen\">Scenarios</h2>\n" +
       list_of(results) + "</nav>\n";
-  // Those that failed are open; one alone as well.
+  // Failed scenarios are open; so is a single one.
   for (std::size_t i = 0; i < results.size(); ++i) {
     const ScenarioResult& result = results[i];
     if (result.verdict == Verdict::not_reached) continue;

@@ -18,19 +18,19 @@ namespace {
 
 using SignalKind = SeenSignal::Kind;
 
-// In the picture's own units, of which a browser makes as many pixels as there is room for.
+// These sizes are in the picture's own units. The browser scales it to the room that it has.
 constexpr double kWidth = 1100;
-constexpr double kLeft = 170;  // where time begins
+constexpr double kLeft = 170;  // the position of the first moment
 constexpr double kRight = 1085;
-constexpr double kTop = 38;              // steps and the failure have their marks above
-constexpr double kNumberY = kTop - 10;   // where a step's number stands
-constexpr double kFailureY = kTop - 26;  // a row of its own above them
+constexpr double kTop = 38;              // the marks of steps and of the failure are above
+constexpr double kNumberY = kTop - 10;   // the position of step numbers
+constexpr double kFailureY = kTop - 26;  // a row of its own above the numbers
 constexpr double kLegendHeight = 24;
 constexpr double kPanelGap = 14;
 constexpr double kRowHeight = 19;
 constexpr double kBitHeight = 11;
 constexpr double kTimeHeight = 40;
-constexpr double kCharacter = 6.65;  // how wide one of a legend is
+constexpr double kCharacter = 6.65;  // the width of a character in a legend
 constexpr std::size_t kLongestLabel = 24;
 constexpr std::size_t kColours = 8;
 
@@ -55,12 +55,12 @@ std::string line_between(double x1, double y1, double x2, double y2, const char*
          attribute("x2", number(x2)) + attribute("y2", number(y2)) + "/>\n";
 }
 
-/// A line of a panel.
+/// A line in a panel.
 struct Curve {
   const SeenSignal* signal = nullptr;
   std::size_t colour = 0;
   bool is_dashed = false;
-  bool is_stepped = false;  // it keeps a value until it has another one
+  bool is_stepped = false;  // the value stays until the next one
 };
 
 struct Panel {
@@ -71,7 +71,7 @@ struct Panel {
   std::vector<Curve> curves;
 };
 
-/// Whether the two are the same but for where they begin.
+/// Returns true if two signals are the same apart from where they begin.
 bool run_alike(const SeenSignal& a, const SeenSignal& b) {
   if (a.points.size() != b.points.size()) return false;
   for (std::size_t i = 0; i < a.points.size(); ++i) {
@@ -82,8 +82,8 @@ bool run_alike(const SeenSignal& a, const SeenSignal& b) {
   return true;
 }
 
-/// Position and pulses of the axes that did anything (or of all), the speeds of those that did, duties and
-/// analog inputs that varied.
+/// Returns panels with the positions and pulses of the axes that did anything (or of all), the speeds of
+/// those that did, and the duties and analog inputs that varied.
 std::vector<Panel> panels_of(const Stretch& stretch, bool with_still_axes) {
   Panel positions{.title = "position [pulses]", .height = 190, .curves = {}};
   Panel speeds{.title = "speed [pulses/s]", .height = 120, .marks = 4, .has_zero = true, .curves = {}};
@@ -201,7 +201,7 @@ class Drawing {
     y_ = bottom + kTimeHeight;
   }
 
-  /// Where faults acted on messages; close to each other only the first one is marked.
+  /// Marks the faults that acted on messages. If several are close together, it marks only the first.
   void add_strikes(const std::vector<SeenFrame>& frames) {
     constexpr double kApart = 4;
     double last = -kApart;
@@ -227,7 +227,7 @@ class Drawing {
     }
     if (!marks.failed_at) return;
     const double x = x_of(std::clamp(ms_of(*marks.failed_at), begin_ms_, end_ms_));
-    // From below the numbers: it crosses none of them.
+    // The line begins below the numbers, so it crosses none of them.
     body_ += line_between(x, kTop - 6, x, bottom_, "failure");
     const bool is_far_right = x > kRight - 150;
     body_ += text_at(is_far_right ? x - 5 : x + 5, kFailureY, is_far_right ? "failed end" : "failed",
@@ -249,7 +249,7 @@ class Drawing {
   double x_of(double ms) const { return kLeft + (ms - begin_ms_) * per_ms(); }
   std::string at(double ms) const { return plain_number(ms - begin_ms_); }
 
-  /// From milliseconds and amounts to the picture.
+  /// Returns the transformation from milliseconds and amounts to the picture.
   std::string matrix(double per_unit, double base_y) const {
     return "matrix(" + plain_number(per_ms()) + " 0 0 " + plain_number(-per_unit) + " " + number(kLeft) +
            " " + number(base_y) + ")";
@@ -259,7 +259,7 @@ class Drawing {
     std::string text;
     const SeenSignal::Point* before = nullptr;
     for (const SeenSignal::Point& point : signal.points) {
-      // The first tick may be that before the stretch's beginning.
+      // The first tick may be the one before the stretch begins.
       const std::string x = at(std::max(ms_of(time_of(point.tick)), begin_ms_));
       if (is_stepped && before != nullptr && before->value != point.value) {
         text += " " + x + "," + plain_number(before->value - base);
@@ -287,7 +287,7 @@ class Drawing {
     }
   }
 
-  /// An upright line in each frame, so that none crosses a legend.
+  /// Draws a vertical line in each frame, so that none crosses a legend.
   std::string through_frames(double x, const char* kind) const {
     std::string lines;
     for (const auto& [top, bottom] : frames_) lines += line_between(x, top, x, bottom, kind);
@@ -304,7 +304,7 @@ class Drawing {
   double end_ms_;
   double y_ = kTop - kPanelGap + 8;
   double bottom_ = 0;
-  std::vector<std::pair<double, double>> frames_;  // top and bottom of each panel
+  std::vector<std::pair<double, double>> frames_;  // the top and bottom of each panel
   std::string body_;
 };
 

@@ -86,7 +86,7 @@ void RunLogger::ignore_lines() {
 }
 
 void RunLogger::world_restored(std::size_t steps) {
-  ignore_lines();  // what they were hearing is gone
+  ignore_lines();  // the frames that they were receiving are gone
   end_stretch();
   watch_lines();
   stretch_.first_step = steps;
@@ -133,7 +133,7 @@ void RunLogger::add(const pty::CapturedPacket& packet) {
     request.clear();
   }
   stretch_.frames.push_back(std::move(frame));
-  // In lumps, so that a long run does not move them for each one that comes.
+  // Frames are removed in groups, so that a long run does not move them for each new one.
   if (stretch_.frames.size() < 4 * kFramesKept) return;
   const auto first = stretch_.frames.begin() + kFramesKept;
   stretch_.frames.erase(first, stretch_.frames.end() - kFramesKept);
@@ -161,7 +161,7 @@ void RunLogger::end_stretch() {
     stretch.frames_left_out += more;
   }
   stretch.left_out_at = kFramesKept;
-  // What was not a frame is given once that is plain, which may be after the next one.
+  // Bytes that are no frame are reported once that is certain, which may be after the next frame.
   std::stable_sort(stretch.frames.begin(), stretch.frames.end(),
                    [](const SeenFrame& a, const SeenFrame& b) { return a.time < b.time; });
   const bool is_empty = stretch.begin == stretch.end && stretch.frames.empty();

@@ -18,7 +18,7 @@ bool is_figure(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0
 
 bool is_hex(char c) { return is_figure(c) || (c >= 'A' && c <= 'F'); }
 
-/// Whether a byte stands here as frames are told: "C0", and nothing that goes on.
+/// Returns true if the text has a byte at this place, as in frames: "C0", and no longer word.
 bool is_byte_at(std::string_view text, std::size_t at) {
   return at + 2 <= text.size() && is_hex(text[at]) && is_hex(text[at + 1]) &&
          (at == 0 || !(is_digit_or_letter(text[at - 1]) || text[at - 1] == '.')) &&
@@ -26,8 +26,8 @@ bool is_byte_at(std::string_view text, std::size_t at) {
          (at + 3 >= text.size() || text[at + 2] != '.' || !is_digit_or_letter(text[at + 3]));
 }
 
-/// How long the bytes are that begin here: "01 03 C0 B8". A single one may as well be a name, unless nothing
-/// more is said of it.
+/// Returns the length of the bytes that begin here: "01 03 C0 B8". A single one may be a name, so it counts
+/// only at the end of a phrase.
 std::size_t length_of_bytes(std::string_view text, std::size_t begin) {
   std::size_t end = begin;
   for (std::size_t at = begin; is_byte_at(text, at) && (at == begin || text[at - 1] == ' '); at += 3) {
@@ -38,7 +38,7 @@ std::size_t length_of_bytes(std::string_view text, std::size_t begin) {
   return says_no_more ? end - begin : 0;
 }
 
-/// Of what one of these words says in hexadecimal digits alone: a digest, or bytes behind an equals sign.
+/// Returns the length of a word of hexadecimal digits: a digest, or bytes after an equals sign.
 std::size_t length_of_hex(std::string_view text, std::size_t begin) {
   constexpr std::size_t kDigest = 8;
   if (begin > 0 && (is_digit_or_letter(text[begin - 1]) || text[begin - 1] == '.')) return 0;
@@ -51,7 +51,7 @@ std::size_t length_of_hex(std::string_view text, std::size_t begin) {
   return has_figure && (word.size() >= kDigest || is_behind_equals) ? word.size() : 0;
 }
 
-/// "\x0d", as what cannot be printed is told.
+/// Returns the length of an escape such as "\x0d", which stands for a character that cannot be printed.
 std::size_t length_of_escape(std::string_view text, std::size_t at) {
   const bool is_one = text.substr(at).starts_with("\\x") && at + 4 <= text.size() &&
                       std::isxdigit(static_cast<unsigned char>(text[at + 2])) != 0 &&
@@ -59,7 +59,7 @@ std::size_t length_of_escape(std::string_view text, std::size_t at) {
   return is_one ? 4 : 0;
 }
 
-/// One for all that stand side by side, as bytes and numbers look alike.
+/// Adds one sign for all numbers and bytes that stand side by side, because they look alike.
 void add_sign(std::string& made) {
   if (made.ends_with("# ")) {
     made.pop_back();
@@ -68,8 +68,8 @@ void add_sign(std::string& made) {
   }
 }
 
-/// With # for numbers and their units and for bytes, however many; what is in a name (Aaxis_2, STATUS.4)
-/// stays.
+/// Replaces numbers with their units, and any count of bytes, by #. Numbers in names (Aaxis_2, STATUS.4)
+/// stay.
 std::string without_numbers(std::string_view text) {
   std::string made;
   for (std::size_t at = 0; at < text.size();) {
@@ -79,7 +79,7 @@ std::string without_numbers(std::string_view text) {
       at += hex;
       add_sign(made);
     } else if (is_letter(text[at])) {
-      // A name, with all that its dots join.
+      // This is a name, with all parts that its dots join.
       while (at < text.size() && (is_digit_or_letter(text[at]) || (text[at] == '.' && at + 1 < text.size() &&
                                                                    is_digit_or_letter(text[at + 1])))) {
         made += text[at++];

@@ -1,5 +1,4 @@
-// Results as lines of JSON. A row is about the latest run of its case: of two about one case, the later
-// counts.
+// Writes results as lines of JSON. If two rows are about the same case, the later one counts.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -64,7 +63,7 @@ class JsonLines final : public ResultsFile {
   }
 
   void add(std::span<const ResultRow> rows) override {
-    // Branches first: a case is there once its own row is.
+    // Branches come first, because a case counts as stored when its own row is.
     std::string text;
     for (const ResultRow& row : rows) text += row.branch.empty() ? "" : json_text(row) + "\n";
     for (const ResultRow& row : rows) text += row.branch.empty() ? json_text(row) + "\n" : "";
@@ -75,7 +74,7 @@ class JsonLines final : public ResultsFile {
 
  private:
   static constexpr std::string_view kBeginOfRow = "{\"file\":\"";
-  // The lowest bit of what is held of a case; the others are of its hash.
+  // This is the lowest bit of a case's entry; the other bits are of its hash.
   static constexpr std::uint64_t kFailed = 1;
 
   [[noreturn]] void refuse(const std::string& why) const {
@@ -87,13 +86,15 @@ class JsonLines final : public ResultsFile {
                            ": is not a row of results; expected a file that `--results` wrote");
   }
 
-  /// What was being written when the run was killed is dropped, but nobody else's file.
+  /// Returns true if an incomplete last line may be a row. The rest of a killed run is dropped, but not other
+  /// files' content.
   static bool begins_as_row(std::string_view line) {
     const std::size_t both = std::min(line.size(), kBeginOfRow.size());
     return line.substr(0, both) == kBeginOfRow.substr(0, both);
   }
 
-  /// What was played before: 8 bytes a row. A line that has no end was being written when the run was killed.
+  /// Reads the earlier results, of which it keeps 8 bytes per row. A last line without an end is from a run
+  /// that was killed.
   void read() {
     std::ifstream before(path_, std::ios::binary);
     std::uint64_t size = 0;

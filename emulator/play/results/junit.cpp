@@ -21,7 +21,7 @@ namespace {
 
 using Verdict = ScenarioResult::Verdict;
 
-/// The length of the UTF-8 character at the beginning; 0 if there is none that XML can hold.
+/// Returns the size of the UTF-8 character at the beginning, or 0 if XML cannot hold it.
 std::size_t character_size(std::string_view text) {
   const auto at = [&](std::size_t i) {
     return i < text.size() ? static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])) : 0U;
@@ -76,7 +76,7 @@ std::string case_text(const ScenarioResult& result) {
 
 std::string xml_escaped(std::string_view text) {
   std::string escaped;
-  // Each pass takes a character at least.
+  // Each pass consumes at least one character.
   for (std::size_t left = text.size(); left > 0 && !text.empty(); --left) {
     const std::size_t size = character_size(text);
     const char c = text.front();
@@ -87,7 +87,7 @@ std::string xml_escaped(std::string_view text) {
     } else if (c == '<') {
       escaped += "&lt;";
     } else if (c == '>') {
-      escaped += "&gt;";  // "]]>" may not stand in a text
+      escaped += "&gt;";  // a text must not contain "]]>"
     } else if (c == '"') {
       escaped += "&quot;";
     } else if (c == '\r') {

@@ -27,7 +27,7 @@ std::string verdict_word(const ScenarioResult& result) {
   return {};
 }
 
-/// A number if it is written as JSON would write it, or else a text: 007 and 1e3 and 0x10 are none.
+/// Returns a number if the text is written as JSON writes it, otherwise a text: 007, 1e3 and 0x10 are texts.
 RowJson value_of(const std::string& text) {
   if (const auto whole = parse_integer(text); whole && std::to_string(*whole) == text) return *whole;
   if (!text.empty() && text.find_first_not_of("-.0123456789") == std::string::npos) {
@@ -49,7 +49,7 @@ std::string dumped(const RowJson& json) {
 
 RowJson or_null(const std::optional<std::string>& text) { return text ? RowJson(*text) : RowJson(nullptr); }
 
-/// As it is written, to the nanosecond.
+/// Returns the seconds as they are written, to the nanosecond.
 RowJson seconds_value(const std::string& seconds) { return std::strtod(seconds.c_str(), nullptr); }
 
 }  // namespace

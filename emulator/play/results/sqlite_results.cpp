@@ -1,4 +1,4 @@
-// Results as a table in an SQLite database. The only file that knows SQLite.
+// Writes results to a table in an SQLite database. No other file knows SQLite.
 #include <sqlite3.h>
 
 #include <chrono>
@@ -24,7 +24,7 @@ namespace understudy::emulator::play {
 namespace {
 
 constexpr int kApplicationId = 0x55535459;  // "USTY", in the file's header
-// What a run that is killed loses; reading the file meanwhile waits no longer.
+// A run that is killed loses at most this much, and a reader sees results no later.
 constexpr std::chrono::milliseconds kCommitEvery{250};
 
 constexpr std::string_view kTables = R"(
@@ -41,7 +41,7 @@ constexpr std::string_view kFind =
     "SELECT max(verdict = 'failed'), max(branch = '' AND verdict <> 'unreadable') FROM results "
     "WHERE file = ?1 AND case_id = ?2 AND made_of = ?3";
 
-/// Between marks, as SQL writes it.
+/// Quotes a text for SQL.
 std::string sql_quoted(const std::string& text, char mark) {
   std::string made(1, mark);
   for (const char c : text) made += c == mark ? std::string(2, c) : std::string(1, c);
@@ -72,7 +72,7 @@ class SqliteResults final : public ResultsFile {
     try {
       commit();
     } catch (const GrowingFileError&) {
-      // It is over for another reason, which is told.
+      // The run ends for another reason, which is reported.
     }
   }
   SqliteResults(const SqliteResults&) = delete;
@@ -113,7 +113,7 @@ class SqliteResults final : public ResultsFile {
   void finish() override { commit(); }
 
  private:
-  static constexpr int kPatience_ms = 10'000;  // with somebody who reads
+  static constexpr int kPatience_ms = 10'000;  // the time to wait for a reader
 
   struct Closing {
     void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
@@ -137,7 +137,7 @@ class SqliteResults final : public ResultsFile {
     }
     return Statement(statement);
   }
-  /// Whether there is a row.
+  /// Runs a statement. Returns true if there is a row.
   bool step(const Statement& statement) {
     const int code = sqlite3_step(statement.get());
     if (code != SQLITE_ROW && code != SQLITE_DONE) refuse_last();
@@ -158,7 +158,7 @@ class SqliteResults final : public ResultsFile {
     }
   }
 
-  /// An empty file, or a database of ours.
+  /// Refuses a file that is neither empty nor a database of ours.
   void require_own() {
     const Statement id = prepare("PRAGMA application_id");
     const bool is_ours = step(id) && sqlite3_column_int(id.get(), 0) == kApplicationId;
@@ -174,7 +174,7 @@ class SqliteResults final : public ResultsFile {
     show_parameters();
   }
 
-  /// The view `cases`: the table, with a column for each parameter.
+  /// Makes the view `cases`: the table with a column for each parameter.
   void show_parameters() {
     static const std::set<std::string> taken = {"file",    "name", "branch",      "case_id",   "parameters",
                                                 "verdict", "hash", "seed",        "kind",      "failure",
@@ -203,7 +203,7 @@ class SqliteResults final : public ResultsFile {
     bind(insert_, 5, json_text_of_parameters(row));
     bind(insert_, 6, row.verdict);
     bind(insert_, 7, row.hash);
-    bind(insert_, 8, row.simulated_s);  // a text of digits, which its column makes a number
+    bind(insert_, 8, row.simulated_s);  // digits, which the type of the column turns into a number
     sqlite3_bind_int64(insert_.get(), 9, static_cast<std::int64_t>(row.seed));
     bind(insert_, 10, row.kind);
     bind(insert_, 11, row.failure);
@@ -224,12 +224,13 @@ class SqliteResults final : public ResultsFile {
 
   std::string path_;
   std::mutex mutex_;
-  std::optional<OutputFile> lock_;  // before the database: closing it would give up the database's own locks
+  // Declared before the database, because closing the file would drop the database's own locks.
+  std::optional<OutputFile> lock_;
   std::unique_ptr<sqlite3, Closing> database_;
   Statement insert_;
   Statement find_;
   std::set<std::string> names_;  // of parameters
-  bool is_open_ = false;         // a transaction
+  bool is_open_ = false;         // true during a transaction
   std::chrono::steady_clock::time_point begun_;
 };
 

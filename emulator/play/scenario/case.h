@@ -1,4 +1,4 @@
-// Which case of its file a scenario is: what `cases` and `vary` gave its parameters.
+// Identifies a case of a file by the values that `cases` and `vary` give to its parameters.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@
 namespace understudy::emulator::play {
 
 struct Case {
-  std::string play{};  // of several in its file, the name as it is written there
+  std::string play{};  // the name in the file, if the file has several scenarios
   std::vector<std::pair<std::string, std::string>> values{};  // names and values, in the order written
-  bool is_varied = false;  // `vary` made it: one of so many that nobody looks at each
+  bool is_varied = false;  // made by `vary`: one of too many to look at each
 };
 
-/// "(speed=200, takes=3050ms)"; empty without values.
+/// Returns "(speed=200, takes=3050ms)", or an empty text without values.
 std::string to_text(const Case& which);
 
-/// A hash of the play, names and values. It depends neither on their order nor on any other case: the same in
-/// every shard, and when the file grows by other cases.
+/// Returns a hash of the scenario's name, and of the names and values. It depends neither on their order nor
+/// on other cases, so it is the same in every shard, and when cases are added to the file.
 std::uint64_t identity_of(const Case& which);
-/// As people and results write it: 16 digits.
+/// Returns the 16 digits that people and results use.
 std::string identity_text(std::uint64_t identity);
 
 }  // namespace understudy::emulator::play

@@ -35,7 +35,8 @@ std::uint32_t bits_in(std::span<const std::uint16_t> words, bool low_word_first)
 
 using FunctionKind = world::FunctionRow::Kind;
 
-/// How many a request may read or write at once (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
+/// Returns how many registers or bits a request may read or write (MODBUS Application Protocol V1.1b3, 6.1 to
+/// 6.12).
 int most_of(Table table, FunctionKind kind) {
   const world::FunctionRow* const function = world::function_for(table, kind);
   return function != nullptr ? function->most : 1;
@@ -91,7 +92,7 @@ std::vector<Request> read_requests(std::span<const Words> entries) {
 std::vector<Request> write_requests(std::span<const Words> entries,
                                     const std::function<bool(std::size_t)>& stands_alone) {
   std::vector<Request> requests;
-  bool is_open = false;  // whether the last request may still grow
+  bool is_open = false;  // true if the last request may still grow
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Words& next = entries[i];
     const bool is_alone = stands_alone(i);
@@ -120,7 +121,7 @@ std::optional<world::Number> number_of(const Target& target, Value value) {
 std::optional<Value> value_for(const Target& target, world::Number number) {
   if (target.place && target.place->is_real()) return value_of_number(*target.place, number.real());
   if (number.is_whole()) return number.whole();
-  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
+  constexpr double kLargest = 9e15;  // doubles hold all whole numbers up to this one
   const double real = number.real();
   if (std::abs(real) > kLargest || std::floor(real) != real) return std::nullopt;
   return static_cast<Value>(real);

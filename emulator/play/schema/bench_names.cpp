@@ -16,7 +16,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// A name as a regular expression: device names may hold a hyphen, but no letter that means something there.
+/// Returns the beginning of names as a regular expression. Device names may contain a hyphen, but no
+/// character with a meaning there.
 std::string before_of(const world::KnownDevice& device, bool is_alone) {
   return is_alone ? "^(" + device.name + "\\.)?" : "^" + device.name + "\\.";
 }
@@ -39,7 +40,7 @@ class Names {
   bool is_alone_;
 };
 
-/// In a regular expression, with each letter for itself.
+/// Escapes each character with a meaning in regular expressions.
 std::string escaped(std::string_view text) {
   std::string made;
   for (const char letter : text) {
@@ -51,14 +52,14 @@ std::string escaped(std::string_view text) {
   return made;
 }
 
-/// All names that a row's pattern makes, "VAR{}", in one.
+/// Returns one expression for all names of a row's pattern, such as "VAR{}".
 std::string names_of_pattern(std::string_view pattern) {
   const std::size_t hole = pattern.find("{}");
   if (hole == std::string_view::npos) return escaped(pattern);
   return escaped(pattern.substr(0, hole)) + "[A-Za-z0-9]+" + escaped(pattern.substr(hole + 2));
 }
 
-/// Bits by their number are too many to list: the names of registers that have bits.
+/// Returns the names of the registers that have bits, because there are too many bits to list.
 std::string registers_with_bits(const RegisterMap& map) {
   std::string all;
   for (const RegisterRow& row : map.rows()) {
@@ -72,7 +73,7 @@ std::string registers_with_bits(const RegisterMap& map) {
   return "(" + all + ")";
 }
 
-/// What the name of a row's register may be written as, if this firmware has it.
+/// Adds the spellings of a row's register, if this firmware has it.
 void add_register(Names& names, const world::KnownDevice& device, const RegisterRow& row,
                   const std::string& name) {
   const RegisterMap& map = *device.model->registers;

@@ -33,7 +33,7 @@ constexpr const char* kParameter = "\\$\\{";
 
 class SchemaWriter {
  public:
-  /// Where there are parameters any value may be a ${name}.
+  /// With parameters, any value may be a ${name}.
   SchemaWriter(ModelList models, bool has_parameters, bool has_names = false)
       : models_(models), has_parameters_(has_parameters), has_names_(has_names) {}
 
@@ -60,7 +60,7 @@ class SchemaWriter {
       }
       case world::Schema::Kind::keys: {
         Json schema = keys(form.keys);
-        // A key may be a parameter's value as well: { "${fault}": feeder }.
+        // A key may also be a parameter's value: { "${fault}": feeder }.
         if (has_parameters_) schema["patternProperties"] = Json{{kParameter, Json::object()}};
         return schema;
       }
@@ -88,11 +88,11 @@ class SchemaWriter {
     return schema;
   }
 
-  /// One step: exactly one of its kinds, and what may stand beside that.
+  /// Returns the schema of a step: exactly one kind, and the keys that may accompany it.
   Json step() const {
     Json properties = Json::object();
     Json kinds = Json::array();
-    std::map<std::string, Json> needed;  // by the keys that stand beside a kind: which kinds
+    std::map<std::string, Json> needed;  // for each key that accompanies kinds: those kinds
     for (const StepRow& row : step_rows()) {
       properties[std::string(row.key.key)] = described(row.key);
       kinds.push_back(Json{{"required", {row.key.key}}});
@@ -110,7 +110,7 @@ class SchemaWriter {
                 {"dependencies", dependencies}};
   }
 
-  /// What a form's names may be, in a schema for one bench.
+  /// Returns the definition for the names of a form, in a schema for one bench.
   static std::string definition_of(world::Schema::Of sort) {
     switch (sort) {
       case world::Schema::Of::anything: break;
@@ -135,7 +135,7 @@ class SchemaWriter {
   }
 
  private:
-  /// What a device keeps depends on its model: which kinds of named texts, if any.
+  /// Describes the memory of each model, with the kinds of named texts that it holds.
   Json memories() const {
     Json conditions = Json::array();
     for (const Model* const model : models_) {
@@ -153,7 +153,8 @@ class SchemaWriter {
 
   Json kinds_of_texts(const Model& model) const {
     Json kinds = Json::object();
-    const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});  // only it knows
+    // Only a device knows its kinds.
+    const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});
     const KeptMemory* const memory = std::as_const(*device).memory();
     const TextBlocks* const kept = memory == nullptr ? nullptr : memory->text_blocks();
     if (kept == nullptr) return kinds;
@@ -186,7 +187,7 @@ class SchemaWriter {
     return or_parameter(Json{{"anyOf", {number, Json{{"type", "string"}, {"pattern", kWholeNumber}}}}});
   }
 
-  /// `on` and `true` are words to us, and truth values to some readers of YAML.
+  /// Lists words. `on` and `true` are words for us, but truth values for some YAML readers.
   Json words(const world::Schema& form) const {
     Json words = Json::array();
     for (const std::string_view word : form.words) words.push_back(word);
@@ -206,7 +207,7 @@ class SchemaWriter {
 
   Json described(const world::Key& row) const {
     Json schema = of(*row.form);
-    // Draft 7 ignores what stands beside a $ref.
+    // Draft 7 ignores keys beside a $ref.
     if (schema.contains("$ref")) schema = Json{{"allOf", {schema}}};
     schema["description"] = row.doc;
     return schema;
@@ -215,10 +216,10 @@ class SchemaWriter {
   ModelList models_;
   bool has_parameters_;
   bool has_names_;
-  bool requires_ = true;  // keys that a file cannot do without
+  bool requires_ = true;  // false: required keys are optional
 };
 
-/// A scenario has steps, or plays that do.
+/// Requires a scenario to have steps, or several scenarios that do.
 Json whole_scenario(const SchemaWriter& writer) {
   Json schema = writer.keys(kScenarioKeys);
   schema["oneOf"] = Json{{{"required", {kBenchKey.key, "steps"}}}, {{"required", {"plays"}}}};

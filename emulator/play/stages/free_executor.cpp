@@ -34,7 +34,7 @@ SimTime silence_between_frames(const pty::LineSettings& settings) {
   return SimTime{(seven_halves + 2 * settings.baud - 1) / (2 * settings.baud)};
 }
 
-/// The master on one line: knows when something was last said on it, and takes what is said to it.
+/// The master on one line. It knows when the line was last busy, and takes the output for the host.
 class FreeExecutor::Host final : public pty::LineObserver {
  public:
   Host(world::World& world, std::size_t number)
@@ -50,27 +50,27 @@ class FreeExecutor::Host final : public pty::LineObserver {
   const pty::Line& line() const { return world_.line(number_).line; }
   void send_text(std::span<const std::uint8_t> bytes) { world_.receive(number_, bytes); }
   SimTime silence() const { return silence_between_frames(settings_); }
-  /// The longest time between two bytes of one reply: the next may begin just before t3.5 are over.
+  /// Returns the longest time between two bytes of one reply: the next may begin just before t3.5 is over.
   SimTime longest_pause() const { return silence() + duration_of(1); }
   SimTime duration_of(std::size_t count) const {
     if (line().options().timing == pty::Timing::instant) return SimTime{0};
     return settings_.duration_of(static_cast<std::int64_t>(count));
   }
 
-  /// When the last byte of whatever was on the line is over.
+  /// Returns the end of the last byte on the line.
   SimTime quiet_since() const { return quiet_since_; }
   void keep_busy(SimTime until) { quiet_since_ = std::max(quiet_since_, until); }
   void set_quiet_since(SimTime since) { quiet_since_ = since; }
-  /// Simulated time was set back: what was said later was never said.
+  /// Forgets what came after `now`, because simulated time was set back.
   void forget_after(SimTime now) { quiet_since_ = now == SimTime{0} ? kEver : std::min(quiet_since_, now); }
 
-  /// What has come since the last call.
+  /// Takes the bytes that have come since the last call.
   void take(std::vector<std::uint8_t>& bytes) {
     const auto came = line().output();
     bytes.insert(bytes.end(), came.begin(), came.end());
     take_output(came.size());
   }
-  /// Like the above, as lines of text; it stays there.
+  /// Returns the bytes that have come as lines of text, without taking them.
   world::LinesHeard lines() const {
     const auto came = line().output();
     return world::lines_in({reinterpret_cast<const char*>(came.data()), came.size()});
@@ -78,14 +78,14 @@ class FreeExecutor::Host final : public pty::LineObserver {
   void discard() { take_output(line().output().size()); }
   void take_output(std::size_t count) { world_.take_output(number_, count); }
 
-  /// How many frames were carried out so far.
+  /// Returns how many frames have been carried out so far.
   std::uint64_t requests() const {
     std::uint64_t sum = 0;
     for (const auto& station : world_.line(number_).stations) sum += station->counters().requests;
     return sum;
   }
 
-  // --- of the line -----------------------------------------------------------------------------
+  // --- LineObserver ----------------------------------------------------------------------------
   void on_start_bit(SimTime) override {}
   void on_character(const pty::TimedByte&, bool) override {}
   void on_nothing_more() override {}
@@ -98,7 +98,7 @@ class FreeExecutor::Host final : public pty::LineObserver {
  private:
   world::World& world_;
   std::size_t number_;
-  pty::LineSettings settings_;  // as the line has it in the beginning; a host does not follow a DIP switch
+  pty::LineSettings settings_;  // the line's at the beginning, because a host does not follow a DIP switch
   static constexpr SimTime kEver = SimTime::min() / 2;
   SimTime quiet_since_ = kEver;
 };
@@ -116,7 +116,7 @@ void FreeExecutor::with_world(const std::function<void(world::World&)>& act) {
   const SimTime before = world_.now();
   act(world_);
   if (world_.now() == before) return;
-  // It was put into another state: what was said and written meanwhile is not part of its past.
+  // The world is in another state now, so later frames and writes are not part of its past.
   for (const auto& host : hosts_) host->forget_after(world_.now());
   tick_of_last_write_ = 0;
 }
@@ -182,7 +182,8 @@ HostReply FreeExecutor::ask(Host& host, const std::vector<std::uint8_t>& request
     advance_to_next(limit);
   }
   HostReply judged = judge_reply(request, reply);
-  if (judged.kind == HostReply::Kind::exception) tick_of_last_write_ = written_before;  // it was refused
+  // The write was refused.
+  if (judged.kind == HostReply::Kind::exception) tick_of_last_write_ = written_before;
   return judged;
 }
 
@@ -198,8 +199,8 @@ std::vector<std::uint8_t> FreeExecutor::exchange(std::size_t line, std::span<con
     advance_to_next(deadline);
     host.take(reply);
   }
-  if (world_.now() < deadline) {  // a byte that follows at once is part of it, wanted or not
-    const SimTime rounding{1};    // a character's end is a whole nanosecond
+  if (world_.now() < deadline) {  // a byte that follows at once belongs to the reply, expected or not
+    const SimTime rounding{1};    // a character ends at a whole nanosecond
     world_.advance_to(std::min(world_.now() + host.duration_of(1) + rounding, deadline));
     host.take(reply);
   }
@@ -212,7 +213,7 @@ void FreeExecutor::send_text(std::size_t line, const std::string& text) {
   Host& host = *hosts_[line];
   const std::uint64_t before = host.requests();
   put_text(host, text);
-  // A line that is too long, or that a fault swallows, is never carried out.
+  // A line that is too long, or that a fault drops, is never carried out.
   const SimTime limit = host.quiet_since() + options_.timeout;
   while (host.requests() == before && world_.now() < limit) advance_to_next(limit);
 }
@@ -230,10 +231,10 @@ std::vector<std::string> FreeExecutor::exchange_text(std::size_t line, const std
     advance_to_next(deadline);
     heard = host.lines();
   }
-  // What follows an answer at once is part of it, wanted or not: up to a line more.
+  // Bytes that follow an answer at once belong to it, expected or not, up to one more line.
   while (text && world_.now() < deadline && heard.finished <= wanted.lines.size()) {
     const std::size_t before = host.line().output().size();
-    const SimTime rounding{1};  // a character's end is a whole nanosecond
+    const SimTime rounding{1};  // a character ends at a whole nanosecond
     world_.advance_to(std::min(world_.now() + host.duration_of(1) + rounding, deadline));
     heard = host.lines();
     if (host.line().output().size() == before) break;
@@ -248,10 +249,10 @@ std::vector<std::string> FreeExecutor::exchange_text(std::size_t line, const std
   return heard.lines;
 }
 
-/// After the gap; on return all of it is on the line, though not over.
+/// Sends text after the gap. On return, all of it is on the line, but not over.
 void FreeExecutor::put_text(Host& host, const std::string& text) {
   writing_ = nullptr;
-  world_.advance_to(world_.now());  // what an act at this moment has made it say comes first
+  world_.advance_to(world_.now());  // output from an act at this moment comes first
   if (options_.gap > SimTime{0} && host.quiet_since() + options_.gap > world_.now()) {
     world_.advance_to(host.quiet_since() + options_.gap);
   }
@@ -264,11 +265,11 @@ void FreeExecutor::put_text(Host& host, const std::string& text) {
   host.send_text(bytes);
 }
 
-/// After t3.5 and the gap; on return all of it is on the line, though not over.
+/// Sends a frame after t3.5 and the gap. On return, all of it is on the line, but not over.
 void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
   writing_ = nullptr;
   for (SimTime start{0}; start = host.quiet_since() + host.silence() + options_.gap, world_.now() < start;) {
-    world_.advance_to(start);  // a station may say something late
+    world_.advance_to(start);  // a station may still send something
   }
   host.discard();
   if (world::is_write(bytes)) {
@@ -285,7 +286,7 @@ void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// To whatever happens next, at most to `limit`; a write is carried out at such a moment.
+/// Advances to the next event, at most to `limit`. A write is carried out at such a moment.
 void FreeExecutor::advance_to_next(SimTime limit) {
   world_.advance_to(std::min(world_.next_due().value_or(limit), limit));
   if (writing_ == nullptr || writing_->requests() == requests_before_) return;

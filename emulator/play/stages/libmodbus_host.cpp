@@ -1,4 +1,4 @@
-// The only file of the room that includes libmodbus.
+// Runs libmodbus. No other file of this folder includes it.
 #include "emulator/play/stages/libmodbus_host.h"
 
 #include <errno.h>
@@ -33,7 +33,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// Between two bytes of a reply; a busy machine may hold bytes up that follow each other on the line.
+// This is the longest pause between two bytes of a reply, because a busy machine may delay bytes that follow
+// each other on the line.
 constexpr serve::WallTime kLongestPause = std::chrono::milliseconds(200);
 
 char letter_of(pty::Parity parity) {
@@ -41,7 +42,7 @@ char letter_of(pty::Parity parity) {
     case pty::Parity::odd: return 'O';
     case pty::Parity::even: return 'E';
     case pty::Parity::none:
-    case pty::Parity::mark:  // these two no device has
+    case pty::Parity::mark:  // no device has these two
     case pty::Parity::space: break;
   }
   return 'N';
@@ -71,7 +72,7 @@ LibmodbusHost::LibmodbusHost(const std::string& port, const pty::LineSettings& s
     throw pty::PortError(port + ": " + modbus_strerror(errno) + "; expected a serial port at " +
                          pty::to_string(settings));
   }
-  // libmodbus counts from when it has handed the request over, and the line needs time for that.
+  // libmodbus starts its timeout when it has written the request, but the line needs time to carry it.
   set_time(modbus_set_response_timeout, context_.get(), timeout + settings.duration_of(256));
   set_time(modbus_set_byte_timeout, context_.get(), kLongestPause);
 }
@@ -86,7 +87,7 @@ void LibmodbusHost::keep_silence() const {
 void LibmodbusHost::begin_request(int station) {
   modbus_set_slave(context_.get(), station);
   keep_silence();
-  tcflush(modbus_get_socket(context_.get()), TCIFLUSH);  // what came late belongs to no request
+  tcflush(modbus_get_socket(context_.get()), TCIFLUSH);  // late bytes belong to no request
   quiet_since_ = serve::wall_now();
 }
 
@@ -152,7 +153,7 @@ HostReply LibmodbusHost::write_message(int station, std::uint16_t first,
   return judge(modbus_write_registers(context_.get(), first, static_cast<int>(words.size()), words.data()));
 }
 
-/// What is there, or comes before `until`; 0 if nothing does.
+/// Reads the bytes that are available, or come before `until`. Returns 0 if there are none.
 std::size_t LibmodbusHost::read_some(std::vector<std::uint8_t>& bytes, serve::WallTime until) const {
   pollfd port{.fd = modbus_get_socket(context_.get()), .events = POLLIN, .revents = 0};
   const serve::WallTime rest = std::max(until - serve::wall_now(), serve::WallTime{0});
@@ -205,7 +206,7 @@ std::vector<std::string> LibmodbusHost::exchange_text(const std::optional<std::s
     read_some(unread_, deadline);
     heard = lines_heard();
   }
-  // What follows an answer at once is part of it, wanted or not: up to a line more.
+  // Bytes that follow an answer at once belong to it, expected or not, up to one more line.
   constexpr serve::WallTime kAtOnce = std::chrono::milliseconds(3);
   while (text && heard.finished <= wanted.lines.size() && serve::wall_now() < deadline) {
     if (read_some(unread_, std::min(deadline, serve::wall_now() + kAtOnce)) == 0) break;
@@ -234,7 +235,7 @@ std::vector<std::uint8_t> LibmodbusHost::exchange(std::span<const std::uint8_t> 
   quiet_since_ = start + sending;
   std::vector<std::uint8_t> reply;
   while (reply.size() < wanted && serve::wall_now() < deadline) read_some(reply, deadline);
-  // A byte that follows at once is part of it, wanted or not.
+  // A byte that follows at once belongs to the reply, expected or not.
   if (!reply.empty() && serve::wall_now() < deadline) {
     read_some(reply, std::min(deadline, serve::wall_now() + std::chrono::milliseconds(3)));
   }

@@ -38,14 +38,14 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// The daemon sleeps until something is due; for whoever watches every tick it looks up this often.
+// The daemon sleeps until something is due. For a watcher of every tick, it looks at this interval.
 constexpr serve::WallTime kLook = std::chrono::milliseconds(1);
-// How long a wait lasts at most before it asks whether the play was given up.
+// A wait asks at this interval whether the scenario was given up.
 constexpr serve::WallTime kLongestSleep = std::chrono::milliseconds(50);
 
 }  // namespace
 
-/// Watches, on the daemon's thread, for what another thread waits for.
+/// Watches on the daemon's thread for a condition that another thread waits for.
 class RealExecutor::Look final : public world::TickWatcher {
  public:
   Look(const std::function<bool(world::World&)>& is_there, SimTime deadline)
@@ -60,7 +60,7 @@ class RealExecutor::Look final : public world::TickWatcher {
     if (time_of(tick) <= deadline_) look(time_of(tick));
   }
 
-  /// For `patience` at most. Throws what the condition has thrown.
+  /// Waits for at most `patience`. Throws what the condition has thrown.
   std::optional<SimTime> wait(serve::WallTime patience) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, patience, [this] { return found_at_ || error_; });
@@ -125,7 +125,7 @@ void RealExecutor::with_world(const std::function<void(world::World&)>& act) {
     act(world);
     if (world.now() < before) writes_->begin_anew();
   };
-  // What is dropped unused breaks its promise.
+  // If the function is dropped, its promise is broken.
   auto done = std::make_shared<std::promise<void>>();
   std::future<void> is_done = done->get_future();
   bool was_dropped = !daemon_.post([&act_now, done = std::move(done)] {
@@ -143,7 +143,7 @@ void RealExecutor::with_world(const std::function<void(world::World&)>& act) {
       was_dropped = true;
     }
   }
-  // Nobody else runs the world any more. What looks at it is still to be taken away.
+  // Nobody else runs the world any more, but its observers must still be removed.
   if (was_dropped) act_now();
 }
 
@@ -182,7 +182,7 @@ bool RealExecutor::run_until(const Awaited& awaited, SimTime deadline) {
     found_at_ = look.wait(kLook);
     if (found_at_) return true;
     throw_if_given_up();
-    // Asking brings the world to the present moment, and shows every tick up to it.
+    // The question brings the world to the present and shows every tick up to it.
     const auto rest = wall_time_until(deadline);
     if (rest == serve::WallTime{0}) {
       found_at_ = look.wait(serve::WallTime{0});
@@ -260,7 +260,7 @@ void RealExecutor::send_text(std::size_t line, const std::string& text) {
   const std::uint64_t before = requests();
   const SimTime sending = time_to_send(line, text);
   on_line.send_text(text);
-  // A line that is too long, or that a fault swallows, is never carried out.
+  // A line that is too long, or that a fault drops, is never carried out.
   const serve::WallTime limit = serve::wall_now() + sending + options_.timeout;
   while (requests() == before && serve::wall_now() < limit) {
     throw_if_given_up();
@@ -282,7 +282,7 @@ SimTime RealExecutor::time_to_send(std::size_t line, const std::string& text) co
 std::unique_ptr<Executor> make_real_executor(const Scenario& scenario) {
   world::Bench bench = scenario.bench;
   for (world::LineSetup& line : bench.lines) {
-    line.link.clear();  // other runs may be at it
+    line.link.clear();  // other runs may use the same link
     line.tcp.clear();
     line.has_pty = true;
   }

@@ -1,4 +1,4 @@
-// What there is on a bench: for observers who know none of its models.
+// Describes a bench to observers that know none of its models.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -42,7 +42,7 @@ Json switch_of(const world::PulseSpan& on, std::int64_t hysteresis, bool opens) 
   return entry;
 }
 
-/// Where the machine's switches lie, in pulses.
+/// Returns the positions of the machine's switches, in pulses.
 Json machine_of(const world::PlantSetup& setup) {
   Json machine{{"start", setup.position_pulses}};
   if (setup.travel) machine["travel"] = span_of(*setup.travel);
@@ -93,7 +93,7 @@ std::string_view name_of_terminal(const Model& model, int terminal) {
   return terminal < 0 ? std::string_view() : model.terminals[static_cast<std::size_t>(terminal)].name;
 }
 
-/// What the machines and drives use each terminal for: "A.home", "B.servo".
+/// Returns for each terminal what machines and drives use it for: "A.home", "B.servo".
 std::vector<std::vector<std::string>> functions_of(const Model& model, const world::World& world,
                                                    std::size_t device) {
   std::vector<std::vector<std::string>> functions(model.terminals.size());
@@ -172,9 +172,9 @@ Json axis_of(const world::World& world, std::size_t device, std::size_t place) {
   return axis;
 }
 
-/// The register by which a controller gives a terminal its function, or, while it is 0, leaves it without: a
-/// kept switch that the manual names after the terminal (DIN2_Aaxis_UP_Limit, of DIN_2). Empty where there is
-/// none.
+/// Returns the register that tells the controller whether to use a terminal for its function: a persistent
+/// switch that the manual names after the terminal (DIN2_Aaxis_UP_Limit, for DIN_2). Returns an empty text if
+/// there is none.
 std::string_view register_using(const Model& model, const TerminalRow& terminal) {
   std::string begin(terminal.name);
   std::erase(begin, '_');
@@ -198,7 +198,7 @@ Json terminal_of(const TerminalRow& row, const std::vector<std::string>& functio
   return terminal;
 }
 
-/// A device of a bench, in all that an observer needs to show it.
+/// Describes all that an observer needs to show a device.
 ReplyTask device_message(Daemon& daemon, std::size_t number) {
   const Pause pause(daemon);
   const world::World& world = daemon.world();

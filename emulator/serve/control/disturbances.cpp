@@ -1,4 +1,4 @@
-// What a user does to devices and machines from outside: inputs, power, programs, faults.
+// Handles what a user does to devices and machines from outside: inputs, power, programs, faults.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -36,7 +36,7 @@ bool is_whole(const Json& value) {
   return value.is_number_integer() && !huge;
 }
 
-/// A whole number, or a level as text.
+/// Reads a whole number, or a level as text.
 std::int64_t level_of(const Json& value, const std::string& name, TerminalRow::Kind kind) {
   if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
   if (is_whole(value)) return value.get<std::int64_t>();
@@ -51,7 +51,7 @@ std::int32_t require_level(const Json& value, const std::string& name, const Ter
   return static_cast<std::int32_t>(level);
 }
 
-/// Of a fault.
+/// Returns the value of a fault's field as text.
 std::string field_of(const Json& value, const std::string& name) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
@@ -59,7 +59,7 @@ std::string field_of(const Json& value, const std::string& name) {
   return value.dump();
 }
 
-/// What has come of a fault so far.
+/// Describes a fault and what it has done so far.
 Json course_of(std::size_t number, const world::ArmedFault& armed, const world::KnownDevices& known) {
   const auto& [fault, course] = armed;
   Json entry{{"number", number}, {"fault", world::to_text(known, fault)}};
@@ -79,14 +79,14 @@ Json mistakes_as_json(const std::vector<ProgramMistake>& mistakes) {
   return list;
 }
 
-/// The first mistake for people, and all of them.
+/// Refuses a program with the first mistake for people, and all mistakes for programs.
 Json refusal_of(const std::vector<ProgramMistake>& mistakes) {
   return Json{{"ok", false},
               {"error", in_text(mistakes.front()) + and_more(mistakes)},
               {"mistakes", mistakes_as_json(with_word_of_more(mistakes))}};
 }
 
-/// "it is busy (reason 5)"; the number is the device's own.
+/// Returns "it is busy (reason 5)". The number is the device's own.
 std::string why_refused(const Objection& refused) {
   const std::string reason = refused.reason == 0 ? "" : " (reason " + std::to_string(refused.reason) + ")";
   switch (refused.refusal) {
@@ -138,7 +138,7 @@ Json turn_message(Daemon& daemon, const Json& message) {
       turns.push_back(world::find_fault(daemon.world().known(), text));
       world::check_fault(daemon.world(), turns.back());
     } catch (const world::NameError& error) {
-      // As of a fault it begins with its kind, which is this message's own name.
+      // The message of a fault begins with its kind, which is the name of this command already.
       const std::string_view what = error.what();
       constexpr std::string_view kKind = "turn: ";
       throw MessageError(std::string(what.starts_with(kKind) ? what.substr(kKind.size()) : what));
@@ -211,7 +211,8 @@ void program_message(Daemon& daemon, const Json& message, const ControlServer::R
   }
   const std::string text = require_text(message, "text");
   if (text.size() <= kMaxAtOnce) return answer(reply, [&] { return load_program(daemon, number, text); });
-  // What is no program is found out aside: a device holds far less than a message, and takes its own soon.
+  // The check runs aside, because a message may be far longer than any program that a device holds. To load a
+  // valid program is quick.
   daemon.do_aside([&daemon, &model = device.model(), settings = device.settings(), number, text,
                    author = daemon.observers().events.author(), reply]() -> std::function<void()> {
     std::vector<ProgramMistake> mistakes = check_program(model, text, settings);
@@ -246,7 +247,7 @@ Json inject_message(Daemon& daemon, const Json& message) {
 
 namespace {
 
-/// "one of 1, 4"
+/// Returns "one of 1, 4".
 std::string numbers_of_faults(const world::World& world) {
   constexpr std::size_t kMaxListed = 8;
   std::string numbers;

@@ -1,4 +1,4 @@
-// What may be broken, and what is to be said of it: for a form.
+// Lists the kinds of faults and their fields, for forms.
 #include <algorithm>
 #include <string_view>
 #include <utility>
@@ -50,7 +50,7 @@ std::string_view doc_of(std::string_view key) {
   return {};
 }
 
-/// Of what there are only a few, all of them.
+/// Returns all words that a field can have, if there are only a few.
 std::vector<std::string_view> words_of(world::FaultFieldRow::Schema form) {
   using Schema = world::FaultFieldRow::Schema;
   switch (form) {
@@ -98,7 +98,7 @@ ReplyTask faults_message(Daemon& daemon, Json message) {
     co_await pause;
   }
   text.close_list();
-  // The trigger's fields stand behind those of the kinds, from "function" on.
+  // In the table, the trigger's fields come after those of the kinds, from "function" on.
   text.open_list("trigger");
   const auto* const first = std::find_if(world::kFaultKeys.begin(), world::kFaultKeys.end(),
                                          [](const world::Key& row) { return row.key == "function"; });

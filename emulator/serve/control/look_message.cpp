@@ -1,4 +1,4 @@
-// Many values at once, with what has happened since.
+// Returns many values at once, with the frames and events since the last time.
 #include <unistd.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ std::string hex_of(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-/// The first of a list: those from "since" on, or the last ones.
+/// Returns the number of the first entry of a list: the one after "since", or the first of the last ones.
 std::uint64_t first_wanted(const Json& message, std::uint64_t next, std::size_t most) {
   if (message.contains("since") && message.contains("last")) {
     throw MessageError("since: is given together with last; expected one of them");
@@ -95,7 +95,7 @@ bool Listing::add_frame(ReplyText& text) {
 
 bool Listing::add_event(ReplyText& text) {
   world::EventLog& events = daemon_.observers().events;
-  if (events.collect(1)) return true;  // of many frames nothing but what they say may come
+  if (events.collect(1)) return true;  // many frames may yield no event, so each counts as a step
   const auto some = events.since(next_, 1);
   if (some.empty()) {
     if (count_ == 0) next_ = events.next_number();
@@ -120,7 +120,7 @@ bool Listing::add_event(ReplyText& text) {
 
 namespace {
 
-/// Frames or events alone.
+/// Returns frames or events alone.
 ReplyTask tell_listing(Daemon& daemon, Json message, Listing::What what) {
   const Pause pause(daemon);
   daemon.catch_up();
@@ -152,7 +152,8 @@ ReplyTask frames_message(Daemon& daemon, Json message) {
 
 namespace {
 
-/// The list of names that is meant, by its number or spelt out; nothing: none.
+/// Returns the list of names in the message, given by its number or in full. Returns nothing if there is
+/// none.
 std::optional<std::uint64_t> require_list(world::LookedNames& known, const Json& message) {
   if (message.contains("look")) {
     if (message.contains("names"))
@@ -177,7 +178,7 @@ std::optional<std::uint64_t> require_list(world::LookedNames& known, const Json&
 
 }  // namespace
 
-/// The values are of the moment that the reply says; frames and events have their own.
+/// Returns values of the moment that the reply names. Frames and events have their own times.
 ReplyTask look_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "look", "names", "frames", "events", "status"});
   const std::uint64_t frames = message.contains("frames") ? require_count(message, "frames") : 0;

@@ -25,10 +25,10 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr int kDeepest = 8;  // far deeper than any message
-// The text of a program or a file may be as long as a message. Others are names, conditions and frames.
+// The texts of programs and files may be as long as a message. Other texts are names, conditions and frames.
 constexpr std::size_t kLongestText = std::size_t{64} << 10;
 
-/// What to do: answered at once, or later, or told in pieces.
+/// A command. It is answered at once, or later, or in pieces.
 struct Verb {
   std::string_view name;
   Json (*answer)(Daemon& daemon, const Json& message) = nullptr;
@@ -81,7 +81,7 @@ const Verb& require_verb(const Json& message) {
   throw MessageError(understudy::quoted(word) + " is not a command; expected one of " + names);
 }
 
-/// Whom observers are told: whoever asks may say that it is a page.
+/// Returns the author that observers see. A client may say that it is a page.
 std::string take_author(Json& message) {
   if (!message.contains("as")) return "control";
   const std::string author = require_text(message, "as");
@@ -91,7 +91,7 @@ std::string take_author(Json& message) {
   return author;
 }
 
-/// So that no name or condition takes longer to look through than hosts would wait.
+/// Refuses long texts, so that no name or condition takes longer to search than hosts would wait.
 void require_short_texts(const Json& json) {
   if (json.is_string() && json.get_ref<const std::string&>().size() > kLongestText) {
     throw MessageError(understudy::quoted(json.get_ref<const std::string&>()) +
@@ -122,7 +122,8 @@ Json parsed(const std::string& line) {
 
 namespace {
 
-/// `make` gives the reply as text, or nothing: there is none yet. What it throws is a refusal.
+/// Sends the text that `make` returns. If it returns nothing, there is no reply yet; if it throws, the reply
+/// is a refusal.
 template <class Make>
 bool say_or_refuse(const ControlServer::Reply& reply, const Make& make) {
   const auto refuse = [&](const std::string& why) {
@@ -142,7 +143,7 @@ bool say_or_refuse(const ControlServer::Reply& reply, const Make& make) {
   }
 }
 
-/// The first piece at once; the others when there is time for them.
+/// Makes the first piece of a reply at once, and the others when there is time for them.
 void tell(Daemon& daemon, ReplyTask telling, const ControlServer::Reply& reply) {
   const auto whole = std::make_shared<ReplyTask>(std::move(telling));
   const auto resume = [whole, reply] {
@@ -167,7 +168,7 @@ void answer(const ControlServer::Reply& reply, const std::function<Json()>& make
 
 namespace {
 
-/// Does what a message says; null if the reply comes later.
+/// Does what a message says. Returns null if the reply comes later.
 Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
   const Verb& verb = require_verb(message);
   const std::string author = take_author(message);
@@ -185,7 +186,7 @@ Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
 
 void handle_message(Daemon& daemon, const std::string& line, const ControlServer::Reply& reply) {
   if (line.size() <= kMaxAtOnce) return answer(reply, [&] { return act_on(daemon, parsed(line), reply); });
-  // To read it would make the devices wait, and hosts with them.
+  // A long message is parsed aside, because devices and hosts would have to wait for it.
   daemon.do_aside([&daemon, line, reply]() -> std::function<void()> {
     std::shared_ptr<Json> message;
     std::exception_ptr refused;

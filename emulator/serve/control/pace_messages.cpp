@@ -1,4 +1,4 @@
-// Messages about the pace of time, and what programs do meanwhile.
+// Handles messages about the pace of time, and about what programs do meanwhile.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-// Tables of registers, page by page.
+// Returns tables of registers page by page.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -69,7 +69,7 @@ Json number_json(Value value, Type type) {
   return json_of(std::stod(value_text(value, type)));
 }
 
-/// Letters, digits and _ around it do not belong to it.
+/// Returns true if the text contains the word without letters, digits or _ next to it.
 bool names_word(std::string_view text, std::string_view word) {
   const auto is_letter = [](char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
@@ -82,15 +82,15 @@ bool names_word(std::string_view text, std::string_view word) {
   return false;
 }
 
-/// "X20", of a parameter with a letter; empty if it has none.
+/// Returns "X20" for a parameter with a letter, or an empty text for one without.
 std::string parameter_name(const ParameterRow& parameter, int index) {
   if (parameter.letter.empty()) return {};
   return std::string(parameter.letter) +
          std::to_string(parameter.first + (parameter.of_each_axis ? 0 : index));
 }
 
-/// What choices call it: its name, and its number as a parameter. Where a name is a parameter's as well, the
-/// choices mean that.
+/// Returns the names by which choices refer to a register: its own name, and its number as a parameter. If
+/// its name is that of a parameter too, choices mean the parameter.
 std::vector<std::string> names_in_choices(const Model& model, const RegisterRow& row, int index) {
   std::vector<std::string> names;
   bool is_of_parameter = false;
@@ -106,7 +106,7 @@ std::vector<std::string> names_in_choices(const Model& model, const RegisterRow&
   return names;
 }
 
-/// Those that name it.
+/// Returns the choices that refer to a register.
 Json choices_about(const Model& model, const RegisterRow& register_row, int index) {
   const std::vector<std::string> names = names_in_choices(model, register_row, index);
   Json ids = Json::array();
@@ -147,7 +147,7 @@ Json json_of_row(const Device& device, const RegisterRow& row, int index, int se
   return entry;
 }
 
-/// A row of the table, or of the parameters of a device without registers, one for each quantity.
+/// A register of a row, or a parameter of a device without registers.
 struct Listed {
   const RegisterRow* row = nullptr;
   const NamedParameterRow* parameter = nullptr;
@@ -155,7 +155,7 @@ struct Listed {
   int section = 0;
 };
 
-/// What a message wants of a device's tables.
+/// The part of a device's tables that a message asks for.
 struct WantedPage {
   std::size_t device = 0;
   std::optional<std::uint64_t> section{};
@@ -174,13 +174,14 @@ WantedPage wanted_page(const Daemon& daemon, const Json& message) {
   return wanted;
 }
 
-/// "0x1002", "4098", and "1002" where that is how the manual writes it.
+/// Returns true for "0x1002", for "4098", and for "1002", as some manuals write it.
 bool is_number_of(unsigned address, const std::string& find) {
   const std::string hex = in_lower_case(hex4(address));
   return hex == find || hex.substr(2) == find || std::to_string(address) == find;
 }
 
-/// By part of one of its names, or by its address; 32 bits have two of both.
+/// Returns true if the text is part of one of the register's names, or its address. A 32-bit register has two
+/// of both.
 bool is_row_found(const RegisterRow& row, int index, const std::string& find) {
   const auto address = static_cast<unsigned>(row.address + index * row.stride);
   if (is_number_of(address, find) || (is_32_bit(row.type) && is_number_of(address + 1, find))) return true;
@@ -206,7 +207,7 @@ bool is_found(const Listed& listed, const std::string& find) {
   return is_row_found(*listed.row, listed.index, find);
 }
 
-/// All that the device has; of one section, if only that is wanted.
+/// Returns all registers or parameters of the device, or those of one section.
 std::vector<Listed> all_listed(const Device& device, const WantedPage& wanted) {
   std::vector<Listed> all;
   int section = -1;
@@ -227,13 +228,13 @@ std::vector<Listed> all_listed(const Device& device, const WantedPage& wanted) {
   return all;
 }
 
-/// The page, in steps: each looks at one.
+/// Finds the entries of a page step by step: each step looks at one.
 class PageWalk {
  public:
   PageWalk(const Device& device, WantedPage wanted)
       : wanted_(std::move(wanted)), all_(all_listed(device, wanted_)) {}
 
-  /// False if there is none left.
+  /// Looks at the next entry. Returns false if there is none left.
   bool step() {
     is_on_page_ = false;
     if (next_ == all_.size()) return false;
@@ -243,9 +244,9 @@ class PageWalk {
     ++found_;
     return true;
   }
-  /// Null: it is not on the page.
+  /// Returns the entry of the last step, or null if it is not on the page.
   const Listed* current() const { return is_on_page_ ? &current_ : nullptr; }
-  /// How many there are in all, and where to go on.
+  /// Adds the total count, and the place where the next page begins.
   void add_end(ReplyText& text) const {
     text.member("of", found_);
     if (wanted_.from + wanted_.count < found_) text.member("next", wanted_.from + wanted_.count);
@@ -268,16 +269,16 @@ Json json_of_parameter(const NamedParameterRow& row) {
   return entry;
 }
 
-/// One of a page of values.
+/// A value on a page.
 struct PageValue {
-  std::string name;                 // the whole one
-  std::optional<NamedPlace> place;  // nothing: a parameter of a device without registers
+  std::string name;                 // the full name
+  std::optional<NamedPlace> place;  // nothing for a parameter of a device without registers
   std::string_view parameter{};
-  Value raw = 0;                   // of a register
-  std::optional<double> number{};  // of a parameter, if it has one now
+  Value raw = 0;                   // the value of a register
+  std::optional<double> number{};  // the value of a parameter, if it has one now
 };
 
-/// Nothing for a window, which takes only messages.
+/// Returns nothing for a window, which accepts only messages.
 std::optional<PageValue> place_of(const Device& device, const Listed& listed) {
   if (listed.row == nullptr) {
     const std::string_view name = listed.parameter->name;
@@ -324,7 +325,7 @@ ReplyTask tell_rows(Daemon& daemon, WantedPage wanted) {
 ReplyTask tell_values(Daemon& daemon, WantedPage wanted) {
   const Pause pause(daemon);
   const Device& device = daemon.world().device(wanted.device);
-  // Which they are takes long, their values do not: those are of one moment.
+  // To find the names takes long, to read the values does not. So all values are of one moment.
   std::vector<PageValue> page;
   PageWalk walk(device, wanted);
   while (walk.step()) {

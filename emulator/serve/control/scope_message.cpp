@@ -1,4 +1,4 @@
-// An oscilloscope's single shot, and bytes that are put on a line by hand.
+// Handles the single shot of an oscilloscope, and bytes that a user puts on a line.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMaxSamples = 500;  // of each name, in a reply
+constexpr std::size_t kMaxSamples = 500;  // for each name, in a reply
 constexpr std::size_t kMaxBytes = 512;
 
 std::string_view state_word(world::Scope::State state) {
@@ -105,7 +105,7 @@ const Port& require_port(const Daemon& daemon, const Json& message) {
   }
   if (!message.contains("line")) throw MessageError("'line' is missing; expected one of " + names);
   const std::string wanted = require_text(message, "line");
-  // "01 03" without quotes
+  // The user may have written "01 03" without quotes.
   const std::string hint = bytes_of(wanted) ? "; put the bytes in quotes, as one word" : "";
   throw MessageError("line: " + understudy::quoted(wanted) + " is unknown; expected one of " + names + hint);
 }
@@ -118,7 +118,7 @@ Json scope_reply(const world::Scope* scope) {
   return Json{{"ok", true}, {"scope", scope != nullptr ? course_of_scope(*scope) : Json()}};
 }
 
-/// All of one moment, put into words in pieces.
+/// Returns samples. It copies all at one moment and writes them in pieces.
 ReplyTask samples_message(Daemon& daemon, std::uint64_t from) {
   const Pause pause(daemon);
   const world::Scope& scope = *daemon.observers().scope;
@@ -144,7 +144,7 @@ ReplyTask samples_message(Daemon& daemon, std::uint64_t from) {
   co_return text.take();
 }
 
-/// In one piece.
+/// Returns a reply in one piece.
 ReplyTask told(Json reply) { co_return text_of(reply); }
 
 }  // namespace
@@ -194,7 +194,7 @@ Json send_message(Daemon& daemon, const Json& message) {
   if (line.line.due() || line.line.room() < bytes.size()) {
     throw MessageError(name + ": bytes are in transit there; expected an idle line");
   }
-  // As from a host that has closed: the answer is seen in `frames`, and goes to nobody.
+  // The bytes come as from a host that has closed: the reply appears in `frames` and goes to nobody.
   const std::uint64_t next = daemon.frames().next_number();
   world.receive_departed(port.line_number(), bytes);
   world.advance_to(world.now());

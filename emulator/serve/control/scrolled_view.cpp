@@ -42,11 +42,12 @@ constexpr std::array kKeys{
     Key{"q", Move::quit},
 };
 
-constexpr std::size_t kIndentation = 4;  // of what is left of a folded line
+constexpr std::size_t kIndentation = 4;  // of the continuation of a folded line
 
 bool is_inside_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
 
-/// Where a line is broken so that what is before it fits: at a space, if there is one behind the beginning.
+/// Returns the place to break a line so that the first part fits: at a space if possible, but not in the
+/// indentation.
 std::size_t break_of(const std::string& line, std::size_t columns) {
   const std::size_t text = std::min(line.find_first_not_of(' '), line.size());
   const std::size_t space = line.rfind(' ', columns);

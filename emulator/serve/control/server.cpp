@@ -27,7 +27,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// A program that fills a device comes in one message, and goes back in one reply.
+// A program that fills a device fits into one message, and into one reply.
 constexpr std::size_t kLongestMessage = 4 * 1024 * 1024;
 constexpr std::size_t kMaxUnread = 8 * 1024 * 1024;
 constexpr std::size_t kMaxClients = 256;
@@ -56,7 +56,7 @@ int connect_to(const std::string& path) {
   return descriptor;
 }
 
-/// Makes room for a socket of ours at `path`, if what is there is a socket that nobody answers.
+/// Removes the socket at `path` if nobody answers there, to make room for ours.
 void remove_dead_socket(const std::string& path) {
   struct stat status {};
   if (lstat(path.c_str(), &status) < 0) return;
@@ -73,11 +73,11 @@ void remove_dead_socket(const std::string& path) {
 
 struct ControlServer::Client {
   Descriptor socket;
-  bool is_awaiting = false;   // a reply is still to come: nothing is read meanwhile
-  bool has_said_all = false;  // it has closed its side
+  bool is_awaiting = false;   // a reply is still to come, and nothing is read until then
+  bool has_said_all = false;  // the client has closed its side
   std::string input;          // the beginning of a message
   std::string output;
-  std::size_t sent = 0;  // of the output
+  std::size_t sent = 0;  // bytes of the output
 };
 
 ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
@@ -86,7 +86,7 @@ ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
   remove_dead_socket(path_);
   Descriptor listener(socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!listener) throw ControlError(path_ + ": " + std::strerror(errno));
-  // Only its owner may open it, from the first moment on.
+  // Nobody but the owner may open the socket, not even for a moment.
   const mode_t before = umask(0177);
   const bool bound = bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
   const int error = errno;
@@ -105,7 +105,7 @@ ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
 ControlServer::~ControlServer() {
   while (!clients_.empty()) drop(clients_.begin()->first);
   listener_.reset();
-  // Another's socket may stand there by now.
+  // Another daemon's socket may have this path by now.
   struct stat status {};
   if (lstat(path_.c_str(), &status) == 0 && status.st_ino == inode_) unlink(path_.c_str());
 }
@@ -121,13 +121,13 @@ void ControlServer::admit(Descriptor socket) {
       [this, descriptor](std::uint32_t ready) { on_client(descriptor, ready); }, EventLoop::Rank::later);
 }
 
-/// One message a call, however many are there: the rest stays in the socket, and others have their turn.
+/// Handles one message per call. Further messages stay in the socket, so that other clients have their turn.
 void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   const std::shared_ptr<Client> client = clients_.at(descriptor);
   if ((ready & EventLoop::writable) != 0 && !write_out(*client)) return drop(descriptor);
   if ((ready & EventLoop::readable) == 0) return;
   if (client->is_awaiting || client->has_said_all)
-    return drop(descriptor);  // nothing is read from it: it has hung up
+    return drop(descriptor);  // nothing is read from it now, so it has hung up
   std::array<char, 4096> bytes;
   ssize_t count = recv(descriptor, bytes.data(), bytes.size(), MSG_PEEK);
   if (count > 0) {
@@ -162,19 +162,20 @@ void ControlServer::serve(const std::shared_ptr<Client>& client) {
     alive->is_awaiting = false;
     send(alive, reply);
   });
-  if (client->socket && client->is_awaiting) write_out(*client);  // nothing is read from it meanwhile
+  // Changes the interest too: nothing is read until the reply.
+  if (client->socket && client->is_awaiting) write_out(*client);
 }
 
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
   if (!client->socket) return;
-  // A device may hold more than anybody could be given at once.
+  // A device may hold more than a reply can carry.
   const bool is_too_long = line.size() >= kMaxUnread;
   client->output += is_too_long ? R"({"ok":false,"error":"the answer is longer than 8388608 bytes"})" : line;
   client->output += "\n";
   if (!write_out(*client) || client->output.size() - client->sent > kMaxUnread) drop(client->socket.get());
 }
 
-/// False if there is nothing more to do for the client.
+/// Returns false if the client needs nothing more.
 bool ControlServer::write_out(Client& client) {
   while (client.sent < client.output.size()) {
     const ssize_t count = ::send(client.socket.get(), client.output.data() + client.sent,
@@ -188,10 +189,10 @@ bool ControlServer::write_out(Client& client) {
   }
   if (client.sent == client.output.size()) {
     client.sent = 0;
-    client.output = {};  // a large one does not stay with the daemon
+    client.output = {};  // frees the memory of a large reply
   }
   if (client.has_said_all && client.output.empty()) return false;
-  // What waits behind a message whose reply is to come stays in the socket.
+  // Messages that follow one without a reply yet stay in the socket.
   const std::uint32_t read = client.has_said_all || client.is_awaiting ? 0U : EventLoop::readable;
   const std::uint32_t write = client.output.empty() ? 0U : EventLoop::writable;
   loop_.change_interest(client.socket.get(), read | write);
@@ -202,7 +203,7 @@ void ControlServer::drop(int descriptor) {
   const auto it = clients_.find(descriptor);
   if (it == clients_.end()) return;
   loop_.unwatch(descriptor);
-  it->second->socket.close();  // also for whoever still holds it
+  it->second->socket.close();  // closes it also for others that hold the client
   clients_.erase(it);
   listener_->try_again();
 }

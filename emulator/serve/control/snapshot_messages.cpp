@@ -1,4 +1,4 @@
-// Snapshots of the running world, in files of the user's.
+// Saves and restores snapshots of the running world in the user's files.
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -23,7 +23,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// Absolute, because the daemon may run in another folder than whoever asks.
+/// Returns the path, which must be absolute because the daemon may run in another folder than the client.
 std::string require_file(const Json& message) {
   require_keys(message, {"do", "file"});
   const std::string path = require_text(message, "file");
@@ -44,7 +44,7 @@ void require_restorable(const Daemon& daemon) {
   }
 }
 
-/// Why it could not be; empty if it was.
+/// Writes a snapshot. Returns an empty text, or why it could not be written.
 std::string written(const std::string& path, const world::WorldState& state, std::uint64_t bench_hash) {
   try {
     return replace_text_file(path, world::to_text(state, bench_hash), ContentKind::snapshot);
@@ -62,7 +62,7 @@ void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::
     throw MessageError(path + ": file: " + why);
   }
   daemon.catch_up();
-  // Of this moment, whatever the devices do while it is written.
+  // The snapshot is of this moment, whatever the devices do while it is written.
   const Json taken = reply_of(daemon);
   const auto state = std::make_shared<const world::WorldState>(world::save(daemon.world()));
   daemon.do_aside([path, reply, taken, state, hash = daemon.bench_hash()]() -> std::function<void()> {
@@ -78,8 +78,7 @@ void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::
 
 namespace {
 
-/// Read and looked through aside: the devices do not wait for a large file, or for one that is not a
-/// snapshot.
+/// Reads and checks a snapshot. It runs aside, so that the devices do not wait for a large or invalid file.
 world::WorldState read_snapshot(const std::string& path, std::uint64_t bench_hash) {
   const auto text = read_text_file(path);
   if (!text) throw MessageError(path + ": file: " + text.why + "; expected a snapshot");
@@ -94,7 +93,7 @@ world::WorldState read_snapshot(const std::string& path, std::uint64_t bench_has
 }
 
 Json restored(Daemon& daemon, const std::string& path, const world::WorldState& state) {
-  require_restorable(daemon);  // that may have changed
+  require_restorable(daemon);  // the answer may have changed meanwhile
   try {
     daemon.restore(state);
   } catch (const StateError& error) {

@@ -34,7 +34,8 @@ std::string folder_path() {
   return "/tmp/understudy-" + std::to_string(getuid());
 }
 
-/// "1234-2.control" is of process 1234; nothing for other names.
+/// Returns the process that a socket's name contains: 1234 for "1234-2.control". Returns nothing for other
+/// names.
 std::optional<std::int64_t> process_of(const std::string& name) {
   if (!name.ends_with(kEnding)) return std::nullopt;
   const auto number = parse_integer(std::string_view(name).substr(0, name.find_first_of("-.")));
@@ -49,7 +50,7 @@ std::string control_folder() {
   std::string folder = folder_path();
   mkdir(folder.c_str(), 0700);
   struct stat status {};
-  // Somebody else's folder of that name would let them read along.
+  // A folder of that name that belongs to another user would let them read along.
   if (lstat(folder.c_str(), &status) < 0 || !S_ISDIR(status.st_mode) || status.st_uid != getuid() ||
       (status.st_mode & 077) != 0) {
     throw ControlError(folder + ": is not a private folder of your own; expected one, or --control SOCKET");
@@ -62,7 +63,7 @@ std::string own_control_path() {
   for (int i = 1;; ++i) {
     std::string path = begin + (i == 1 ? "" : "-" + std::to_string(i)) + std::string(kEnding);
     struct stat status {};
-    // Another daemon of this process, or what an earlier process of this number has left behind.
+    // The path may belong to another daemon of this process, or to an earlier process with this number.
     if (lstat(path.c_str(), &status) < 0 || !is_answered(path)) return path;
   }
 }
@@ -76,7 +77,7 @@ std::vector<std::string> live_control_sockets() {
     if (!process || !entry.is_socket(error)) continue;
     if (is_answered(path)) {
       live.push_back(path);
-    } else if (is_gone(*process)) {  // else it may be about to listen
+    } else if (is_gone(*process)) {  // otherwise it may be about to listen
       unlink(path.c_str());
     }
   }

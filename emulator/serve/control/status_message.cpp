@@ -43,7 +43,7 @@ namespace {
 
 double microseconds(WallTime time) { return static_cast<double>(time.count()) / 1000.0; }
 
-/// Without its stations.
+/// Describes a line without its stations.
 Json line_status(const Daemon& daemon, const Port& port) {
   const world::WorldLine& line = daemon.world().line(port.line_number());
   const pty::LineCounters& counters = line.line.counters();
@@ -81,7 +81,7 @@ Json station_status(const world::LineStation& station) {
   return entry;
 }
 
-/// Those that tell best what it is doing.
+/// Returns the registers that best show what the device is doing.
 Json telling_registers(const Device& device) {
   Json values = Json::object();
   for (const std::string_view name : device.model().state_registers) {
@@ -119,7 +119,7 @@ Json device_status(const world::World& world, std::size_t number) {
   if (device.powered()) status["registers"] = telling_registers(device);
   status["inputs"] = Json::object();
   status["outputs"] = Json::object();
-  // What is not a level stands apart, if there is anything.
+  // Counts and groups have objects of their own, if there are any.
   for (const TerminalSight& sight : terminal_sights(device)) {
     const bool is_count =
         sight.what == TerminalSight::What::pulses || sight.kind == TerminalRow::Kind::counted_in;
@@ -188,7 +188,7 @@ void StatusParts::add_head(ReplyText& text) {
   part_ = Part::lines;
 }
 
-/// A line, or one of its stations.
+/// Adds a line, or one of its stations.
 void StatusParts::add_of_line(ReplyText& text) {
   if (next_ == daemon_.ports().size()) {
     text.close_list();

@@ -1,4 +1,4 @@
-// Messages that stop simulated time, or move it on.
+// Handles messages that stop simulated time, or advance it.
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -35,10 +35,10 @@ SimTime require_duration(const Daemon& daemon, const Json& message, const std::s
 constexpr std::string_view kRunsByItself =
     "time is already running; expected --speed manual, or `pause` first";
 
-/// What `run-until` waits for.
+/// The condition that `run-until` waits for.
 struct Condition {
   explicit Condition(const world::World& world) : probes(world) {}
-  /// A condition without a result ends the waiting as well.
+  /// Returns true if the condition holds. A condition without a result ends the waiting too.
   bool is_there() {
     try {
       return world::is_true(expression, probes);

@@ -31,26 +31,27 @@ namespace {
 
 constexpr std::size_t kMaxMarks = 2'000;
 constexpr std::size_t kMarksAtOnce = 500;
-constexpr std::size_t kMaxBefore = 200;  // frames, and events, that are told of the time before a moment
+constexpr std::size_t kMaxBefore = 200;  // frames, and events, that the logs keep from before a moment
 
-/// What stands out on the bar.
+/// Returns true for events that appear on the bar.
 bool is_mark(std::string_view what) {
   return what == "fault" || what == "inject" || what == "clear" || what == "exception" || what == "dropped" ||
          what == "power" || what == "program";
 }
 
-/// What only looks. Nothing else is done in a recording: it shows what happened.
+/// The commands that only read. No others are allowed in a recording, because it shows what happened.
 constexpr std::array<std::string_view, 15> kLooks{"status", "identify", "bench", "registers", "choices",
                                                   "faults", "get",      "eval",  "list",      "frames",
                                                   "events", "where",    "look",  "scope",     "snapshots"};
 
 bool only_looks(const Json& message, const std::string& word) {
-  if (word == "program") return !message.contains("text");  // it is read
+  if (word == "program") return !message.contains("text");  // without a text, it reads the program
   if (message.contains("drop")) return false;
   return std::find(kLooks.begin(), kLooks.end(), word) != kLooks.end();
 }
 
-/// The daemon is made with its door, so the recording is played when it is first asked for.
+/// Moves a daemon through a recording. The recording is played on first use, because the daemon is made
+/// together with its door.
 class Travel {
  public:
   Travel(Daemon& daemon, const world::WorldState& begin, std::vector<world::RecordedEvent> events,
@@ -80,7 +81,7 @@ class Travel {
     return reply;
   }
 
-  /// {"do":"seek","to_ns":N}, or {"do":"seek","by":"tick"|"frame"|"event","steps":-1}
+  /// Handles {"do":"seek","to_ns":N} and {"do":"seek","by":"tick"|"frame"|"event","steps":-1}.
   Json seek(const Json& message) {
     require_keys(message, {"do", "to_ns", "by", "steps"});
     if (daemon_.is_advancing()) throw MessageError("time is being advanced; expected `seek` after that");
@@ -93,7 +94,7 @@ class Travel {
   }
 
  private:
-  /// What happened between two keyframes, the last of it.
+  /// The last frames and events between two keyframes.
   struct Stretch {
     std::vector<world::FrameLog::Frame> frames;
     std::vector<world::Event> events;
@@ -112,7 +113,7 @@ class Travel {
   SimTime stepped(const std::string& by, std::int64_t steps) const {
     const SimTime now = daemon_.world().now();
     if (by == "tick") {
-      // From within a tick, one back is where it began.
+      // One step back from within a tick leads to its beginning.
       const bool is_within = steps < 0 && time_of(tick_at(now)) < now;
       return std::max(SimTime{0}, time_of(tick_at(now) + steps + (is_within ? 1 : 0)));
     }
@@ -133,7 +134,8 @@ class Travel {
     return moments[static_cast<std::size_t>(place)];
   }
 
-  /// On the way through, at each keyframe: when frames began, what stands out, and what led there.
+  /// Collects, at each keyframe of the first pass, when frames began, the events for the bar, and the last
+  /// frames and events.
   void collect() {
     Stretch stretch{.frames = daemon_.frames().kept_since(next_frame_, kMaxBefore), .events = {}};
     for (const auto& told : daemon_.frames().since(next_frame_, SIZE_MAX)) {
@@ -142,7 +144,8 @@ class Travel {
     }
     for (const auto& event : daemon_.observers().events.since(next_event_, SIZE_MAX)) {
       next_event_ = event.number + 1;
-      if (event.what != "restored") stretch.events.push_back(event);  // that was to begin with
+      // The first restore is no part of the recording.
+      if (event.what != "restored") stretch.events.push_back(event);
       if (!is_mark(event.what)) continue;
       if (marks_.size() == kMaxMarks) {
         ++marks_left_out_;
@@ -159,7 +162,7 @@ class Travel {
     stretches_.push_back(std::move(stretch));
   }
 
-  /// The last of what happened before a keyframe, the oldest first.
+  /// Returns the last entries before a keyframe, the oldest first.
   template <class One>
   std::vector<One> last_before(std::size_t keyframe, std::vector<One> Stretch::*which) const {
     std::vector<One> all;
@@ -178,13 +181,13 @@ class Travel {
   }
 
   Daemon& daemon_;
-  std::vector<Stretch> stretches_;  // one up to each keyframe behind the first, and up to the end
+  std::vector<Stretch> stretches_;  // one before each keyframe but the first, and one before the end
   std::uint64_t next_frame_ = 1;
   std::uint64_t next_event_ = 1;
   std::vector<SimTime> moments_;
   std::vector<Json> marks_;
   std::uint64_t marks_left_out_ = 0;
-  world::Timeline timeline_;  // last: it collects
+  world::Timeline timeline_;  // must be the last member, because it calls collect()
 };
 
 }  // namespace
@@ -196,7 +199,7 @@ DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
     const auto travelled = [=, &daemon] {
       if (!*travel) *travel = std::make_unique<Travel>(daemon, begin, events, end, at_first);
     };
-    daemon.post(travelled);  // nobody is heard before that
+    daemon.post(travelled);  // runs before any client is served
     const auto handle = [&daemon, travel, travelled](const std::string& line,
                                                      const ControlServer::Reply& reply) {
       travelled();

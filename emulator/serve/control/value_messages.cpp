@@ -1,4 +1,4 @@
-// Messages about what can be named: registers, and everything else that conditions can see.
+// Handles messages about everything with a name: registers, and all else that conditions can use.
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -34,28 +34,29 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// A number for a register: a whole one, or a real one for a register that holds such.
+/// A number for a register. It is whole, unless the register holds reals.
 struct WantedRegister {
   std::string name;
   Json number;
 };
 
-/// What `set` wants: of registers, and of devices without them.
+/// The values that `set` sets, in registers and in devices without registers.
 struct WantedValues {
   std::vector<WantedRegister> registers;
   std::vector<std::pair<world::ValueName, double>> values;
 };
 
-/// Whether a name is a register's that holds a real number.
+/// Returns true if the name is that of a register that holds reals.
 bool is_real_register(const world::KnownDevices& known, const std::string& name) {
   try {
     return world::find_register(known, name).place.is_real();
   } catch (const world::NameError&) {
-    return false;  // the diagnostic comes where it is looked up
+    return false;  // the diagnostic comes when the name is looked up
   }
 }
 
-/// Says what the register takes. Throws world::NameError if there is none of that name.
+/// Returns an error that says what the register accepts. Throws world::NameError if there is no such
+/// register.
 MessageError no_number(const world::KnownDevices& known, const std::string& name, const Json& value) {
   if (world::find_value(known, name)) return is_not(name, value, "a number");
   const world::RegisterName place = world::find_register(known, name);
@@ -66,7 +67,7 @@ MessageError no_number(const world::KnownDevices& known, const std::string& name
   return is_not(name, value, value.is_number() ? "a whole number" : "a number", range);
 }
 
-/// The object under "values": names with numbers, whole ones for registers that hold no other.
+/// Reads the object under "values": names and numbers, which must be whole if the register holds no reals.
 WantedValues named_values(const Json& message, const world::KnownDevices& known) {
   require_keys(message, {"do", "values"});
   const Json& values = require_values(message, "names and whole numbers");
@@ -89,7 +90,7 @@ WantedValues named_values(const Json& message, const world::KnownDevices& known)
   return all;
 }
 
-/// A number as JSON has it, and what it counts where it is not a plain one.
+/// Returns a number as JSON.
 Json json_number(world::Number number) {
   if (number.is_whole()) return number.whole();
   return number.real();
@@ -131,14 +132,14 @@ void require_accepted(Refusal refusal, const std::string& name, const std::strin
   }
 }
 
-/// A number as a register has it.
+/// Returns the register value of a number.
 Value value_for(const world::RegisterName& place, const WantedRegister& wanted) {
   if (!place.place.is_real()) return wanted.number.get<std::int64_t>();
   if (const auto value = value_of_number(place.place, wanted.number.get<double>())) return *value;
   throw MessageError(wanted.name + ": " + wanted.number.dump() + " is too large for a 32-bit real");
 }
 
-/// Each is tried on a device that is made alike, so that all are given or none.
+/// Tries each assignment on a copy of the device, so that either all are made or none.
 void require_possible(const world::World& world,
                       const std::vector<std::pair<world::ValueName, double>>& wanted) {
   std::map<std::size_t, std::unique_ptr<Device>> trials;
@@ -163,7 +164,7 @@ void require_possible(const world::World& world,
 
 namespace {
 
-/// All that are named are looked up first, then read in one go.
+/// Looks up all names first, then reads all values at once.
 ReplyTask get_names_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "names"});
   const Json& names = require(message, "names");
@@ -239,7 +240,7 @@ Json set_message(Daemon& daemon, const Json& message) {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const std::string& name = wanted[i].name;
     const world::RegisterName place = world::find_register(world.known(), name);
-    // Two bits, or halves, of one register would be judged one without the other.
+    // Two bits or halves of one register would each be judged without the other.
     for (const world::RegisterName& other : places) {
       if (other.device == place.device && other.place.place.is_same_register(place.place.place)) {
         throw MessageError(name + ": its register appears twice; expected it once");
@@ -254,7 +255,7 @@ Json set_message(Daemon& daemon, const Json& message) {
     require_accepted(refusal, name, wanted[i].number.dump(), place.place, value);
   }
   for (std::size_t i = 0; i < writes.size(); ++i) {
-    // The order of words may be what has just been written.
+    // An earlier write may have changed the order of words.
     const RegisterBank& bank = *world.device(places[i].device).register_bank();
     if (bank.low_word_first() != low_first[i]) {
       const Value value = value_for(places[i], wanted[i]);

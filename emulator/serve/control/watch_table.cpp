@@ -29,7 +29,7 @@ __attribute__((format(printf, 1, 2))) std::string formatted(const char* format, 
   return text.data();
 }
 
-/// Words side by side, on as many lines as they take.
+/// Writes words side by side, on as many lines as they need.
 class Words {
  public:
   Words(const std::string& title, std::size_t columns)
@@ -68,7 +68,7 @@ std::string line_text(const Json& line, const Json* before, double between_s) {
       formatted("%-13s%s, host %s", line.at("name").get<std::string>().c_str(),
                 line.at("settings").get<std::string>().c_str(), line.at("host").get<std::string>().c_str());
   if (before != nullptr && between_s > 0) {
-    // After a restore there may be fewer than before.
+    // After a restore, the count may be smaller than before.
     const auto more = static_cast<std::int64_t>(frames_of(line) - frames_of(*before));
     text += formatted(", %.1f frames/s", static_cast<double>(std::max<std::int64_t>(more, 0)) / between_s);
   }

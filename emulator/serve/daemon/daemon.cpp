@@ -49,22 +49,23 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// Free running and long advances look up from their work this often (wall time), so that ports and the
-// control socket are served meanwhile.
+// Free running and long advances pause after this much wall time, so that ports and the control socket are
+// served.
 constexpr WallTime kWorkSlice = std::chrono::milliseconds(5);
-// For bytes, which are stamped with the moment that the world has come to.
+// Bytes are stamped with the world's time, so catching up for them may take longer.
 constexpr WallTime kWorkForBytes = std::chrono::milliseconds(100);
-// How long a host that reads more slowly than time goes by is left to itself before it is looked at again.
+// A host that reads more slowly than time passes is left alone this long before the next look at it.
 constexpr WallTime kReadingTime = std::chrono::milliseconds(1);
-// A trace looks at every tick, so a long quiet span takes long to cross: it is crossed as it goes by.
+// A trace looks at every tick, so a long quiet span takes long to skip. It is skipped in pieces of this
+// length.
 constexpr SimTime kTracedSpan = std::chrono::milliseconds(100);
-// What they do at first before they look at the clock again.
+// The first step of simulated time before they look at the clock again.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
 
-// For whoever looks: some seconds of a busy line.
+// The log keeps some seconds of a busy line for observers.
 constexpr std::size_t kFramesKept = 1024;
 
-// In simulated time, which may run fast beside the host's.
+// Returns the patience in simulated time, which may run faster than the host's.
 SimTime patience_at(const Speed& speed) {
   const double factor = std::max(1.0, speed.rate());
   return SimTime{static_cast<std::int64_t>(static_cast<double>(world::kFramePatience.count()) * factor)};
@@ -96,7 +97,7 @@ Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
   make_doors(bench);
   if (options.door) door_ = options.door(*this, log_);
   memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
-  // Last: a run that cannot start leaves the files of the one before alone.
+  // This comes last: a run that cannot start must not touch the files of an earlier run.
   open_files(bench, options);
 }
 
@@ -152,7 +153,7 @@ bool Daemon::is_over() {
   return is_over_;
 }
 
-/// Whoever waits for what was posted learns by its end that it is never done.
+/// Drops the posted functions. Their destruction tells those who wait that they will never run.
 void Daemon::end_posts() {
   std::vector<std::function<void()>> dropped;
   const std::lock_guard lock(posted_mutex_);
@@ -195,7 +196,7 @@ void Daemon::make_ports(const world::Bench& bench) {
   }
 }
 
-/// What one cannot listen at is told before anybody is told where to come.
+/// Opens all doors before the log names any, because one may fail.
 void Daemon::make_doors(const world::Bench& bench) {
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
     for (const world::TcpAddress& address : bench.lines[i].tcp) {
@@ -220,7 +221,7 @@ FileClaims Daemon::files() const {
   return files;
 }
 
-/// All are open before any is emptied.
+/// Opens all files before it empties any.
 void Daemon::open_files(const world::Bench& bench, const DaemonOptions& options) {
   if (!options.capture_path.empty()) {
     capture_ = std::make_unique<world::WorldCapture>(world_, options.capture_path, log_);
@@ -258,20 +259,20 @@ void Daemon::catch_up(WallTime longest) {
   if (world_.now() >= target) {
     behind_since_.reset();
   } else if (is_free) {
-    pacer_.moved_to(world_.now(), wall_now());  // as fast as possible: what it could not do is not a debt
+    pacer_.moved_to(world_.now(), wall_now());  // as fast as possible: missed time is not made up for
   } else if (!behind_since_) {
     behind_since_ = now;
   }
 }
 
-/// Before anything catches up with the time that has passed: was it a stall?
+/// Checks for a stall. It runs before anything catches up with the time that has passed.
 void Daemon::judge_stall(WallTime now) {
   if (!planned_) return;
   const WallTime planned = *std::exchange(planned_, std::nullopt);
   const WallTime left_out = pacer_.woke(planned, now);
   if (behind_since_) *behind_since_ += left_out;
-  // Every real stall is told; a machine that never keeps up slips by little again and again, and would fill
-  // the log.
+  // Every real stall is logged. A slow machine that slips a little again and again is logged ever more
+  // rarely.
   const bool worth_a_line = left_out >= Pacer::kLongestStall || (pacer_.slips() & (pacer_.slips() - 1)) == 0;
   if (left_out > WallTime{0} && worth_a_line) {
     log_("stalled: " + format_duration(left_out) + " of simulated time were skipped (stall number " +
@@ -279,7 +280,7 @@ void Daemon::judge_stall(WallTime now) {
   }
 }
 
-/// Until then at most; quiet spans are crossed in ever larger steps.
+/// Advances the world to `target`, or until that moment. Steps grow, so that quiet spans pass quickly.
 void Daemon::work_towards(SimTime target, WallTime until) {
   for (SimTime step = kSimSlice; world_.now() < target; step *= 2) {
     step = std::min(step, longest_step());
@@ -289,7 +290,7 @@ void Daemon::work_towards(SimTime target, WallTime until) {
 }
 
 void Daemon::pause() {
-  if (advance_done_) advance_target_ = world_.now();  // it ends here, and says so
+  if (advance_done_) advance_target_ = world_.now();  // ends the advance here, with a reply
   judge_stall(wall_now());
   pacer_.pause(wall_now());
   catch_up();                                 // to the moment at which the clock stopped,
@@ -302,7 +303,7 @@ bool Daemon::set_speed(const Speed& speed) {
   judge_stall(wall_now());
   catch_up();
   pacer_.set_speed(speed, wall_now());
-  pacer_.moved_to(world_.now(), wall_now());  // what it could not do at the speed before is not a debt
+  pacer_.moved_to(world_.now(), wall_now());  // time missed at the earlier speed is not made up for
   behind_since_.reset();
   return true;
 }
@@ -321,7 +322,7 @@ bool Daemon::advance(SimTime duration, std::function<void()> done, std::function
   return true;
 }
 
-/// Tick by tick, for a slice of wall time at most. The target moves here where the condition is true.
+/// Advances tick by tick, for a slice of wall time at most. If the condition is true, the target moves here.
 void Daemon::work_towards_condition() {
   const WallTime until = wall_now() + kWorkSlice;
   while (world_.now() < advance_target_ && wall_now() < until) {
@@ -334,12 +335,12 @@ void Daemon::work_towards_condition() {
   }
 }
 
-/// As fast as it can: by the wall clock a host may have no chance to read what is said.
+/// Returns true if time passes as fast as possible. A host may then have no chance to read in time.
 bool Daemon::makes_time_go() const {
   return advance_done_ != nullptr || pacer_.speed().kind == Speed::Kind::free;
 }
 
-/// So that no line says more in it than it keeps.
+/// Returns the longest step in which no line sends more than it can keep.
 SimTime Daemon::longest_step() const {
   SimTime longest = kHorizon / 4;
   if (!makes_time_go()) return longest;
@@ -347,7 +348,7 @@ SimTime Daemon::longest_step() const {
   return longest;
 }
 
-/// Whether a host has to read, or to write, before time goes on.
+/// Returns true if a host must read or write before time continues.
 bool Daemon::waits_for_hosts() {
   if (!makes_time_go()) return false;
   bool waits = false;
@@ -363,7 +364,7 @@ void Daemon::work_on_advance() {
   }
   pacer_.moved_to(world_.now(), wall_now());
   if (world_.now() < advance_target_) return;
-  // What the advance has put on the line is on its way before the caller hears that it is over.
+  // The line's output is on its way before the caller learns that the advance is over.
   for (const auto& port : ports_) port->flush();
   const std::function<void()> done = std::move(advance_done_);
   advance_done_ = nullptr;
@@ -403,8 +404,8 @@ std::optional<WallTime> Daemon::next_wake() const {
 }
 
 void Daemon::wait() {
-  // An advance is work in hand, not a moment that was planned for. So is catching up: what counts is since
-  // when it lasts, not how much simulated time it has still to cross, which may have been a long sleep.
+  // An advance is work in hand, not a planned moment. So is catching up: its lateness counts from its
+  // beginning, not from the simulated time that is left, which may have been a long sleep.
   planned_ = advance_done_ ? std::nullopt : behind_since_ ? behind_since_ : next_wake();
   std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
   if (waits_for_hosts()) wake = wall_now() + kReadingTime;
@@ -422,7 +423,7 @@ void Daemon::run() {
     ~Leaving() { daemon.end_posts(); }
     Daemon& daemon;
   } const leaving{*this};
-  pacer_.moved_to(world_.now(), wall_now());  // opening the ports took no simulated time
+  pacer_.moved_to(world_.now(), wall_now());  // the opening of ports took no simulated time
   while (!stopping_) {
     wait();
     if (stopping_) break;
@@ -439,8 +440,7 @@ void Daemon::run() {
     memories_->poll(now);
     if (recording_) recording_->look();
   }
-  // A recording or a trace of a bench on which nothing happens ends now as well, and not when last something
-  // did.
+  // A recording or a trace of a quiet bench ends now too, not at its last event.
   if (!advance_done_) catch_up();
 }
 

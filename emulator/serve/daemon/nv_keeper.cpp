@@ -29,7 +29,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// However its path is spelled.
+/// Returns the file of a memory, however its path is spelled.
 std::filesystem::path file_of(const world::DeviceSetup& device) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(device.nv_path));
 }
@@ -55,10 +55,10 @@ void make_folder(const std::string& folder) {
   throw std::system_error(error, "--nv: " + folder + " cannot be made");
 }
 
-/// All that is wrong with it is told.
+/// Reads a memory and reports all errors in it.
 void read_memory(world::DeviceSetup& device, world::Diagnostics& diagnostics) {
   bool is_asked = diagnostics.attempt([&] {
-    // Until there is a file, the bench may say what the memory holds.
+    // Until there is a file, the bench may give the content of the memory.
     if (auto image = read_nv_file(device.nv_path)) device.settings.nv = std::move(image);
   });
   while (is_asked) {
@@ -110,7 +110,7 @@ NvKeeper::NvKeeper(const world::Bench& bench, const world::World& world,
   }
 }
 
-/// Where nothing can be written there is nothing to claim.
+/// Claims the file of a memory. If nothing can be written there, there is nothing to claim.
 void NvKeeper::claim(const world::DeviceSetup& device) {
   try {
     claims_.emplace_back(file_of(device).string());
@@ -122,7 +122,7 @@ void NvKeeper::claim(const world::DeviceSetup& device) {
                          ": nv: another running understudy uses this memory; expected a separate file, or a "
                          "separate folder with --nv, for each");
   }
-  // Nobody else writes it, so what lies beside it is of a writer that was killed.
+  // Nobody else writes this file, so files beside it come from a writer that was killed.
   remove_left_beside(file_of(device).string(), ContentKind::nv_image);
 }
 
@@ -167,7 +167,7 @@ void NvKeeper::poll(WallTime now) {
 }
 
 std::optional<WallTime> NvKeeper::next_poll() const {
-  // Also for news from the disk, which nothing else wakes anybody for.
+  // News from the disk must be polled for, because nothing else wakes the daemon for it.
   if (!due_ && !writer_.is_idle()) return looked_ + NvWriter::kCoalesce;
   return due_;
 }

@@ -27,9 +27,9 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// A group that is to end is looked at this often: its members need not be our children.
+// A group that is to end is polled at this interval, because its members need not be our children.
 constexpr WallTime kLook = std::chrono::milliseconds(10);
-// What does not go when it is killed (it waits for a broken disk) is left behind.
+// A process that does not end when it is killed (it waits for a broken disk) is left behind after this time.
 constexpr WallTime kAfterKilling = std::chrono::seconds(1);
 
 std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
@@ -57,11 +57,11 @@ std::vector<std::string> environment_with(const std::vector<std::pair<std::strin
 Child::Child(EventLoop& loop, const ParentSignals& signals, const ChildCommand& command,
              std::function<void()> over)
     : loop_(loop), signals_(signals), over_(std::move(over)), parent_(getpid()) {
-  // What the command leaves behind becomes our child, so that it is reaped wherever we run.
+  // Processes that the command leaves behind become our children, so that they are reaped anywhere.
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   terminal_ = open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal_ >= 0 && tcgetpgrp(terminal_) != getpgrp()) {
-    close(terminal_);  // it is not ours to give
+    close(terminal_);  // the terminal belongs to another group
     terminal_ = -1;
   }
   timer_ = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);
@@ -91,7 +91,8 @@ Child::~Child() {
 }
 
 void Child::start(const ChildCommand& command) {
-  // All that needs memory is made before the fork: another thread may hold its lock.
+  // Everything that needs memory is made before the fork, because another thread may hold the allocator's
+  // lock.
   const std::vector<std::string> environment = environment_with(command.environment);
   const std::vector<char*> words = pointers_to(command.words);
   const std::vector<char*> entries = pointers_to(environment);
@@ -102,7 +103,7 @@ void Child::start(const ChildCommand& command) {
   pid_ = fork();
   if (pid_ == 0) become(words.data(), entries.data(), complaining.get());
   if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
-  setpgid(pid_, pid_);  // here and there, so that it is done for both
+  setpgid(pid_, pid_);  // both processes do it, because either may be first
   give_terminal_to(pid_);
   complaining.close();
   int why = 0;
@@ -110,18 +111,18 @@ void Child::start(const ChildCommand& command) {
   do {
     size = read(diagnostics.get(), &why, sizeof why);
   } while (size < 0 && errno == EINTR);
-  if (size != static_cast<ssize_t>(sizeof why)) return;  // it has become the command
+  if (size != static_cast<ssize_t>(sizeof why)) return;  // the child has become the command
   waitpid(pid_, nullptr, 0);
   give_terminal_to(getpgrp());
   throw ChildError(command.words[0] + ": cannot be started: " + std::generic_category().message(why) +
                    "; expected a program");
 }
 
-/// In the child, between fork and exec.
+/// Runs in the child, between fork and exec.
 void Child::become(char* const* words, char* const* environment, int diagnostics) {
   setpgid(0, 0);
   give_terminal_to(getpid());
-  prctl(PR_SET_PDEATHSIG, SIGTERM);  // its ports go when we do, however that happens
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // its ports disappear with us, however we end
   if (getppid() != parent_) _exit(127);
   signals_.restore();
   execvpe(words[0], words, environment);
@@ -150,13 +151,13 @@ void Child::on_end(const siginfo_t& how) {
   was_asked_ = deadline_ > WallTime{0};
 }
 
-/// Ctrl-Z reached it: the shell that started us is to have its prompt, so we stop as well, as if it had
-/// reached us.
+/// Handles Ctrl-Z, which the command received: we stop as well, as if we had received it, so that the shell
+/// that started us shows its prompt.
 void Child::on_stop() {
   if (terminal_ < 0) return;
   give_terminal_to(getpgrp());
   kill(0, SIGTSTP);
-  // Somebody has continued us, in the foreground or not.
+  // Somebody has continued us, in the foreground or in the background.
   if (tcgetpgrp(terminal_) == getpgrp()) give_terminal_to(pid_);
   kill(-pid_, SIGCONT);
 }
@@ -164,7 +165,7 @@ void Child::on_stop() {
 void Child::end_with(int signal_number) {
   if (is_over_) return;
   kill(-pid_, signal_number);
-  kill(-pid_, SIGCONT);  // or what is stopped would not hear it
+  kill(-pid_, SIGCONT);  // a stopped process would not receive the signal
   if (deadline_ > WallTime{0}) return;
   deadline_ = wall_now() + kGrace;
   set_timer(kLook);
@@ -173,7 +174,7 @@ void Child::end_with(int signal_number) {
 void Child::look_at_group() {
   if (is_over_) return;
   if (has_ended_ && kill(-pid_, 0) != 0 && errno == ESRCH) return be_over();
-  if (deadline_ == WallTime{0}) return end_with(SIGTERM);  // what the command has left behind
+  if (deadline_ == WallTime{0}) return end_with(SIGTERM);  // ends processes that the command has left behind
   if (wall_now() >= deadline_) kill(-pid_, SIGKILL);
   if (has_ended_ && wall_now() >= deadline_ + kAfterKilling) be_over();
 }
@@ -189,7 +190,7 @@ void Child::give_terminal_to(pid_t group) const {
   if (terminal_ >= 0) tcsetpgrp(terminal_, group);
 }
 
-/// 0: never.
+/// Sets the timer; 0 stops it.
 void Child::set_timer(WallTime interval) const {
   itimerspec setting{};
   setting.it_value.tv_nsec = setting.it_interval.tv_nsec = interval.count();

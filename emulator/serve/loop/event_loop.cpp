@@ -20,7 +20,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMaxPieces = 64;  // that are in work
+constexpr std::size_t kMaxPieces = 64;  // in work at once
 
 std::uint32_t epoll_events(std::uint32_t interest) {
   return ((interest & EventLoop::readable) != 0 ? EPOLLIN : 0U) |
@@ -42,7 +42,8 @@ EventLoop::EventLoop()
       timer_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC)) {
   if (epoll_ < 0 || later_ < 0) throw std::system_error(errno, std::generic_category(), "epoll_create1");
   if (timer_ < 0) throw std::system_error(errno, std::generic_category(), "timerfd_create");
-  // Edge-triggered: an expiration is told once and needs no reading, setting the timer again clears it.
+  // The timer is edge-triggered: the loop learns of an expiration once and need not read it. Setting the
+  // timer again clears it.
   epoll_event event{};
   event.events = EPOLLIN | EPOLLET;
   event.data.fd = timer_;
@@ -83,7 +84,8 @@ void EventLoop::change_interest(int descriptor, std::uint32_t interest) {
   changed_.push_back(descriptor);
 }
 
-/// Not before the kernel is asked: an interest that is back by then, as after a reply at once, costs nothing.
+/// Tells the kernel the changed interests. This waits until the next poll, so that an interest that changes
+/// back, as after an immediate reply, costs nothing.
 void EventLoop::tell_interests() {
   for (const int descriptor : changed_) {
     const auto it = watches_.find(descriptor);
@@ -104,8 +106,8 @@ void EventLoop::unwatch(int descriptor) {
   watches_.erase(it);
 }
 
-/// A timer that stays set over many waits: a timeout of each wait would set and cancel one every time,
-/// which costs several times what serving a request does.
+/// Sets a timer that stays set over many waits. A timeout for each wait would set and cancel a timer each
+/// time, which costs several times as much as serving a request.
 void EventLoop::wake_at(WallTime moment) {
   if (alarm_ == moment) return;
   alarm_ = moment;
@@ -119,7 +121,7 @@ void EventLoop::do_in_pieces(std::function<bool()> piece) { pieces_.push_back(st
 
 bool EventLoop::slice_is_over() const { return slice_end_ != WallTime::max() && wall_now() >= slice_end_; }
 
-/// So that it does not wake us.
+/// Keeps the descriptors of later rank from waking the loop.
 void EventLoop::mute_later_ones(bool are_muted) {
   epoll_event event{};
   event.events = are_muted ? 0U : EPOLLIN;
@@ -132,7 +134,7 @@ void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
   const bool is_due = until && *until <= wall_now();
   const bool was_put_off = std::exchange(puts_off_, false);
   const bool puts_off = was_put_off && !is_due && is_due_soon();
-  // A timer that is still set for a moment nobody waits for any more wakes us once, for nothing.
+  // The timer may still be set for a moment that no longer matters. Then it wakes the loop once, for nothing.
   if (until && !is_due) wake_at(*until);
   if (puts_off) mute_later_ones(true);
   const bool only_looks = is_due || (!pieces_.empty() && !puts_off);
@@ -149,7 +151,7 @@ void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
       call(event.data.fd, event.events);
     }
   }
-  if (was_put_off && (puts_off || is_due)) {  // what they wait for is done first
+  if (was_put_off && (puts_off || is_due)) {  // the work that they were put off for comes first
     puts_off_ = wall_now() < put_off_until_;
     return;
   }
@@ -165,7 +167,7 @@ void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
 
 void EventLoop::call(int descriptor, std::uint32_t events) {
   const auto it = watches_.find(descriptor);
-  if (it == watches_.end()) return;  // an earlier call has unwatched it
+  if (it == watches_.end()) return;  // an earlier call has removed the watch
   std::uint32_t ready = 0;
   if ((events & (EPOLLIN | EPOLLHUP | EPOLLERR)) != 0) ready |= readable;
   if ((events & (EPOLLOUT | EPOLLERR)) != 0) ready |= writable;
@@ -174,12 +176,12 @@ void EventLoop::call(int descriptor, std::uint32_t events) {
   (*function)(ready);
 }
 
-/// The kernel gives one at a time, and the next one next time: it puts what stays ready at the end of its
-/// list.
+/// Calls the later ones one by one. The kernel puts those that stay ready at the end of its list, so all get
+/// their turn.
 void EventLoop::call_later_ones(bool are_ready, WallTime slice) {
   slice_end_ = wall_now() + slice;
   do {
-    // Whoever begins more and more has to wait until some of it is done.
+    // With many pieces in work, new messages wait until some are done.
     const bool are_many = pieces_.size() >= kMaxPieces;
     if (!pieces_.empty() && (are_pieces_next_ || !are_ready || are_many)) {
       are_pieces_next_ = false;

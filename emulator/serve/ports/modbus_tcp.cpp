@@ -14,14 +14,15 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// Transaction, protocol (0), length of what follows; then the unit and the request itself.
+// The header consists of the transaction, the protocol (0) and the length of the rest: the unit and the
+// request.
 constexpr std::size_t kHeader = 6;
 constexpr std::size_t kMinLength = 2;
 constexpr std::size_t kMaxLength = 254;
 
-constexpr std::size_t kLongestFrame = kMaxLength + 2;  // with its checksum
+constexpr std::size_t kLongestFrame = kMaxLength + 2;  // with the checksum
 
-// So long a broadcast may take to be obeyed.
+// A broadcast has this long to be obeyed.
 constexpr std::chrono::milliseconds kAfterBroadcast{100};
 
 constexpr std::uint8_t kException = 0x80;
@@ -32,7 +33,7 @@ std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }
 
-/// How long the RTU frame is that begins so; nothing: its function does not tell.
+/// Returns the length of the RTU frame that begins like this, or nothing if its function does not tell.
 std::optional<std::size_t> size_of_reply(std::span<const std::uint8_t> frame) {
   const std::uint8_t function = frame[1];
   if ((function & kException) != 0) return kExceptionFrame;
@@ -41,14 +42,14 @@ std::optional<std::size_t> size_of_reply(std::span<const std::uint8_t> frame) {
   return std::nullopt;
 }
 
-/// False: the message that begins so tells of a length that none has.
+/// Returns false if the message gives a length that no message has.
 bool is_length_possible(std::span<const std::uint8_t> heard) {
   if (heard.size() < kHeader) return true;
   const std::size_t length = word_at(heard, 4);
   return length >= kMinLength && length <= kMaxLength;
 }
 
-/// How long the message is that begins so; nothing: it has not come wholly, or no message begins so.
+/// Returns the size of the message, or nothing if it is incomplete or invalid.
 std::optional<std::size_t> size_of_message(std::span<const std::uint8_t> heard) {
   if (heard.size() < kHeader || !is_length_possible(heard)) return std::nullopt;
   const std::size_t size = kHeader + word_at(heard, 4);
@@ -82,7 +83,7 @@ ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
     Bytes frame(heard_.begin() + kHeader, end);
     const std::uint16_t transaction = word_at(heard_, 0);
     heard_.erase(heard_.begin(), end);
-    if (!is_modbus) continue;  // of another protocol: passed over, as the standard has it
+    if (!is_modbus) continue;  // another protocol is ignored, as the standard says
     const std::uint8_t unit = frame[0];
     if (rules_.station_of) frame[0] = rules_.station_of(unit, frame[1]);
     on_line_ = Request{.transaction = transaction, .unit = unit, .station = frame[0], .function = frame[1]};
@@ -93,8 +94,7 @@ ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
   return {};
 }
 
-/// What is no reply to the request on the line (too late for another, or changed on its way) is not passed
-/// on.
+/// Receives from the line. Replies that do not match the pending request (late, or damaged) are dropped.
 void ModbusTcp::hear_line(std::span<const std::uint8_t> bytes) {
   if (!on_line_) return;
   reply_.insert(reply_.end(), bytes.begin(), bytes.end());
@@ -103,7 +103,7 @@ void ModbusTcp::hear_line(std::span<const std::uint8_t> bytes) {
     if (reply_.size() < size) return;
     const std::span<const std::uint8_t> frame = std::span<const std::uint8_t>(reply_).first(size);
     const bool is_good = pty::rtu_crc_ok(frame);
-    if (!is_good && !size_of_reply(reply_)) return;  // not all of it yet
+    if (!is_good && !size_of_reply(reply_)) return;  // it may be incomplete
     if (is_good && frame[0] == on_line_->station && (frame[1] & ~kException) == on_line_->function) {
       answer(frame.subspan(1, size - 3));
       reply_.clear();

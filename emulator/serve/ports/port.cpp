@@ -31,22 +31,23 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// The kernel tells that a host closes a moment before it has; this much later it has.
+// The kernel reports a host's close a moment before it takes effect. After this time it has.
 constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
 
-// A lost terminal is tried again after this long.
+// A lost terminal is tried again after this time.
 constexpr WallTime kRecovery = std::chrono::milliseconds(100);
 
-// A host that has not taken anything for this long is not reading.
+// A host that has taken nothing for this long does not read.
 constexpr WallTime kStillReads = std::chrono::milliseconds(200);
 
-// As much as the kernel holds (20,480 bytes) and one reading more: a host that goes loses nothing. Hosts that
-// write and go faster than the wire carries lose what is beyond that.
+// This holds what the kernel holds (20,480 bytes) and one reading more, so a host that leaves loses nothing.
+// Hosts that write and leave faster than the wire carries lose the rest.
 constexpr std::size_t kLeftBehindCapacity = 20'480 + pty::Line::kInputCapacity;
 
 }  // namespace
 
-/// A world that runs fast says more in one go than its line keeps. And guests have faults of their own.
+/// Takes the output of a world that runs fast and sends more at once than its line keeps. Passes on faults to
+/// guests, which have faults of their own.
 class Port::Overflow final : public pty::LineObserver {
  public:
   explicit Overflow(Port& port) : port_(port) { port_.world_.add_observer(port_.line_number_, *this); }
@@ -100,9 +101,9 @@ void Port::watch() {
   is_watching_ = true;
 }
 
-/// A lost terminal would tell of its hang-up without end.
+/// Stops watching a lost terminal, which would report its hang-up without end, and tries to recover it.
 void Port::keep_watch() {
-  if (!terminal_) return;  // pulled out just now
+  if (!terminal_) return;  // a fault has just unplugged it
   if (!terminal_->is_lost()) {
     if (!is_watching_) watch();
     return;
@@ -131,13 +132,13 @@ Port::~Port() {
   loop_.unwatch(terminal_->presence_descriptor());
 }
 
-/// Tells the line who came and went; `bytes` were read just before.
+/// Tells the line which hosts came and went. `bytes` were read just before.
 void Port::on_presence(std::span<const std::uint8_t> bytes) {
   if (guest_ != nullptr) return ignore_terminal();
   const pty::PseudoTerminal::Presence presence = terminal_->poll_presence();
   if (!presence.opened && !presence.closed) return receive(bytes);
   catch_up_();
-  // Both at once: one went and another came, or one came and has gone again.
+  // If both are reported, one host left and another came, or one came and has left again.
   if (presence.closed && terminal_->host_present()) world_.host_closed(line_number_);
   if (presence.opened) world_.host_opened(line_number_);
   if (presence.closed && !terminal_->host_present()) {
@@ -150,14 +151,14 @@ void Port::on_presence(std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// What a host has written before it closed is still served, but must not be taken for the next one's.
+/// Keeps what a host wrote before it closed. It is still served, but must not count as the next host's.
 void Port::keep_what_was_left_behind() {
   std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
   while (!terminal_->host_present()) {
     const std::size_t count = terminal_->read(bytes);
     if (terminal_->host_present()) {
-      // The next host came while we read: these may be its bytes, and it must get its reply. Where they
-      // have to wait behind what was left they are served in their order, without one.
+      // The next host came during the read: these may be its bytes, and it must get its reply. If they have
+      // to wait for the bytes left behind, they are served in order, but without a reply.
       pass_on_what_was_left_behind();
       const auto read = std::span(bytes).first(count);
       if (left_behind_.empty() && count <= line().room()) return on_presence(read);
@@ -175,8 +176,8 @@ void Port::leave_behind(std::span<const std::uint8_t> bytes) {
   left_behind_.insert(left_behind_.end(), taken.begin(), taken.end());
 }
 
-/// It stays ahead of what the next host writes, as on a wire. With instant timing the line has room again at
-/// once, and nothing would be due that could wake us for the rest.
+/// Passes on the bytes left behind, ahead of what the next host writes, as on a wire. It loops because with
+/// instant timing the line has room again at once, and nothing would wake us for the rest.
 void Port::pass_on_what_was_left_behind() {
   while (const std::size_t count = std::min(left_behind_.size(), line().room())) {
     catch_up_();
@@ -186,20 +187,20 @@ void Port::pass_on_what_was_left_behind() {
   }
 }
 
-/// A guest has the line: what others write to the pseudo-terminal goes nowhere.
+/// Discards what others write to the pseudo-terminal while a guest has the line.
 void Port::ignore_terminal() {
   if (terminal_->poll_presence().opened)
     log_("line " + line().name() + ": a host has opened " + terminal_->path() +
          ", but a TCP client has the line; the host is ignored until the client disconnects");
   std::array<std::uint8_t, pty::Line::kInputCapacity> ignored;
-  constexpr int kMaxReadings = 32;  // all that the kernel holds
+  constexpr int kMaxReadings = 32;  // enough for all that the kernel holds
   for (int i = 0; i < kMaxReadings && terminal_->read(ignored) > 0; ++i) {
   }
 }
 
 void Port::on_data(std::uint32_t ready) {
   if (guest_ != nullptr) return ignore_terminal();
-  if (!terminal_->holds_slave()) on_presence({});  // perhaps it is a hang-up that we are told of
+  if (!terminal_->holds_slave()) on_presence({});  // the event may be a hang-up
   if ((ready & EventLoop::readable) != 0 && left_behind_.empty()) {
     std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
     const std::size_t count = terminal_->read(std::span(bytes).first(line().room()));
@@ -226,7 +227,7 @@ void Port::take_in(std::span<const std::uint8_t> bytes, const std::optional<pty:
   has_paused_ = false;
 }
 
-/// For the rest of a frame, by the host's clock.
+/// Returns how long to wait for the rest of a frame, by the host's clock.
 WallTime Port::patience() const {
   const pty::RtuFraming& framing = world_line().framing;
   const bool waits_longer = has_paused_ && framing.patience > SimTime{0};
@@ -242,7 +243,7 @@ std::optional<WallTime> Port::next_look(bool clock_stands) {
     if (second_look_ == WallTime{0}) second_look_ = wall_now() + kSecondLook;
     return second_look_;
   }
-  // Where the clock stands, patience with an incomplete frame would never end.
+  // With a stopped clock, patience with an incomplete frame would never end.
   if (clock_stands && last_bytes_ > WallTime{0} && line().due()) return last_bytes_ + patience();
   return std::nullopt;
 }
@@ -254,7 +255,7 @@ void Port::look(WallTime now, bool clock_stands) {
     on_presence({});
     keep_watch();
   }
-  // Twice: after a pause a frame that has begun waits longer.
+  // This happens twice, because after a pause a frame that has begun waits longer.
   if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + patience()) {
     if (std::exchange(has_paused_, true)) last_bytes_ = WallTime{0};
     world_.nothing_more(line_number_);
@@ -270,7 +271,7 @@ void Port::world_restored() {
     }
   }
   world_.host_settings(line_number_, host_settings());
-  last_bytes_ = wall_now();  // of a frame that is half heard
+  last_bytes_ = wall_now();  // a frame may be half received
   has_paused_ = false;
   flush();
 }
@@ -281,7 +282,7 @@ void Port::hand_over() {
     const std::size_t taken = guest_ != nullptr ? guest_->take(said)
                               : terminal_       ? terminal_->write(said)
                                                 : said.size();  // nobody is there to read it
-    if (taken == 0) break;                                // nobody reads
+    if (taken == 0) break;                                // the host does not read
     world_.take_output(line_number_, taken);
     last_taken_ = wall_now();
   }
@@ -313,7 +314,7 @@ void Port::flush() {
   loop_.change_interest(terminal_->data_descriptor(), interest);
 }
 
-// --- a fault that pulls it out -------------------------------------------------------------------
+// --- faults that unplug the port -----------------------------------------------------------------
 
 void Port::follow_plug() {
   if (is_unplugged() && !is_pulled_out_) {
@@ -323,7 +324,7 @@ void Port::follow_plug() {
   }
 }
 
-/// As of an adapter that is pulled out: its link is gone, and who has it open is hung up.
+/// Acts like an adapter that is pulled out: the link disappears, and hosts get a hang-up.
 void Port::pull_out() {
   is_pulled_out_ = true;
   next_recovery_ = second_look_ = WallTime{0};
@@ -340,7 +341,7 @@ void Port::pull_out() {
   terminal_.reset();
 }
 
-/// It is another pseudo-terminal behind the same link, which whoever could open the one before may open.
+/// Makes a new pseudo-terminal behind the same link, with the permissions of the one before.
 void Port::plug_in() {
   is_pulled_out_ = false;
   next_recovery_ = WallTime{0};
@@ -355,7 +356,7 @@ void Port::plug_in() {
   }
   has_told_ = false;
   const char* const path = terminal_->path().c_str();
-  // The group first: until then the old one must not gain anything.
+  // The group comes first, because the old group must not gain access.
   if (access_.st_mode != 0 && chown(path, static_cast<uid_t>(-1), access_.st_gid) == 0)
     chmod(path, access_.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
   watch();

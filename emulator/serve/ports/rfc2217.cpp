@@ -21,9 +21,9 @@ namespace {
 constexpr std::uint8_t kFromServer = 100;  // added to a command's code in answers
 constexpr std::string_view kSignature = "understudy";
 
-// There are no modem lines: whoever looks at them sees a device that is there and ready.
+// There are no modem lines. A client that asks for them sees a device that is present and ready.
 constexpr std::uint8_t kModemReady = 0x10 | 0x20 | 0x80;  // clear to send, data set ready, carrier
-constexpr std::uint8_t kLineEmpty = 0x20 | 0x40;          // nothing of ours waits to be sent
+constexpr std::uint8_t kLineEmpty = 0x20 | 0x40;          // nothing waits to be sent
 
 constexpr std::uint32_t kFastest = 4'000'000;
 constexpr std::uint8_t kSuspend = 8;
@@ -31,7 +31,7 @@ constexpr std::uint8_t kResume = 9;
 
 }  // namespace
 
-/// A command of a client. What has another size is not one, and passed over; `size` 0: any.
+/// A command of a client. A command of another size is ignored; `size` 0 means any size.
 struct Rfc2217::Row {
   std::uint8_t code;
   std::size_t size;
@@ -45,7 +45,8 @@ bool Rfc2217::hear_client(Value bytes) {
   return true;
 }
 
-/// What a command sets holds for the bytes behind it: those before it are taken first.
+/// Returns bytes for the line. A command applies to the bytes after it, so those before it are returned
+/// first.
 Rfc2217::Bytes Rfc2217::take_for_line(std::size_t room) {
   Bytes taken;
   while (true) {
@@ -54,7 +55,7 @@ Rfc2217::Bytes Rfc2217::take_for_line(std::size_t room) {
     const auto command = reader_.take_command();
     if (!command) break;
     obey(*command);
-    // To a receiver a break is a character without a stop bit, of zeros.
+    // A receiver sees a break as a character of zeros without a stop bit.
     if (std::exchange(breaks_, false) && room > 0) return {0};
     if (takes_back_ || throws_away_) break;
   }
@@ -92,7 +93,7 @@ void Rfc2217::obey(const telnet::Command& command) {
       break;
     case telnet::kBreak: breaks_ = true; break;
     case telnet::kAreYouThere: to_client_.insert(to_client_.end(), {telnet::kIac, telnet::kNop}); break;
-    default: break;  // of terminals and their users
+    default: break;  // commands about terminals and their users
   }
 }
 
@@ -123,13 +124,13 @@ void Rfc2217::answer(std::uint8_t code, Value value) {
   telnet::append_subnegotiation(to_client_, body);
 }
 
-/// A client that tells its own gets no answer.
+/// Answers a request for the signature. A client that sends its own gets no answer.
 void Rfc2217::tell_signature(Value value) {
   if (!value.empty()) return;
   answer(0, Bytes(kSignature.begin(), kSignature.end()));
 }
 
-// What is set is answered with what is in effect then; 0 asks for it.
+// These answer with the setting that is then in effect. The value 0 only asks for it.
 
 void Rfc2217::set_baud(Value value) {
   const std::uint32_t baud =
@@ -145,20 +146,20 @@ void Rfc2217::set_data_bits(Value value) {
   answer(2, static_cast<std::uint8_t>(settings_.data_bits));
 }
 
-/// 1 to 5, in the order of pty::Parity.
+/// Sets the parity: 1 to 5, in the order of pty::Parity.
 void Rfc2217::set_parity(Value value) {
   if (value[0] >= 1 && value[0] <= 5) settings_.parity = static_cast<pty::Parity>(value[0] - 1);
   answer(3, static_cast<std::uint8_t>(static_cast<std::uint8_t>(settings_.parity) + 1));
 }
 
-/// One and a half (3) is of characters of five bits, which no device here has.
+/// Sets the stop bits. One and a half (3) is for characters of five bits, which no device here has.
 void Rfc2217::set_stop_bits(Value value) {
   if (value[0] == 1 || value[0] == 2) settings_.stop_bits = value[0];
   answer(4, static_cast<std::uint8_t>(settings_.stop_bits));
 }
 
-/// Each of five things has a code that asks, and some that set. Nothing but a break reaches the line: it has
-/// no modem lines, and whoever is asked to wait does not say much.
+/// Handles five controls; each has a code that asks and some that set. Only a break reaches the line: it has
+/// no modem lines, and flow control hardly matters for so little output.
 void Rfc2217::control(Value value) {
   const std::uint8_t wish = value[0];
   struct Range {
@@ -175,7 +176,7 @@ void Rfc2217::control(Value value) {
     if (wish != range.asks) this->*range.state = wish;
     return answer(5, this->*range.state);
   }
-  answer(5, flow_);  // flow by lines that it does not have
+  answer(5, flow_);  // flow control by lines that do not exist
 }
 
 void Rfc2217::tell_modem_state() { answer(7, kModemReady); }
@@ -192,7 +193,7 @@ void Rfc2217::mask_modem_state(Value value) {
   if (value[0] != 0) answer(7, static_cast<std::uint8_t>(kModemReady & value[0]));
 }
 
-/// 1: what the client has not got; 2: what is not on the wire; 3: both.
+/// Purges 1: what the client has not received; 2: what is not on the wire yet; 3: both.
 void Rfc2217::purge(Value value) {
   throws_away_ = value[0] == 1 || value[0] == 3;
   takes_back_ = value[0] == 2 || value[0] == 3;

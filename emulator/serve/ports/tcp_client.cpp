@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kOneReading = 4096;
 
-// A client whose machine has gone without a word is noticed after about half a minute.
+// A client whose machine disappears without a word is noticed after about half a minute.
 constexpr int kIdleSeconds = 15;
 constexpr int kProbeSeconds = 5;
 constexpr int kProbes = 3;
@@ -40,8 +40,9 @@ void notice_dead_peers(int socket) {
   set_option(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, 1000 * (kIdleSeconds + kProbes * kProbeSeconds));
 }
 
-/// A host that writes a frame in pieces, with Nagle's algorithm, sends the second when the first is
-/// acknowledged, and the kernel takes 40 ms for that unless it is told anew after each reading.
+/// Acknowledges what was read at once. A host that writes a frame in pieces, with Nagle's algorithm, sends
+/// the second when the first is acknowledged. The kernel waits 40 ms for that unless it is told after each
+/// reading.
 void acknowledge_at_once(int socket) { set_option(socket, IPPROTO_TCP, TCP_QUICKACK, 1); }
 
 bool is_for_later() { return errno == EAGAIN || errno == EINTR; }
@@ -85,7 +86,8 @@ void TcpClient::send_out() {
   }
 }
 
-/// An answer has its transaction in front, and its unit behind the length (modbus_tcp.cpp).
+/// Applies faults to a reply. Its transaction is at the front, and its unit after the length
+/// (modbus_tcp.cpp).
 void TcpClient::spoil_unsent() {
   constexpr std::size_t kTransaction = 1;
   constexpr std::size_t kUnit = 6;

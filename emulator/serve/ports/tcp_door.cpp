@@ -38,12 +38,12 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr std::size_t kOneTaking = 4096;
-constexpr std::size_t kMaxLeft = 16'384;  // of what a client that has gone has sent
+constexpr std::size_t kMaxLeft = 16'384;  // bytes from a client that has disconnected
 
-// So long one that has said all may wait for its replies while another wants the line.
+// A client that has sent everything may wait this long for its replies while another wants the line.
 constexpr std::chrono::nanoseconds kLongestGoodbye = std::chrono::seconds(1);
 
-// The longest request and reply.
+// The longest request and the longest reply.
 constexpr int kLongestExchange_bits = 2 * 256 * 11;
 
 }  // namespace
@@ -91,13 +91,14 @@ std::unique_ptr<TcpSpeech> TcpDoor::make_speech() {
       .timeout = address_.gateway.timeout, .tells = address_.gateway.tells, .station_of = station_of});
 }
 
-// --- who comes -----------------------------------------------------------------------------------
+// --- clients that connect ------------------------------------------------------------------------
 
-/// A line has one owner: whoever comes second is let go at once, or waits until one has its last replies.
+/// Admits a client. A line has one owner, so a second client is refused, or waits while the first gets its
+/// last replies.
 void TcpDoor::admit(Descriptor socket) {
   if (is_gateway() && clients_.size() >= kMaxMasters) return refuse();
   if (!is_gateway()) {
-    // It may have said all, or gone, just now.
+    // The first client may just have sent its last bytes, or disconnected.
     while (!clients_.empty() && clients_.front()->is_read() && hear(*clients_.front())) serve_line();
     serve_line();
     if (!clients_.empty()) {
@@ -129,9 +130,10 @@ void TcpDoor::let_in(Descriptor socket) {
   serve_line();
 }
 
-// --- what they say -------------------------------------------------------------------------------
+// --- input from clients --------------------------------------------------------------------------
 
-/// The end of its sending half is not asked for, so one that has departed can hear nothing any more.
+/// Handles input. The loop does not report the end of a client's sending half, so a departed client cannot
+/// receive either.
 void TcpDoor::on_client(TcpClient& client, std::uint32_t ready) {
   if ((ready & EventLoop::departed) != 0) {
     let_go(client);
@@ -141,7 +143,7 @@ void TcpDoor::on_client(TcpClient& client, std::uint32_t ready) {
   serve_line();
 }
 
-/// Whether it has said something.
+/// Reads from a client. Returns true if it has sent something.
 bool TcpDoor::hear(TcpClient& client) {
   const TcpClient::Heard heard = client.read();
   if (heard == TcpClient::Heard::nothing) return false;
@@ -153,7 +155,8 @@ bool TcpDoor::hear(TcpClient& client) {
   return false;
 }
 
-/// What it has sent is served still; of Modbus TCP that is one request, as each waits for the one before.
+/// Disconnects a client. What it has sent is still served; in Modbus TCP, that is one request, because each
+/// waits for the one before.
 void TcpDoor::let_go(TcpClient& client) {
   loop_.unwatch(client.socket());
   if (!is_gateway()) return leave(take_rest(client));
@@ -180,8 +183,7 @@ bool TcpDoor::waits_for_reply() const {
   });
 }
 
-/// Gives the line what one of the clients has for it: their requests take turns. False: there is nothing, or
-/// it has to wait.
+/// Gives the line the next request. Clients take turns. Returns false if there is none, or if it must wait.
 bool TcpDoor::serve_next() {
   if (waits_for_reply()) return false;
   for (std::size_t i = 0; i < clients_.size(); ++i) {
@@ -205,7 +207,7 @@ bool TcpDoor::serve_next() {
   return false;
 }
 
-/// What the clients have sent, as far as the line has room, and what there is for them.
+/// Passes what clients have sent to the line, as far as it has room, and the line's output to the clients.
 void TcpDoor::serve_line() {
   if (is_serving_) return;
   is_serving_ = true;
@@ -244,14 +246,14 @@ void TcpDoor::set_timer(std::chrono::nanoseconds time) {
 
 void TcpDoor::on_timer() {
   std::uint64_t times = 0;
-  if (read(timer_.get(), &times, sizeof times) < 0) return;  // it was set anew meanwhile
+  if (read(timer_.get(), &times, sizeof times) < 0) return;  // the timer was set again meanwhile
   if (next_ && !clients_.empty()) let_go(*clients_.front());
   for (const auto& client : clients_) client->has_rest() ? client->send_rest() : client->speech().give_up();
   serve_line();
 }
 
-/// A client that reads more slowly than the line speaks leaves the rest to the line, which keeps some. A
-/// gateway takes all, and asks nothing more for one that has not taken its answer.
+/// Takes output of the line. For a client that reads more slowly, the line keeps the rest, up to a limit. A
+/// gateway takes everything, but sends no further request while a reply waits to be taken.
 std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
   if (clients_.empty()) return bytes.size();
   if (!is_gateway() && (clients_.front()->has_unsent() || !clients_.front()->speech().listens())) return 0;
@@ -262,13 +264,14 @@ std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
   return bytes.size();
 }
 
-// --- who goes ------------------------------------------------------------------------------------
+// --- clients that leave --------------------------------------------------------------------------
 
-/// One that says nothing more has got all that it has asked for.
+/// Returns true if a client that sends no more has received all replies.
 bool TcpDoor::has_all(const TcpClient& client) const {
   if (client.has_unsent() || client.has_rest()) return false;
   if (is_gateway()) return client.speech().is_idle();
-  return port_.room() > 0 && (port_.is_quiet() || !client.speech().listens());  // it never will listen again
+  // A client that does not listen now never will.
+  return port_.room() > 0 && (port_.is_quiet() || !client.speech().listens());
 }
 
 void TcpDoor::see_off() {
@@ -287,7 +290,8 @@ void TcpDoor::see_off() {
 
 // --- faults --------------------------------------------------------------------------------------
 
-/// Of a gateway, the answer to the request on the line is meant; else what the line says next.
+/// Applies a fault: to the reply to the pending request on a gateway, otherwise to the next output of the
+/// line.
 void TcpDoor::spoil(const world::Fault& fault) {
   using Kind = world::Fault::Kind;
   for (const auto& client : clients_) {
@@ -311,7 +315,7 @@ void TcpDoor::hang_up() {
   leave({});
 }
 
-/// The last one has gone.
+/// Leaves the line after the last client has gone.
 void TcpDoor::leave(const TcpSpeech::Bytes& last) {
   clients_.clear();
   port_.leave(last);

@@ -53,7 +53,8 @@ std::optional<Command> Reader::take_command() {
   return command;
 }
 
-/// False: its end has not come. What is passed over is dropped, but for a byte whose meaning the next tells.
+/// Skips a subnegotiation. Returns false if its end has not come yet. Skipped bytes are dropped, except one
+/// whose meaning depends on the next.
 bool Reader::skip_subnegotiation() {
   std::size_t at = 0;
   while (at + 1 < heard_.size()) {
@@ -72,7 +73,7 @@ bool Reader::skip_subnegotiation() {
   return false;
 }
 
-/// A command in the midst of one breaks it off: it counts for nothing.
+/// Takes a subnegotiation. A command inside it breaks it off, and it is ignored.
 std::optional<Command> Reader::take_subnegotiation() {
   Command command{.verb = kSubnegotiation, .option = heard_[2], .body = {}};
   for (std::size_t at = 3; at + 1 < heard_.size(); ++at) {
@@ -97,7 +98,7 @@ Bytes Options::begin() {
   for (Row& row : rows_) {
     said.insert(said.end(), {kIac, kDo, row.option});
     row.theirs = State::asked;
-    if (row.option == kComPort) continue;  // it is the client's to offer
+    if (row.option == kComPort) continue;  // the client must offer this
     said.insert(said.end(), {kIac, kWill, row.option});
     row.ours = State::asked;
   }
@@ -114,7 +115,7 @@ Bytes Options::answer(const Command& command) {
   State& state = is_about_us ? row->ours : row->theirs;
   const State before = state;
   state = is_on ? State::on : State::off;
-  // What we have asked for is answered by it, and needs no answer.
+  // This is the client's answer to our own request, and needs no answer.
   if (before == State::asked || before == state) return {};
   return {kIac, is_on ? yes : no, command.option};
 }

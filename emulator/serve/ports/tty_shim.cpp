@@ -13,7 +13,7 @@ std::string tty_shim_path() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const fs::path& beside :
-       {folder, folder.parent_path()}) {  // where it was built, where it was installed
+       {folder, folder.parent_path()}) {  // the build folder, or the installed folder
     const fs::path path = beside / "lib/understudy/tty_shim.so";
     if (fs::exists(path, error)) return path.string();
   }

@@ -25,7 +25,8 @@ using Json = nlohmann::ordered_json;
 
 Json device_text(const DeviceSetup& device) {
   const DeviceSettings& settings = device.settings;
-  const std::string_view description = device.model->description;  // its last line's end tells it from a path
+  // Its last line end distinguishes it from a path.
+  const std::string_view description = device.model->description;
   Json text{{"model", description.empty() ? device.model->name : description}};
   if (settings.firmware != 0) text["firmware"] = version_text(settings.firmware);
   if (settings.modules != 0) text["modules"] = settings.modules;
@@ -43,7 +44,7 @@ Json device_text(const DeviceSetup& device) {
     }
   }
   if (!settings.program.empty()) {
-    // With a line's end it is known for a text and not a path.
+    // The line end marks it as a text, not a path.
     const bool has_lines = settings.program.find('\n') != std::string::npos;
     text["program"] = has_lines ? settings.program : settings.program + "\n";
   }

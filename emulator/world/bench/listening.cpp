@@ -35,11 +35,12 @@ constexpr std::chrono::milliseconds kLongestTimeout = std::chrono::hours(1);
   throw ListeningError("is not an address; " + std::string(kListeningExpected));
 }
 
-/// A setting of a gateway, written "?timeout=200ms&unit=2" behind the address.
+/// A setting of a gateway, written after the address: "?timeout=200ms&unit=2".
 struct SettingRow {
   std::string_view name;
   std::string_view expected;
-  bool (*set)(GatewaySettings& gateway, std::string_view value);  // false: not as expected
+  // Returns false if the value is not as expected.
+  bool (*set)(GatewaySettings& gateway, std::string_view value);
 };
 
 bool set_timeout(GatewaySettings& gateway, std::string_view value) {
@@ -97,7 +98,7 @@ int read_port(std::string_view text) {
   return static_cast<int>(*port);
 }
 
-/// "[::1]" without its brackets; behind a % its interface may follow.
+/// Returns the address in "[::1]" without its brackets. An interface may follow a '%'.
 std::string read_host(std::string_view text) {
   if (text.empty()) return "127.0.0.1";
   if (text.starts_with('[')) {

@@ -34,18 +34,19 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::string_view kTime = "time";  // a name in conditions already
+constexpr std::string_view kTime = "time";  // conditions already use this name
 
 class BenchReader {
  public:
-  /// Paths are relative to `folder`, links to `links`, if that is given. Without a folder paths are refused.
+  /// Paths are relative to `folder`; links are relative to `links` if it is given. Paths are refused if there
+  /// is no folder.
   explicit BenchReader(ModelList models, std::optional<std::string> folder, const std::string& links = "")
       : models_(models), folder_(std::move(folder)), links_(links.empty() ? folder_ : links) {}
 
   BenchReader(const BenchReader&) = delete;
   BenchReader& operator=(const BenchReader&) = delete;
 
-  /// Throws all that is wrong, with what was wrong before.
+  /// Reads the bench. Throws all diagnostics, including those that are passed in.
   Bench read(const YamlFields& root, Diagnostics diagnostics) {
     all_ = std::move(diagnostics);
     all_.require([&] { read_all(root); });
@@ -173,7 +174,8 @@ class BenchReader {
     line.stations.emplace_back(device, port);
   }
 
-  /// The port that a station names: it may be on no other line, nor another one of the device on this line.
+  /// Returns the port that a station names. The port must not be on another line, and the device must not be
+  /// on this line with another port.
   std::size_t take_port(const YamlFields& station, std::size_t device, const LineSetup& line) {
     const Model& model = names_.model_of(device);
     const std::size_t port = read_port(station, model);
@@ -193,7 +195,7 @@ class BenchReader {
     return port;
   }
 
-  /// Where a bench says nothing, and nothing else will.
+  /// Gives address 1 to devices whose address neither the bench nor a register sets.
   void give_usual_addresses() {
     for (DeviceSetup& device : bench_.devices) {
       const auto& numbers = device.model->line.station_numbers;
@@ -226,7 +228,7 @@ class BenchReader {
     if (all_.count() != before) names_.lose_part(name);
   }
 
-  /// A switch that is wired elsewhere may come upon another one.
+  /// Checks that no two contacts share an input: a switch that the bench moves to another input may meet one.
   void require_own_inputs(const YamlFields& plant) const {
     std::map<std::pair<std::size_t, int>, std::string> taken;
     for (const MachineSetup& machine : bench_.machines) {
@@ -252,9 +254,10 @@ class BenchReader {
     }
   }
 
-  // --- what only the model can judge -------------------------------------------------------------
+  // --- checks that need the model ----------------------------------------------------------------
   void check_devices() {
-    const bool has_all_lines = all_.count() == 0;  // a station that could not be read may have had the device
+    // A station that could not be read may have named the device.
+    const bool has_all_lines = all_.count() == 0;
     for (std::size_t i = 0; i < bench_.devices.size(); ++i) {
       all_.attempt([&] {
         const auto& stations = places_[i].stations;
@@ -267,7 +270,7 @@ class BenchReader {
     }
   }
 
-  // --- what is there from the beginning -----------------------------------------------------------
+  // --- disturbances from the beginning ------------------------------------------------------------
   void read_disturbances(const YamlFields& root) {
     const KnownDevices known = known_devices_of(bench_);
     all_.attempt([&] {
@@ -285,7 +288,7 @@ class BenchReader {
     });
   }
 
-  /// What they wait for is judged when the names of all are known.
+  /// Reads the faults first and checks their conditions afterwards, when the names of all faults are known.
   void read_faults(const std::vector<YamlFields>& elements, const KnownDevices& known) {
     std::vector<std::pair<YamlFields, std::optional<Fault>>> faults;
     for (const YamlFields& element : elements) {
@@ -303,8 +306,8 @@ class BenchReader {
   Diagnostics all_;
   Bench bench_;
   BenchNames names_{bench_};
-  std::vector<DevicePlaces> places_;                    // of each device
-  std::vector<std::vector<NumberedStation>> numbered_;  // of each line
+  std::vector<DevicePlaces> places_;                    // for each device
+  std::vector<std::vector<NumberedStation>> numbered_;  // for each line
 };
 
 Bench read_whole(const std::string& text, const std::string& name, BenchReader reader) {

@@ -33,7 +33,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-// Ports and memories are files that are named after lines and devices.
+// The limit leaves room for the files that are named after lines and devices: ports and memories.
 constexpr std::size_t kLongestName = 100;
 
 double require_real(const YamlFields& field) {
@@ -41,7 +41,7 @@ double require_real(const YamlFields& field) {
   field.fail(understudy::quoted(field.text()) + " is not a number; expected one");
 }
 
-/// The path of a listing, or the listing itself if it has several lines.
+/// Reads the path of a listing, or the listing itself if the text has several lines.
 void read_program(const YamlFields& field, const std::optional<std::string>& folder, Bench& bench,
                   DeviceSettings& settings) {
   if (field.text().find('\n') != std::string::npos) {
@@ -60,7 +60,8 @@ void read_program(const YamlFields& field, const std::optional<std::string>& fol
   bench.files.push_back({path, "the program of " + understudy::quoted(settings.name)});
 }
 
-/// Of a model without registers: a whole number, a real one (it has a point), or the program.
+/// Reads a value of a model without registers: the program, a whole number, or a real one (which has a
+/// point).
 void read_value_of_memory(const std::string& name, const YamlFields& value, NvImage& image) {
   const std::string text = value.text();
   if (name == "program") {
@@ -73,7 +74,7 @@ void read_value_of_memory(const std::string& name, const YamlFields& value, NvIm
   }
 }
 
-/// Blocks of text of one kind, by name.
+/// Reads the blocks of text of one kind, by name.
 void read_blocks(const std::string& kind, const YamlFields& entries, NvImage& image) {
   entries.require_map();
   auto& of_kind = image.blocks[kind];
@@ -89,8 +90,8 @@ bool is_register(const Model& model, std::string_view name) {
   return find_register(model, name, model.firmwares.back()).has_value();
 }
 
-/// The registers and blocks of a memory, given in the bench: they have no file, so what changes lasts as long
-/// as the run.
+/// Reads the registers and blocks of a memory whose content the bench gives. Such a memory has no file, so
+/// changes last only for the run.
 NvImage read_memory(const YamlFields& field, const Model& model, Diagnostics& diagnostics) {
   NvImage image{.model = std::string(model.name), .firmware = {}, .registers = {}};
   diagnostics.attempt([&] { field.require_map(); });
@@ -111,7 +112,7 @@ NvImage read_memory(const YamlFields& field, const Model& model, Diagnostics& di
   return image;
 }
 
-/// The path of an image.
+/// Reads the path of an image.
 void read_nv_path(const YamlFields& field, const std::optional<std::string>& folder, const Bench& bench,
                   DeviceSetup& device) {
   device.nv_path = path_in(folder, field);
@@ -123,7 +124,7 @@ void read_nv_path(const YamlFields& field, const std::optional<std::string>& fol
   }
 }
 
-/// A model's name, the path of a file that describes it, or, if it has several lines, that text itself.
+/// Reads a model's name, the path of its file, or, if the text has several lines, the description itself.
 const Model& require_model(ModelList models, const YamlFields& field,
                            const std::optional<std::string>& folder, const std::string& device,
                            Bench& bench) {
@@ -142,7 +143,7 @@ const Model& require_model(ModelList models, const YamlFields& field,
   field.fail(understudy::quoted(name) + " is not a model" + suggestion(name, names));
 }
 
-/// Without a model they are numbers at least.
+/// Reads the registers to set. If the model is unknown, it only checks that the values are numbers.
 void read_set(const YamlFields& field, const Model* model, DeviceSettings& settings,
               Diagnostics& diagnostics) {
   diagnostics.attempt([&] { field.require_map(); });
@@ -159,7 +160,8 @@ void read_set(const YamlFields& field, const Model* model, DeviceSettings& setti
   }
 }
 
-/// Takes away what the model has refused. Whether it was there.
+/// Removes the setting that the model refused, so that the others can be judged. Returns false if it was not
+/// set.
 bool take_away(const SettingError& error, DeviceSettings& settings, const Model& model) {
   const std::string& setting = error.setting;
   if (const auto* const of_entry = dynamic_cast<const SettingEntryError*>(&error)) {
@@ -170,14 +172,14 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
     return std::erase_if(settings.set, is_it) + std::erase_if(settings.assignments, is_it) > 0;
   }
   if (setting == "firmware") return std::exchange(settings.firmware, 0) != 0;
-  if (setting == "modules") {  // those that there may be, for what is said of them
+  if (setting == "modules") {  // sets the maximum, for what later messages say about modules
     return std::exchange(settings.modules, model.most_modules) != model.most_modules;
   }
   if (setting == "address") return std::exchange(settings.address, std::nullopt).has_value();
-  return !std::exchange(settings.bauds, {}).empty();  // switches that say another one
+  return !std::exchange(settings.bauds, {}).empty();  // DIP switches that imply another speed
 }
 
-/// Where the entry is; of one without a place of its own, at the memory, as that says it.
+/// Reports the error at the entry, or at the memory if the entry has no place of its own.
 [[noreturn]] void complain(const YamlFields& nv, const NvEntryError& error) {
   if (!nv.is_map()) nv.fail(error.what());
   const bool is_block = error.list == NvEntryError::List::blocks;
@@ -188,7 +190,8 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
   nv.fail(error.what());
 }
 
-/// Where the setting is, or the device; of a line's speed where it stands on that line.
+/// Reports the error at the setting, or at the device if the setting has no place. Reports the speed of a
+/// line at the station on that line.
 [[noreturn]] void complain(const DevicePlaces& places, const SettingError& error, const Model& model) {
   const YamlFields& device = places.device;
   if (error.setting == "baud") {

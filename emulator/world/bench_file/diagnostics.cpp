@@ -35,7 +35,7 @@ void Diagnostics::add(const FileError& error, const std::string& behind) {
 
 void Diagnostics::throw_if_any() const {
   if (diagnostics_.empty()) return;
-  std::map<std::string, std::size_t> files;  // in the order in which they came
+  std::map<std::string, std::size_t> files;  // in the order of their first diagnostics
   for (const FileError::Diagnostic& diagnostic : diagnostics_)
     files.emplace(diagnostic.place.file, files.size());
   const auto place = [&](const FileError::Diagnostic& diagnostic) {

@@ -40,14 +40,14 @@ FaultText text_of_fault(const YamlFields& fields, std::string_view other_key) {
   return text;
 }
 
-/// Of a fault that could not be read.
+/// Checks the condition of a fault that could not be read.
 void check_condition_of(const YamlFields& when, const Inventory& inventory) {
   if (!when.is_scalar()) return;
   FaultTrigger trigger;
   try {
     set_trigger_field(trigger, "when", when.text());
   } catch (const NameError&) {
-    throw AlreadyReported();  // with the fault
+    throw AlreadyReported();  // reported with the fault
   }
   try {
     check_condition(inventory, trigger.when);
@@ -76,7 +76,8 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
                                 Diagnostics& diagnostics, std::string_view other_key) {
   FaultText text{};
   if (!diagnostics.attempt([&] { text = text_of_fault(fields, other_key); })) return std::nullopt;
-  // A field that is wrong is taken away, to judge the others. What the fault lacks then has been given.
+  // A wrong field is removed so that the others are judged. After that, errors about missing fields are not
+  // reported.
   bool is_whole = true;
   while (true) {
     try {

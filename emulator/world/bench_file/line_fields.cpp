@@ -22,7 +22,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::size_t kLongestLinkName = 200;  // a link has a lock beside it
+constexpr std::size_t kLongestLinkName = 200;  // leaves room for the lock beside the link
 
 }  // namespace
 

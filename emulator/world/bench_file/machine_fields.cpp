@@ -21,21 +21,21 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// The keys of a map, each read for itself: what is wrong with one hides nothing of the next.
+/// Reads the keys of a map one by one, so that an error in one does not hide errors in the next.
 class Keys {
  public:
   Keys(const YamlFields& fields, std::span<const Key> known, Diagnostics& diagnostics)
       : fields_(fields), diagnostics_(diagnostics) {
     diagnostics_.attempt([&] { fields_.require_keys(known); });
   }
-  /// Calls `how` with the field if it is there. Whether nothing is wrong with it.
+  /// Calls `how` with the field if it exists. Returns true if there is no error.
   template <typename How>
   bool read(const std::string& key, const How& how) const {
     return diagnostics_.attempt([&] {
       if (const auto field = fields_.find(key)) how(*field);
     });
   }
-  /// Demands that it is there.
+  /// Like read(), but the field must exist.
   template <typename How>
   bool require(const std::string& key, const How& how) const {
     return diagnostics_.attempt([&] { how(fields_.at(key)); });
@@ -57,7 +57,7 @@ PulseSpan read_span(const YamlFields& field, Diagnostics& diagnostics) {
   return span;
 }
 
-/// One of two words; true for the first.
+/// Reads one of two words. Returns true for the first.
 bool read_word(const YamlFields& field, std::string_view first, std::string_view second) {
   const std::string word = field.text();
   if (word != first && word != second) {
@@ -76,7 +76,7 @@ DriveSetup read_drive(const YamlFields& drive, Diagnostics& diagnostics) {
   return setup;
 }
 
-/// A digital input of the machine's own controller. (A wire goes to another's.)
+/// Reads the name of a digital input of the machine's own controller. (Only wires lead to other controllers.)
 int read_own_input(const YamlFields& field, const Model& model) {
   const std::string name = field.text();
   std::vector<std::string> names;
@@ -88,7 +88,7 @@ int read_own_input(const YamlFields& field, const Model& model) {
   field.fail(quoted(name) + " is not an input of " + std::string(model.name) + suggestion(name, names));
 }
 
-/// Where the period is not given it is a revolution of the motor.
+/// Reads an index. Its period is one revolution of the motor by default.
 IndexSetup read_index(const YamlFields& index, const Model& model, int pulses_per_revolution,
                       Diagnostics& diagnostics) {
   const Keys keys(index, kIndexKeys, diagnostics);
@@ -98,7 +98,7 @@ IndexSetup read_index(const YamlFields& index, const Model& model, int pulses_pe
   keys.read("period", [&](const YamlFields& field) { setup.period = field.integer(kWidthSchema); });
   keys.read("input", [&](const YamlFields& field) { setup.input = read_own_input(field, model); });
   diagnostics.attempt([&] {
-    const bool is_known = setup.period > 0;  // else the encoder is complained of
+    const bool is_known = setup.period > 0;  // otherwise read_encoder() reports the error
     if (!is_known || setup.width < setup.period) return;
     (index.has("width") ? index.at("width") : index)
         .fail("is on for " + std::to_string(setup.width) + " of " + std::to_string(setup.period) +
@@ -122,7 +122,7 @@ void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& set
     if (setup.pulses_per_revolution > 0 || encoder.has("motor_pulses_per_revolution")) return;
     if (!setup.has_wheel)
       encoder.fail("needs the pulses per revolution of the motor; expected `motor_pulses_per_revolution`");
-    setup.pulses_per_revolution = 1;  // no motor turns it
+    setup.pulses_per_revolution = 1;  // no motor turns a wheel; this only avoids a division by zero
   });
   keys.read("reversed",
             [&](const YamlFields& field) { setup.encoder_reversed = read_word(field, "true", "false"); });

@@ -64,7 +64,7 @@ std::optional<int> read_address(const YamlFields& station, DeviceSetup& device) 
 
 namespace {
 
-/// Whether the bench writes the register in which the device keeps its number.
+/// Returns true if the bench sets the register in which the device keeps its number.
 bool sets_number(const DeviceSetup& device) {
   const Model& model = *device.model;
   const Firmware firmware = device.settings.firmware != 0 ? device.settings.firmware : model.firmwares.back();
@@ -76,7 +76,7 @@ bool sets_number(const DeviceSetup& device) {
   return std::any_of(device.settings.set.begin(), device.settings.set.end(), is_it);
 }
 
-/// None where only a file knows it.
+/// Returns nothing if only a memory file contains the number.
 std::optional<int> number_of(const NumberedStation& station, const Bench& bench,
                              const BenchInventory& inventory) {
   if (!station.device) return station.address;

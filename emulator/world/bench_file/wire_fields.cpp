@@ -20,7 +20,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// "feeder.A.upper_limit": of the machine on an axis.
+/// A contact or input of the machine on an axis: "feeder.A.upper_limit".
 struct MachinePlace {
   std::size_t device = 0;
   int axis = 0;
@@ -28,7 +28,7 @@ struct MachinePlace {
   std::string word;       // "upper_limit"
 };
 
-/// Nothing if it does not begin with an axis, so that a terminal must be meant.
+/// Returns nothing if the name does not begin with an axis, so that it must be a terminal's.
 std::optional<MachinePlace> find_machine_place(const YamlFields& wire, const std::string& name,
                                                const BenchNames& names, const char* example) {
   const std::size_t dot = name.find_last_of('.');
@@ -39,7 +39,7 @@ std::optional<MachinePlace> find_machine_place(const YamlFields& wire, const std
   return MachinePlace{device, axis, name.substr(0, dot), name.substr(dot + 1)};
 }
 
-/// Which of some names its word is. `what` they are, for the message.
+/// Returns the index of the place's word in `words`. `what` says in the message what they are.
 template <class Names>
 std::size_t find_word(const YamlFields& wire, const MachinePlace& place, const Names& words,
                       const char* what) {
@@ -51,7 +51,7 @@ std::size_t find_word(const YamlFields& wire, const MachinePlace& place, const N
   return static_cast<std::size_t>(found - words.begin());
 }
 
-/// Complains unless the bench has a machine there that `has` what is named.
+/// Reports an error unless the bench has a machine at that place and `has` returns true for it.
 template <class Has>
 void require_machine(const YamlFields& wire, const MachinePlace& place, const Bench& bench,
                      const BenchNames& names, const std::string& what, Has has) {

@@ -36,12 +36,12 @@ std::string_view line_at(std::string_view text, int line) {
   return found.substr(0, found.find_last_not_of('\r') + 1);
 }
 
-/// A place in a text where the library gave up.
+/// The place in a text where the library stopped.
 struct Stop {
   YAML::Mark mark;
   std::string_view line;
-  std::string_view before;  // of the line, what the library has read
-  std::string_view above;   // the last line with something on it before this one
+  std::string_view before;  // the part of the line that the library has read
+  std::string_view above;   // the last line before this one that is not blank
 
   Stop(std::string_view text, const YAML::Mark& where)
       : mark(where),
@@ -57,7 +57,7 @@ struct Stop {
   }
   bool has(std::string_view part) const { return line.find(part) != std::string_view::npos; }
   bool has_before(std::string_view part) const { return before.find(part) != std::string_view::npos; }
-  /// Only blanks stand before it, and perhaps the first letter.
+  /// Returns true if only blanks, and perhaps the first letter, come before the place.
   bool is_at_begin() const { return mark.column <= static_cast<int>(indentation().size()) + 1; }
 };
 
@@ -67,7 +67,7 @@ bool has_second_colon(const Stop& stop) {
   const std::size_t colon = stop.line.find(": ");
   return colon != std::string_view::npos && static_cast<int>(colon) + 1 < stop.mark.column;
 }
-/// "model:simple2-r3": a key without the blank that makes it one.
+/// Returns true if a key lacks the blank after its colon: "model:simple2-r3".
 bool is_glued(std::string_view line) {
   const auto is_of_name = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
@@ -81,16 +81,16 @@ bool is_glued(std::string_view line) {
 }
 bool is_below_glued_key(const Stop& stop) { return is_glued(stop.above); }
 bool is_glued_key(const Stop& stop) { return is_glued(stop.line); }
-/// Within braces or brackets that go on or end behind this.
+/// Returns true if the line continues or closes braces or brackets after the place.
 bool goes_on(const Stop& stop) {
   return stop.line.find_first_of(",}]", stop.before.size()) != std::string_view::npos;
 }
 bool is_in_line(const Stop& stop) { return !stop.is_at_begin(); }
 bool always(const Stop& /*stop*/) { return true; }
 
-/// What the library says, in plain words: the first row that fits.
+/// A message of the library in plain words. The first row that fits is used.
 struct PlainWords {
-  std::string_view library;  // how its message begins; empty: any
+  std::string_view library;  // the beginning of the library's message; empty: any message
   bool (*fits)(const Stop& stop);
   std::string_view words;
 };
@@ -155,8 +155,9 @@ FileError not_yaml(const Stop& stop, const std::string& file, const std::string&
           what + ": is not YAML: " + words + (has_text ? "  (the line is " + quoted(stop.line) + ")" : "")};
 }
 
-/// Makes nodes of a document as it goes by, and sees where a second one begins. The library makes documents
-/// without end of a sign that cannot begin one, so that no more may be asked for.
+/// Makes the nodes of a document as the parser passes through it, and detects the beginning of a second one.
+/// The library never stops making documents at a character that cannot begin one, so it must not be asked for
+/// another.
 class Passage : public YAML::EventHandler {
  public:
   struct SecondDocument {
@@ -205,15 +206,15 @@ class Passage : public YAML::EventHandler {
   }
 
   std::shared_ptr<std::deque<YamlNode>> nodes_ = std::make_shared<std::deque<YamlNode>>(1);
-  const YamlNode* root_ = &nodes_->front();  // of an empty text: nothing
+  const YamlNode* root_ = &nodes_->front();  // nothing, if the text is empty
   std::vector<YamlNode*> open_;
   std::map<YAML::anchor_t, const YamlNode*> anchors_;
   bool has_begun_ = false;
   YAML::Mark last_text_ = YAML::Mark::null_mark();
 };
 
-/// The library reads remarks letter by letter, and many a file begins with a page of them: those lines are
-/// left empty.
+/// Empties the comment lines that the text begins with. The library reads comments letter by letter, and many
+/// files begin with a page of them.
 std::string without_first_remarks(const std::string& text) {
   std::string lines;
   std::size_t at = 0;
@@ -226,8 +227,8 @@ std::string without_first_remarks(const std::string& text) {
   return lines + text.substr(at);
 }
 
-/// Whether a quote at the beginning of `text` is closed. In double quotes a sign behind a backslash is any
-/// sign; in single ones two are one.
+/// Returns true if a quote at the beginning of `text` is closed. In double quotes, a backslash escapes any
+/// character; in single quotes, two quotes stand for one.
 bool is_closed(std::string_view text) {
   const char quote = text.front();
   for (std::size_t at = 1; at < text.size(); ++at) {
@@ -241,7 +242,7 @@ bool is_closed(std::string_view text) {
   return false;
 }
 
-/// The library takes the end of the file for the end of a quoted text.
+/// Reports a quoted text that is not closed. The library accepts the end of the file as its end.
 void require_closed_quote(const std::string& text, const YAML::Mark& mark, const std::string& file,
                           const std::string& what) {
   if (mark.is_null()) return;

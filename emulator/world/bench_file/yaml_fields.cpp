@@ -66,7 +66,7 @@ YamlFields YamlFields::with_rule(const ScalarRule* rule) const {
 
 namespace {
 
-/// Nodes of a joined map, and the documents that what is in it belongs to.
+/// Owns the nodes of a joined map, and the documents that its parts belong to.
 struct JoinedNodes {
   std::shared_ptr<const YamlNode> own;
   std::shared_ptr<const YamlNode> defaults;
@@ -87,7 +87,7 @@ const YamlNode* value_in(const YamlNode& map, const YamlNode& key) {
   return nullptr;
 }
 
-/// An alias may stand inside what it names, so there is an end to how deep this looks.
+/// The depth is limited because an alias may stand inside the node that it names.
 constexpr int kMaxJoinedDepth = 32;
 
 const YamlNode* joined(const YamlNode& own, const YamlNode& defaults, JoinedNodes& nodes, int depth = 0) {

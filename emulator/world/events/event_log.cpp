@@ -33,7 +33,7 @@ constexpr std::size_t kFramesAtOnce = 256;
 
 std::string real_text(double value) { return number_text(finite_number(value)); }
 
-/// Of one request that writes: the function code and what stands behind it.
+/// A request that writes: its table, its first address and its words.
 struct WriteRequest {
   Table table = Table::holding;
   std::uint16_t first = 0;
@@ -201,7 +201,8 @@ void EventLog::add(Event event) {
   events_.push_back(std::move(event));
 }
 
-/// What a host has written: told when the answer says that it was done, or at once where nobody answers.
+/// Adds the writes of a host's request. take_frame() calls it when the reply confirms the request, or at once
+/// if nobody replies.
 void EventLog::add_writes(const FrameLog::Told& request, SimTime at) {
   for (std::size_t l = 0; l < world_.line_count(); ++l) {
     const WorldLine& line = world_.line(l);
@@ -247,7 +248,7 @@ void EventLog::take_frame(const FrameLog::Told& frame) {
   }
 }
 
-/// In the order in which it has come.
+/// Adds the events of frames and the others in the order in which they happened.
 bool EventLog::collect(std::size_t frames) {
   const std::uint64_t end = frames_.next_number();
   const auto add_noted_before = [&](std::uint64_t frame) {

@@ -13,7 +13,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-// How many values an instruction leaves on the stack more than it finds there.
+// Returns by how many values an instruction makes the stack grow.
 int growth(Instruction::Kind kind) {
   switch (kind) {
     case Instruction::Kind::constant:
@@ -21,7 +21,7 @@ int growth(Instruction::Kind kind) {
     case Instruction::Kind::within: return -2;
     case Instruction::Kind::binary:
     case Instruction::Kind::within_share:
-    case Instruction::Kind::skip_if_false:  // where it does not skip
+    case Instruction::Kind::skip_if_false:  // if it does not skip
     case Instruction::Kind::skip_if_true:
     case Instruction::Kind::choose: return -1;
     case Instruction::Kind::unary:

@@ -27,7 +27,7 @@ Number present_value(const Expression::Name& name, const ValueSource& source) {
 
 bool is_within(Number value, Bounds bounds) { return value >= bounds.low && value <= bounds.high; }
 
-// "(feeder.STATUS.4 is 1, time is 3.05s)", empty without names.
+// Returns "(feeder.STATUS.4 is 1, time is 3.05s)", or an empty text if there are no names.
 std::string present_values(const Expression& expression, const ValueSource& source) {
   std::string text;
   for (const Expression::Name& name : expression.names) {
@@ -40,7 +40,7 @@ std::string present_values(const Expression& expression, const ValueSource& sour
 template <std::size_t stack_depth>
 Number run(const Expression& expression, const ValueSource& source, const Instruction*& at) {
   std::array<Number, stack_depth> stack;
-  std::size_t top = 0;  // of the stack: its size
+  std::size_t top = 0;  // the size of the stack
   const auto pop = [&] { return stack[--top]; };
   const std::vector<Instruction>& code = expression.code;
   for (std::size_t i = 0; i < code.size(); ++i) {
@@ -99,7 +99,7 @@ Expression parse_expression(std::string_view text, const NameResolver& names) {
 Number evaluate(const Expression& expression, const ValueSource& source) {
   const Instruction* at = nullptr;
   try {
-    // Nearly all need little, and to clear the deepest stack costs more than to evaluate them.
+    // Nearly all expressions need little, and to clear the deepest stack costs more than to evaluate them.
     constexpr int kUsual = 8;
     return expression.stack_depth <= kUsual ? run<kUsual>(expression, source, at)
                                             : run<kDeepestStack>(expression, source, at);

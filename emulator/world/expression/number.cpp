@@ -24,7 +24,7 @@ std::weak_ordering compare(std::int64_t whole, double real) {
   if (real < -kTwoTo63) return std::weak_ordering::greater;
   const auto cut = static_cast<std::int64_t>(real);
   if (whole != cut) return whole <=> cut;
-  const double rest = real - static_cast<double>(cut);  // exact: both are near, or rest is 0
+  const double rest = real - static_cast<double>(cut);  // exact, because the two are close or the rest is 0
   return rest > 0   ? std::weak_ordering::less
          : rest < 0 ? std::weak_ordering::greater
                     : std::weak_ordering::equivalent;
@@ -89,7 +89,7 @@ Number apply_to_reals(Operator operation, double a, double b) {
   }
 }
 
-// 2500 and 1000 as "2.5", exactly.
+// Returns "2.5" for 2500 thousandths, exactly.
 std::string decimal(std::int64_t value, std::int64_t one) {
   const bool negative = value < 0;
   const std::uint64_t magnitude =
@@ -127,7 +127,7 @@ std::weak_ordering operator<=>(Number a, Number b) {
 }
 
 Number finite_number(double value) {
-  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
+  constexpr double kLargest = 9e15;  // doubles hold all whole numbers up to this one
   if (std::isnan(value)) return 0;
   if (std::abs(value) <= kLargest && std::floor(value) == value) return static_cast<std::int64_t>(value);
   return std::clamp(value, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
@@ -192,7 +192,7 @@ Number apply(Operator operation, Number a) {
 Bounds bounds_around(Number centre, Number tolerance) {
   if (tolerance < 0) throw ArithmeticError("a tolerance below zero (" + number_text(tolerance) + ")");
   if (centre.is_whole() && tolerance.is_whole()) {
-    // An end that 64 bits do not hold is one that no whole number reaches.
+    // No whole number reaches an end that does not fit into 64 bits.
     std::int64_t low = 0;
     std::int64_t high = 0;
     const bool no_low = __builtin_sub_overflow(centre.whole(), tolerance.whole(), &low);

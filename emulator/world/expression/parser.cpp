@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kDeepestNesting = 64;
 
-// What people write for something else, and how to say it here.
+// A sign that people write by mistake, and the message about it.
 struct Hint {
   std::string_view sign;
   std::string_view text;
@@ -39,12 +39,12 @@ constexpr std::array<Hint, 4> kHints = {{
 struct ExpressionFunctionRow {
   std::string_view name;
   Operator operation;
-  bool folds;  // two arguments or more, taken pair by pair
+  bool folds;  // takes two arguments or more, pair by pair
 };
 constexpr std::array<ExpressionFunctionRow, 3> kExpressionFunctions = {
     {{"abs", Operator::absolute, false}, {"max", Operator::maximum, true}, {"min", Operator::minimum, true}}};
 
-/// What the words of other languages for on and off are here; empty for others.
+/// Returns our word for another language's word for on or off, or an empty text for other words.
 std::string_view switch_word(std::string_view word) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kWords = {
       {{"yes", "on"}, {"Yes", "on"}, {"YES", "on"}, {"no", "off"}, {"No", "off"}, {"NO", "off"}}};
@@ -54,7 +54,7 @@ std::string_view switch_word(std::string_view word) {
   return {};
 }
 
-// The level that binds tighter by one.
+// Returns the level that binds tighter by one.
 Level above(Level level) { return static_cast<Level>(static_cast<int>(level) + 1); }
 
 }  // namespace
@@ -184,13 +184,13 @@ Term ExpressionParser::comparison(const BinaryRow& row, std::size_t offset, cons
 }
 
 bool ExpressionParser::percentage(std::int64_t& millionths) {
-  // The sign touches the number, which tells it from a remainder.
+  // A percent sign follows its number without a blank; a remainder's does not.
   const bool is_percentage = token_.kind == Token::Kind::number && text_.substr(token_.end).starts_with('%');
   if (!is_percentage) return false;
   if (token_.unit != Unit::none) fail(offset(), "'%' after " + kind_of(token_.unit) + "; expected a number");
   constexpr std::int64_t kMax = 1'000'000;
   if (token_.number > kMax) fail(offset(), "expected a tolerance of at most a million percent");
-  // A decimal number of six places, times a million, is nearest to the whole number that is meant.
+  // Rounding gives the number that was meant: six decimal places times a million are nearest to it.
   millionths = std::llround(token_.number.real() * static_cast<double>(kPercent));
   token_ = lexer_.next();
   expect("%");

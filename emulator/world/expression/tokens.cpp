@@ -23,7 +23,8 @@ namespace {
 
 constexpr std::size_t kLongestText = 2'000;  // bytes: some twenty lines of conditions
 
-// Of signs that begin alike the longer first. Some are words of no expression, kept whole for the message.
+// If signs begin alike, the longer comes first. Some are not valid in expressions; they are recognized for
+// the message.
 constexpr std::array<std::string_view, 33> kSigns = {
     "&&", "||", "==", "!=", "<=", ">=", "<<", ">>", "<>", "+-", "..", "+", "-", "*", "/", "%", "<",
     ">",  "&",  "^",  "|",  "!",  "~",  "(",  ")",  "?",  ":",  ",",  "=", ".", "[", "]", ";"};
@@ -32,7 +33,7 @@ constexpr std::array<std::string_view, 6> kTimeUnits = {"ns", "us", "ms", "s", "
 
 struct Word {
   std::string_view spelling;
-  std::string_view sign;  // which sign it stands for; empty for a number
+  std::string_view sign;  // the sign that it stands for; empty for a number
   int number = 0;
 };
 constexpr std::array<Word, 7> kWords = {{{"and", "&&"},
@@ -47,7 +48,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool continues_name(char c) { return begins_name(c) || is_digit(c); }
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }  // of UTF-8
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }  // in UTF-8
 
 bool is_time_unit(std::string_view text) {
   return std::find(kTimeUnits.begin(), kTimeUnits.end(), text) != kTimeUnits.end();
@@ -60,7 +61,7 @@ std::size_t column_of(std::string_view text, std::size_t offset) {
                  std::count_if(before.begin(), before.end(), [](char c) { return !continues_character(c); }));
 }
 
-// The part of a long text where it went wrong.
+// Returns the part of a long text around the error.
 std::string_view around(std::string_view text, std::size_t offset) {
   constexpr std::size_t kShort = 70;
   constexpr std::size_t kBefore = 40;
@@ -75,7 +76,8 @@ std::string quoted_around(std::string_view text, std::size_t offset) {
   return quoted((part.size() < text.size() ? "..." : "") + on_one_line(part));
 }
 
-// "2.5" in volts as 2500. Nothing for what is finer than a millivolt, or out of this world.
+// Returns 2500 for "2.5" volts. Returns nothing for fractions of a millivolt or voltages that are out of
+// range.
 std::optional<std::int64_t> millivolts(std::string_view digits, std::string_view unit) {
   const std::int64_t highest = unit == "V" ? 1'000'000 : 1'000'000'000;
   const std::size_t point = digits.find('.');
@@ -136,7 +138,8 @@ Token Lexer::next() {
   return token;
 }
 
-// A unit behind a number, with or without a space between: no two values stand side by side otherwise.
+// Reads a unit after a number, with or without a space between. A word there can only be a unit, because two
+// values never stand side by side.
 std::string_view Lexer::unit_here() {
   std::size_t begin = next_;
   while (at(begin) == ' ') ++begin;
@@ -148,7 +151,7 @@ std::string_view Lexer::unit_here() {
   return word;
 }
 
-// The characters of a number, without '_'.
+// Reads the characters of a number and drops '_'.
 std::string Lexer::digits_and_point(Token& token) {
   const std::size_t begin = next_;
   const auto skip_digits = [this] {
@@ -217,7 +220,7 @@ Token Lexer::number() {
   } else {
     double value = 0;
     const auto error = std::from_chars(plain.data(), plain.data() + plain.size(), value).ec;
-    // What is too small to tell from 0 is refused too: it was not meant as 0.
+    // A number too small to tell from 0 is refused too, because 0 was not meant.
     if (error != std::errc{}) fail(begin, written + " is too large for a real number");
     token.number = value;
   }
@@ -242,7 +245,7 @@ std::string Lexer::quoted_part() {
 Token Lexer::name() {
   Token token;
   token.kind = Token::Kind::name;
-  bool plain = true;  // a single word, which may be one of ours
+  bool plain = true;  // a single word, which may be a keyword
   if (at(next_) == '[') {
     token.name = quoted_part();
     plain = false;

@@ -37,7 +37,7 @@ const FaultKindRow& row_of(const std::string& name) {
   throw NameError(quoted(name) + " is not a fault" + suggestion(name, names));
 }
 
-/// The first device that stands on a line, and by which of its ports; nothing if there is no such line.
+/// Returns the first device on a line and its port on it, or nothing if there is no such line.
 std::optional<std::pair<std::size_t, std::size_t>> find_line(const KnownDevices& devices,
                                                              const std::string& name) {
   for (std::size_t d = 0; d < devices.size() && !name.empty(); ++d) {
@@ -77,7 +77,7 @@ void set_line(const KnownDevices& devices, const std::string& place, Fault& faul
   fault.on_line = true;
 }
 
-/// Nothing where no counted input has that name.
+/// Returns nothing if no counted input has that name.
 std::optional<InputName> find_counted(const KnownDevices& devices, const std::string& name) {
   try {
     const InputName input = find_input(devices, name);
@@ -151,7 +151,7 @@ std::string expected_of(const FaultFieldRow& row) {
   }
 }
 
-/// Empty if the field says what its absence says.
+/// Returns the text of a field, or an empty text if the value is the default.
 std::string text_of(const FaultFieldRow& row, const Fault& fault) {
   switch (row.form) {
     case Schema::number:
@@ -169,7 +169,7 @@ std::string text_of(const FaultFieldRow& row, const Fault& fault) {
   return {};
 }
 
-/// `address` may be the name of a register: then it is that of its words.
+/// Sets the addresses of the words of a register. `name` is the register's name.
 void set_address(const KnownDevices& devices, const std::string& name, Fault& fault) {
   const RegisterName found =
       fault.on_line ? find_register(devices, name) : find_register({devices[fault.device]}, name);
@@ -235,7 +235,7 @@ Fault find_fault(const KnownDevices& devices, const FaultText& text) {
       throw NameError("for: this fault has no duration; expected none");
     }
   } catch (const NameError& error) {
-    // "field: what is wrong" where it is about one that was given.
+    // A message "field: what is wrong" becomes a FaultFieldError if the field was given.
     const std::string what = error.what();
     const std::size_t colon = what.find(": ");
     const auto is_it = [&](const auto& field) { return one_line(field.first) == what.substr(0, colon); };

@@ -12,7 +12,7 @@ bool is_moment(const FaultTrigger& trigger) { return trigger.at >= SimTime{0}; }
 
 SimTime begin_of(const FaultTrigger& trigger) { return std::max(trigger.at, trigger.from); }
 
-/// Of the time within which it strikes; not included.
+/// Returns the end of the time in which the trigger strikes; the end is not included.
 SimTime end_of(const FaultTrigger& trigger) {
   return is_moment(trigger) && trigger.lasts > SimTime{0} ? trigger.at + trigger.lasts : trigger.to;
 }
@@ -28,7 +28,7 @@ bool is_lucky(const FaultTrigger& trigger, std::int64_t number, std::uint64_t st
   return (high * static_cast<std::uint64_t>(kAlways) >> 32) < static_cast<std::uint64_t>(trigger.chance);
 }
 
-/// Whether it wants the match of that number.
+/// Returns true if the trigger selects the match of that number.
 bool selects(const FaultTrigger& trigger, std::int64_t number, std::uint64_t stream) {
   if (number < trigger.first_nth || number > trigger.last_nth) return false;
   if (trigger.every != 0 && number % trigger.every != 0) return false;
@@ -52,7 +52,7 @@ void begin_to_last(const FaultTrigger& trigger, FaultCourse& course, SimTime now
   if (lasts > SimTime{0}) course.until = is_moment(trigger) ? end_of(trigger) : now + lasts;
 }
 
-/// The tick whose end is not earlier.
+/// Returns the first tick that does not end before `time`.
 Tick tick_from(SimTime time) { return tick_at(time) + (time % kTickLength == SimTime{0} ? 0 : 1); }
 
 }  // namespace
@@ -90,9 +90,9 @@ bool strikes_frame(const FaultTrigger& trigger, FaultCourse& course, const Frame
 bool strikes_time(const FaultTrigger& trigger, FaultCourse& course, SimTime now, ConditionSource& conditions,
                   std::uint64_t stream) {
   course.looked_at = is_of_time_alone(trigger) ? now : course.looked_at;
-  // Nothing of it changes any more, whether it is looked at or not.
+  // Nothing changes any more, so there is nothing to do.
   if (is_exhausted(trigger, course) && !course.in_force) return false;
-  // What chance strikes is over with the tick, unless it lasts longer.
+  // A fault that strikes by chance lasts one tick, or longer if it says so.
   const bool by_chance = trigger.chance != 0;
   const SimTime lasts = by_chance ? std::max(trigger.lasts, kTickLength) : trigger.lasts;
   const bool met = is_met(trigger, now, conditions);

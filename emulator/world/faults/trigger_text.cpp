@@ -24,7 +24,7 @@ constexpr std::int64_t kMany = 1'000'000'000'000;
 struct NumberRow {
   std::string_view name;
   std::int64_t FaultTrigger::*field;
-  std::int64_t lowest = 0;  // what is below is not set
+  std::int64_t lowest = 0;  // a smaller value means that the field is not set
   std::int64_t highest = 0;
 };
 constexpr std::array<NumberRow, 5> kNumbers{{
@@ -48,7 +48,7 @@ constexpr std::array<TimeRow, 4> kTimes{{
     {"for", &FaultTrigger::lasts, SimTime{1}, SimTime{0}},
 }};
 
-constexpr std::size_t kLongestCondition = 2000;  // as expressions have it
+constexpr std::size_t kLongestCondition = 2000;  // the limit of expressions
 
 std::string hexadecimal(std::int64_t address) {
   return "0x" + hex_text({static_cast<std::uint8_t>(address >> 8), static_cast<std::uint8_t>(address)});

@@ -51,7 +51,7 @@ void FrameLog::begin_anew_after(std::vector<Frame> frames) {
 }
 
 void FrameLog::add(const pty::CapturedPacket& packet) {
-  // The oldest one's room is used again: this is done for every frame of a run.
+  // The memory of the oldest frame is reused, because this runs for every frame.
   if (frames_.size() == kept_) {
     frames_.push_back(std::move(frames_.front()));
     frames_.pop_front();
@@ -87,7 +87,7 @@ FrameLog::Told FrameLog::told(std::size_t place) const {
             .text = {},
             .remark = frame.comment,
             .bytes = frame.bytes};
-  if (frame.bytes.empty()) return told;  // only what a fault has done
+  if (frame.bytes.empty()) return told;  // the entry only tells what a fault has done
   if (frame.way == pty::Way::from_host) {
     told.text = line.request_text(frame.bytes);
     return told;

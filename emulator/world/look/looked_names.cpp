@@ -26,7 +26,7 @@ struct TerminalPlace {
   int terminal = 0;
 };
 
-/// "feeder.DIN_3", or "DIN_3" where there is one device.
+/// Finds "feeder.DIN_3", or "DIN_3" if there is only one device.
 std::optional<TerminalPlace> find_place(const KnownDevices& devices, std::string_view name) {
   for (std::size_t i = 0; i < devices.size(); ++i) {
     std::string_view rest = name;
@@ -80,9 +80,9 @@ const LookedNames::List* LookedNames::find_list(std::uint64_t number) const {
 
 bool LookedNames::is_kept(std::uint64_t number) const { return find_list(number) != nullptr; }
 
-/// For a list of so many names.
+/// Makes room for a list of that many names.
 void LookedNames::make_room(std::size_t names) {
-  // The probes forget nothing by themselves.
+  // The probes never forget a name, so they are made anew from time to time.
   if (!probes_ || resolved_ + names > 4 * kMaxKept) {
     lists_.clear();
     probes_.emplace(world_);
@@ -153,7 +153,7 @@ LookedNames::Known LookedNames::find(const std::string& name) {
   try {
     Known known{.what = Known::What::value, .handle = probes_->resolve(name).handle};
     ++resolved_;
-    static_cast<void>(probes_->value(known.handle));  // one that only scenarios keep has none here
+    static_cast<void>(probes_->value(known.handle));  // throws for a name that only scenarios have
     if (const auto device = probes_->device_read(known.handle)) {
       known.needs_power = true;
       known.device = *device;

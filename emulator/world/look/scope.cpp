@@ -18,7 +18,7 @@ Scope::Scope(World& world, ScopeSetup setup) : world_(world), setup_(std::move(s
   for (const std::string& name : setup_.names) handles_.push_back(probes_.resolve(name).handle);
   if (!setup_.condition.empty()) condition_ = parse_expression(setup_.condition, probes_);
   for (const std::int32_t handle : handles_) {
-    static_cast<void>(probes_.value(handle));  // one that only scenarios keep is refused here
+    static_cast<void>(probes_.value(handle));  // throws for a name that only scenarios have
   }
   rows_ = static_cast<std::size_t>(setup_.before + setup_.after + 1);
   ring_.resize(rows_ * handles_.size());
@@ -59,7 +59,7 @@ void Scope::push(Tick tick) {
   }
 }
 
-/// One without a result ends it.
+/// Returns true if the condition holds. A condition without a result triggers too, with a diagnostic.
 bool Scope::is_there() {
   if (condition_.code.empty()) return true;
   try {
@@ -85,7 +85,8 @@ Tick Scope::next_look(Tick done) const {
   return next;
 }
 
-/// Nothing has changed: of many ticks only those that there is room for.
+/// Handles ticks in which nothing changed. While the scope is armed, only those that the ring has room for
+/// count.
 void Scope::on_rest(Tick last) {
   const Tick first = std::max(next_tick_, last - static_cast<Tick>(rows_) + 1);
   if (state_ == State::armed && first > next_tick_) count_ = 0;

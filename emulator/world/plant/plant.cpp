@@ -12,25 +12,26 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Farther than the pulses of a century reach: where a machine without stops ends.
+/// Stands for the ends of a machine without stops. It is farther away than the pulses of a century reach.
 constexpr std::int64_t kFarthest_pulses = 1'000'000'000'000'000;
 
 PulseSpan wider(PulseSpan span, std::int64_t pulses) { return {span.first - pulses, span.last + pulses}; }
 
 bool holds(PulseSpan span, std::int64_t at) { return at >= span.first && at <= span.last; }
 
-/// Where a switch is on as it stands now.
+/// Returns the positions in which a switch is on, given its present state.
 PulseSpan span_of(const SwitchSetup& setup, bool is_on) {
   return wider(setup.on, is_on ? setup.hysteresis_pulses : 0);
 }
 
-/// How far it has come since the index began last.
+/// Returns the distance from the last beginning of the index.
 std::int64_t index_phase(const IndexSetup& index, std::int64_t at) {
   const std::int64_t phase = (at - index.at) % index.period;
   return phase < 0 ? phase + index.period : phase;
 }
 
-/// How much of its turn the wheel has made: even over all of its ticks, however few the counts are.
+/// Returns how many counts of its turn the wheel has made. They are spread evenly over all ticks, however few
+/// they are.
 std::int64_t turned(const PlantAxis::State& state) {
   __extension__ using Wide = __int128;
   if (state.turn_ticks == 0) return 0;
@@ -46,7 +47,7 @@ void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
     state_.faults.slipped_pulses = 0;
   }
   turn_wheel();
-  // What moves in this tick is decided by the drive as it was at its beginning.
+  // The drive's state at the beginning of the tick decides what moves.
   const std::int64_t steps = pulses_that_step(pulses);
   state_.lost_pulses += std::abs(pulses - steps);
   if (steps != 0) move(steps);
@@ -54,7 +55,8 @@ void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
   find_quiet_places();
 }
 
-/// A drive is looked at in every tick, because its controller's outputs may have changed.
+/// Finds the positions between which no contact changes. With a drive there are none: it runs in every tick,
+/// because its controller's outputs may have changed.
 void PlantAxis::find_quiet_places() {
   disturb();
   if (setup_.drive) return;
@@ -71,7 +73,7 @@ PulseSpan PlantAxis::places_alike() const {
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
   std::int64_t from = stops.first;
   std::int64_t to = stops.last;
-  // Where a switch that is on stays on, or one that is off stays off.
+  // Narrows the span to where a switch that is on stays on, or one that is off stays off.
   const auto stay = [&](bool is_on, PulseSpan on) {
     if (is_on) {
       from = std::max(from, on.first);
@@ -144,7 +146,7 @@ Tick PlantAxis::next_active_tick(Tick done) const {
 
 void PlantAxis::turn(std::int64_t counts, Tick ticks) {
   disturb();
-  // What is left of the earlier turn is added to the new one.
+  // The rest of the earlier turn is added to the new one.
   state_.turn_counts = state_.turn_counts - turned(state_) + counts;
   state_.turn_ticks = state_.ticks_to_turn = std::max<Tick>({state_.ticks_to_turn, ticks, 1});
 }
@@ -202,12 +204,12 @@ std::optional<SwitchSetup> PlantAxis::way_of(Contact which) const {
       break;
     default: return std::nullopt;
   }
-  // One that has not let go yet does so at its farther end.
+  // A switch that is on beyond its span lets go at the end of its hysteresis.
   if (is_on && !holds(way.on, state_.position_pulses)) {
     way.on = wider(way.on, way.hysteresis_pulses);
     way.hysteresis_pulses = 0;
   }
-  // The machine does not go beyond its stops: what is on there is not left.
+  // A switch that is on at a stop never lets go there, because the machine does not pass its stops.
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
   if (way.on.last < stops.first || way.on.first > stops.last) return std::nullopt;
   if (way.on.first <= stops.first) way.on.first = -kFarthest_pulses;
@@ -244,7 +246,7 @@ std::int64_t PlantAxis::shift(std::int64_t steps) {
 
 void PlantAxis::move_switches(std::int64_t from) {
   const std::int64_t at = state_.position_pulses;
-  // The way that counts: all of it, or its end.
+  // The positions that can operate a switch: the whole way, or only its end.
   const PulseSpan way =
       looks_between_ ? PulseSpan{std::min(from, at), std::max(from, at)} : PulseSpan{at, at};
   const auto move = [&](const SwitchSetup& setup, bool& is_on) {
@@ -298,7 +300,7 @@ void PlantAxis::restore(const State& state) {
 }
 
 std::uint64_t PlantAxis::Encoder::wide_counts_at(std::int64_t position_pulses) const {
-  // Whole revolutions and the rest of one, so that nothing overflows but the count itself.
+  // Whole revolutions and the rest are separate, so that only the count itself can overflow.
   const std::int64_t at = position_pulses - pulses_at_0;
   const std::int64_t per_revolution = pulses_per_revolution;
   const std::int64_t revolutions = at / per_revolution - (at % per_revolution < 0 ? 1 : 0);
@@ -311,7 +313,7 @@ std::uint64_t PlantAxis::Encoder::wide_counts_at(std::int64_t position_pulses) c
 }
 
 std::int64_t PlantAxis::encoder_counts() const {
-  if (!has_encoder()) return 0;  // and it may have no pulses in a revolution
+  if (!has_encoder()) return 0;  // without an encoder, a revolution may have no pulses
   std::uint64_t counts = encoder_.wide_counts_at(state_.position_pulses);
   if (setup_.has_wheel) {
     counts = static_cast<std::uint64_t>(state_.wheel_counts);

@@ -24,17 +24,17 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// "feeder.A.pulses" at its first dot; nothing behind it if there is none.
+/// Splits "feeder.A.pulses" at its first dot. The second part is empty if there is no dot.
 std::pair<std::string_view, std::string_view> at_dot(std::string_view name) {
   const std::size_t dot = name.find('.');
   if (dot == std::string_view::npos) return {name, {}};
   return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-// What every device has.
+// The names that every device has.
 constexpr std::array<std::string_view, 4> kOfDevice{"power", "requests", "replies", "exceptions"};
 
-/// Registers, terminals, axes (of "A.pulses"), and what every device has.
+/// Returns true for registers, terminals, axes (in "A.pulses"), and the names that every device has.
 bool has_name(const KnownDevice& device, std::string_view name) {
   return std::find(kOfDevice.begin(), kOfDevice.end(), name) != kOfDevice.end() ||
          find_register(*device.model, name, device.firmware) || find_terminal(*device.model, name) >= 0 ||
@@ -62,7 +62,7 @@ bool find_of_line(const Inventory& inventory, std::string_view line, std::string
   return false;
 }
 
-/// What is asked of devices whatever their model.
+/// Finds the names that devices of all models have.
 bool find_of_any_device(const Device& device, std::string_view rest, ProbeNames::Probe& probe) {
   using What = ProbeNames::What;
   static constexpr std::array<What, kOfDevice.size()> kWhatOfDevice{What::power, What::requests,
@@ -173,7 +173,7 @@ ProbeNames::Probe ProbeNames::find(std::string_view name) const {
   }
   const auto [first, behind] = at_dot(name);
   if (find_of_line(inventory_, first, behind, probe)) return probe;
-  // Where there is one device its name may be left out.
+  // The name of the device may be left out if there is only one.
   const KnownDevices& known = inventory_.known();
   std::string_view rest = name;
   for (std::size_t i = 0; i < known.size(); ++i) {
@@ -194,7 +194,7 @@ ProbeNames::Probe ProbeNames::find(std::string_view name) const {
   const Device& there = inventory_.device(probe.device);
   const NamedValues* const values = there.named_values();
   const bool has_value = values != nullptr && values->value_named(rest).has_value();
-  if (!has_value) find_of_axis(std::string(rest) + ".", probe);  // tells of an axis alone
+  if (!has_value) find_of_axis(std::string(rest) + ".", probe);  // throws if the name is an axis alone
   if (rest == device.name) throw NameError(quoted(rest) + " is a device; expected " + device.name + ".NAME");
   if (there.register_bank() != nullptr) {
     throw NameError(device.name + ": " + why_no_register(*device.model, rest, device.firmware));

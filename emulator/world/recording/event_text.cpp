@@ -22,7 +22,7 @@ using What = RecordedEvent::What;
 
 namespace {
 
-/// "Aaxis_Speed=200"
+/// Returns "Aaxis_Speed=200".
 std::string write_text(const PreparedWrite& write, const RegisterBank& bank) {
   const bool low_word_first = bank.low_word_first();
   const Place place = bank.at(write.table, write.first);

@@ -58,7 +58,7 @@ constexpr std::string_view word_of(What what) {
   return {};
 }
 
-// In the order of pty::Parity.
+// The words are in the order of pty::Parity.
 constexpr std::array<std::string_view, 5> kParities{"none", "odd", "even", "mark", "space"};
 
 bool is_of_a_line(What what) { return what <= What::said; }
@@ -122,7 +122,7 @@ bool truth_at(const Json& object, const char* key) {
   return value.get<bool>();
 }
 
-/// Parity and data bits may be unknown.
+/// Reads the settings of a host. Parity and data bits may be unknown.
 pty::HostSettings host_at(const Json& object) {
   pty::HostSettings host{.baud = static_cast<int>(number_at(object, "baud", 0, INT32_MAX)),
                          .stop_bits = static_cast<int>(number_at(object, "stop_bits", 1, 2))};
@@ -221,8 +221,8 @@ RecordingHeader parse_header(std::string_view text) {
 
 namespace {
 
-/// An event's line. Put together by hand, because a JSON library's objects would be most of what recording
-/// costs; that library escapes what needs it.
+/// Builds the line of an event. It does so by hand, because a JSON library's objects would take most of the
+/// time of recording. The library still escapes the texts.
 class EventLine {
  public:
   EventLine(SimTime at, What what) {
@@ -381,7 +381,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
 
 namespace {
 
-/// What was refused is refused again.
+/// Loads a program that was loaded in the recording. If it was refused then, it may be refused again.
 void load_as_recorded(World& world, const RecordedEvent& event) {
   try {
     world.load_program(event.where, event.text);

@@ -32,7 +32,7 @@ namespace {
 
 using What = RecordedEvent::What;
 
-/// What stations say again, until it is compared.
+/// Collects what stations send in the replay, until it is compared.
 class Speeches {
  public:
   struct Speech {
@@ -95,7 +95,7 @@ std::string text_of(const World& world, std::size_t line, SimTime at,
   return hex_words_of(bytes) + " on " + world.line(line).line.name() + " at " + format_duration(at);
 }
 
-/// Empty if it is as recorded; else which byte differs first.
+/// Returns an empty text if the output is as recorded, or else the first difference.
 std::string compare(const World& world, Speeches& speeches, const RecordedEvent& recorded,
                     std::uint64_t bytes_before) {
   const std::string expected = text_of(world, recorded.where, recorded.at, recorded.bytes);
@@ -117,8 +117,9 @@ std::string compare(const World& world, Speeches& speeches, const RecordedEvent&
   return {};
 }
 
-/// Empty if the world is in the state in which the recording ended, as far as that matters to the model: what
-/// a host has not taken yet lies at the edge. A state of another version cannot be compared.
+/// Compares the world with the state at the end of the recording. Returns an empty text if they agree in all
+/// that matters to the model: bytes that a host has not read yet do not. A state of another version cannot be
+/// compared.
 std::string compare_state(const World& world, const RecordingHeader& header, const std::string& text) {
   if (text.empty() || header.version != program_version()) return {};
   WorldState recorded = parse_snapshot(text, kBenchOfRecording);
@@ -130,7 +131,7 @@ std::string compare_state(const World& world, const RecordingHeader& header, con
   return found.empty() ? found : "ends in a different state: " + found + " (recorded against replayed)";
 }
 
-/// A recording's lines; what is wrong with one is told with its number.
+/// The lines of a recording. Errors name the number of the line.
 class RecordedLines {
  public:
   RecordedLines(std::istream& recording, std::string name) : recording_(recording), name_(std::move(name)) {}
@@ -142,7 +143,7 @@ class RecordedLines {
   }
   const std::string& line() const { return line_; }
   std::size_t number() const { return number_; }
-  /// Without its end, as the writer was killed in it.
+  /// Returns true if the line has no line end, because the writer was killed while it wrote it.
   bool is_torn() const { return recording_.eof(); }
   RecordingError error(const std::string& what) const {
     return RecordingError(name_ + ":" + std::to_string(std::max<std::size_t>(number_, 1)) + ": " + what);
@@ -167,7 +168,7 @@ void read_header(ModelList models, RecordedLines& lines, Replayed& replayed) {
   }
 }
 
-/// The state in which the recording begins, if it is not the one at power-up.
+/// Restores the state in which the recording begins, unless it begins at power-up.
 void restore_beginning(World& world, const RecordedLines& lines, const Replayed& replayed) {
   if (replayed.header.snapshot.empty()) return;
   try {
@@ -219,7 +220,7 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
       result.bytes_said += event.bytes.size();
       continue;
     }
-    // All that was due was said before the next thing came from outside.
+    // Everything that is due is sent before the next input from outside.
     expect_silence();
     result.has_end = event.what == What::end;
     if (watcher && result.difference.empty()) watcher->happened(event, lines.number());

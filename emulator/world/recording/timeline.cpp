@@ -31,14 +31,14 @@ Timeline::Timeline(World& world, const WorldState& begin, std::vector<RecordedEv
   on_way();
 }
 
-/// Returns the first event that is later.
+/// Plays the events up to `until`. Returns the first event that is later.
 std::size_t Timeline::play(std::size_t next_event, SimTime until) {
   for (; next_event < events_.size() && events_[next_event].at <= until; ++next_event) {
     world_.advance_to(events_[next_event].at);
     apply(world_, events_[next_event]);
   }
   world_.advance_to(until);
-  // What nobody reads must not come to who opens the line now.
+  // Output that nobody has read must not reach a host that opens the line now.
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     world_.take_output(i, world_.line(i).line.output().size());
   }
@@ -50,11 +50,11 @@ void Timeline::go_to(SimTime time,
   time = std::clamp(time, begin(), end_);
   const auto later = std::upper_bound(keyframes_.begin(), keyframes_.end(), time,
                                       [](SimTime at, const Keyframe& keyframe) { return at < keyframe.at; });
-  // The one before it, if that is not far: whoever looks sees what led to the moment.
+  // The keyframe before is better if it is near, because observers then see what led to the moment.
   const bool has_near = later - keyframes_.begin() > 1 && time - (later - 2)->at <= 2 * kApart;
   const Keyframe& from = *(later - (has_near ? 2 : 1));
   take_back(from.state, static_cast<std::size_t>(&from - keyframes_.data()));
-  restore(world_, from.state);  // with the hosts that it had then, and not those that are there now
+  restore(world_, from.state);  // restores the hosts of that time as well, not the present ones
   play(from.next_event, time);
 }
 

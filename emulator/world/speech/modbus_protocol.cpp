@@ -1,4 +1,4 @@
-// Frames of Modbus RTU: several stations on a line, each with a number.
+// Implements frames of Modbus RTU, for lines with several stations that have a number each.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -40,7 +40,7 @@ class ModbusLineProtocol final : public LineProtocol {
     return std::make_unique<RtuStation>(device, port, framed_by);
   }
   pty::RtuFraming framing(const Model& model, const StationConditions& conditions) const override {
-    // Without wire time there is no silence to wait for, unless silence alone ends a frame.
+    // Without wire time there is no silence to wait for, unless only silence ends a frame.
     const bool no_silence = conditions.is_instant && !conditions.strict_framing;
     return {.strict = conditions.strict_framing,
             .silence = no_silence ? SimTime{0} : model.rtu->end_silence,
@@ -77,7 +77,7 @@ class ModbusLineProtocol final : public LineProtocol {
     return modbus_reply_text(stations, request, reply);
   }
 
-  /// Which registers a request is about.
+  /// Returns the facts of a request, above all the registers that it is about.
   FrameFacts facts_of(const HeardFrame& frame) const override {
     FrameFacts facts{.at = frame.now, .station = frame.bytes[0], .function = frame.bytes[1]};
     const auto word = [&](std::size_t at) { return frame.bytes[at] << 8 | frame.bytes[at + 1]; };

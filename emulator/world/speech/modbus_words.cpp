@@ -34,7 +34,7 @@ std::string number_of(int address) {
   return text.data();
 }
 
-/// Null if no device on the line listens to that address.
+/// Returns null if no device on the line listens to that address.
 const Device* device_at(const LineStations& stations, std::uint8_t address) {
   for (const auto& station : stations) {
     const ModbusStation* const modbus = station->device().modbus();
@@ -43,10 +43,10 @@ const Device* device_at(const LineStations& stations, std::uint8_t address) {
   return nullptr;
 }
 
-/// Consecutive words, or bits, by the names of their registers, with what they hold where that is known.
+/// Lists consecutive words or bits by the names of their registers, with their values if these are known.
 class WordsText {
  public:
-  /// `values`: as a frame has them; bits are packed.
+  /// `values` is as in a frame: bits are packed.
   WordsText(const Device* device, Table table, int first, int count, std::span<const std::uint8_t> values)
       : device_(device), table_(table), first_(first), count_(count), values_(values) {}
 
@@ -69,7 +69,7 @@ class WordsText {
     return is_table_of_bits(table_) ? values_[at / 8] >> at % 8 & 1 : frame_word(values_, 2 * at);
   }
 
-  /// Of the register at word `i`, which is moved behind it. The first one says whose it is.
+  /// Returns the text of the register at word `i` and moves `i` past it. The first text names the device too.
   std::string next(int& i, bool is_first) const {
     const int word = i++;
     const RegisterBank* const bank = device_ == nullptr ? nullptr : device_->register_bank();
@@ -105,7 +105,7 @@ class WordsText {
   std::span<const std::uint8_t> values_;
 };
 
-/// Null for one that is not told in words.
+/// Returns null for a function that is not described in words.
 const FunctionRow* function_of(std::span<const std::uint8_t> frame) {
   for (const FunctionRow& row : kModbusFunctions) {
     if (row.code == frame[1]) return &row;
@@ -113,7 +113,8 @@ const FunctionRow* function_of(std::span<const std::uint8_t> frame) {
   return nullptr;
 }
 
-/// The table that a function reaches: a model without input registers has the holding registers there.
+/// Returns the table that a function accesses. Without input registers, a model has its holding registers
+/// there.
 Table table_of(const Device* device, const FunctionRow& function) {
   const RegisterBank* const bank = device == nullptr ? nullptr : device->register_bank();
   const bool has_it = bank != nullptr && bank->map().has(function.table);
@@ -124,8 +125,8 @@ std::size_t bytes_for(Table table, int count) {
   return static_cast<std::size_t>(is_table_of_bits(table) ? (count + 7) / 8 : 2 * count);
 }
 
-/// "coil 0x0010 ", "input registers 0x0010 ": where a request begins. Of holding registers their number says
-/// it.
+/// Returns where a request begins: "coil 0x0010 ", "input registers 0x0010 ". For holding registers, that is
+/// only the number.
 std::string place_text(Table table, int first, int count) {
   std::string what;
   switch (table) {
@@ -137,7 +138,8 @@ std::string place_text(Table table, int first, int count) {
   return what + (count == 1 ? " " : "s ") + number_of(first) + " ";
 }
 
-/// What a request writes, packed as the words of a frame are; none if it is not whole, or says nonsense.
+/// The values that a request writes, packed like the words of a frame. written() returns nothing if the
+/// request is incomplete or invalid.
 struct WrittenValues {
   int count = 0;
   std::vector<std::uint8_t> bytes{};
@@ -193,7 +195,7 @@ std::string exception_text(int exception) {
 }
 
 bool is_write(std::span<const std::uint8_t> frame) {
-  // Coils, registers, one of them masked, and read while writing.
+  // These functions write coils or registers, mask a register, or read and write at once.
   constexpr std::array<std::uint8_t, 6> kWrites{0x05, 0x06, 0x0F, 0x10, 0x16, 0x17};
   return frame.size() >= 2 && std::find(kWrites.begin(), kWrites.end(), frame[1]) != kWrites.end();
 }

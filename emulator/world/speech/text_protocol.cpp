@@ -1,4 +1,4 @@
-// Lines of text: one device, which may say something unasked.
+// Implements lines of text, for a line with one device, which may send without being asked.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -43,7 +43,7 @@ class TextLineProtocol final : public LineProtocol {
 
   bool carries_text() const override { return true; }
   bool may_change(const LineStations& /*stations*/, const pty::CapturedPacket& /*message*/) const override {
-    return true;  // nothing but the device itself could tell
+    return true;  // only the device itself could tell
   }
 
   std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
@@ -59,9 +59,9 @@ class TextLineProtocol final : public LineProtocol {
     return quoted(reply);
   }
 
-  /// Lines have neither station nor function.
+  /// Returns the time only, because text lines have neither station nor function.
   FrameFacts facts_of(const HeardFrame& frame) const override { return {.at = frame.now}; }
-  /// They have no functions, no stations, no checksum and no exceptions.
+  /// Refuses faults that need functions, stations, checksums or exceptions, which text lines do not have.
   void require_possible(const std::string& device, const Fault& fault) const override {
     const std::string kind(fault_kind(fault.kind).name);
     switch (fault.kind) {
@@ -85,7 +85,7 @@ class TextLineProtocol final : public LineProtocol {
   }
 
  private:
-  /// Side by side, each in quotes.
+  /// Returns the lines side by side, each in quotes.
   static std::string quoted(std::span<const std::uint8_t> bytes) {
     constexpr std::size_t kMaxCharacters = 200;
     std::string text(bytes.begin(), bytes.end());

@@ -46,7 +46,7 @@ void RtuStation::run(pty::SimTime now, pty::Transmitter& out) {
     if (const auto frame = state_.framer.take_early()) take_frame(*frame, now, out);
   }
   while (const auto frame = state_.framer.take_due(now)) {
-    tell_errors(state_.framer);  // what came before it
+    tell_errors(state_.framer);  // those before the frame
     take_frame(*frame, now, out);
   }
   tell_errors(state_.framer);
@@ -57,7 +57,7 @@ void RtuStation::reset() {
   wire_.reset();
 }
 
-// --- what it has heard ---------------------------------------------------------------------------
+// --- receiving -----------------------------------------------------------------------------------
 
 void RtuStation::tell_each_error(pty::RtuFramer& framer) {
   while (const auto error = framer.take_error()) device_.modbus()->receive_failed(port_, *error);
@@ -70,7 +70,7 @@ HeardFrame RtuStation::heard(const pty::RtuFrame& frame, pty::SimTime now) const
           .now = now};
 }
 
-/// The frame that the character of that number completes, if it does.
+/// Looks at the frame if the character of that number completes one.
 void RtuStation::look_at_completed(std::uint64_t last_character, pty::SimTime now) {
   const auto frame = state_.framer.peek();
   if (frame && frame->last_character == last_character) wire_.look_at_completed(heard(*frame, now));
@@ -122,7 +122,7 @@ void RtuStation::say(std::span<const std::uint8_t> bytes, std::uint64_t last_cha
   out.answer(bytes, last_character);
 }
 
-// --- its state -----------------------------------------------------------------------------------
+// --- state ---------------------------------------------------------------------------------------
 
 void RtuStation::write_state(StateWriter& writer) const { writer.write(state_); }
 

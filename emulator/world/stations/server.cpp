@@ -20,7 +20,7 @@ namespace understudy::emulator::world {
 namespace {
 
 constexpr std::size_t kMaxWordsRead = 125;
-constexpr std::size_t kMaxWritten = 1968;  // bits, a word each while they are on their way
+constexpr std::size_t kMaxWritten = 1968;  // bits, held in a word each while the request is served
 constexpr std::uint16_t kOn = 0xFF00;
 constexpr std::uint16_t kOff = 0x0000;
 
@@ -47,7 +47,7 @@ ModbusException exception_for(const Objection& objection) {
   return ModbusException::illegal_data_address;
 }
 
-/// `row`: null where it is a function that is not served.
+/// Returns an exception reply. `row` is null if the function is not served.
 ModbusReply exception(Pdu pdu, const FunctionRow* row, const Objection& objection) {
   const ModbusException code = exception_for(objection);
   ModbusReply reply;
@@ -70,7 +70,7 @@ ModbusReply exception(Pdu pdu, const FunctionRow* row, const Objection& objectio
 
 Objection bad_value(Cause cause) { return {Refusal::bad_value, cause, 0}; }
 
-/// A function of the model's that it serves from a table: by its own limit, and from the table that it has.
+/// A function that the model serves: its table, with regard to the tables the model has, and its own limit.
 struct Service {
   const FunctionRow& row;
   Table table;
@@ -82,7 +82,7 @@ struct Service {
   }
 };
 
-/// The beginning of the request comes back: function, and the four bytes after it.
+/// Returns the beginning of the request: the function and the four bytes after it.
 ModbusReply echo(Pdu pdu) {
   ModbusReply reply;
   std::copy_n(pdu.begin(), 5, reply.pdu.begin());
@@ -145,7 +145,7 @@ ModbusReply write_several(RegisterBank& bank, const Service& service, Pdu pdu) {
   return refused ? exception(pdu, &service.row, refused) : echo(pdu);
 }
 
-/// Null where it cannot be served, or the model does not know it.
+/// Returns null if the function cannot be served, or if the model does not know it.
 const FunctionRow* find_function(const RtuRules& rules, std::uint8_t code) {
   if (std::find(rules.functions.begin(), rules.functions.end(), code) == rules.functions.end())
     return nullptr;
@@ -157,7 +157,7 @@ const FunctionRow* find_function(const RtuRules& rules, std::uint8_t code) {
 
 Service service_of(const FunctionRow& row, const RtuRules& rules, const RegisterMap& map) {
   Service service{.row = row, .table = row.table, .most = static_cast<std::size_t>(row.most)};
-  // The input registers of models that do not tell them apart are the holding registers.
+  // A model without input registers serves its holding registers instead.
   if (row.table == Table::input && !map.has(Table::input)) service.table = Table::holding;
   for (const FunctionLimit& limit : rules.limits) {
     if (limit.code == row.code) service.most = std::min(service.most, static_cast<std::size_t>(limit.most));

@@ -47,7 +47,7 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-/// A line as the wire is asked about it, with its end, or the device, without.
+/// Returns a line as a frame. The wire gets it with its line end, the device without.
 HeardFrame frame_of(std::string_view text, std::uint64_t last_character, pty::SimTime now) {
   return {.bytes = bytes_of(text), .last_character = last_character, .is_for_device = true, .now = now};
 }
@@ -127,7 +127,7 @@ bool TextStation::look_for_speech(pty::SimTime now) {
   return true;
 }
 
-// --- what it has heard ---------------------------------------------------------------------------
+// --- receiving -----------------------------------------------------------------------------------
 
 void TextStation::echo(const Waiting& waiting, pty::Transmitter& out) {
   if (!state_.is_held) return out.answer(bytes_of(waiting.echo), waiting.heard.last_character);
@@ -170,7 +170,7 @@ void TextStation::serve(const pty::HeardText& heard, pty::SimTime now, pty::Tran
   wire_.answer(request, bytes_of(text), out);
 }
 
-// --- what it says --------------------------------------------------------------------------------
+// --- sending -------------------------------------------------------------------------------------
 
 void TextStation::say(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                       pty::Transmitter& /*out*/) {
@@ -189,7 +189,7 @@ void TextStation::send(pty::SimTime now, pty::Transmitter& out) {
     } else {
       out.answer(bytes, first.last_character);
     }
-    // Where characters take no time, a long text takes it all the same: nobody could read it so fast.
+    // A long text takes time even if characters take none, because nobody could read it so fast.
     const bool takes_time = !is_instant_ || size == kPiece;
     if (takes_time) state_.free_at = now + settings().duration_of(static_cast<std::int64_t>(size));
     first.text.erase(0, size);
@@ -203,7 +203,7 @@ std::size_t TextStation::outgoing_size() const {
   return size;
 }
 
-// --- its state -----------------------------------------------------------------------------------
+// --- state ---------------------------------------------------------------------------------------
 
 void TextStation::write_state(StateWriter& writer) const { writer.write(state_); }
 

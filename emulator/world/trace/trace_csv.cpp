@@ -10,7 +10,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// A row for each tick at which something changed, and for the end, with everything:
+/// Writes a row for each tick at which something changed, and one for the end. Each row has all values:
 /// `time_ms,feeder.A.pulses,...`.
 class CsvTrace final : public TraceFormat {
  public:

@@ -1,4 +1,4 @@
-// Value change dumps (IEEE 1364), as GTKWave opens them.
+// Writes value change dumps (IEEE 1364), which GTKWave opens.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// '!', '"', ... as the format's identifiers have it.
+/// Returns the identifiers of the format: '!', '"', and so on.
 std::string code_of(std::size_t number) {
   constexpr std::size_t kFirst = 33;
   constexpr std::size_t kCount = 94;
@@ -36,7 +36,7 @@ std::string binary(std::int64_t value) {
   return text;
 }
 
-/// Of a value by name that was whole when the trace began, and no longer is.
+/// Rounds a value that was whole when the trace began but no longer is.
 std::int64_t nearest_whole(Number value) {
   constexpr double kMax = 9e15;
   return value.is_whole() ? value.whole() : std::llround(std::clamp(value.real(), -kMax, kMax));
@@ -85,7 +85,8 @@ class VcdTrace final : public TraceFormat {
   }
 
  private:
-  /// "feeder.A.position", "feeder.STATUS.4" (a bit stays with its register); no blank may be in a name.
+  /// Splits "feeder.A.position" at its dots and keeps a bit with its register: "feeder.STATUS.4". Replaces
+  /// blanks, which a name must not contain.
   static std::vector<std::string> parts_of(const std::string& name) {
     std::vector<std::string> parts(1);
     for (const char c : name) {
@@ -103,7 +104,7 @@ class VcdTrace final : public TraceFormat {
     return parts;
   }
 
-  /// Leaves the scopes that `path` is not in, and goes into those that it is.
+  /// Leaves the open scopes that are not in `path`, and enters those that are.
   static void enter(std::vector<std::string>& scopes, const std::vector<std::string>& path,
                     std::string& text) {
     std::size_t common = 0;

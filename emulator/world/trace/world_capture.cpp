@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// "pc", and "pc (mill PC)" where a device may stand on several lines: by which of its ports it is here.
+/// Returns "pc", or "pc (mill PC)" with the names of the ports, for devices that have several.
 std::string interface_name(const WorldLine& line) {
   std::string ports;
   for (const auto& station : line.stations) {
