@@ -313,7 +313,7 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
       }
       return "is not a parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
     case Error::range: return "is out of range";
-    case Error::not_linked: return "is of a module that is not linked; expected one of those in PN50";
+    case Error::not_linked: return "belongs to a module that is not linked; expected one of those in PN50";
     case Error::not_allowed:
     case Error::axis:
     case Error::paused:
