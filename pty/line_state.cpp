@@ -43,8 +43,8 @@ void Line::check(const State& state) const {
   require(state.lump.size() < kLump && state.lump.empty() != state.lump_at.has_value() &&
               state.adapter.latency >= SimTime{0} && is_within_reach(state.adapter.latency) &&
               is_within_reach(state.lump_at.value_or(SimTime{0})),
-          "its adapter cannot hold back that");
-  require(is_within_reach(state.edge.clock), "its clock is beyond the end of time");
+          "its adapter cannot hold that back");
+  require(is_within_reach(state.edge.clock), "its clock is after the end of simulated time");
 }
 
 void Line::restore(const State& state) {

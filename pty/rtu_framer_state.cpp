@@ -10,7 +10,7 @@ namespace understudy::pty {
 
 void RtuFramer::check(const State& state) const {
   const auto require = [](bool holds) {
-    if (!holds) throw std::invalid_argument("a framer cannot hold such characters");
+    if (!holds) throw std::invalid_argument("a framer cannot contain these characters");
   };
   constexpr std::uint16_t kShortest = 4;
   const std::size_t used = state.characters.size();

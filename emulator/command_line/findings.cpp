@@ -23,10 +23,10 @@ struct FindingRule {
   std::string_view doc;
 };
 constexpr FindingRule kFindingRules[] = {
-    {"bench", "A bench file says what cannot be."},
-    {"scenario", "A scenario file says what cannot be."},
-    {"steps", "A file of steps to include says what cannot be."},
-    {"program", "A program's text is not one that its model takes."},
+    {"bench", "A bench file asks for something impossible."},
+    {"scenario", "A scenario file asks for something impossible."},
+    {"steps", "An included file of steps asks for something impossible."},
+    {"program", "The model does not accept the text of a program."},
     {"file", "The file cannot be read, or is not one of ours."},
 };
 

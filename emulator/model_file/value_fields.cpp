@@ -141,8 +141,8 @@ void read_momentary(const YamlFields& field, Description& made, const Binder& bi
       const ListedRegister& listed = made.registers[spot.number];
       if (!spot.is_whole() || is_32_bit(listed.type) || listed.access == Access::read)
         element.fail(understudy::quoted(element.text()) +
-                     " cannot be one; expected a register of 16 bits, or a coil, "
-                     "that hosts write");
+                     " cannot be momentary; expected a 16-bit register or a coil "
+                     "that hosts can write");
       made.momentary.push_back(spot.number);
     });
   }

@@ -142,7 +142,7 @@ void check_fault_value(const World& world, const Fault& fault) {
                 "a fault has no place");
   require_state(!is_done_at_once(fault.kind) || waits(fault), "a push lasts");
   for (const Tick ticks : {fault.over_ticks, fault.period_ticks}) {
-    require_state(ticks >= 0 && ticks <= tick_at(kForever), "a fault lasts beyond the end of time");
+    require_state(ticks >= 0 && ticks <= tick_at(kForever), "a fault lasts beyond the end of simulated time");
   }
   require_state(find_fault(world.known(), fault_text(world.known(), fault)) == fault,
                 "a fault contradicts itself");
@@ -170,7 +170,7 @@ WorldValues read_values(const World& world, StateReader& reader) {
   check_faults(world, values);
   check_turns(world, values);
   const SimTime now = std::get<kNow>(values);
-  require_state(now >= SimTime{0} && now <= kHorizon, "its time is beyond the end of time");
+  require_state(now >= SimTime{0} && now <= kHorizon, "its time is after the end of simulated time");
   require_state(std::get<kDone>(values) == tick_at(now), "its ticks are not those of its time");
   return values;
 }

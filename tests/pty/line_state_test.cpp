@@ -225,7 +225,8 @@ TEST(LineState, WhatNoLineCanBeIsRefusedAndChangesNothing) {
   refused("its characters take no time", [](Line::State& s) { s.arriving.count = 19'200; });
   refused("its characters take no time", [](Line::State& s) { s.members[1].speech.count = -1; });
   refused("its characters take no time", [](Line::State& s) { s.members[0].noticed_at = SimTime::min(); });
-  refused("its clock is beyond the end of time", [](Line::State& s) { s.edge.clock = SimTime::max(); });
+  refused("its clock is after the end of simulated time",
+          [](Line::State& s) { s.edge.clock = SimTime::max(); });
 }
 
 void lengthen(RtuFramer::State& state, std::size_t size) {

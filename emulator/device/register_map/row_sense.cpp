@@ -85,7 +85,7 @@ void validate_acts(const RegisterRow& row, const Require& require) {
   require((row.varies == Varies::with_time) == (row.next_change != nullptr),
           "changes with time, and does not say at which ticks, or says so and does not change");
   require(!row.is_view || !can_be_written || row.effect != nullptr || row.message != nullptr,
-          "is a view that can be written, and nothing takes what is written");
+          "is a view that can be written, but nothing handles the write");
   if (row.message == nullptr) return;
   require(row.table == Table::holding && row.type == Type::u16 && row.stride == 1 && row.least_words >= 1 &&
               row.least_words <= row.count,

@@ -27,14 +27,17 @@ namespace {
 constexpr std::array<Firmware, 2> kFirmwares{200, 300};
 
 constexpr std::string_view kGaps[] = {
-    ("Noise filters below 1.024 ms do not delay, or by choice a tick: a bench's inputs change at ticks, a "
-     "machine's edges lie at pulses."),
-    "Pulses at OUT_X and OUT_Y below 1 ms are counted, and have no length: levels are those of ticks.",
-    "The pulse modes of SET_PULSE_MODE are names (`rsm.pulse_format`): no levels on the pulse terminals.",
-    ("A helix of more than 159,154 turns, or that rises by more than 1,000,000,000,000 pulses, is void, with "
-     "the module's error (RINT bit 7)."),
-    "What is spoken at the switch's position Init is not documented: the box is deaf there.",
-    "The IP settings from holding 20 on store, and do nothing.",
+    ("Noise filters below 1.024 ms cause no delay or, by choice (`filter_delay`), a delay of one tick, "
+     "because inputs that a bench sets change at ticks, and the machine's edges are at pulses."),
+    ("Pulses below 1 ms at OUT_X and OUT_Y are counted but have no length, because levels exist only "
+     "at ticks."),
+    ("The pulse modes of SET_PULSE_MODE are shown as a number (`rsm.pulse_format`), because the pulse "
+     "terminals have no levels."),
+    ("A helix of more than 159,154 turns, or with a rise of more than 1,000,000,000,000 pulses, is "
+     "void, with the module's error (RINT bit 7)."),
+    ("The manual does not document the communication at the switch position Init, so the box does not "
+     "answer there."),
+    "The IP settings from holding 20 on are stored but have no effect.",
 };
 
 constexpr int kBauds[] = {115200, 57600, 38400, 19200, 9600, 4800, 2400, 1200};

@@ -23,7 +23,7 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
   static void check(const Value& fifo) {
     // How many blocks a command takes is a choice, but each takes at least one.
     require_state(fifo.waiting.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
-                  "the FIFO holds more than it can");
+                  "the FIFO exceeds its capacity");
     for (const auto& command : fifo.waiting) {
       const bool waits = interpreter::rs_m8194h::find_code(command.code) != nullptr &&
                          !command.is_macro_line() &&

@@ -28,10 +28,11 @@ namespace {
 constexpr std::array<Firmware, 7> kFirmwares{139, 140, 141, 142, 150, 151, 152};
 
 constexpr std::array<std::string_view, 2> kGaps{
-    "PWM is its duty (`feeder.A.pwm`) and the pulses' form its name (`feeder.pulse_format`): no levels on "
-    "the "
-    "pulse terminals. A duty does not move a machine.",
-    "An encoder's edges are counts: the lines A and B are not terminals.",
+    ("PWM is modelled as its duty (`feeder.A.pwm`), and the form of the pulses as a number "
+     "(`feeder.pulse_format`), because the pulse terminals have no levels. A duty does not move a "
+     "machine."),
+    ("The lines A and B of an encoder are not terminals: the encoder is modelled as a count of its "
+     "edges."),
 };
 
 constexpr std::array<int, 2> kBauds{19200, 115200};  // DIP1 off, on

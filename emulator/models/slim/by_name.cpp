@@ -87,7 +87,7 @@ std::optional<std::string> assign_by_name(State& state, const Setup& setup, cons
       }
       return "is not a parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
     case Error::range: return "is out of range";
-    case Error::not_linked: return "is of a module that is not linked; expected one of those in PN50";
+    case Error::not_linked: return "belongs to a module that is not linked; expected one of those in PN50";
     case Error::not_allowed:
     case Error::axis:
     case Error::paused:

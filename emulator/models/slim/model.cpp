@@ -122,15 +122,16 @@ std::vector<NamedParameterRow> parameter_rows() {
 constexpr std::array<std::string_view, 5> kStateNames{"ST", "MD", "PE", "ERR", "TM"};
 
 constexpr std::array<std::string_view, 5> kGaps{
-    "?AC and ?TEMP always show the same, 24 and 25 or what a bench has chosen, ?IMX and ?IC 0: nothing "
-    "electrical is modelled. ?VER and ?MT are of no version in particular.",
-    "The servo's own loop has no error: ?FLE shows 0, and EL and LL are stored without effect.",
-    "FT pushes against something that does not give way, and TpSYN and one of PN44 to PN46 are stored "
-    "without effect.",
-    "PWM is in whole milliseconds, and above 500 Hz the level that prevails stays.",
-    "Moves that a real chain would make wrongly, with PR2 or PR3 unequal, are refused instead; where PR3 of "
-    "one "
-    "module changes in motion, the path is kept to all the same.",
+    ("?AC and ?TEMP always show the same values, 24 and 25 or those that a bench has chosen, and ?IMX "
+     "and ?IC show 0, because nothing electrical is modelled. ?VER and ?MT do not belong to a "
+     "particular version."),
+    "The servo loop has no following error: ?FLE shows 0, and EL and LL are stored without effect.",
+    ("FT pushes against something that does not give way. TpSYN and one of PN44 to PN46 are stored "
+     "without effect."),
+    ("PWM has a resolution of whole milliseconds. Above 500 Hz, the output stays at the prevailing "
+     "level."),
+    ("If PR2 or PR3 of its modules differ, a real chain would make a move wrongly; here the move is "
+     "refused. If PR3 of one module changes in motion, the path stays the same."),
 };
 
 }  // namespace

@@ -26,14 +26,14 @@ namespace {
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
 constexpr std::array<std::string_view, 4> kGaps{
-    "Comparators meet COUNTER1 to the pulse, four of them at once and the soft limits beside them; a fifth, "
-    "and "
-    "those of other numbers, stop an axis when the tick is over.",
-    "Behind the hand-wheel an axis goes by what it has turned in a tick: out and back within one is nothing.",
-    "The chip's CSTA, CSTP, PCS, SD and DR are not brought out, nor are, but for the choice `pins_fitted`, "
-    "its ERC, CLR and LTC.",
-    "The user table and the direct command of D8020, which the manual leaves unfinished, are plain storage "
-    "but for the choice `user_table`.",
+    ("Comparators work to the pulse with COUNTER1: four of them at once, in addition to the soft "
+     "limits. A fifth one, and comparators with other counters, stop an axis at the end of the tick."),
+    ("An axis that follows the hand wheel moves by the sum of its counts in a tick, so turning it back "
+     "and forth within a tick has no effect."),
+    ("The chip's signals CSTA, CSTP, PCS, SD and DR are not modelled. Its ERC, CLR and LTC are "
+     "modelled only with the choice `pins_fitted`."),
+    ("The user table and the direct command of D8020, which the manual leaves unfinished, are plain "
+     "storage unless a bench sets the choice `user_table`."),
 };
 
 constexpr std::array<int, 1> kBauds{19200};

@@ -71,7 +71,7 @@ void StateOf<State>::check(const State& state) {
   require_within(state.flash_until, 0, kNever);
   for (const Tick tick : state.erc_until) require_within(tick, 0, kNever);
   const std::size_t parameters = state.parameters_in_force.size();
-  require_state(parameters == 0 || parameters == kParameterCount, "not as many parameters as there are");
+  require_state(parameters == 0 || parameters == kParameterCount, "the number of parameters is wrong");
   const std::size_t words = state.table.words.size();
   require_state(words % kWordsOfATableLine == 0 && words <= std::size_t{kTableLines} * kWordsOfATableLine,
                 "no lines of the user table");

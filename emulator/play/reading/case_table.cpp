@@ -53,7 +53,7 @@ void CaseTable::add_values(const world::YamlFields& row, std::vector<std::string
   for (const auto& [name, value] : row.entries()) {
     const bool is_known = std::find(known.begin(), known.end(), name) != known.end();
     if (!is_known && rows_.size() > 1) {
-      value.fail("is neither a parameter nor in the first case" + suggestion(name, known));
+      value.fail("is neither a parameter nor a name of the first case" + suggestion(name, known));
     }
     if (!is_known) known.push_back(name);
     rows_.back().values.emplace_back(name, value.text());

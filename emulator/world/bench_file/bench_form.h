@@ -94,8 +94,8 @@ inline constexpr Key kContactKey{"contact", "What its contact does when on: clos
                                  &kContactSchema};
 inline constexpr std::array kHomeKeys{
     Key{"at", "The first position where the switch is on.", &kPositionSchema, true},
-    Key{"width", "For how many positions it is on.", &kWidthSchema, true}, kHysteresisKey, kContactKey,
-    Key{"input", "The input that it is wired to; by default the controller's own.", &kText}};
+    Key{"width", "The number of positions for which it is on.", &kWidthSchema, true}, kHysteresisKey,
+    kContactKey, Key{"input", "The input that it is wired to; by default the controller's own.", &kText}};
 inline constexpr std::array kLimitKeys{
     Key{"lower", "The lower switch is on there and below.", &kPositionSchema},
     Key{"upper", "The upper switch is on there and above.", &kPositionSchema},
@@ -105,7 +105,7 @@ inline constexpr std::array kLimitKeys{
     Key{"upper_input", "The input that the upper one is wired to; by default the controller's own.", &kText}};
 inline constexpr std::array kIndexKeys{
     Key{"at", "The first position of one (0).", &kPositionSchema},
-    Key{"width", "For how many positions it is on (1).", &kWidthSchema},
+    Key{"width", "The number of positions for which it is on (1).", &kWidthSchema},
     Key{"period", "The distance from one to the next (default: a revolution of the motor).", &kWidthSchema},
     Key{"input", "The input that it is wired to; by default the controller's own.", &kText}};
 inline constexpr Schema kIndexSchema = keys_schema(kIndexKeys);

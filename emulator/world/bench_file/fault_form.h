@@ -40,11 +40,11 @@ inline constexpr std::array kFaultKeys{
     Key{"hang_up", "Over TCP, the connection closes in the middle of replies.", &kDeviceOrLineName},
     // Their fields.
     Key{"one_in", "lost_steps: one pulse in this many is lost.", &kText},
-    Key{"pulses", "slip: how far.", &kText},
+    Key{"pulses", "slip: how many pulses.", &kText},
     Key{"level", "stuck: on or off.", &kText},
     Key{"counts", "turn: how far; encoder_noise: this many too many.", &kText},
     Key{"in", "turn: how long it takes; by default at once.", &kText},
-    Key{"period", "encoder_noise: too few for the second half of it.", &kText},
+    Key{"period", "encoder_noise: in the second half, the count is too low.", &kText},
     Key{"by", "slow, delay: how late; split: how much later the rest arrives; lumps: the interval.", &kText},
     Key{"code", "exception: which.", &kText},
     Key{"keep", "truncate, split, hang_up: how many bytes arrive (first).", &kText},

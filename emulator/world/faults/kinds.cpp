@@ -82,8 +82,8 @@ constexpr std::array<FaultKindRow, 26> kKinds{{
     {"noise", Kind::noise, Where::device_or_line, kNoise, "noise around it"},
     {"collision", Kind::collision, Where::device_or_line, kCollision, "somebody else talked"},
     {"split", Kind::split, Where::device_or_line, kSplit, "said in two pieces"},
-    {"wrong_transaction", Kind::wrong_transaction, Where::device_or_line, {}, "wrong transaction by TCP"},
-    {"wrong_unit", Kind::wrong_unit, Where::device_or_line, {}, "wrong unit by TCP"},
+    {"wrong_transaction", Kind::wrong_transaction, Where::device_or_line, {}, "wrong transaction over TCP"},
+    {"wrong_unit", Kind::wrong_unit, Where::device_or_line, {}, "wrong unit over TCP"},
     {"hang_up", Kind::hang_up, Where::device_or_line, kHangUp, "the connection ends"},
 }};
 

@@ -181,7 +181,8 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"shows: { STATUS.1: SPEED > 5, SWITCH: STATUS > 0 }\n", 1, 39,
        "shows.SWITCH: compares a register that shows a relation itself; expected registers without one"},
       {"momentary: [ STATUS ]\n", 1, 14,
-       "momentary[0]: 'STATUS' cannot be one; expected a register of 16 bits, or a coil, that hosts write"},
+       "momentary[0]: 'STATUS' cannot be momentary; expected a 16-bit register or a coil that hosts can "
+       "write"},
       {"momentary: [ RUN ]\naxes: { A: { forward: RUN, speed: 5 } }\n", 2, 23,
        "axes.A.forward: 'RUN' is momentary; expected a register that keeps what is written"},
       {"follows: { TEMPERATURE: { of: SPEED } }\naxes: { A: { forward: TEMPERATURE, speed: 5 } }\n", 2, 23,

@@ -258,7 +258,7 @@ class Workbench final : public DeviceOf<Workbench>,
     require_state(restored->image.size() == state.image.size(), "the image has another size");
     restored->kept.eeprom.check_restored(state.kept.eeprom);
     restored->kept.blocks.check_restored(state.kept.blocks);
-    require_state(restored->fifo.size() <= kFifo, "the FIFO holds more than it can");
+    require_state(restored->fifo.size() <= kFifo, "the FIFO exceeds its capacity");
     return [this, restored] { state = *restored; };
   }
   std::string own_difference(StateReader& a, StateReader& b) const override {

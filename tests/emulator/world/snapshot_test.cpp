@@ -345,7 +345,7 @@ TEST(Snapshot, AFaultLastsNoLongerThanTimeIsCounted) {
   const auto place = std::search(bytes.begin(), bytes.end(), wanted.begin(), wanted.end());
   ASSERT_NE(place, bytes.end());
   std::ranges::copy(bytes_of(tick_at(kForever) + 1), place);
-  EXPECT_EQ(refusal_of(world, bad), "world: a fault lasts beyond the end of time");
+  EXPECT_EQ(refusal_of(world, bad), "world: a fault lasts beyond the end of simulated time");
   EXPECT_EQ(save(world), good);
 }
 

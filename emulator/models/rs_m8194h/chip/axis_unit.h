@@ -274,7 +274,7 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
     require_state(unit.out.pulse_until >= -kFar && unit.out.pulse_until <= kFar, "a pulse is too long");
     require_state(unit.encoder_raw >= -kFar && unit.encoder_raw <= kFar && unit.encoder_zero >= -kFar &&
                       unit.encoder_zero <= kFar,
-                  "an encoder is too far");
+                  "an encoder count is too large");
   }
   static constexpr std::int64_t kFar = std::int64_t{1} << 56;
 };

@@ -193,7 +193,7 @@ struct StateOf<emulator::models::rs_m8194h::HomeSettings> {
                                            field<&Value::steps>(), field<&Value::offset_pulses>()};
   static void check(const Value& value) {
     constexpr std::uint32_t kMaxOffset = 2'000'000'000;
-    require_state(value.offset_pulses <= kMaxOffset, "an offset of homing is too far");
+    require_state(value.offset_pulses <= kMaxOffset, "a homing offset is too large");
   }
 };
 

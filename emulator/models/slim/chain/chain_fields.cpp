@@ -60,7 +60,7 @@ void StateOf<Fifo<Job, kFifoLength>>::write(const Fifo<Job, kFifoLength>& fifo, 
 void StateOf<Fifo<Job, kFifoLength>>::read(Fifo<Job, kFifoLength>& fifo, StateReader& reader) {
   std::uint8_t count = 0;
   reader.read(count);
-  require_state(count <= fifo.capacity(), "a FIFO holds more than it can");
+  require_state(count <= fifo.capacity(), "a FIFO exceeds its capacity");
   fifo.truncate(0);
   for (Job job; count > 0; --count) {
     reader.read(job);
@@ -145,7 +145,7 @@ void StateOf<ChainState>::check(const ChainState& chain) {
     }
     const bool in_group = modules[static_cast<std::size_t>(module)].activity == Activity::group;
     require_state(in_group == (chain.group_of(module) != nullptr),
-                  "a module is in no group, or in one unawares");
+                  "a module's activity does not match its group");
   }
   for (const Group& group : groups) {
     if (!group.motion.engaged) continue;

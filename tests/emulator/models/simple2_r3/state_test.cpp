@@ -125,7 +125,7 @@ TEST(Simple2State, BytesThatAreNoStateAreRefusedAndChangeNothing) {
   refused("a number is beyond its range", [](Saved& s) { s[kPower + 8] = std::byte{0x80}; });  // the tick
   EXPECT_EQ(state[kImage + 4], std::byte{0x01});
   EXPECT_EQ(state[kImage + 5], std::byte{0xC0});
-  refused("MAIN_LINE0_CMD holds what it cannot", [](Saved& s) {
+  refused("MAIN_LINE0_CMD holds a value that is not possible", [](Saved& s) {
     // A program cell holds 8 bits; it is the first slot of the image that holds less than its type.
     s[kImage + 4 * slot("MAIN_LINE{}_CMD") + 1] = std::byte{1};
   });

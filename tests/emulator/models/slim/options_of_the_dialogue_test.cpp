@@ -174,7 +174,7 @@ TEST(SlimDialogueOptions, AModuleThatIsNotLinked) {
   EXPECT_EQ(prompted.next(), ">0");
   // Past the line somebody is there to be told.
   EXPECT_TRUE(silent.device().named_values()->assign("T2VM", 5).value_or("").starts_with(
-      "is of a module that is not linked"));
+      "belongs to a module that is not linked"));
 }
 
 TEST(SlimDialogueOptions, IntegerRange) {

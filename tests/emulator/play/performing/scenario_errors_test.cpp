@@ -112,7 +112,7 @@ TEST_F(ScenarioErrors, ParametersAndCases) {
       {with("cases: [ { a: 1 } ]"),
        "3: cases[0].a: 'a' is not used; expected ${a} somewhere in the scenario  (a=1)"},
       {with("cases: [ { a: 1 }, { b: 1 } ]\n" + used),
-       "3: cases[1].b: is neither a parameter nor in the first case; expected 'a'"},
+       "3: cases[1].b: is neither a parameter nor a name of the first case; expected 'a'"},
       {with("cases: [ { a: 1, b: 2 }, { a: 2 } ]\nname: ${a}${b}"),
        "4: name: column 1 of 'b': no parameter is called 'b'; expected 'a'  (a=2)"},
       {with("cases: [ { a: 1 }, { a: 1 } ]\n" + used),

@@ -139,7 +139,8 @@ TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
       {of_choice("{ loop_count: [ passes ] }\ncases: [ { speed: 1 } ]"),
        "3: choice: stands beside `cases`; expected one of them"},
       {of_choice("{ loop_count: { passes: { speed: 1 }, further_passes: { sped: 1 } } }"),
-       "3: choice.loop_count.further_passes.sped: is neither a parameter nor in the first case; the nearest "
+       "3: choice.loop_count.further_passes.sped: is neither a parameter nor a name of the first case; the "
+       "nearest "
        "is "
        "'speed'"},
   };

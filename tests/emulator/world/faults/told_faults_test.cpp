@@ -66,8 +66,8 @@ const std::vector<Told>& cells() {
       {"split feeder keep=7 by=20ms", {kAsked, kSaid + "  # fault 1 split: said in two pieces"}},
       // On its way from a gateway; on the wire it stays what it is.
       {"wrong_transaction feeder",
-       {kAsked, kSaid + "  # fault 1 wrong_transaction: wrong transaction by TCP"}},
-      {"wrong_unit rs485", {kAsked, kSaid + "  # fault 1 wrong_unit: wrong unit by TCP"}},
+       {kAsked, kSaid + "  # fault 1 wrong_transaction: wrong transaction over TCP"}},
+      {"wrong_unit rs485", {kAsked, kSaid + "  # fault 1 wrong_unit: wrong unit over TCP"}},
       {"hang_up feeder keep=3", {kAsked, kSaid + "  # fault 1 hang_up: the connection ends"}},
       // On the adapter, struck by a request.
       {"echo rs485 nth=1", {kAsked, "in  L  # fault 1 echo: begins", kSaid}},
