@@ -11,11 +11,11 @@
 #include "base/simulated_time.h"
 #include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
-#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/stateful_device.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/model.h"
@@ -43,7 +43,7 @@ std::uint32_t resolution_of(const State& state, int axis) {
 }
 
 Simple2R3::Simple2R3(const DeviceSettings& given)
-    : DeviceOf(simple2_r3::model(), given),
+    : StatefulDevice(simple2_r3::model(), given),
       RegisterBankOf(*this, *simple2_r3::model().registers, given.firmware),
       KeptMemory(simple2_r3::model().name, given.firmware) {
   dialect_ = dialect_of(*this);
@@ -347,11 +347,6 @@ void Simple2R3::prefetch(Tick tick) const {
   understudy::prefetch(&state_.image[slot("PROG_VAR{}")], 32 * sizeof(std::uint32_t));
   prefetch_line(&state_.image[slot("Counter1_Value")]);
   prefetch_line(&state_.program);
-}
-
-bool Simple2R3::same_state(const Device& other) const {
-  const auto* that = dynamic_cast<const Simple2R3*>(&other);
-  return that != nullptr && that->now() == now() && that->state_ == state_;
 }
 
 bool Simple2R3::output(int terminal) const {

@@ -8,11 +8,11 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
-#include "emulator/device/device_of.h"
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/stateful_device.h"
 #include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
@@ -118,7 +118,7 @@ struct alignas(64) State {
 /// register alone, so the register can hold anything.
 std::uint32_t resolution_of(const State& state, int axis);
 
-class Simple2R3 final : public DeviceOf<Simple2R3>,
+class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
                         public RegisterBankOf<Simple2R3>,
                         public ModbusStation,
                         public KeptMemory,
@@ -160,7 +160,6 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
                        std::span<std::int64_t> pulses) override;
   void prefetch(Tick tick) const override;
-  bool same_state(const Device& other) const override;
 
   bool output(int terminal) const override;
   bool output_moves(int /*terminal*/) const override {
@@ -241,9 +240,7 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
  protected:
   void power_up() override;
   void power_down() override;
-  void write_own_state(StateWriter& writer) const override;
-  std::function<void()> read_own_state(StateReader& reader) override;
-  std::string own_difference(StateReader& a, StateReader& b) const override;
+  void check_restored(State& restored) const override;
   std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& image) override;
 
@@ -344,7 +341,6 @@ class Simple2R3 final : public DeviceOf<Simple2R3>,
   MapPolicy map_policy_;
   // within one request: whether the EEPROM was being written when the request came
   std::optional<bool> was_saving_;
-  State state_;
 };
 
 }  // namespace understudy::emulator::models::simple2_r3

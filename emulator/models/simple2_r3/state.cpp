@@ -2,15 +2,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <string>
 
-#include "base/state/difference.h"
-#include "base/state/state_bytes.h"
 #include "base/state/state_error.h"
 #include "emulator/device/memory/register_memory.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/stateful_device_bytes.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
@@ -86,18 +83,12 @@ void StateOf<State>::check(const State& state) {
 
 namespace understudy::emulator::models::simple2_r3 {
 
-void Simple2R3::write_own_state(StateWriter& writer) const { writer.write(state_); }
-
-std::function<void()> Simple2R3::read_own_state(StateReader& reader) {
-  const auto restored = std::make_shared<State>();
-  reader.read(*restored);
-  restored->eeprom.check_restored(state_.eeprom);
-  check_restored_registers(*this, restored->image, restored->eeprom.kept());
-  return [this, restored] { state_ = *restored; };
-}
-
-std::string Simple2R3::own_difference(StateReader& a, StateReader& b) const {
-  return difference_of_saved<State>(a, b);
+void Simple2R3::check_restored(State& restored) const {
+  restored.eeprom.check_restored(state_.eeprom);
+  check_restored_registers(*this, restored.image, restored.eeprom.kept());
 }
 
 }  // namespace understudy::emulator::models::simple2_r3
+
+template class understudy::emulator::StatefulDevice<understudy::emulator::models::simple2_r3::Simple2R3,
+                                                    understudy::emulator::models::simple2_r3::State>;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 
 #include "emulator/device/device.h"
 #include "emulator/models/slim/memory.h"
@@ -88,12 +87,6 @@ Setup::Setup(const Device& of)
       modules(std::max(of.settings().modules, 1)),
       options(options_of(of)),
       flow(flow_options(options)) {}
-
-std::uint8_t Setup::input_levels(int module) const {
-  unsigned levels = 0;
-  for (int i = 0; i < kInputs; ++i) levels |= (level(module, i) ? 1U : 0U) << i;
-  return static_cast<std::uint8_t>(levels);
-}
 
 MemoryForm Setup::memory_form() const {
   return {.speed_names = chose(option("speed_parameters", "pn14_is_vm")) ? SpeedNames::pn14_is_vm

@@ -62,7 +62,11 @@ struct Setup {
   std::int32_t input(int module, int which) const { return device.input(terminal(module, which)); }
   bool level(int module, int which) const { return input(module, which) != 0; }
   /// Returns the levels of a module's inputs now, bit 0 for input 1.
-  std::uint8_t input_levels(int module) const;
+  std::uint8_t input_levels(int module) const {
+    unsigned levels = 0;
+    for (int i = 0; i < kInputs; ++i) levels |= (level(module, i) ? 1U : 0U) << i;
+    return static_cast<std::uint8_t>(levels);
+  }
 
   // ---- Choices that several parts look up
 

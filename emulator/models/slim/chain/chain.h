@@ -165,7 +165,10 @@ class Chain {
   }
   double speed_pps(int module) const;  // signed
   std::int64_t pulses_to_come(int module) const;
-  bool output(int module, int number) const;  // level after the last tick
+  /// Returns the level after the last tick. It is asked at every tick, so the compiler should see it.
+  bool output(int module, int number) const {
+    return state_.modules[at(module)].outputs[at(number - 1)].level_at(state_.now);
+  }
   /// Returns the error for which a queued command was dropped when its turn came, and resets it to none.
   Error take_late_error(int module);
   int groups_running() const;

@@ -90,8 +90,4 @@ Error Chain::arm(int module, int trigger, int output, bool sets, double at_units
                          .at_units = at_units});
 }
 
-bool Chain::output(int module, int number) const {
-  return module_at(module).outputs[index_of(number)].level_at(state_.now);
-}
-
 }  // namespace understudy::emulator::models::slim
