@@ -38,7 +38,7 @@ bool is_time(Number number) {
   return number == Number::acceleration_time || number == Number::deceleration_time;
 }
 
-/// "10", "25/4"
+/// Reads "10" or "25/4".
 motion::UnitScale read_scale(const YamlFields& field) {
   const std::string text = field.text();
   const std::size_t slash = text.find('/');
@@ -76,7 +76,7 @@ int read_input(const YamlFields& field, const Description& description) {
              suggestion(field.text(), names, "`inputs` of the model has none"));
 }
 
-/// What one key needs beside it.
+/// A key that another key needs beside it.
 struct Need {
   std::string_view key;
   std::string_view needed;
@@ -92,10 +92,10 @@ constexpr std::array<Need, 10> kNeeds{{{"start", "target"},
                                        {"target", "start"},
                                        {"distance", "start_relative"},
                                        {"while_disabled", "enable"}}};
-/// What excludes each other.
+/// These keys exclude each other.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kEither{
     {{"acceleration_time", "acceleration"}, {"deceleration_time", "deceleration"}}};
-/// What is of no use without an input.
+/// These keys are of no use without an input.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kInputNeeds{
     {{"home", "home"},
      {"alarm", "alarm"},

@@ -19,7 +19,7 @@ std::string without_blanks(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin));
 }
 
-/// What is not in a heading's words.
+/// Returns the first separator in the heading, whose words contain none.
 char separator_of(std::string_view heading) {
   for (const char separator : {',', ';', '\t'}) {
     if (heading.find(separator) != std::string_view::npos) return separator;
@@ -96,7 +96,7 @@ class CsvReader {
                     "registers: " + quoted(more) + " follows a quoted cell; expected a separator");
   }
 
-  /// Two quotes in it are one.
+  /// Reads a quoted field. Two quotes in it stand for one.
   std::string read_quoted(int column) {
     const int line = line_;
     std::string text;

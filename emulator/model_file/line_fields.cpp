@@ -41,7 +41,7 @@ std::uint8_t read_function(const YamlFields& field) {
   field.fail(std::to_string(code) + " is not a function that can be served; expected one of " + known);
 }
 
-/// How many registers or bits a request may ask for, by its function.
+/// Reads how many registers or bits a request may ask for, by its function.
 void read_limits(const YamlFields& field, Line& line) {
   field.require_map();
   for (const auto& [code, most] : field.entries()) {

@@ -151,7 +151,7 @@ std::string name_of(const ListRow& row) {
   return name;
 }
 
-/// A list may say the same twice, but not two things.
+/// Requires that columns agree. A list may say the same thing twice, but not two different things.
 void require_agreement(const ListRow& row, Type type) {
   const auto require = [&](Column column, bool agrees) {
     if (!row.has(column) || agrees) return;
@@ -209,7 +209,7 @@ Access access_of(const ListRow& row, Table table) {
   return *access;
 }
 
-/// "0..3000", "-5 to 5", "0-100": its two ends, as they stand there.
+/// Returns the two ends of "0..3000", "-5 to 5" or "0-100", as they are written.
 std::optional<std::pair<std::string, std::string>> ends_of(const std::string& range) {
   const auto trim = [](std::string text) {
     text.erase(0, std::min(text.find_first_not_of(' '), text.size()));

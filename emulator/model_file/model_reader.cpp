@@ -40,7 +40,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The list, and where it stands.
+/// The text of the list, and its place.
 struct ReadList {
   std::string text;
   ListPlace place;
@@ -57,7 +57,7 @@ ReadList read_list(const YamlFields& field, bool may_read, std::vector<FileClaim
   return {*std::move(text), {.file = path}};
 }
 
-/// What was written, as JSON, which is YAML as well; with the list in the place of its path.
+/// Returns the description as JSON, which is also YAML, with the list in place of its path.
 Json json_of(const YamlFields& fields, const std::string& list, bool is_root) {
   if (fields.is_scalar()) return fields.text();
   if (fields.is_list()) {
@@ -72,7 +72,7 @@ Json json_of(const YamlFields& fields, const std::string& list, bool is_root) {
   return made;
 }
 
-/// On one line, with its end: several lines tell a text from a path.
+/// Returns the description on one line with a line end, which distinguishes a text from a path.
 std::string whole_text(const YamlFields& root, const std::string& list) {
   const bool has_lines = list.find('\n') != std::string::npos;
   return json_of(root, has_lines ? list : list + "\n", true)
@@ -107,7 +107,7 @@ void read_bits(const YamlFields& field, Description& made, Diagnostics& diagnost
   }
 }
 
-/// Of registers that have been found good one by one.
+/// Returns a map of registers that were each found valid.
 std::unique_ptr<RegisterMap> plain_map(const Description& made, std::vector<std::vector<BitField>>& fields,
                                        const YamlFields& list) {
   try {
@@ -163,7 +163,7 @@ class ModelReader {
     if (const auto title = root_.find("title")) made_.title = one_line(title->text());
   }
 
-  /// What names registers: each is found in the list, or reported.
+  /// Reads the keys that name registers. Each register is found in the list, or reported.
   void read_bindings() {
     std::vector<std::vector<BitField>> fields;
     const auto map = plain_map(made_, fields, root_.at("registers"));

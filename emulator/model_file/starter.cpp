@@ -19,7 +19,7 @@ using models::imported::ListedRegister;
 
 namespace {
 
-/// A key of an axis, and the words by which makers call such registers.
+/// A key of an axis, and the words that makers use for such registers.
 struct Guess {
   std::string_view key;
   bool is_written = true;  // by hosts
@@ -81,7 +81,7 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-/// As a scalar of YAML, whatever is in it.
+/// Returns any text as a scalar of YAML.
 std::string quoted_yaml(const std::string& text) {
   const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
