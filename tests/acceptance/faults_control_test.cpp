@@ -156,7 +156,7 @@ TEST(ControlPower, ThatIsWrongIsRefusedWithOneLine) {
                  "power: to: 'down' is unknown; expected on, off or cycle");
   expect_refused(*daemon, {"power", "feedr", "off"},
                  "power: no device is called 'feedr'; the nearest is 'feeder'");
-  expect_refused(*daemon, {"power", "off"}, "power: no device is called ''; expected one of feeder, turner");
+  expect_refused(*daemon, {"power", "off"}, "power: the device is missing; expected one of feeder, turner");
   EXPECT_EQ(obeyed(*daemon, {"get", "feeder.HW_Code"}), "feeder.HW_Code 49153\n");
 }
 

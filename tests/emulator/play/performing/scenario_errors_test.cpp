@@ -40,7 +40,7 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
        "1: scenario: the file is not a map; expected `understudy: 1`, `bench:` and `steps:`"},
       {"bench: feeder.yaml\nsteps: [ say: x ]\n", "1: scenario: 'understudy' is missing; expected it here"},
       {"understudy: 2\nbench: feeder.yaml\nsteps: [ say: x ]\n",
-       "1: understudy: '2' is not possible; expected a whole number from 1 to 1"},
+       "1: understudy: '2' is not possible; expected 1"},
       {"understudy: 1\nsteps: [ advance: 1ms ]\n", "1: scenario: 'bench' is missing; expected it here"},
       {"understudy: 1\nbench: feeder.yaml\n", "1: scenario: 'steps' is missing; expected it here"},
       {"understudy: 1\nbench: feeder.yaml\nsteps: []\n", "3: steps: is empty; expected at least one step"},

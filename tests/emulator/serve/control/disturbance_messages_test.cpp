@@ -245,8 +245,8 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
 
       {R"({"do":"power"})", "'to' is missing"},
       {R"({"do":"power","device":"feeder"})", "'to' is missing"},
-      {R"({"do":"power","to":"off"})", "no device is called ''; expected one of feeder, turner"},
-      {R"({"do":"power","device":"","to":"off"})", "no device is called ''; expected one of feeder, turner"},
+      {R"({"do":"power","to":"off"})", "the device is missing; expected one of feeder, turner"},
+      {R"({"do":"power","device":"","to":"off"})", "the device is missing; expected one of feeder, turner"},
       {power("feedr", "off"), "no device is called 'feedr'; the nearest is 'feeder'"},
       {power("feeder", "down"), "to: 'down' is unknown; expected on, off or cycle"},
       {power("feeder", ""), "to: '' is unknown; expected on, off or cycle"},
@@ -254,7 +254,7 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
       {R"({"do":"power","device":"feeder","to":false})", "to: false is not a text; expected one"},
       {R"({"do":"power","device":"feeder","to":"off","at":1})", "'at' is not a key of this message"},
 
-      {R"({"do":"program"})", "no device is called ''; expected one of feeder, turner"},
+      {R"({"do":"program"})", "the device is missing; expected one of feeder, turner"},
       {R"({"do":"program","device":"feeder","text":1})", "text: 1 is not a text; expected one"},
       {R"({"do":"program","device":"feeder","text":null})", "text: null is not a text; expected one"},
       {R"({"do":"program","device":"feeder","file":"x"})", "'file' is not a key of this message"},

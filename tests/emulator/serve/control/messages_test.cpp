@@ -268,7 +268,7 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
       {R"({"do":"eval"})", "'expression' is missing"},
       {R"({"do":"frames","since":1,"last":1})", "since: is given together with last; expected one of them"},
       {R"({"do":"frames","since":-1})", "since: -1 is not a whole number; expected one of 0 or more"},
-      {set(R"({"":1})"), "no device is called ''"},
+      {set(R"({"":1})"), "the device is missing"},
       {set(R"({"feeder.":1})"), "feeder: no register is called ''"},
       {set(R"({"feeder.Aaxis_Sped":1})"),
        "feeder: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'"},

@@ -69,7 +69,7 @@ plant:
 wires: [ x.DOUT_1 -> z.DIN_1, x.DOUT_1 -> y.DIN_99, x.DOUT_99 -> x.DIN_1 ]
 seed: -1
 )"),
-            R"(bench.yaml:1: understudy: '2' is not possible; expected a whole number from 1 to 1
+            R"(bench.yaml:1: understudy: '2' is not possible; expected 1
 bench.yaml:4: lines.a.bud: is not a key here; expected one of link, listen, pty, baud, baud_tolerance, byte_timeout, timing, echo, stations (the nearest is 'baud')
 bench.yaml:5: lines.a.baud: 'fast' is not possible; expected a whole number from 1 to 4000000
 bench.yaml:6: lines.a.link: 'tcp://:1502' is a network address; expected a path for a pseudo-terminal (`listen` has addresses)

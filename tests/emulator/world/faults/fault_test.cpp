@@ -230,7 +230,7 @@ TEST(FaultText, IsRefusedWithOneLineThatSaysWhy) {
            {"stall feeder.DIN_1", "no axis of feeder is called 'DIN_1'; expected one of A, B"},
            {"stall feedr.A", "no device is called 'feedr'; the nearest is 'feeder'"},
            {"stall A", "'A' needs its device in front; expected one of feeder.A, turner.A"},
-           {"stall ", "no device is called ''; expected one of feeder, turner"},
+           {"stall ", "the device is missing; expected one of feeder, turner"},
            {"stall feeder.A one_in=5", "stall: one_in: is not a field here; expected one such as 'nth'"},
            {"alarm feeder.A level=1", "alarm: level: is not a field here; expected one such as 'nth'"},
            {"alarm feeder.A =0", "alarm: : is not a field here; expected one such as 'nth'"},
