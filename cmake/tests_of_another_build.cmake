@@ -48,6 +48,12 @@ function(link_tests_of_another_build target)
   add_dependencies(${target} ${target}_compiled)
   # All of the rooms comes before the tests: what both have compiled (templates, inline functions) is taken from here.
   rooms_of(rooms ${ARGN})
-  list(TRANSFORM rooms REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE files)
+  set(files)
+  foreach(room IN LISTS rooms)
+    get_target_property(type ${room} TYPE)
+    if(NOT type STREQUAL "INTERFACE_LIBRARY")  # a room of headers alone has no file
+      list(APPEND files $<TARGET_FILE:${room}>)
+    endif()
+  endforeach()
   target_link_options(${target} PRIVATE -Wl,--whole-archive ${files} -Wl,--no-whole-archive)
 endfunction()

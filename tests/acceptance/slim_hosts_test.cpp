@@ -119,7 +119,7 @@ TEST(SlimCommandLine, RefusesWhatIsNoChain) {
     Words words;
     const char* told;
   };
-  for (const Case& each : {Case{{"serve", "--model", "slim", "--modules", "9"}, "slim has 1 to 8"},
+  for (const Case& each : {Case{{"serve", "--model", "slim", "--modules", "9"}, "expected 1 to 8"},
                            Case{{"serve", "--model", "slim", "--modules", "0"}, "expected 1 or more"},
                            Case{{"serve", "--modules", "2", "--model", "simple2-r3"}, "expected none"},
                            Case{{"serve", "--model", "slim", "--station", "1"}, "no station number"},
