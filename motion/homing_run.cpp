@@ -64,7 +64,7 @@ void check(const HomingProgram& program) {
     require(is_row(row.if_already) || row.if_already == HomingPhase::kAwait ||
                 (row.if_already == HomingPhase::kNext && row.count == 1),
             "a signal to be counted must be awaited");
-    require(row.direction == +1 || row.direction == -1, "way must be +1 or -1");
+    require(row.direction == +1 || row.direction == -1, "direction must be +1 or -1");
     require(row.count >= 1, "count must be at least 1");
     require(row.distance_pulses >= -kFarthestPlace_pulses && row.distance_pulses <= kFarthestPlace_pulses,
             "distance must be within 2^53 pulses");

@@ -24,6 +24,12 @@ UsageError stray_word(const ControlArguments& arguments, const std::string& word
                     " is not understood; expected " + expected};
 }
 
+UsageError extra_word(const ControlArguments& arguments) {
+  return UsageError{"ctl " + arguments.verb + ": " + understudy::quoted(arguments.operands[1]) +
+                    " is one argument too many; expected nothing after " +
+                    understudy::quoted(arguments.operands[0])};
+}
+
 std::int64_t require_whole(const ControlArguments& arguments, const std::string& word, const char* expected) {
   const auto number = parse_integer(word);
   if (!number || *number < 0) throw stray_word(arguments, word, expected);
@@ -42,7 +48,7 @@ std::optional<KeyedWord> keyed(const std::string& word) {
 }
 
 void add_one_device(const ControlArguments& arguments, Json& message) {
-  if (arguments.operands.size() > 1) throw stray_word(arguments, arguments.operands[1], "one device");
+  if (arguments.operands.size() > 1) throw extra_word(arguments);
   if (!arguments.operands.empty()) message["device"] = arguments.operands[0];
 }
 
@@ -154,13 +160,13 @@ bool add_look_words(const ControlArguments& arguments, Json& message) {
   } else if (verb == "registers") {
     add_page_words(arguments, message);
   } else if (verb == "events") {
-    if (arguments.operands.size() > 1) throw stray_word(arguments, arguments.operands[1], "how many");
+    if (arguments.operands.size() > 1) throw extra_word(arguments);
     if (!arguments.operands.empty())
-      message["last"] = require_whole(arguments, arguments.operands[0], "how many");
+      message["last"] = require_whole(arguments, arguments.operands[0], "a number of events, such as 10");
   } else if (verb == "step") {
-    if (arguments.operands.size() > 1) throw stray_word(arguments, arguments.operands[1], "how many ticks");
+    if (arguments.operands.size() > 1) throw extra_word(arguments);
     if (!arguments.operands.empty())
-      message["ticks"] = require_whole(arguments, arguments.operands[0], "how many ticks");
+      message["ticks"] = require_whole(arguments, arguments.operands[0], "a number of ticks, such as 10");
   } else if (verb == "speed") {
     if (arguments.operands.size() != 1)
       throw UsageError("ctl speed: expected real, free, manual or a factor");

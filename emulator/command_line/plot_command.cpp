@@ -36,7 +36,7 @@ class WorkFolder {
   }
   std::string script() { return folder_.path() + "/script"; }
   std::string picture() { return folder_.path() + "/picture"; }
-  std::string diagnostics() { return folder_.path() + "/complaints"; }
+  std::string diagnostics() { return folder_.path() + "/diagnostics"; }
 
  private:
   serve::PrivateFolder folder_;

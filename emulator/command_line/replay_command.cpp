@@ -111,7 +111,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
                        " is not a duration; expected one such as 2.5s");
   }
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
-    throw world::RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");
+    throw world::RecordingError(arguments.recording + ": recording: " + why + "; expected a recording");
   }
   if (const std::string why = is_another_kind(head_of_file(arguments.recording), ContentKind::recording);
       !why.empty()) {

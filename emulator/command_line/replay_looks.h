@@ -21,7 +21,7 @@ void require_looks(const ReplayArguments& arguments, FileClaims& claims);
 /// Opens the files, or throws an error with the reason.
 class ReplayLooks final : public world::ReplayWatcher {
  public:
-  /// `seen` receives the page's content at the end: footage and steps.
+  /// `seen` receives the page's content at the end: the run log and the steps.
   ReplayLooks(world::World& world, const ReplayArguments& arguments, play::ScenarioResult& seen);
   ~ReplayLooks() override;
   ReplayLooks(const ReplayLooks&) = delete;

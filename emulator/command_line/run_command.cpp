@@ -210,7 +210,7 @@ class Stagehand {
     }
   }
 
-  /// Once more, with a recorder, and a camera if there is a page: in free time it comes to the same.
+  /// Once more, with a recorder, and a run log if there is a page: in free time it comes to the same.
   std::vector<play::ScenarioResult> play_again(play::CaseReader& reader,
                                                const play::CaseId& which_case) const {
     const auto scenario = reader.read(which_case);

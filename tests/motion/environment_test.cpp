@@ -42,7 +42,7 @@ std::optional<std::int64_t> change_by_hand(const Environment& environment, std::
 }
 
 std::string code(const Environment& environment) {
-  std::string out = "seed " + std::to_string(seed()) + ": Surroundings here; ";
+  std::string out = "seed " + std::to_string(seed()) + ": Environment here; ";
   for (std::size_t i = 0; i < environment.zone_count; ++i) {
     out += "here.add(Signal(" + std::to_string(static_cast<int>(environment.zones[i].signal)) + "), " +
            std::to_string(environment.zones[i].from) + ", " + std::to_string(environment.zones[i].to) + "); ";

@@ -36,7 +36,7 @@ std::function<void()> ImportedDevice::read_own_state(StateReader& reader) {
   for (const AxisState& axis : restored->axes) {
     require_state(std::isfinite(axis.run_pps) && axis.run_pps >= 0, "a speed is not one");
     require_state(axis.wanted_direction >= -1 && axis.wanted_direction <= 1,
-                  "a way is neither forward nor backward");
+                  "a direction is not forward, backward or none");
   }
   restored->eeprom.check_restored(state_.eeprom);
   check_restored_registers(*this, restored->image, restored->eeprom.kept());

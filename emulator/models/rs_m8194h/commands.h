@@ -1,4 +1,4 @@
-// RS-M8194H: the effects of commands, one function each. Their table (command_table.cpp) has one for every
+// RS-M8194H: the effects of commands, one function each. Their table (commands.cpp) has one for every
 // verb that a device executes.
 #pragma once
 

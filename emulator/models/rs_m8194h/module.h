@@ -1,5 +1,6 @@
 // RS-M8194H: the i-8094H module, which has the FIFO, the chip and the macros. It is made of parts: each has
-// its own state, and knows those above it in this list. What a part ends, it returns; none calls up.
+// its own state, and knows those above it in this list. What a part ends, it returns. Macros and the FIFO
+// reach the parts below them only through lang::Machine, which the module is.
 //
 //   a command ──> command_queue.h, or at once ──> commands.h: what it does to the parts
 //   a tick: the inputs ──> motion_step.h, with its edges (edges.h) ──> macros ──> the FIFO

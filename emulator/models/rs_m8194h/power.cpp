@@ -1,4 +1,4 @@
-// Power, RESET_CARD and LOAD_INITIAL: what is as before behind each of them (3.2.1, 8).
+// Power, RESET_CARD and LOAD_INITIAL, and what each of them keeps (3.2.1, 8).
 #include <array>
 #include <cstddef>
 #include <utility>

@@ -169,7 +169,7 @@ Value module_state(const Module& it, Cell) {
   constexpr Value kRunsIsr = 7;
   constexpr Value kBooting = 0xFF;
   const Value first = it.chose(option("module_state_numbers", "of_12_1_12")) ? 3 : 0;
-  if (it.programs.state().rsm != lang::State::ready) return first + kDownloading;
+  if (it.programs.is_downloading()) return first + kDownloading;
   if (it.status.is_resetting()) return kBooting;
   const State& state = it.state();
   const bool is_helix = state.paths.together.engaged && state.paths.runs == Paths::Runs::helix;

@@ -177,7 +177,7 @@ void Commands::hold_while_inhibited() {
     }
     return;
   }
-  // Except those that a pause holds as well.
+  // Those that a pause holds as well stay held.
   const auto is_paused = [&](Mover mover) {
     return mover < Mover::plc && program_state_.steps.programs[static_cast<std::size_t>(mover)].machine_holds;
   };

@@ -154,13 +154,15 @@ bool Super40nc::same_state(const Device& other) const {
 bool Super40nc::has_terminal(int terminal) const {
   if (terminal < kFirstDogTerminal) return true;
   if (terminal < kFirstVoltageIn) return chose(option("dog_inputs", "terminals_of_their_own"));
-  if (terminal < kFirstServoTerminal) return !chose(option("analog_counts", "in_counts_only"));
+  if (terminal < kFirstServoTerminal) return has_voltage_inputs();
   if (terminal < kFirstChipPin) return chose(option("servo_on", "an_output_per_axis"));
   return parts_.axes.pins.has_chip_pins();
 }
 
+bool Super40nc::has_voltage_inputs() const { return !chose(option("analog_counts", "in_counts_only")); }
+
 std::int32_t Super40nc::analog_counts(int number) const {
-  if (chose(option("analog_counts", "in_counts_only"))) return input(kFirstAnalogIn + number);
+  if (!has_voltage_inputs()) return input(kFirstAnalogIn + number);
   const std::int32_t full = chose(option("analog_counts", "5_v")) ? kMaxMillivoltsIn : kMaxMillivolts;
   const std::int32_t millivolts = std::min(input(kFirstVoltageIn + number), full);
   return (millivolts * kMaxAnalogCount + full / 2) / full;

@@ -102,6 +102,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
  private:
   const Chips& chips() const { return parts_.axes.chips; }
   void look_at_inputs();
+  bool has_voltage_inputs() const;
   std::int32_t analog_counts(int number) const;
   void blank_state();
   void end_path();

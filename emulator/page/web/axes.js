@@ -10,7 +10,7 @@ import { FaultForm } from './fault_form.js';
 import { useKept } from './kept.js';
 
 const kValues = ['position', 'pulses', 'target', 'speed', 'servo', 'lost', 'encoder', 'ready', 'alarm', 'pwm'];
-const kMostAxes = 64;
+const kMaxAxes = 64;
 
 function terminalOf(device, axis, contact) {
   return device.terminals.find((terminal) => (terminal.functions ?? []).includes(`${axis}.${contact}`));
@@ -100,7 +100,7 @@ function Axis({ device, axis }) {
 }
 
 export function Axes() {
-  const [devices, choice] = useDevices('axes', (device) => device.axes.length, kMostAxes);
+  const [devices, choice] = useDevices('axes', (device) => device.axes.length, kMaxAxes);
   const shown = devices.map((device) => device.name).join();
   useEffect(() => {
     want('axes', devices.flatMap((device) => device.axes.flatMap((axis) => {

@@ -15,7 +15,7 @@ import { keep, kept } from './kept.js';
 const kPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Registers', Registers], ['Bus', Bus],
                  ['Program', Program], ['Faults', Faults]];
 const kSpeeds = ['0.1', '0.2', '0.5', 'real', '2', '5', '10', 'free', 'manual'];
-const kMostNamed = 3;  // devices in the head
+const kMaxNamed = 3;  // devices in the head
 
 /// Where time runs it is stopped first, as run-until asks for.
 async function runUntil(condition) {
@@ -59,10 +59,10 @@ function Said() {
 
 function Devices() {
   const devices = store.bench?.devices ?? [];
-  const dark = devices.slice(kMostNamed).map((device) => device.name).filter((name) => !hasPower(name));
-  return html`<span class="models">${devices.slice(0, kMostNamed).map((device) => html`<span class="model" key=${device.name}
+  const dark = devices.slice(kMaxNamed).map((device) => device.name).filter((name) => !hasPower(name));
+  return html`<span class="models">${devices.slice(0, kMaxNamed).map((device) => html`<span class="model" key=${device.name}
       title=${`${device.title}, firmware ${device.firmware}`}><b>${device.name}</b> <small>${device.model} ${device.firmware}</small>${!hasPower(device.name) && html` <span class="badge">no power</span>`}</span>`)}
-    ${devices.length > kMostNamed && html`<small>and ${devices.length - kMostNamed} more</small>`}
+    ${devices.length > kMaxNamed && html`<small>and ${devices.length - kMaxNamed} more</small>`}
     ${dark.length > 0 && html`<span class="badge">no power: ${dark.join(', ')}</span>`}</span>`;
 }
 

@@ -4,7 +4,7 @@ import { onLook, valueOf } from './store.js';
 import { Button, Choice, grouped } from './small.js';
 import { useKept } from './kept.js';
 
-const kMostPlaces = 6000;
+const kMaxPlaces = 6000;
 
 export function Plane({ device }) {
   const names = device.axes.map((axis) => axis.name);
@@ -19,7 +19,7 @@ export function Plane({ device }) {
       if (place.some((coordinate) => typeof coordinate !== 'number')) return;
       const last = trail.current.at(-1);
       if (!last || last[0] !== place[0] || last[1] !== place[1]) trail.current.push(place);
-      if (trail.current.length > kMostPlaces) trail.current.splice(0, kMostPlaces / 10);
+      if (trail.current.length > kMaxPlaces) trail.current.splice(0, kMaxPlaces / 10);
       if (canvas.current) drawTrail(canvas.current, trail.current);
     };
     paint();

@@ -4,8 +4,8 @@ import { ask, askQuietly, complain, isLocked, onLook, store, unwant, valueOf, wa
 import { Button, Choice, Field, grouped, save } from './small.js';
 import { keep, kept, useKept } from './kept.js';
 
-const kMost_s = 60;
-const kMostNames = 8;
+const kMax_s = 60;
+const kMaxNames = 8;
 const kHeight = 340;
 
 // Kept while other panels are in view.
@@ -22,7 +22,7 @@ onLook((look) => {
   times.push(now);
   for (const name of names) rows.get(name).push(numberOf(valueOf(name)));
   let old = 0;
-  while (times[old] < now - kMost_s) ++old;
+  while (times[old] < now - kMax_s) ++old;
   if (old > 500) {
     times.splice(0, old);
     for (const row of rows.values()) row.splice(0, old);
@@ -243,7 +243,7 @@ export function Plot() {
   const running = () => ({ labels: [...names], columns: [times, ...names.map((name) => rows.get(name))] });
   const { labels, columns } = shot ?? frozen ?? running();
   const take = async (name) => {
-    if (names.length >= kMostNames) { complain(`${kMostNames} curves at most; remove one first`); return false; }
+    if (names.length >= kMaxNames) { complain(`${kMaxNames} curves at most; remove one first`); return false; }
     if (!(await ask({ do: 'get', names: [name] })).ok) return false;
     show(null);
     freeze(null);

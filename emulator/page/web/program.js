@@ -5,7 +5,7 @@ import { Button, Choice, Field, grouped } from './small.js';
 import { useKept } from './kept.js';
 
 const kLook_ms = 150;
-const kMostLines = 4000;  // of a listing; more would make the page slow
+const kMaxLines = 4000;  // of a listing; more would make the page slow
 
 // Since when each program waits for the same thing at the same line, in simulated time.
 const waits = new Map();
@@ -149,13 +149,13 @@ export function Program() {
     <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${program} />`)}
       ${programs.length === 0 && html`<li>nothing runs</li>`}</ul>
     ${mistakes.map((it) => html`<p class="bad" role="alert">${it.line ? `line ${it.line}, column ${it.column}: ` : ''}${it.what}</p>`)}
-    ${lines.length > kMostLines && html`<p>The first ${grouped(kMostLines)} of ${grouped(lines.length)} lines; edit shows all.</p>`}
+    ${lines.length > kMaxLines && html`<p>The first ${grouped(kMaxLines)} of ${grouped(lines.length)} lines; edit shows all.</p>`}
     <div class="with_values">
       ${edited !== null
         ? html`<textarea aria-label="program text" rows="24" spellcheck=${false} value=${edited}
             onInput=${(event) => setEdited(event.target.value)}></textarea>`
         : text === '' ? html`<p class="listing_none">${unread || 'There is no program yet: edit, or load a file.'}</p>`
-        : html`<${Listing} lines=${lines.slice(0, kMostLines)} running=${running} />`}
+        : html`<${Listing} lines=${lines.slice(0, kMaxLines)} running=${running} />`}
       <${Values} key=${device.name} device=${device} />
     </div>`;
 }

@@ -6,7 +6,7 @@ import { useKept } from './kept.js';
 import { isHeard } from './heard.js';
 
 const kPage = 100;
-const kMostHeard = 400;
+const kMaxHeard = 400;
 
 function bitsOf(row, value) {
   if (!row.bits || typeof value !== 'number') return null;
@@ -91,7 +91,7 @@ export function Registers() {
       }
       const rows = (await tableOf(device)).filter((row) => isHeard(words, row) &&
         (find === '' || `${row.name} ${row.address ?? row.number}`.toLowerCase().includes(find.toLowerCase())));
-      return { ok: true, registers: rows.slice(0, kMostHeard), of: rows.length };
+      return { ok: true, registers: rows.slice(0, kMaxHeard), of: rows.length };
     };
     load().then((reply) => { if (current && reply.ok) setPage(reply); });
     return () => { current = false; };

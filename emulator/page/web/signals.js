@@ -11,7 +11,7 @@ const kTitles = {
   dip_switch: 'DIP switches, read at power-up', counted_in: 'Counted inputs', analog_out: 'Analog outputs',
   pulse_out: 'Pulse outputs',
 };
-const kMostTerminals = 900;  // two names each, of 2,000 that a page may watch
+const kMaxTerminals = 900;  // two names each, of 2,000 that a page may watch
 
 function numberFrom(text) {
   const number = Number(text);
@@ -72,7 +72,7 @@ function Terminals({ device, kind, terminals }) {
 
 export function Signals() {
   const [filter, setFilter] = useKept('filter of signals', '');
-  const [devices, choice] = useDevices('signals', (device) => device.terminals.length, kMostTerminals);
+  const [devices, choice] = useDevices('signals', (device) => device.terminals.length, kMaxTerminals);
   const fits = (terminal) => [terminal.name, ...(terminal.functions ?? [])]
     .some((text) => text.toLowerCase().includes(filter.toLowerCase()));
   const shown = devices.map((device) => device.name).join();

@@ -2,8 +2,8 @@
 import { Wire } from './wire.js';
 import { hear } from './heard.js';
 
-const kMostFrames = 1024;
-const kMostEvents = 500;
+const kMaxFrames = 1024;
+const kMaxEvents = 500;
 const kFlash_ms = 1200;
 
 export const store = {
@@ -117,8 +117,8 @@ function take(look) {
   // What a host has spoken of is only understood when the bench is known, which takes a few questions.
   unheard.push(...(look.frames ?? []));
   hearAll();
-  store.frames = joined(store.frames, look.frames, kMostFrames);
-  store.events = joined(store.events, look.events, kMostEvents);
+  store.frames = joined(store.frames, look.frames, kMaxFrames);
+  store.events = joined(store.events, look.events, kMaxEvents);
   store.framesLost += look.frames_lost ?? 0;
   store.eventsLost += look.events_lost ?? 0;
   if (look.status) store.status = look.status;

@@ -21,7 +21,7 @@ class RunLogger final : public Observer, private world::TickWatcher {
   RunLogger& operator=(const RunLogger&) = delete;
 
   void world_restored(std::size_t steps) override;
-  /// Writes ScenarioResult::footage.
+  /// Writes ScenarioResult::run_log.
   void finish(ScenarioResult& result) override;
 
  private:

@@ -128,7 +128,8 @@ void require_accepted(Refusal refusal, const std::string& name, const std::strin
     case Refusal::bad_value:
       throw MessageError(name + ": " + told + " is out of range; expected " + range_text(place, value));
     case Refusal::busy: throw MessageError(name + " cannot be written now; the device is busy");
-    case Refusal::failure: throw MessageError(name + " cannot be written; the device has failed");
+    case Refusal::failure:
+      throw MessageError(name + " cannot be written now; the device refuses it (exception 4)");
   }
 }
 

@@ -44,7 +44,7 @@ inline constexpr std::array kFaultKeys{
     Key{"level", "stuck: on or off.", &kText},
     Key{"counts", "turn: how far; encoder_noise: this many too many.", &kText},
     Key{"in", "turn: how long it takes; by default at once.", &kText},
-    Key{"period", "encoder_noise: in the second half, the count is too low.", &kText},
+    Key{"period", "encoder_noise: the length of a period; in its second half, the count is too low.", &kText},
     Key{"by", "slow, delay: how late; split: how much later the rest arrives; lumps: the interval.", &kText},
     Key{"code", "exception: which.", &kText},
     Key{"keep", "truncate, split, hang_up: how many bytes arrive (first).", &kText},

@@ -36,7 +36,7 @@ class TextLineProtocol final : public LineProtocol {
   std::unique_ptr<LineStation> make_station(Device& device, std::size_t port,
                                             const StationConditions& conditions) const override {
     if (device.speaker() == nullptr)
-      throw std::logic_error(device.name() + ": speaks text, but is not a TextSpeaker");
+      throw std::logic_error(device.name() + ": speaks text, but is not a TextProtocol");
     return std::make_unique<TextStation>(device, port, conditions.is_instant);
   }
   bool may_be_unasked() const override { return true; }

@@ -102,7 +102,7 @@ TEST(ServedNames, ADeviceThatFailsMeanwhileTakesNoMore) {
   EXPECT_EQ(served.get("Absent"), 1);
   EXPECT_EQ(served.get("holding.Position_X"), 0);
   EXPECT_EQ(served.diagnostic_of_setting("holding.Position_X", 5),
-            "holding.Position_X cannot be written; the device has failed");
+            "holding.Position_X cannot be written now; the device refuses it (exception 4)");
 }
 
 TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
@@ -175,7 +175,7 @@ TEST(ServedNames, ACommandIsGivenByItsName) {
   EXPECT_EQ(command({}, "STOP"), "it has no power; expected it to be on");
 }
 
-TEST(ServedNames, ATurnsComplaintIsNotToldTwice) {
+TEST(ServedNames, ATurnsDiagnosticIsNotToldTwice) {
   Served served;
   const auto diagnostic = [&](const Json& in) {
     return served.ask({{"do", "turn"}, {"values", {{"it.MPG", 30}}}, {"in", in}})["error"].get<std::string>();

@@ -124,7 +124,7 @@ bool External::start(std::size_t axis, const motion::DriveOrder& order) {
   return has_begun;
 }
 
-/// A drive that something else has ended has nothing behind it.
+/// If something else has ended a drive, the pulses that wait for its end are dropped.
 void External::start_waiting() {
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = chip_.unit(a);

@@ -140,7 +140,7 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
   Paths& paths = chip_.paths();
   const bool is_stream = is_segment(path);
   const bool is_last = !is_stream || is_last_segment(path);
-  // What a stream that was broken off has left behind it stays until it is begun anew.
+  // The errors and the RINT bit of a stream that was broken off stay until it begins anew.
   const bool goes_on = is_stream && (paths.broken & bit_of(row.stream)) != 0;
   if (is_stream && is_last) streams_.forget_break(row.stream);
   const PathDrawing drawing = draw_path(chip_, path, joins);

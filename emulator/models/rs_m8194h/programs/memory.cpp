@@ -100,10 +100,14 @@ constexpr BlockKind kKinds[] = {
 std::span<const BlockKind> block_kinds() { return kKinds; }
 
 bool Memory::keeps(const RegisterRow& row) const {
-  const auto is = [&](std::string_view name) { return row.table == Table::holding && row.name == name; };
-  if (is("FRnet Event")) return chose(option("trigger_enable_kept", "kept"));
-  if (is("WORD Order")) return chose(option("word_order_kept", "kept"));
-  return row.persistent || ((is("bVAR{}") || is("VAR{}")) && chose(option("variables_kept", "kept")));
+  constexpr Addresses kEvent = addresses_of(Table::holding, "FRnet Event");
+  constexpr Addresses kWordOrder = addresses_of(Table::holding, "WORD Order");
+  constexpr Addresses kBvarAddresses = addresses_of(Table::holding, "bVAR{}");
+  const auto is_in = [&](const Addresses& some) { return some.has(row.table, row.address); };
+  if (is_in(kEvent)) return chose(option("trigger_enable_kept", "kept"));
+  if (is_in(kWordOrder)) return chose(option("word_order_kept", "kept"));
+  const bool is_variable = is_in(kBvarAddresses) || is_in(kVarAddresses);
+  return row.persistent || (is_variable && chose(option("variables_kept", "kept")));
 }
 
 Eeprom Memory::factory_memory() const {

@@ -1,6 +1,6 @@
 // SLIM: the code looks up the options of choices.h with these, as in `chose(option("thrust", "runs_at_vj"))`.
 // An unknown row or option is a compile error. For options that are numbers it looks up the row:
-// `chosen_number(numbers("history_length"))`.
+// `number(numbers("history_length"))`.
 #pragma once
 
 #include <algorithm>

@@ -58,7 +58,7 @@ void ChipPins::hold_cleared() {
 void ChipPins::clear_by_pin(int axis) {
   const std::int32_t mask = registers().raw(kept_x(d9x::kClrResetC), axis);
   for (int which = 0; which < static_cast<int>(kCounters); ++which) {
-    if ((mask >> which & 1) != 0 && counter(axis, which) != 0) parameters_.set_counter(axis, which, 0);
+    if (is_bit(mask, which) && counter(axis, which) != 0) parameters_.set_counter(axis, which, 0);
   }
 }
 

@@ -113,7 +113,8 @@ std::optional<motion::Comparator> Comparators::comparator_of(int axis_number, st
   }
   constexpr Value kCounter2 = 1;
   constexpr Value kCounter4 = 3;
-  const bool is_stopped = (settings.raw(kept_x(d9x::kDisableC2ToC4), axis_number) >> source & 1) != 0;
+  const bool is_stopped =
+      is_bit(settings.raw(kept_x(d9x::kDisableC2ToC4), axis_number), static_cast<int>(source));
   if (is_stopped || (source != kCounter2 && source != kCounter4)) return std::nullopt;
   // The source of COUNTER2 is D9x23, that of COUNTER4 D9x25: the pulses, the encoder, or something else.
   const Value from =

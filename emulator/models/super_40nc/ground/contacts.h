@@ -37,7 +37,6 @@ struct Contacts {
     const std::uint8_t flag = flags[place(contact)];
     return (flag & kRose) != 0 || (level && (flag & kSeen) == 0);
   }
-  bool was_seen_on(int contact) const { return (flags[place(contact)] & kSeen) != 0; }
   /// Ends a scan: remembers the level that it has seen.
   void see(int contact, bool level) { flags[place(contact)] = level ? kLevel | kSeen : std::uint8_t{0}; }
 

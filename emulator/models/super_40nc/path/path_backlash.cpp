@@ -29,8 +29,8 @@ std::int64_t backlash_before(const motion::Axis& motor, int direction) {
   const std::int64_t all = motor.settings.backlash_pulses;
   if (motor.settings.slips) return all;
   if (motor.last_direction == 0) return 0;
-  const std::int64_t untaken = std::clamp<std::int64_t>(motor.backlash_taken_pulses, 0, all);
-  return direction > 0 ? all - untaken : untaken;
+  const std::int64_t taken = std::clamp<std::int64_t>(motor.backlash_taken_pulses, 0, all);
+  return direction > 0 ? all - taken : taken;
 }
 
 /// Returns how many of `pulses` have come after `ticks`.

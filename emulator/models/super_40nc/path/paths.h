@@ -44,8 +44,6 @@ class Paths : protected Chips {
   std::int64_t path_base_lu(int axis_number) const;
   void apply_override();
 
-  bool is_engaged() const { return axes_.path.engaged; }
-  bool is_held() const { return axes_.path_is_held; }
   void hold_path();
   void go_on_path();
   /// VDRV 0: slows down by the path's ramp, and ends.

@@ -26,8 +26,8 @@ class PlcWatch {
   bool some_move() const { return some_move_; }
 
  private:
-  // Working values; none of them is state.
   const RegisterBank& bank_;
+  // Working values; none of them is state.
   std::vector<Place> places_;
   bool some_move_ = false;
   std::vector<Value> seen_;  // values that the PLC saw in the current tick

@@ -40,7 +40,7 @@ void Programs::broken(const Broken& broken) {
 
 void Programs::path_broken(motion::Cause why) {
   const language::Phase phase = state_.steps.programs[0].phase;
-  // false while paths are joined
+  // A program that is joining paths does not wait for this one.
   const bool is_awaited = phase == language::Phase::moving || phase == language::Phase::held;
   broken({.is_awaited = is_awaited, .why = why});
 }

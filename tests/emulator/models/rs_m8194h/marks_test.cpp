@@ -1,5 +1,5 @@
 // What a motion has left to be done, against all that may take it away: every cell of the table in
-// meetings.h.
+// transitions.h.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Every cell of meetings.h, brought about from the host, from a program's own line and from an event's
+// Every cell of transitions.h, brought about from the host, from a program's own line and from an event's
 // routine.
 #include "emulator/models/slim/rules/transitions.h"
 #include "emulator/device/terminals.h"

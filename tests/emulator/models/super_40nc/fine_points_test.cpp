@@ -198,8 +198,8 @@ TEST(Super40ncFinePoints, APlaceIsALineOfTheText) {
   }
 }
 
-/// Onlookers see why a program stands, or what it has passed over, beside its line.
-TEST(Super40ncFinePoints, AnOnlookerSeesWhatWentWrong) {
+/// Observers see why a program stands, or what it has passed over, beside its line.
+TEST(Super40ncFinePoints, AnObserverSeesWhatWentWrong) {
   using enum ProgramLocation::State;
   struct Case {
     const char* area;
@@ -234,7 +234,7 @@ TEST(Super40ncFinePoints, AnOnlookerSeesWhatWentWrong) {
 }
 
 /// A limit is told of the program that it stops, not of one that stands, nor a jog's of any; M8002 stops all.
-TEST(Super40ncFinePoints, AnOnlookerSeesWhatStoppedAProgram) {
+TEST(Super40ncFinePoints, AnObserverSeesWhatStoppedAProgram) {
   OneSuper40nc one({.program = "AREA C\nNOP\nEND\nAREA X\nDRV K90000\nEND\n"});
   const auto why = [&](std::size_t program) { return one.it().program_locations().at(program).why; };
   one.set("M8100", 1);

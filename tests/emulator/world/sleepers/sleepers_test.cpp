@@ -33,7 +33,7 @@ std::uint64_t number_from(const char* name, std::uint64_t usual) {
 
 /// How the other world is kept awake.
 enum class Waker : std::uint8_t { single_ticks, waiting_fault, observer, odd_steps, what_is_due };
-constexpr const char* kWakers[] = {"by single ticks", "beside a fault that waits", "before an onlooker",
+constexpr const char* kWakers[] = {"by single ticks", "beside a fault that waits", "before an observer",
                                    "by odd steps", "by what is due"};
 
 testing::AssertionResult same_terminals(const World& plain, const World& awake, std::size_t d) {
