@@ -1,5 +1,7 @@
 // The base of a device whose whole state is one value: how the state is compared, saved, told apart and
-// restored, said once. `State` has operator== and its fields (base/state/fields.h).
+// restored, said once. `State` has operator== and its fields (base/state/fields.h). A device that prepares
+// the state before it is read (RS-M8194H), or does more once it is in force (SUPER-40NC), writes these
+// functions itself.
 //
 // What is declared here is defined in stateful_device_bytes.h. Only the source that lists the fields includes
 // that, and instantiates it for its device:

@@ -1,6 +1,7 @@
 // Marks of an axis: what a command sets for the motion that follows. Each mark has a row with the outcomes of
 // transitions.h that clear it, so mode x phase x event says which marks are left. The code clears marks by
-// this table alone; marks_test.cpp checks it in every cell.
+// this table alone; marks_test.cpp checks it in every cell. (stop_drive() clears for `leaves`, `ends` and
+// `begins` alike.)
 //
 // A position move or a homing that ends by itself takes its command along (step_drive()). What is only asked
 // about a running command (has_own_speed, by_trigger), and how the last one ended (cut_short, homed), is set

@@ -10,7 +10,7 @@
 //   kept_image.h        the retentive memory as a file
 //   program_text.h      programs that are loaded
 //   queries.h           what queries answer
-//   commands.h          what commands do
+//   actions.h           what commands do (commands.cpp)
 //   by_name.h           queries and assignments past the line
 //   dialogue.h          what becomes of a line
 //

@@ -1,4 +1,4 @@
-// What every model promises whoever runs it, asked of all that are listed: a new one is tried without a word
+// What every model promises to whoever runs it, checked for every listed model: a new one needs no entry
 // here. Beside this: restored_states_test.cpp (flipped bytes, changed images), world/sleepers/ (single ticks
 // against long advances).
 #include <gtest/gtest.h>
@@ -111,7 +111,7 @@ TEST_P(ModelContract, HasASectionForEachRegister) {
 TEST_P(ModelContract, CallsTerminalsByNamesOfTheirOwn) {
   std::set<std::string_view> names;
   for (const TerminalRow& row : model().terminals) {
-    EXPECT_TRUE(names.insert(row.name).second) << row.name << " stands twice";
+    EXPECT_TRUE(names.insert(row.name).second) << row.name << " is used twice";
     // Conditions name them without brackets.
     EXPECT_FALSE(row.name.empty() || std::isdigit(static_cast<unsigned char>(row.name.front())) != 0)
         << row.name;
@@ -145,7 +145,11 @@ TEST_P(ModelContract, StartsTheSameWheneverItIsMade) {
     EXPECT_TRUE(one->powered());
     EXPECT_TRUE(one->same_state(*other)) << firmware;
     EXPECT_EQ(one->state_hash(), other->state_hash()) << firmware;
+    other->switch_power(false);
+    EXPECT_NE(one->state_hash(), other->state_hash()) << firmware;
     other->restore_state(one->save_state());
+    EXPECT_TRUE(other->powered()) << firmware;
+    EXPECT_EQ(one->state_hash(), other->state_hash()) << firmware;
     EXPECT_TRUE(one->same_state(*other)) << firmware;
     EXPECT_EQ(one->state_difference(one->save_state(), other->save_state()), "") << firmware;
   }

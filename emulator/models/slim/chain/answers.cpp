@@ -55,8 +55,7 @@ bool Chain::done(int module) const {
     });
     return !pulses && mine.activity == Activity::idle && !mine.holds_jog();
   }
-  const bool goes_on = mine.activity == Activity::jog || mine.activity == Activity::thrust;
-  return mine.activity == Activity::idle || (goes_on && !state_.axes[at(module)].slowing);
+  return mine.activity == Activity::idle || (mine.jogs_or_pushes() && !state_.axes[at(module)].slowing);
 }
 
 ModuleStatus Chain::status(int module) const {

@@ -1,10 +1,12 @@
 // Marks of a module: what an activity sets for a later decision. Each mark has a row with the events that
-// clear it. Motors and the chain clear marks by this table alone; marks_test.cpp begins every activity, ends
-// it in every possible way and checks all rows.
+// clear it, and marks are cleared by this table, except where a motion continues in another way: AVM has a
+// speed again (refresh_speed(), resume_motion()), VM ends AVM, and thrust that runs was a jog for a moment.
+// marks_test.cpp begins every activity, ends it in every possible way and checks all rows.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "emulator/models/slim/motor/module.h"
@@ -21,8 +23,8 @@ enum class MarkEvent : std::uint8_t {
   cut,           // TASTOP, IHOFF, HOFF, RESET, each at once
   servo_off,     // IHOFF, HOFF, RESET; TASTOP if it switches the servo off
 };
-inline constexpr int kMarkEvents = 8;
 using MarkEvents = std::uint8_t;
+static_assert(static_cast<int>(MarkEvent::servo_off) < std::numeric_limits<MarkEvents>::digits);
 constexpr MarkEvents events_of(auto... some) {
   return static_cast<MarkEvents>((0U | ... | (1U << static_cast<unsigned>(some))));
 }
