@@ -6,6 +6,7 @@ host_packages=(mbpoll python3-serial expect)
 plot_packages=(gnuplot-nox)
 test_packages=(python3                                   # counts the results
                clang-format                              # looks at the formatting of all files
+               nodejs                                    # parses the page's scripts
                clang libclang-rt-dev                     # compile it with sanitizers
                dpkg-dev man-db                           # for the package and its man page
                tshark gtkwave                            # read the captures and traces

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """What ./test looks at before it builds anything: formatting, a few rules of style that a script can judge, the
 wording of the documentation and of --help (plain_words.py), the changelog with its fragments (packaging/changelog.py),
-the files of .github/ (github_files.py), and how large circles of files, classes and functions are (growth.py).
+the files of .github/ (github_files.py), whether the page's scripts parse (page_scripts.py), and how large circles of
+files, classes and functions are (growth.py).
 
 usage: house_style.py [PROJECT]
 
@@ -20,6 +21,7 @@ sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__f
 import changelog  # noqa: E402
 import github_files  # noqa: E402
 import growth  # noqa: E402
+import page_scripts  # noqa: E402
 import plain_words  # noqa: E402
 
 LONGEST_FILE = 450  # lines; about 400 is the aim
@@ -95,7 +97,7 @@ def main(project):
     for path in paths:
         with open(os.path.join(project, path), encoding="utf-8") as file:
             faults += [f"{path}:{number}: {what}" for number, what in faults_of_text(path, file.read().split("\n"))]
-    judges = (plain_words, changelog, github_files)
+    judges = (plain_words, changelog, github_files, page_scripts)
     for place, number, what in (fault for judge in judges for fault in judge.faults_of(project)):
         faults.append(f"{place}:{number}: {what}")
     figures = growth.figures_of(project)

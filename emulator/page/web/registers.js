@@ -42,7 +42,7 @@ function Row({ device, row, explain, section }) {
       disabled=${isLocked()} takes=${(text) => write(name, text)} />`}</td>
     <td class="access"><small>${row.access}${row.kept ? html`, <b>kept</b>` : ''}</small></td>
     <td class="range"><small>${rangeOf(row)}</small></td>
-    <td class="factory"><small class=${isOther ? 'other' : ''} title=${isOther ? 'the value differs from the factory's' : ''}>${row.factory ?? ''}</small></td>
+    <td class="factory"><small class=${isOther ? 'other' : ''} title=${isOther ? 'the value differs from the factory value' : ''}>${row.factory ?? ''}</small></td>
     <td class="more">${bitsOf(row, value)}${row.not_modelled && html`<small class="bad" title=${row.not_modelled}>not modelled</small> `}
       ${(row.choices ?? []).map((id) => html`<${Button} kind="small" key=${id} title=${`the choice ${id}`}
         does=${() => explain(id)}>${id}<//>`)}</td>
