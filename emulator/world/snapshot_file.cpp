@@ -72,7 +72,7 @@ Json parse_json(const std::string& text) {
         [](const std::string& key) {
           return SnapshotError(understudy::quoted(key) + ": appears twice; expected it once");
         },
-        kDeepest);
+        {.deepest = kDeepest});
   } catch (const TooDeepJson& error) {
     throw SnapshotError(std::string("file: ") + error.what() + "; expected a snapshot");
   } catch (const Json::exception&) {

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <climits>
+#include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -18,20 +20,34 @@ struct TooDeepJson : std::runtime_error {
   TooDeepJson() : std::runtime_error("is nested too deeply") {}
 };
 
-/// Throws the result of `twice` for a key that appears twice in one object, TooDeepJson if more than
-/// `deepest` objects and lists are open, and nlohmann's own exceptions for text that is not JSON.
+/// Thrown for an object with more members than anyone needs. The library looks through all of them for each
+/// new one.
+struct TooManyMembers : std::runtime_error {
+  explicit TooManyMembers(std::size_t most)
+      : std::runtime_error("an object has more than " + std::to_string(most) + " members") {}
+};
+
+/// How large parsed text may be.
+struct JsonBounds {
+  int deepest = INT_MAX;                // objects and lists that are open
+  std::size_t most_members = SIZE_MAX;  // of one object
+};
+
+/// Throws the result of `twice` for a key that appears twice in one object, TooDeepJson and
+/// TooManyMembers for text beyond `bounds`, and nlohmann's own exceptions for text that is not JSON.
 template <typename Json, typename Twice>
-Json parse_strict_json(std::string_view text, const Twice& twice, int deepest = INT_MAX) {
+Json parse_strict_json(std::string_view text, const Twice& twice, const JsonBounds& bounds = {}) {
   std::vector<std::set<std::string>> keys;  // of the objects that are open
   return Json::parse(text, [&](int depth, typename Json::parse_event_t event, Json& parsed) {
     const bool opens =
         event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
-    if (opens && depth >= deepest) throw TooDeepJson();
+    if (opens && depth >= bounds.deepest) throw TooDeepJson();
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event != Json::parse_event_t::key) return true;
     const auto& key = parsed.template get_ref<const std::string&>();
     if (!keys.back().insert(key).second) throw twice(key);
+    if (keys.back().size() > bounds.most_members) throw TooManyMembers(bounds.most_members);
     return true;
   });
 }

@@ -59,10 +59,6 @@ const Json& require_values(const Json& message, std::string_view expected) {
   if (!values.is_object() || values.empty()) {
     throw is_not("values", values, "an object of " + std::string(expected), "one that is not empty");
   }
-  if (values.size() > kMaxNamed) {
-    throw MessageError("values: are " + std::to_string(values.size()) + "; expected at most " +
-                       std::to_string(kMaxNamed) + " at once");
-  }
   return values;
 }
 

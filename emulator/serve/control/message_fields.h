@@ -32,7 +32,7 @@ struct MessageError : std::runtime_error {
 
 /// Longer messages are parsed in a helper thread (Daemon::do_aside), so that devices do not wait for them.
 inline constexpr std::size_t kMaxAtOnce = std::size_t{16} << 10;  // bytes
-/// The most names that can be set at once, all or none.
+/// The most members of an object in a message, and so the most names that can be set at once, all or none.
 inline constexpr std::size_t kMaxNamed = 4096;
 
 /// Returns the value as it was received, for messages: 'fast', 3.5, [1,3]. It is cut if it is long.

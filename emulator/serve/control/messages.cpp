@@ -110,7 +110,7 @@ Json parsed(const std::string& line) {
       [](const std::string& key) {
         return MessageError(understudy::quoted(key) + " appears twice; expected it once");
       },
-      kDeepest);
+      {.deepest = kDeepest, .most_members = kMaxNamed});
   for (const auto& [key, value] : message.items()) {
     const bool is_of_program = key == "text" && message.value("do", Json()) == "program";
     if (!is_of_program) require_short_texts(value);
@@ -136,6 +136,8 @@ bool say_or_refuse(const ControlServer::Reply& reply, const Make& make) {
     return made.has_value();
   } catch (const world::TooDeepJson&) {
     return refuse("the message is nested too deeply; expected one object on one line");
+  } catch (const world::TooManyMembers& error) {
+    return refuse(std::string(error.what()) + "; expected fewer, in several messages");
   } catch (const Json::exception&) {
     return refuse("the message is not JSON; expected one object on one line");
   } catch (const std::exception& error) {
