@@ -11,13 +11,14 @@ SCRIPTS = "emulator/page/web"
 
 def faults_of(project):
     """Yields (path, line, what is wrong) for each script of the page that does not parse as a module."""
+    folder = os.path.join(project, SCRIPTS)
+    names = sorted(name for name in os.listdir(folder) if name.endswith(".js")) if os.path.isdir(folder) else []
     program = shutil.which("node")
-    if program is None:
+    if names and program is None:
         yield SCRIPTS, 1, "node is not installed; expected it, to parse the scripts (apt-get install nodejs)"
         return
-    folder = os.path.join(project, SCRIPTS)
     with tempfile.TemporaryDirectory() as copies:  # node takes a file for a module by its suffix
-        for name in sorted(name for name in os.listdir(folder) if name.endswith(".js")):
+        for name in names:
             copy = os.path.join(copies, name[:-3] + ".mjs")
             shutil.copyfile(os.path.join(folder, name), copy)
             said = subprocess.run([program, "--check", copy], capture_output=True, text=True)
