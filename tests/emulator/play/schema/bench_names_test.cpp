@@ -14,6 +14,7 @@
 #include "emulator/play/schema/json_schema.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "tests/emulator/play/schema/schema_check.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::play {
 namespace bench_names_test {
@@ -94,6 +95,7 @@ TEST(BenchNames, SuitEveryShippedScenario) {
     const std::string path = entry.path().string();
     if (entry.path().extension() != ".yaml") continue;
     if (kind_of_file(path) != FileKind::scenario) continue;
+    if (++count % (is_sanitized() ? 5 : 1) != 0) continue;
     std::ifstream file(path);
     std::ostringstream text;
     text << file.rdbuf();
@@ -102,7 +104,6 @@ TEST(BenchNames, SuitEveryShippedScenario) {
     EXPECT_EQ(schema_diagnostic(scenario_schema(models::all_models(), scenarios.front().bench), text.str()),
               "")
         << path;
-    ++count;
   }
   EXPECT_GE(count, 60U);
 }

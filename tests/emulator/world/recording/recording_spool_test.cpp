@@ -132,7 +132,7 @@ TEST(RecordingSpool, ReplacesNoOlderPartThatIsNoRecording) {
     const auto kind_before = fs::symlink_status(older).type();
     {
       RecordingSpool recording = rig.spool(50'000);
-      rig.talk(recording, 1000);
+      rig.talk(recording, 500);
     }
     const bool is_kept = *c.why != '\0';
     EXPECT_EQ(rig.log.size(), is_kept ? 1U : 0U) << c.name;
@@ -151,7 +151,7 @@ TEST(RecordingSpool, BeginsAgainWithTheSameMode) {
   fs::permissions(rig.path, fs::perms(0600));
   {
     RecordingSpool recording = rig.spool(50'000);
-    rig.talk(recording, 1000);
+    rig.talk(recording, 500);
   }
   EXPECT_EQ(fs::status(rig.path).permissions(), fs::perms(0600));
   EXPECT_EQ(fs::status(rig.path + ".1").permissions(), fs::perms(0600));
