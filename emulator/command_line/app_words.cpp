@@ -34,7 +34,7 @@ constexpr std::string_view kListed = " (--help lists them)";
 
 bool is_flag(std::string_view word) { return word.size() > 1 && word.starts_with("-"); }
 
-/// As it is understood behind that command: those above a command may stand behind it as well.
+/// Returns the flag of that name as a command accepts it, including the flags of the commands above it.
 const CLI::Option* flag_called(const CLI::App& command, const std::string& name) {
   for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
     if (const CLI::Option* const flag = app->get_option_no_throw(name)) return flag;
@@ -59,10 +59,10 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
   return near ? "; the nearest is " + quoted(*near) : "";
 }
 
-/// The words of a command line, in their order, as far as they are commands and flags.
+/// The commands and flags on a command line, read in order.
 struct Walk {
-  const CLI::App* command;  // the last one that was named
-  std::string diagnostic;   // about the first word that is none
+  const CLI::App* command;  // the last command that was named
+  std::string diagnostic;   // describes the first word that is not known
 };
 
 Walk walk(const CLI::App& app, int argc, char** argv) {
@@ -85,7 +85,7 @@ Walk walk(const CLI::App& app, int argc, char** argv) {
       continue;
     }
     const auto commands = found.command->get_subcommands(nullptr);
-    if (commands.empty()) continue;  // an operand
+    if (commands.empty()) continue;  // the word is an operand
     std::vector<std::string> names;
     for (const CLI::App* const command : commands) names.push_back(command->get_name());
     const auto named = std::find(names.begin(), names.end(), word);
@@ -98,7 +98,7 @@ Walk walk(const CLI::App& app, int argc, char** argv) {
   return found;
 }
 
-/// "ctl clear: ", and nothing for the program itself.
+/// Returns a prefix such as "ctl clear: ", or an empty text for the program itself.
 std::string path_of(const CLI::App& command) {
   std::string path;
   for (const CLI::App* app = &command; app->get_parent() != nullptr; app = app->get_parent()) {
@@ -107,7 +107,7 @@ std::string path_of(const CLI::App& command) {
   return path.empty() ? "" : path + ": ";
 }
 
-/// The first word, in the order of the command line, that nobody has taken.
+/// Returns the first word on the command line that no command or flag accepted.
 std::string first_left(const CLI::App& app, int argc, char** argv) {
   const std::vector<std::string> left = app.remaining(true);
   for (int i = 1; i < argc; ++i) {
@@ -116,7 +116,7 @@ std::string first_left(const CLI::App& app, int argc, char** argv) {
   return left.empty() ? "" : left.front();
 }
 
-/// What its help says is expected, within a sentence.
+/// Returns the expected value as its help describes it, for use within a sentence.
 std::string expected_of(const CLI::App& command, const std::string& option) {
   const CLI::Option* const found = command.get_option_no_throw(option);
   std::string help = found == nullptr ? "" : found->get_description();
@@ -127,7 +127,7 @@ std::string expected_of(const CLI::App& command, const std::string& option) {
   return help;
 }
 
-/// "--page" of "--page: ...".
+/// Returns the text before `end`, such as "--page" from "--page: ...".
 std::string before(const std::string& text, std::string_view end) { return text.substr(0, text.find(end)); }
 
 }  // namespace
@@ -143,7 +143,7 @@ std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, 
     if (what == "A subcommand") return where + "expected a command" + std::string(kListed);
     return where + what + " is missing; expected " + expected_of(*found.command, what);
   }
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)  // whose name is the command's
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)  // its name is that of the command
     return where + quoted(first_left(app, argc, argv)) + " is one argument too many; expected nothing more";
   if (kind == "ExcludesError") {
     const std::string first = before(told, " excludes ");

@@ -1,4 +1,4 @@
-// The words of `understudy`'s command line, taken from its flag parser.
+// Collects the words of `understudy`'s command line from its flag parser.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ namespace understudy::emulator::command_line {
 /// Returns all commands and flags with their help.
 CommandWords words_of(const CLI::App& app);
 
-/// Returns what is wrong with a command line, in the words of this program: the first unknown command or
-/// flag with the nearest known one, or the subject of `error`.
+/// Returns what is wrong with a command line: the first unknown command or flag with the nearest known one,
+/// or else the subject of `error`.
 std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
 }  // namespace understudy::emulator::command_line

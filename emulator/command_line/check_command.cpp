@@ -38,7 +38,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// "1 line", "2 lines"
+/// Returns a count such as "1 line" or "2 lines".
 std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
@@ -63,7 +63,7 @@ std::string_view kind_name(play::FileKind kind) {
   return "file";
 }
 
-/// Each once: what several cases of a file have in common is one.
+/// Collects warnings. It lists a warning only once, even if several cases of a file share it.
 class Warnings {
  public:
   void add(const std::vector<FileError::Diagnostic>& odd, const std::string& file) {
@@ -80,7 +80,7 @@ class Warnings {
   std::vector<Finding> findings_;
 };
 
-/// What the file is, if nothing is wrong with it.
+/// Describes a valid file, or throws an error.
 std::string described(ModelList models, const std::string& file, play::FileKind kind,
                       const std::string& save_below, Warnings& warnings) {
   switch (kind) {
@@ -160,7 +160,7 @@ CheckedFile checked_program(const Model& model, const std::string& file, const D
   return checked;
 }
 
-/// Checks one file after the other, and tells of each at once where a person reads along.
+/// Checks one file after the other. In the text format it prints the findings of each at once.
 int check_all(const CheckArguments& arguments, std::span<const std::string_view> endings,
               const std::function<CheckedFile(const std::string&)>& check) {
   const auto format = finding_format_called(arguments.format);

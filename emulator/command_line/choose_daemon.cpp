@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::chrono::milliseconds kPatience{2'000};  // with one that may be stopped
+constexpr std::chrono::milliseconds kPatience{2'000};  // the daemon may be stopped
 
 struct Running {
   std::string socket;
@@ -35,7 +35,7 @@ struct Running {
   bool has_answered = false;
 };
 
-/// What stands behind a path, whatever links lead there.
+/// Returns the real file of a path, with all links followed.
 std::string place_of(const std::string& path) {
   std::error_code error;
   const fs::path place = fs::weakly_canonical(path, error);
@@ -84,7 +84,7 @@ bool has_port(const Running& running, const std::string& port) {
                      [&](const auto& known) { return known.link == link || known.pty == place; });
 }
 
-/// "--bench feeder.yaml --port feeder.port"
+/// Returns flags such as "--bench feeder.yaml --port feeder.port".
 std::string flags_of(const WhichDaemon& which) {
   std::string flags;
   if (!which.bench.empty()) flags += " --bench " + which.bench;
@@ -125,7 +125,7 @@ std::string choose_daemon(const WhichDaemon& which) {
   if (!which.socket.empty()) return which.socket;
   if (!which.bench.empty() || !which.port.empty()) return find_by(which);
   const char* const from_exec = std::getenv("UNDERSTUDY_CONTROL");
-  if (from_exec != nullptr && *from_exec != '\0') return from_exec;  // empty is as if unset
+  if (from_exec != nullptr && *from_exec != '\0') return from_exec;  // an empty variable counts as unset
   const std::vector<std::string> live = serve::live_control_sockets();
   if (live.empty()) {
     throw serve::ControlError("ctl: no daemon answers in " + serve::control_folder() +

@@ -7,9 +7,9 @@
 
 namespace understudy::emulator::command_line {
 
-/// Returns its control socket: the given one, that of the bench or port, the one in UNDERSTUDY_CONTROL, or
-/// the only one. If there are several it does not guess but throws UsageError, which names them all. Throws
-/// ControlError if there is none.
+/// Returns the control socket of the daemon: the given one, that of the bench or port, the one in
+/// UNDERSTUDY_CONTROL, or the only one. If there are several, it does not guess but throws UsageError, which
+/// names them all. Throws ControlError if there is none.
 std::string choose_daemon(const WhichDaemon& which);
 
 /// Prints a line for each running daemon of this user: its socket, bench and ports. As JSON it is one

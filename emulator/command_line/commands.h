@@ -1,5 +1,5 @@
-// The commands of `understudy`, independent of flag parsing. Each returns the exit code. Commands that need
-// models receive their list.
+// Declares the commands of `understudy`, independent of flag parsing. Each returns the exit code. Commands
+// that need models receive their list.
 #pragma once
 
 #include <climits>
@@ -43,7 +43,7 @@ struct ServeArguments {
   std::string firmware;
   std::optional<int> baud;
   std::string link;
-  std::string links;  // the folder for links that the bench leaves relative, or out
+  std::string links;  // the folder for links with a relative path, or without a path, in the bench
   std::string group;
   std::string timing;
   bool strict_framing = false;
@@ -60,17 +60,17 @@ struct ServeArguments {
   bool lint = false;
   std::vector<std::string> listen;  // TCP addresses of lines
   bool no_pty = false;              // these lines have no pseudo-terminal
-  std::optional<int> page;          // the port of a live page beside it; 0: any
-  std::string version;              // of this program
+  std::optional<int> page;          // the port of the bench's live page; 0: any
+  std::string version;              // the version of this program
 };
 int serve(ModelList models, const ServeArguments& arguments);
 
 struct ExecArguments {
   ServeArguments serve;
-  std::vector<std::string> command;      // the words behind --: a command and its arguments
-  std::vector<std::string> stray_words;  // in front of it
-  std::string with;                      // the file of a scenario that is played beside it
-  std::string save_below;                // the folder that it may save in; empty: its own
+  std::vector<std::string> command;      // the words after --: a command and its arguments
+  std::vector<std::string> stray_words;  // the words before --
+  std::string with;                      // the file of a scenario that runs beside the command
+  std::string save_below;                // the folder in which the scenario may save; empty: its own
   bool tty_shim = false;
   std::string timeout;  // a duration
 };
@@ -84,11 +84,11 @@ struct RunArguments {
   bool real_time = false;
   std::string junit;
   std::string report;
-  std::string record;  // folders, for a file of each scenario
+  std::string record;  // folders for one file of each scenario
   std::string trace;
   std::vector<std::string> trace_also;
   std::string capture;
-  std::string save_below;  // the folder that scenarios may save in; empty: their own
+  std::string save_below;  // the folder in which scenarios may save; empty: their own
   bool lint = false;
   bool hash = false;
   std::optional<int> jobs;  // none: one for each core
@@ -98,35 +98,35 @@ struct RunArguments {
   std::vector<std::string> results;  // files of rows
   bool resume = false;
   std::string failures;  // the folder for recordings of failures; empty: below /tmp
-  std::string version;   // of this program
+  std::string version;   // the version of this program
 };
 int run_scenarios(ModelList models, const RunArguments& arguments);
 
 struct ReplayArguments {
   std::string recording;
-  std::string until;  // a duration; then `control`
+  std::string until;  // a duration; `control` serves from there
   std::string control;
-  std::string trace;  // files, as those of `serve` and `run`
+  std::string trace;  // files, like those of `serve` and `run`
   std::vector<std::string> trace_also;
   std::string capture;
   std::string report;
-  std::optional<int> page;  // the port of a live page of it; 0: any
-  std::string version;      // of this program
+  std::optional<int> page;  // the port of the recording's live page; 0: any
+  std::string version;      // the version of this program
 };
 int replay_recording(ModelList models, const ReplayArguments& arguments);
 
 struct PlotArguments {
-  std::string trace;   // a file that --trace has written
-  std::string output;  // .png or .svg; empty: beside the trace
+  std::string trace;   // a file written by --trace
+  std::string output;  // .png or .svg; empty: next to the trace
   std::vector<std::string> also;
 };
 int plot_trace(const PlotArguments& arguments);
 
-/// Selects one of the running daemons; nothing: the only one.
+/// Selects one of the running daemons. If all fields are empty, it is the only one.
 struct WhichDaemon {
   std::string socket;  // its control socket
-  std::string bench;   // the file that it serves
-  std::string port;    // one of its ports, or the link to it
+  std::string bench;   // the bench file that it serves
+  std::string port;    // one of its ports, or a link to a port
 };
 
 struct ControlArguments {
@@ -134,7 +134,7 @@ struct ControlArguments {
   bool json = false;
   std::string verb;
   std::vector<std::string> operands;
-  std::string within = "1h";  // of simulated time, for `run-until`
+  std::string within = "1h";  // simulated time, for `run-until`
   std::string trace;          // FILE.csv, for `scope`
 };
 int control(const ControlArguments& arguments);
@@ -142,18 +142,18 @@ int control(const ControlArguments& arguments);
 struct WatchArguments {
   WhichDaemon which;
   std::vector<std::string> names;  // none: everything
-  std::string every = "200ms";     // of wall time
-  int times = 0;                   // 0: until it is interrupted
+  std::string every = "200ms";     // wall time
+  int times = 0;                   // 0: until Ctrl-C
 };
 int watch(const WatchArguments& arguments);
 
 struct FramesArguments {
   WhichDaemon which;
   bool json = false;
-  int last = 10;  // how many earlier ones are shown first
+  int last = 10;  // number of earlier frames that are printed first
   bool once = false;
-  std::string every = "100ms";  // of wall time
-  int times = 0;                // 0: until it is interrupted
+  std::string every = "100ms";  // wall time
+  int times = 0;                // 0: until Ctrl-C
 };
 /// Prints a line for each frame on the lines.
 int follow_frames(const FramesArguments& arguments);
@@ -164,13 +164,13 @@ struct PageArguments {
   std::string listen = "127.0.0.1";
   std::vector<std::string> hosts;  // names of this machine besides the loopback's
   bool read_only = false;
-  std::string folder;  // with the page's files instead of the program's own
+  std::string folder;  // a folder with the page's files, instead of the program's own
 };
-/// Serves the live page until it is ended.
+/// Serves the live page until a signal ends it.
 int show_page(const PageArguments& arguments);
-/// Throws UsageError if it is no TCP port. `flag` is the command and its flag: "serve: --page".
+/// Throws UsageError if the port is not a TCP port. `flag` is the command and its flag: "serve: --page".
 void require_page_port(const std::string& flag, int port);
-/// Like show_page(), in a process of its own that ends with this one.
+/// Serves the page like show_page(), in a separate process that ends with this one.
 void start_page_beside(const std::string& control, int port);
 
 struct PollArguments {
@@ -185,31 +185,31 @@ struct PollArguments {
   std::string model;
   int function = 3;
   std::string type = "u16";
-  std::string word_order;  // "low" or "high" first; empty: the model's, or the device's
+  std::string word_order;  // "low" or "high" first; empty: as in the model, or in the device
   std::string timeout = "1s";
   std::string every;
   int times = 1;
-  std::vector<std::string> commands;  // by name, before the items
+  std::vector<std::string> commands;  // commands by name, which are sent before the items
   std::vector<std::string> items;
 };
 int poll_port(ModelList models, const PollArguments& arguments);
 
-/// A program as text, and the settings for reading it.
+/// Names a program as text, and the settings to read it.
 struct ProgramTextArguments {
   std::string model;
-  std::string firmware;              // empty: the newest
-  std::vector<std::string> choices;  // "ID=OPTION"
+  std::string firmware;              // empty: the newest version
+  std::vector<std::string> choices;  // choices such as "ID=OPTION"
   std::string file;
 };
-/// Convert to the numbers that go over the wire, and back (emulator/device/program_cells.h).
+/// Convert a program to the numbers that go over the wire, and back (emulator/device/program_cells.h).
 int assemble_program(ModelList models, const ProgramTextArguments& arguments);
 int disassemble_program(ModelList models, const ProgramTextArguments& arguments);
 
 struct CheckArguments {
-  std::vector<std::string> files;  // and folders with such files
-  std::string save_below;          // the folder that scenarios may save in; empty: their own
-  ProgramTextArguments programs;   // with a model the files are programs for it
-  std::string format = "text";     // or json, sarif, github
+  std::vector<std::string> files;  // files, and folders with files
+  std::string save_below;          // the folder in which scenarios may save; empty: their own
+  ProgramTextArguments programs;   // if it names a model, the files are programs for that model
+  std::string format = "text";     // text, json, sarif or github
 };
 /// Checks benches, scenarios, files of steps that scenarios include, models, and programs.
 int check_files(ModelList models, const CheckArguments& arguments);
@@ -221,14 +221,14 @@ struct InitArguments {
 int write_first_files(ModelList models, const InitArguments& arguments);
 struct ImportArguments {
   std::string list;    // a file
-  std::string output;  // the model file; empty: beside the list
-  std::string name;    // of the model; empty: as the list
+  std::string output;  // the model file; empty: next to the list
+  std::string name;    // the model's name; empty: as the list
 };
 /// Writes a model file and a bench made from a list of registers.
 int import_registers(ModelList models, const ImportArguments& arguments);
 struct SchemaArguments {
   std::string what;   // "bench", "scenario" or "model"
-  std::string bench;  // the bench whose names scenarios may use; empty: any names
+  std::string bench;  // the bench whose names scenarios may use; empty: all names are allowed
 };
 /// Prints the JSON Schema of a kind of file.
 int print_schema(ModelList models, const SchemaArguments& arguments);

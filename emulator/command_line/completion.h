@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// A command, its flags, and its subcommands.
+/// A command with its flags and subcommands.
 struct CommandWords {
   struct Flag {
     std::string name;  // "link", without dashes
@@ -22,8 +22,8 @@ struct CommandWords {
   std::vector<CommandWords> commands;
 };
 
-/// Returns the script for "bash", "zsh" or "fish", or nothing for other shells. At positions without
-/// commands or flags it offers known words (models, faults), or files; after --model, the models.
+/// Returns the script for "bash", "zsh" or "fish", or nothing for other shells. At positions without commands
+/// or flags it offers known words (models, faults), or files. After --model it offers the models.
 std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell,
                                              ModelList models);
 

@@ -27,8 +27,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// "NAME=VALUE" operands as an object. A word that is not a number goes as it is: whoever takes it knows what
-/// is expected there.
+/// Returns "NAME=VALUE" operands as an object. A word that is not a number is passed unchanged, because its
+/// receiver knows what it expects.
 Json assignments(const ControlArguments& arguments) {
   Json values = Json::object();
   for (const std::string& operand : arguments.operands) {
@@ -53,7 +53,8 @@ Json assignments(const ControlArguments& arguments) {
   return values;
 }
 
-/// "NAME=LEVEL" operands: a whole number, or a word or voltage that the daemon reads.
+/// Returns "NAME=LEVEL" operands as an object. A level is a whole number, or a word or voltage that the
+/// daemon reads.
 Json levels(const ControlArguments& arguments) {
   Json values = Json::object();
   for (const std::string& operand : arguments.operands) {
@@ -75,7 +76,7 @@ Json levels(const ControlArguments& arguments) {
   return values;
 }
 
-/// "drop feeder nth=3" as an object, with the kind and its place first.
+/// Returns a fault such as "drop feeder nth=3" as an object, with its kind and place first.
 Json fault_of(const std::vector<std::string>& operands) {
   Json fault{{operands[0], operands[1]}};
   for (std::size_t i = 2; i < operands.size(); ++i) {
@@ -91,7 +92,7 @@ Json fault_of(const std::vector<std::string>& operands) {
   return fault;
 }
 
-/// What has come of one that waits.
+/// Describes the progress of a fault that waits for its condition.
 std::string course_text(const Json& fault) {
   std::string text;
   const auto count = [&](const char* key, const char* word) {
@@ -210,7 +211,7 @@ struct VerbRow {
   void (*add_operands)(const ControlArguments& arguments, Json& message);
 };
 
-/// Those that take operands of their own; the others look, or take none.
+/// The verbs that take operands of their own. The others are looks, or take no operands.
 constexpr VerbRow kVerbs[] = {
     {"get", add_names},          {"eval", add_expression},     {"set", add_assignments},
     {"input", add_levels},       {"turn", add_turns},          {"power", add_power},
@@ -258,7 +259,7 @@ void print_status(const Json& status) {
     for (const Json& station : line.at("stations")) {
       const std::string port =
           station.contains("port") ? " (" + station.at("port").get<std::string>() + ")" : "";
-      if (!station.contains("address")) {  // it speaks text: alone on its line, and without exceptions
+      if (!station.contains("address")) {  // it speaks text: alone on its line, without exceptions
         std::printf("  %s%s: %llu requests, %llu replies\n", station.at("device").get<std::string>().c_str(),
                     port.c_str(), station.at("requests").get<unsigned long long>(),
                     station.at("replies").get<unsigned long long>());
@@ -297,13 +298,14 @@ void print_status(const Json& status) {
 
 namespace {
 
-/// Where in the listing that was to be loaded.
+/// Returns the position of a mistake in the listing that could not be loaded.
 ProgramMistake mistake_of(const Json& told, const std::string& before = "") {
   return {told.at("line").get<int>(), told.at("column").get<int>(),
           before + one_line(told.at("what").get<std::string>())};
 }
 
-/// Of a program that is refused the file is named, where editors look for it.
+/// Returns why a request failed. For a refused program it begins with the file's name, where editors look for
+/// it.
 std::string why_refused(const ControlArguments& arguments, const Json& reply) {
   if (!reply.contains("mistakes") || arguments.operands.size() != 2) return reply.at("error");
   std::vector<ProgramMistake> mistakes;

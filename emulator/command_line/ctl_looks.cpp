@@ -36,7 +36,7 @@ std::int64_t require_whole(const ControlArguments& arguments, const std::string&
   return *number;
 }
 
-/// "find=speed": the key, and what stands behind it; nothing without "=".
+/// A word such as "find=speed": its key and its value, or nothing without "=".
 struct KeyedWord {
   std::string key;
   std::string value;

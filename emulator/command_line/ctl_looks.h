@@ -1,4 +1,5 @@
-// The `ctl` commands for observers (docs/control.md): the bench's contents, its events, and its time.
+// Implements the `ctl` commands for observers (docs/control.md): the bench's contents, its events, and its
+// time.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,11 +8,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// Adds the words of a command line to the message, which has its "do" already. Returns false if the message
+/// Adds the words of a command line to the message, which already has its "do". Returns false if the message
 /// is not one of these. Throws UsageError.
 bool add_look_words(const ControlArguments& arguments, nlohmann::ordered_json& message);
 
-/// Returns false if it is the reply to another message.
+/// Prints the reply, or returns false if it belongs to another message.
 bool print_look(const nlohmann::ordered_json& reply);
 
 }  // namespace understudy::emulator::command_line

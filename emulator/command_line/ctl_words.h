@@ -1,4 +1,4 @@
-// The `ctl` commands that are one message each, with their help.
+// Lists the `ctl` commands that are one message each, with their help.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@ namespace understudy::emulator::command_line {
 struct ControlWord {
   const char* verb;
   const char* help;
-  const char* operand = nullptr;  // null: it takes none
+  const char* operand = nullptr;  // null: the command takes none
   const char* operand_help = nullptr;
 };
 

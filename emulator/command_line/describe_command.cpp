@@ -67,7 +67,7 @@ int describe_model(ModelList models, const DescribeArguments& arguments) {
     std::printf("%s has no %s%s\n", arguments.model.c_str(), arguments.what.c_str(), more.c_str());
     return kExitWell;
   }
-  // As Markdown the choices are a page of the documentation, whole.
+  // As Markdown, the choices are a complete page of the documentation.
   const bool page = arguments.what == "choices" && *format == SheetFormat::markdown;
   std::fputs(page ? fidelity_page(model).c_str() : format_sheet(*sheet, *format).c_str(), stdout);
   return kExitWell;

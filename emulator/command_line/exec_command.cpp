@@ -1,4 +1,4 @@
-// `understudy exec`: a bench, and a command that talks to it.
+// Implements `understudy exec`: serves a bench while a command that uses it runs.
 #include <signal.h>
 #include <sys/timerfd.h>
 #include <unistd.h>
@@ -42,11 +42,11 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-// As timeout(1) and shells have them.
+// These are the codes of timeout(1) and of shells.
 constexpr int kExitTimedOut = 124;
 constexpr int kExitNotStarted = 127;
 
-/// Calls once, this long after it was made.
+/// Calls a function once, this long after its construction.
 class Alarm {
  public:
   Alarm(serve::EventLoop& loop, serve::WallTime after, std::function<void()> call)
@@ -93,7 +93,7 @@ void require_variables(const world::Bench& bench) {
   }
 }
 
-/// What nobody gave a place is in a folder that nobody else has.
+/// Puts everything without a given path into a folder that no other process uses.
 void use_private_places(Serving& serving, const ExecArguments& arguments, serve::PrivateFolder& folder) {
   if (arguments.serve.links.empty() && arguments.serve.link.empty()) {
     for (world::LineSetup& line : serving.bench.lines) {
@@ -127,7 +127,7 @@ std::optional<serve::WallTime> timeout_of(const ExecArguments& arguments) {
   return timeout;
 }
 
-/// The exit code that the scenario asks for.
+/// Prints the verdicts of the scenario and returns its exit code.
 int tell_of(const play::SideScenario& side_scenario, const play::Scenario& scenario) {
   if (side_scenario.was_given_up()) {
     std::fprintf(stderr, "understudy: exec: %s: was not played to its end\n",
@@ -145,7 +145,7 @@ int tell_of(const play::SideScenario& side_scenario, const play::Scenario& scena
   return code;
 }
 
-/// While both the command and the scenario beside it are on.
+/// Serves the bench until both the command and the scenario beside it end.
 int play(const ExecArguments& arguments, const Serving& serving,
          const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
   const auto timeout = timeout_of(arguments);
@@ -169,7 +169,7 @@ int play(const ExecArguments& arguments, const Serving& serving,
   };
   child.emplace(daemon.loop(), signals, command_for(arguments, daemon), [&] {
     child_is_over = true;
-    // Nobody is left who would let time go on.
+    // No client is left that could advance the time.
     if (child->was_ended() || daemon.pacer().standing()) give_up_side_scenario();
     stop_if_over();
   });
@@ -204,7 +204,7 @@ int play(const ExecArguments& arguments, const Serving& serving,
   return child->exit_code() != 0 ? child->exit_code() : scenario_code;
 }
 
-/// The scenario reads and writes files of its own while the bench's are written.
+/// Throws UsageError if the scenario and the bench would write the same file.
 void require_apart(const play::Scenario& scenario, const ServeArguments& serve, FileClaims& files) {
   FileClaims of_scenario;
   of_scenario.add(scenario.files);

@@ -32,7 +32,7 @@ constexpr FindingRule kFindingRules[] = {
 
 std::string rule_of(const CheckedFile& checked) { return "understudy/" + checked.kind; }
 
-/// "file:4:9: ", with what is known of it.
+/// Returns "file:4:9: ", with the known parts of the position.
 std::string place_text(const FilePlace& place) {
   std::string text = place.file + ":";
   if (place.line > 0) text += std::to_string(place.line) + ":";
@@ -40,7 +40,7 @@ std::string place_text(const FilePlace& place) {
   return text + " ";
 }
 
-/// With each letter that is not plain as %0A.
+/// Replaces each letter that is not plain by a code such as %0A.
 template <class IsPlain>
 std::string in_codes(std::string_view text, IsPlain is_plain) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
@@ -56,13 +56,13 @@ std::string in_codes(std::string_view text, IsPlain is_plain) {
   return made;
 }
 
-/// In an `::error` of GitHub's, what would end the text, or one of its properties, goes by its code.
+/// Escapes the text of a GitHub `::error`, or one of its properties, so that no letter ends it early.
 std::string github_text(std::string_view text, bool is_property) {
   const std::string_view special = is_property ? "%\r\n:," : "%\r\n";
   return in_codes(text, [special](char letter) { return special.find(letter) == std::string_view::npos; });
 }
 
-/// A path as a relative or absolute URI reference.
+/// Returns a path as a relative or absolute URI reference.
 std::string uri_of(std::string_view path) {
   static constexpr std::string_view kPlain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
@@ -93,7 +93,7 @@ std::string as_json(std::span<const CheckedFile> files) {
   return whole.dump(2, ' ', false, FindingJson::error_handler_t::replace) + "\n";
 }
 
-/// SARIF 2.1.0, as code scanning services take it.
+/// Returns the findings as SARIF 2.1.0, which code scanning services read.
 std::string as_sarif(std::span<const CheckedFile> files) {
   FindingJson rules = FindingJson::array();
   for (const FindingRule& rule : kFindingRules) {

@@ -1,4 +1,4 @@
-// The findings of `check` in each file, in the formats of people, editors and CI services.
+// Formats the findings of `check` in each file for people, editors and CI services.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ struct CheckedFile {
 enum class FindingFormat : std::uint8_t { text, json, sarif, github };
 std::optional<FindingFormat> finding_format_called(std::string_view name);
 
-/// Converts one of the `diagnostics` of a file error to a finding. Its text begins with the position, which
-/// is removed.
+/// Converts one of the `diagnostics` of a file error to a finding, and removes the position at the start of
+/// its text.
 Finding finding_of(const FileError::Diagnostic& diagnostic, const std::string& file);
 
 /// Returns a warning: "mill.lst:4: warning: label K1 stands twice".

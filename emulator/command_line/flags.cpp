@@ -1,6 +1,6 @@
-// This file and app_words.cpp are the only ones that include CLI11: it is slow to compile. And slow to be
-// told of all flags, which takes longer than most of what they ask for: commands whose names are not among
-// the words are left out. Whoever errs, or wants to see what there is, is answered by the whole.
+// This file and app_words.cpp are the only ones that include CLI11, because it is slow to compile. Building
+// all flags takes longer than most commands run, so the parser leaves out commands whose names are not on the
+// command line. For errors and help, it is built again with all commands.
 #include "emulator/command_line/flags.h"
 
 #include <CLI/CLI.hpp>
@@ -54,7 +54,7 @@ struct CommandLine {
   std::function<int()> chosen;
 
   using Words = std::span<char* const>;
-  /// `among`: only those commands whose names are among these words.
+  /// `among` leaves out all commands whose names are not among these words.
   CommandLine(ModelList known, std::optional<Words> among) : models(known), among_(among) {
     app.require_subcommand(1);
     app.set_version_flag("--version", UNDERSTUDY_VERSION);
@@ -68,7 +68,7 @@ struct CommandLine {
     void (CommandLine::*fill)(CLI::App& command);
   };
   static const std::array<Command, 18> kCommands;
-  static const std::array<Command, 3> kCommandsOfControl;  // that are not a message each
+  static const std::array<Command, 3> kCommandsOfControl;  // the commands that are not a single message
   std::optional<Words> among_;
 
   bool may_be_meant(std::string_view name) const {
@@ -348,7 +348,7 @@ struct CommandLine {
   }
 };
 
-// As `--help` lists them.
+// This is the order of `--help`.
 const std::array<CommandLine::Command, 18> CommandLine::kCommands{{
     {"models", "List the models", &CommandLine::add_models},
     {"describe", "Print a model's tables", &CommandLine::add_describe},
@@ -379,7 +379,7 @@ const std::array<CommandLine::Command, 3> CommandLine::kCommandsOfControl{{
 }  // namespace
 
 std::function<int()> parse_command_line(int argc, char** argv, ModelList models) {
-  // The words of `exec`'s command are its own, whatever they look like.
+  // The words of `exec`'s command are never parsed as our flags.
   char** const end = argv + argc;
   char** own_end = end;
   std::vector<std::string> of_others;
@@ -404,7 +404,7 @@ std::function<int()> parse_command_line(int argc, char** argv, ModelList models)
     few->app.exit(version);
     return [] { return int{kExitWell}; };
   } catch (const CLI::ParseError&) {
-    // Told below.
+    // The complete parser below reports it.
   }
   const auto whole = make_line(std::nullopt);
   int code = kExitBadInput;

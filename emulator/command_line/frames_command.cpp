@@ -1,4 +1,4 @@
-// `understudy ctl frames`: what goes over the lines, in words, as it goes.
+// Implements `understudy ctl frames`: prints the frames on the lines in words, as they pass.
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -16,11 +16,11 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr int kMaxAtOnce = 200;  // frames in a reply
+constexpr int kMaxAtOnce = 200;  // frames in one reply
 
 using Json = nlohmann::ordered_json;
 
-/// "12.345s rs485 -> write 0x1014 feeder.Aaxis_SVON = 1".
+/// Returns a line such as "12.345s rs485 -> write 0x1014 feeder.Aaxis_SVON = 1".
 std::string text_of(const Json& frame) {
   std::string text = format_duration(SimTime{frame.at("time_ns").get<std::int64_t>()}) + " " +
                      frame.at("line").get<std::string>() + (frame.at("way") == "in" ? " -> " : " <- ") +
@@ -29,7 +29,7 @@ std::string text_of(const Json& frame) {
   return one_line(text);
 }
 
-/// Prints what has come since number `since`; the number to ask for next.
+/// Prints the frames from number `since` on. Returns the number for the next request.
 std::uint64_t print_new(const Json& reply, std::uint64_t since, bool json) {
   const std::uint64_t next = reply.at("next").get<std::uint64_t>();
   const Json& frames = reply.at("frames");

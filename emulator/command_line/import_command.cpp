@@ -1,4 +1,4 @@
-// `import`: a list of registers into a model of one's own.
+// Implements `import`: makes a model file from a list of registers.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; }
 
-/// The file's name without its ending, in the letters that a model's name may have.
+/// Returns the file's name without its ending, in the letters that a model's name may have.
 std::string name_of_list(const std::string& path) {
   std::string name;
   for (const char c : fs::path(path).stem().string()) name += is_of_name(c) ? c : '-';
@@ -43,7 +43,7 @@ std::string require_name(ModelList models, const ImportArguments& arguments) {
   return name;
 }
 
-/// "23 registers (20 holding, 3 input)"
+/// Returns a summary such as "23 registers (20 holding, 3 input)".
 std::string counts_text(const std::vector<models::imported::ListedRegister>& registers) {
   std::string parts;
   for (const Table table : {Table::holding, Table::input, Table::coil, Table::discrete}) {
@@ -56,9 +56,9 @@ std::string counts_text(const std::vector<models::imported::ListedRegister>& reg
          ")";
 }
 
-/// Controllers of Modicon count from 1, with a digit for the table in front: 40001 is the first holding
-/// register. A list may mean that, or addresses as they go over the wire: it is taken as it stands, with a
-/// word.
+/// Returns a remark if all addresses may be Modicon numbers. These count from 1, with a digit for the table
+/// in front: 40001 is the first holding register. A list may mean them, or addresses as on the wire, so
+/// import takes the numbers as printed and adds the remark.
 std::string remark_on_addresses(const std::vector<models::imported::ListedRegister>& registers) {
   struct Block {
     Table table;
@@ -71,7 +71,7 @@ std::string remark_on_addresses(const std::vector<models::imported::ListedRegist
   for (const auto& listed : registers) {
     const auto* const block = std::find_if(kBlocks.begin(), kBlocks.end(),
                                            [&](const Block& row) { return row.table == listed.table; });
-    if (block == kBlocks.end()) continue;  // coils are 1 and up there, as anywhere
+    if (block == kBlocks.end()) continue;  // Modicon numbers of coils have no digit
     if (listed.address < block->first || listed.address >= block->first + kSize) return "";
     begins_with_digit = true;
   }

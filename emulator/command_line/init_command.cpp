@@ -1,4 +1,4 @@
-// `init`: the files that somebody begins with.
+// Implements `init`: writes the files that a new user starts with.
 #include <cstdio>
 #include <filesystem>
 #include <string>

@@ -11,10 +11,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// Standard error is never waited for: a reader that stops reading costs lines, not the devices' time.
+/// Prints a line without waiting for standard error. If its reader stops, lines are lost, but the devices do
+/// not lose time.
 void log_line(const std::string& text) {
   std::string line = "understudy: " + one_line(text) + "\n";
-  // A pipe that is writable has room for PIPE_BUF bytes at least; a longer line could be waited for.
+  // A writable pipe has room for at least PIPE_BUF bytes. A longer line could block.
   if (line.size() > PIPE_BUF) {
     line.resize(PIPE_BUF);
     line.back() = '\n';

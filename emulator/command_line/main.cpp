@@ -1,4 +1,4 @@
-// `understudy`: the program, with every model there is, and what makes models of files.
+// Starts `understudy` with all built-in models and the reader of model files.
 #include "emulator/command_line/program.h"
 #include "emulator/model_file/model_files.h"
 #include "emulator/models/models.h"

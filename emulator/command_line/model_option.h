@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Returns the model of that name, or the one in the file at that path. Files that were read are added to
+/// Returns the model of that name, or the model in the file at that path. Adds the files that were read to
 /// `files`. Throws UsageError with the nearest name, or FileError.
 const Model& require_model(ModelList models, const std::string& name);
 const Model& require_model(ModelList models, const std::string& name, std::vector<FileClaim>& files);

@@ -39,8 +39,8 @@ inline std::string require_trace(FileClaims& claims, const std::string& path,
   return require_output(claims, "--trace", path);
 }
 
-/// Returns the path of the older part of a recording that has grown large: beside the file that is really
-/// written. Empty if there is no recording.
+/// Returns the path for the older part of a large recording, next to the target file. The path is empty if
+/// there is no recording.
 inline std::string older_part_of(const std::string& recording) {
   if (recording.empty()) return "";
   try {

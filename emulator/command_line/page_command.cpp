@@ -1,4 +1,4 @@
-// `understudy page`: the live page of running benches, and the same beside a `serve`.
+// Implements `understudy page`, the live page of running benches, and the page of a `serve`.
 #include <sys/prctl.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -20,10 +20,10 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// All that are running, unless one is named.
+/// Returns the control sockets of all running daemons, or the one that UNDERSTUDY_CONTROL names.
 std::vector<std::string> daemons_to_show() {
   const char* const from_exec = std::getenv("UNDERSTUDY_CONTROL");
-  if (from_exec != nullptr && *from_exec != '\0') return {from_exec};  // empty is as if unset
+  if (from_exec != nullptr && *from_exec != '\0') return {from_exec};  // an empty variable counts as unset
   std::vector<std::string> live = serve::live_control_sockets();
   if (live.empty()) {
     throw serve::ControlError("page: no daemon answers in " + serve::control_folder() +
@@ -61,14 +61,14 @@ void require_page_port(const std::string& flag, int port) {
 }
 
 void start_page_beside(const std::string& control, int port) {
-  std::signal(SIGCHLD, SIG_IGN);  // it may end before we do
+  std::signal(SIGCHLD, SIG_IGN);  // the page may end before this process
   const pid_t parent = getpid();
   std::vector<std::string> words{"understudy", "page", "--control", control, "--port", std::to_string(port)};
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   if (fork() != 0) return;
-  // It ends with us, by whatever we end.
+  // The page ends with this process, however it ends.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(0);
   sigset_t none;

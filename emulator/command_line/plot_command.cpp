@@ -1,4 +1,4 @@
-// `understudy plot`: a picture of a trace, drawn by gnuplot.
+// Implements `understudy plot`: draws a trace with gnuplot.
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// Of gnuplot's work, removed with all that is in it.
+/// The working folder of gnuplot, which is removed with its contents.
 class WorkFolder {
  public:
   ~WorkFolder() {
@@ -50,7 +50,7 @@ void require_written(const std::string& what, const std::string& why_not) {
   if (!why_not.empty()) throw GrowingFileError(what + " cannot be written: " + why_not);
 }
 
-/// Its exit code. What it has to say goes into a file.
+/// Runs gnuplot and returns its exit code. Its output goes to a file.
 int run_gnuplot(WorkFolder& folder) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -72,7 +72,7 @@ int run_gnuplot(WorkFolder& folder) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// The most telling line of what gnuplot has said: the last one with words in it.
+/// Returns the most useful line of gnuplot's output: the last one with words in it.
 std::string diagnostic_in(const std::string& text) {
   std::string diagnostic = "it printed nothing";
   for (const TextLine line : TextLines(text)) {

@@ -1,4 +1,4 @@
-// `understudy poll`: a small Modbus master, for looking around. libmodbus is the host side.
+// Implements `understudy poll`, a small Modbus master for quick checks. libmodbus is the host side.
 #include <errno.h>
 #include <modbus/modbus-rtu.h>
 #include <modbus/modbus.h>
@@ -41,13 +41,13 @@ struct Item {
   Type type = Type::u16;
   int count = 1;
   int bit = -1;
-  int bits = 1;  // from there on
+  int bits = 1;  // number of bits from `bit` on
   bool low_word_first = true;
-  bool is_a_half = false;  // of a register of 32 bits
+  bool is_a_half = false;  // half of a 32-bit register
   bool write = false;
   std::int64_t value = 0;
-  std::string range{};                   // that the table gives a register, if it does
-  std::vector<std::uint16_t> message{};  // of a command: all that is written
+  std::string range{};                   // the register's range, if the table gives one
+  std::vector<std::uint16_t> message{};  // for a command: all words that it writes
 };
 
 std::int64_t require_integer(std::string_view text, const std::string& item) {
@@ -65,7 +65,7 @@ Type require_type(const std::string& name) {
   throw UsageError("--type: " + quoted(name) + " is unknown; expected u16, s16, u32, s32 or f32");
 }
 
-/// What a function code reads.
+/// Returns the table that a function code reads.
 Table table_of_function(int function) {
   constexpr std::array kTables{Table::coil, Table::discrete, Table::holding, Table::input};
   if (function < 1 || function > static_cast<int>(kTables.size()))
@@ -73,13 +73,13 @@ Table table_of_function(int function) {
   return kTables[static_cast<std::size_t>(function - 1)];
 }
 
-/// How many can be read at once.
+/// Returns the largest count of one read.
 int most_at_once(const Item& item) {
   if (item.type == Type::bit) return MODBUS_MAX_READ_BITS;
   return is_32_bit(item.type) ? MODBUS_MAX_READ_REGISTERS / 2 : MODBUS_MAX_READ_REGISTERS;
 }
 
-/// The value to be written, when the item's type is known.
+/// Reads the value to write. The item's type must be known.
 void read_value_of(Item& item, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) return;
@@ -96,7 +96,7 @@ void read_value_of(Item& item, const std::string& text) {
   item.value = value_of_real(single);
 }
 
-/// `low_word_first`: the order of words, if it is known better than by the model's table.
+/// `low_word_first` overrides the word order of the model's table.
 Item parse_item(ModelList models, const std::string& text, const PollArguments& arguments,
                 std::optional<bool> low_word_first) {
   Item item;
@@ -113,7 +113,7 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
     item.address = static_cast<std::uint16_t>(address);
     item.type = is_table_of_bits(item.table) ? Type::bit : require_type(arguments.type);
     read_value_of(item, text);
-    // The function is what is read with.
+    // --function applies to reads only.
     if (item.write && item.table == Table::input) item.table = Table::holding;
     if (colon != std::string::npos) {
       const std::int64_t count = require_integer(std::string_view(what).substr(colon + 1), text);
@@ -140,7 +140,7 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
     throw UsageError("poll: " + why_no_register(model, what, model.firmwares.back()));
   }
   const Place& place = found->place;
-  // Where a model does not tell them apart, input registers are the holding registers.
+  // If a model has no input registers, function 4 reads its holding registers.
   const bool is_input_by_function =
       place.row->table == Table::holding && arguments.function == 4 && !model.registers->has(Table::input);
   item.table = is_input_by_function && text == what ? Table::input : place.row->table;
@@ -183,12 +183,12 @@ struct ContextDeleter {
 };
 using Context = std::unique_ptr<modbus_t, ContextDeleter>;
 
-// What libmodbus can set; for anything else it falls back to 9600 without a word.
+// The rates that libmodbus can set. For any other, it silently uses 9600.
 constexpr std::array kBauds{110,     300,     600,     1200,    2400,    4800,    9600,    19200,
                             38400,   57600,   115200,  230400,  460800,  500000,  576000,  921600,
                             1000000, 1152000, 1500000, 2000000, 2500000, 3000000, 3500000, 4000000};
 
-/// What was not said of the line and the station, as a device of the model has it from the factory.
+/// Fills in settings of the line and the station that were not given, with the model's factory values.
 PollArguments with_line_of_model(ModelList models, PollArguments arguments) {
   pty::LineSettings line;
   int station = 1;
@@ -216,7 +216,7 @@ char letter_of_parity(const std::string& parity) {
   return parity == "even" ? 'E' : parity == "odd" ? 'O' : parity == "none" ? 'N' : '?';
 }
 
-/// What has come of a request, for whoever must find out why: who was asked, where, how.
+/// Describes a failed request: which station, on which port, at which settings.
 std::string failure_text(const PollArguments& arguments, int error) {
   const std::string station = one_line(arguments.port) + ": station " + std::to_string(arguments.station);
   const std::string line = " at " + std::to_string(arguments.baud) + " 8" +
@@ -335,14 +335,14 @@ void require_fitting(const Item& item) {
   }
 }
 
-/// Some controllers have 0 for a number like any other.
+/// Returns true if the model accepts station number 0.
 bool answers_at_0(ModelList models, const PollArguments& arguments) {
   if (arguments.model.empty()) return false;
   const auto& numbers = require_model(models, arguments.model).line.station_numbers;
   return numbers && numbers->lowest == 0;
 }
 
-/// Of everything that is polled: `low_word_first` as above.
+/// Returns all items to poll. `low_word_first` is as above.
 std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
                            std::optional<bool> low_word_first) {
   std::vector<Item> items;
@@ -360,7 +360,7 @@ std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
   return items;
 }
 
-/// As it is given; nothing if it is not.
+/// Returns the given word order, or nothing if none is given.
 std::optional<bool> given_word_order(const PollArguments& arguments) {
   if (arguments.word_order.empty()) return std::nullopt;
   if (arguments.word_order == "low") return true;
@@ -368,15 +368,15 @@ std::optional<bool> given_word_order(const PollArguments& arguments) {
   throw UsageError("--word-order: " + quoted(arguments.word_order) + " is unknown; expected low or high");
 }
 
-/// The register in which a device keeps the order of words, if anything polled depends on it, and it is not
-/// known.
+/// Returns the register that holds the device's word order. Returns nothing if no item depends on it, or if
+/// the order is known.
 std::optional<Item> word_order_item(ModelList models, const PollArguments& arguments,
                                     const std::vector<Item>& items) {
   const bool matters = std::any_of(items.begin(), items.end(), [](const Item& item) {
     return !item.message.empty() || is_32_bit(item.type) || item.is_a_half;
   });
   if (!matters || arguments.model.empty() || !arguments.word_order.empty()) return std::nullopt;
-  if (arguments.station == 0) return std::nullopt;  // nobody would answer
+  if (arguments.station == 0) return std::nullopt;  // a broadcast gets no reply
   const Model& model = require_model(models, arguments.model);
   if (model.registers == nullptr || model.registers->policy().word_order_in.empty()) return std::nullopt;
   const std::string name(model.registers->policy().word_order_in);
@@ -386,7 +386,7 @@ std::optional<Item> word_order_item(ModelList models, const PollArguments& argum
 }
 
 void keep_silent(const PollArguments& arguments) {
-  // Whatever was said before, a device needs that silence to know that a frame has ended.
+  // A device needs this silence to detect the end of an earlier frame.
   std::this_thread::sleep_for(play::silence_between_frames({.baud = arguments.baud}));
 }
 
@@ -428,10 +428,10 @@ int poll_port(ModelList models, const PollArguments& arguments) {
       const Item item = items[i];
       keep_silent(polled);
       const bool good = item.write ? write_item(context.get(), item) : read_item(context.get(), item);
-      // Nobody answers that.
+      // A broadcast gets no reply.
       const bool is_broadcast = polled.station == 0 && item.write && errno == ETIMEDOUT;
       if (good && order && item.write && item.table == order->table && item.address == order->address)
-        items = items_of(models, polled, item.value == 1);  // from here on
+        items = items_of(models, polled, item.value == 1);  // the new order applies from here on
       if (good || is_broadcast) continue;
       const std::string why = failure_text(polled, errno);
       std::fprintf(stderr, "understudy: poll: %s: %s\n", item.label.c_str(), why.c_str());

@@ -32,7 +32,8 @@ int complain(const std::exception& error, int code) {
   return code;
 }
 
-/// With a standard descriptor closed, a port would get its number, and what is printed would go out on it.
+/// Opens closed standard descriptors. Otherwise a port could get such a number, and printed text would go to
+/// it.
 void open_standard_descriptors() {
   int descriptor = 0;
   while ((descriptor = open("/dev/null", O_RDWR)) >= 0 && descriptor <= STDERR_FILENO) {
@@ -40,8 +41,8 @@ void open_standard_descriptors() {
   if (descriptor > STDERR_FILENO) close(descriptor);
 }
 
-/// Beyond such a limit a write fails, and its error is told: the signal would end the program. A handler,
-/// unlike "ignore", is not passed on to the programs that we start.
+/// Makes a write beyond the file size limit fail with an error, instead of a signal that ends the program.
+/// Started programs do not inherit a handler, but would inherit "ignore".
 void survive_file_size_limits() {
   struct sigaction before = {};
   if (sigaction(SIGXFSZ, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) return;
@@ -61,7 +62,7 @@ int run_program(int argc, char** argv, ModelList models) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     return complain(std::runtime_error("standard output cannot be written"), kExitNoResource);
   } catch (const world::BenchError& error) {
-    // It begins with the file's name and line, where editors look for it.
+    // The message begins with the file's name and line, where editors look for them.
     std::fprintf(stderr, "%s\n", error.what());
     return kExitBadInput;
   } catch (const UsageError& error) {
@@ -69,7 +70,7 @@ int run_program(int argc, char** argv, ModelList models) {
   } catch (const SettingError& error) {
     return complain(error, kExitBadInput);
   } catch (const NvError& error) {
-    std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());  // it begins with the file's name
+    std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());  // the message begins with the file's name
     return kExitBadInput;
   } catch (const serve::NoTtyShim& error) {
     return complain(error, kExitNoResource);

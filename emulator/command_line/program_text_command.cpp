@@ -16,19 +16,19 @@
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
 
-// Programs as text and as numbers. Every model with a language has the first, some have the second.
+// Converts programs between text and numbers. Every model with a language has text, and some have numbers.
 namespace understudy::emulator::command_line {
 
 namespace {
 
-/// What both directions need.
+/// Holds the input of both directions.
 struct ProgramFile {
   const ProgramCells& cells;
   DeviceSettings settings;
   std::string text;
 };
 
-/// Nothing, and one line on standard error, if it cannot be read.
+/// Reads the program. If it cannot, it prints one line to standard error and returns nothing.
 std::optional<ProgramFile> open_program(ModelList models, const ProgramTextArguments& arguments,
                                         const char* command) {
   const Model& model = require_model(models, arguments.model);

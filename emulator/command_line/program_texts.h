@@ -11,9 +11,9 @@
 
 namespace understudy::emulator::command_line {
 
-/// Throws UsageError if the model's devices take no programs.
+/// Returns the model's language. Throws UsageError if its devices take no programs.
 const ProgramLanguage& require_language(const Model& model);
-/// Throws UsageError, or SettingError for settings that the model does not have.
+/// Returns the settings. Throws UsageError, or SettingError for settings that the model does not have.
 DeviceSettings program_settings(const Model& model, const ProgramTextArguments& arguments);
 /// Prints the mistakes to standard error, a line each.
 void print_mistakes(const std::vector<ProgramMistake>& mistakes, const std::string& file);

@@ -37,14 +37,14 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// The recorded world as it was then, with a clock that stands, until a signal ends it. `at`: where it stands
-/// once the daemon runs.
+/// Serves the recorded world with a stopped clock until a signal ends it. `at` is the time once the daemon
+/// runs.
 int serve_from(const world::Replayed& replayed, const world::WorldState& state, SimTime at,
                const std::string& recording, const serve::DoorMaker& door, std::optional<int> page) {
-  signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
+  signal(SIGPIPE, SIG_IGN);  // the reader of the log may end first
   world::Bench bench = replayed.bench;
   for (world::LineSetup& line : bench.lines)
-    line.link.clear();  // where it was recorded, somebody else may be at it
+    line.link.clear();  // another bench may use the link on this machine
   serve::DaemonOptions options;
   options.speed.kind = serve::Speed::Kind::manual;
   options.strict_framing = replayed.header.options.strict_framing;
@@ -64,7 +64,7 @@ int serve_from(const world::Replayed& replayed, const world::WorldState& state, 
   return kExitWell;
 }
 
-/// Remembers what it sees, to go to and fro in it.
+/// Stores the events of a replay for travel in both directions.
 class Rememberer final : public world::ReplayWatcher {
  public:
   Rememberer(const world::World& world, std::optional<world::WorldState>& begin,
@@ -82,8 +82,8 @@ class Rememberer final : public world::ReplayWatcher {
   std::vector<world::RecordedEvent>& events_;
 };
 
-/// The whole of it, and then any moment of it, first `until` or its begin; one that differs as far as it
-/// goes.
+/// Replays the whole recording, then serves any moment of it, at first `until` or the beginning. A recording
+/// that differs is served up to the difference.
 int travel_in(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> until) {
   std::ifstream file(arguments.recording, std::ios::binary);
   std::optional<world::WorldState> begin;

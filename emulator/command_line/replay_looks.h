@@ -18,7 +18,7 @@ namespace understudy::emulator::command_line {
 /// Checks that the files may be written, and claims them. Throws UsageError.
 void require_looks(const ReplayArguments& arguments, FileClaims& claims);
 
-/// Opens the files, or throws an error with the reason.
+/// Writes the files during a replay. The constructor opens them, or throws an error with the reason.
 class ReplayLooks final : public world::ReplayWatcher {
  public:
   /// `seen` receives the page's content at the end: the run log and the steps.
@@ -37,7 +37,7 @@ class ReplayLooks final : public world::ReplayWatcher {
   play::ScenarioResult& seen_;
   std::unique_ptr<world::WorldCapture> capture_;
   std::unique_ptr<world::TraceFile> trace_;
-  std::unique_ptr<play::RunLogger> run_logger_;  // of a page
+  std::unique_ptr<play::RunLogger> run_logger_;  // for the page
 };
 
 /// Returns the result for the page. `seen` is what the looks have collected.

@@ -1,4 +1,4 @@
-// A file that a command writes at its end: results, or a page.
+// Defines a file that a command writes at its end, such as results or a page.
 #pragma once
 
 #include <fcntl.h>
@@ -21,11 +21,11 @@ namespace understudy::emulator::command_line {
 /// The path that stands for standard output.
 inline constexpr std::string_view kStandardOutput = "-";
 
-/// Opened before anything runs, so that a wrong path is reported at once. Endless files, such as
-/// /dev/stdout, are allowed.
+/// Holds a result file. It is opened before anything runs, so a wrong path is reported at once. Endless
+/// files, such as /dev/stdout, are allowed.
 class ResultFile {
  public:
-  /// An empty path means that nothing is written.
+  /// With an empty path, nothing is written.
   ResultFile(const char* flag, const std::string& path, ContentKind kind) : flag_(flag), path_(path) {
     if (path_.empty()) return;
     if (path_ == kStandardOutput) {
@@ -43,7 +43,7 @@ class ResultFile {
       refuse(error.what());
     }
     if (!stream_) refuse(errno == ENXIO ? "no program reads the pipe" : std::strerror(errno));
-    ::fcntl(stream_.get(), F_SETFL, 0);  // from here on it may make us wait
+    ::fcntl(stream_.get(), F_SETFL, 0);  // from here on, writes may block
   }
   bool is_wanted() const { return !path_.empty(); }
   /// Empties the file, so that its old content is not mistaken for the result of a run that breaks off.

@@ -26,7 +26,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr std::size_t kMaxShown = 1000;         // on a page, besides the first failures of each kind
+constexpr std::size_t kMaxShown = 1000;         // cases on a page, besides the first failures of each kind
 constexpr std::size_t kMaxLintFindings = 1000;  // lines
 
 using RunVerdict = play::ScenarioResult::Verdict;
@@ -49,7 +49,7 @@ std::unique_ptr<play::ResultsFile> open_results(const std::string& path, bool go
 
 RunAccount::RunAccount(const RunArguments& arguments)
     : arguments_(arguments),
-      // What is for people makes way for results on standard output.
+      // If results go to standard output, text for people goes to standard error.
       told_(arguments.junit == kStandardOutput ? stderr : stdout) {
   for (const std::string& path : arguments.results) rows_.push_back(open_results(path, arguments.resume));
   if (!arguments.junit.empty()) junit_.emplace();

@@ -1,5 +1,5 @@
-// Reports the results of a run case by case: verdicts for the user, JUnit, rows of results, a page. For any
-// number of cases it keeps only counts, and the first failure of each kind.
+// Reports the results of a run case by case: verdicts for the user, JUnit, rows of results, a page. It keeps
+// only counts and the first failure of each kind, for any number of cases.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ class RunAccount {
   /// Opens the files of results. Throws UsageError and GrowingFileError.
   explicit RunAccount(const RunArguments& arguments);
 
-  /// Returns true if the files of results have this case already, so that it need not run again; it is
-  /// counted as left out. May be called on any thread, one call at a time.
+  /// Returns true if the files of results already have this case. Then it need not run again and counts as
+  /// left out. May be called on any thread, one call at a time.
   bool was_played(const play::CaseKey& key);
   /// Empties the files, unless the run continues in them.
   void begin();
@@ -57,9 +57,9 @@ class RunAccount {
   play::Tally tally_;
   play::FailureKinds kinds_;
   std::optional<play::Junit> junit_;
-  std::vector<play::ScenarioResult> shown_;    // on the page
+  std::vector<play::ScenarioResult> shown_;    // the results on the page
   std::vector<std::string> lint_findings_;     // lines
-  std::set<std::string> known_lint_findings_;  // of cases that `vary` made
+  std::set<std::string> known_lint_findings_;  // lint findings of cases that `vary` made
 };
 
 }  // namespace understudy::emulator::command_line

@@ -48,7 +48,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// The files that are played: of a folder its scenarios, and neither its benches nor steps to include.
+/// Returns the scenario files of a path. For a folder, benches and included steps are left out.
 std::vector<std::string> files_of(const std::string& path) {
   if (!std::filesystem::is_directory(path)) return {path};
   std::vector<std::string> files = files_below(path, kYamlEndings);
@@ -61,18 +61,18 @@ std::vector<std::string> files_of(const std::string& path) {
 /// A file that a scenario saves.
 struct SavedFile {
   std::string path;
-  std::string scenario;  // its file
+  std::string scenario;  // the scenario's file
   std::size_t case_number;
-  bool is_varied;  // a case list knows whether two such cases save one file
+  bool is_varied;  // only a case list knows whether two such cases save the same file
 };
 
-/// What is known of the scenarios before anything is played.
+/// Collects what the check of all scenarios found, before any of them runs.
 struct Known {
-  FileClaims claims;      // files that are read
-  std::size_t cases = 0;  // that were looked at
+  FileClaims claims;      // the files that are read
+  std::size_t cases = 0;  // the cases that were checked
   std::vector<SavedFile> saved{};
-  std::set<std::string> warned{};  // of programs, told once however many scenarios have them
-  std::string trace_error{};       // why --trace-also does not suit one of them; empty: it does
+  std::set<std::string> warned{};  // warnings about programs, which are printed only once
+  std::string trace_error{};       // why --trace-also does not fit one of the scenarios; empty: it fits
 };
 
 void warn(const play::Scenario& scenario, Known& known) {
@@ -97,7 +97,7 @@ void note_saved(const play::Scenario& scenario, const RunArguments& arguments, K
   }
 }
 
-/// Adds all files; what is wrong with each is told. False if anything is.
+/// Adds all files and prints their errors. Returns false if there is any.
 bool add_all(play::CaseList& case_list, const RunArguments& arguments, Known& known) {
   std::vector<std::string> files;
   bool is_well = true;
@@ -118,7 +118,7 @@ bool add_all(play::CaseList& case_list, const RunArguments& arguments, Known& kn
   for (const std::string& file : files) {
     attempt([&] {
       case_list.add(file, [&](const play::Scenario& scenario) {
-        known.claims.add(scenario.files);  // also by those that are not chosen
+        known.claims.add(scenario.files);  // the files of unselected scenarios count too
         note_saved(scenario, arguments, known);
       });
     });
@@ -150,10 +150,11 @@ RunFolders folders_of(const RunArguments& arguments) {
           .trace_also = arguments.trace_also};
 }
 
-/// What is written is nothing that is read, whichever scenario comes first, and nothing else that is written.
+/// Throws UsageError if a written file is also read, or is written twice. The order of scenarios does not
+/// matter.
 void require_own_files(Known& known, const RunArguments& arguments) {
   FileClaims& claims = known.claims;
-  std::vector<FileClaim> of_this;  // a case may save a file twice
+  std::vector<FileClaim> of_this;  // one case may save a file twice
   for (std::size_t i = 0; i < known.saved.size(); ++i) {
     const SavedFile& saved = known.saved[i];
     if (const std::string why = claims.objection_to(saved.path); !why.empty()) {
@@ -170,7 +171,7 @@ void require_own_files(Known& known, const RunArguments& arguments) {
   if (!known.trace_error.empty()) throw UsageError(known.trace_error);
 }
 
-// In real time a scenario mostly waits.
+// In real time a scenario mostly waits, so more of them run at once.
 constexpr int kRealTimeJobs = 8;
 
 int jobs_of(const RunArguments& arguments) {
@@ -184,11 +185,11 @@ int jobs_of(const RunArguments& arguments) {
   return *arguments.jobs;
 }
 
-/// How one scenario is played, and who looks on.
+/// Runs a scenario with its observers.
 class Stagehand {
  public:
   Stagehand(const RunArguments& arguments, RunFiles& files) : arguments_(arguments), files_(files) {
-    // Rows of results have the hash.
+    // Rows of results contain the hash.
     options_.with_hash = arguments.hash || (!arguments.results.empty() && !arguments.real_time);
     if (arguments.lint) {
       options_.observers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
@@ -201,7 +202,8 @@ class Stagehand {
     try {
       const auto scenario = reader.read(which_case);
       play::RunOptions options = options_;
-      // Pictures of cases without end are made when one is to be shown.
+      // For varied cases, the run log is made only when a case is shown, because there may be any number of
+      // them.
       if (!arguments_.report.empty() && !scenario->which.is_varied) options.observers.push_back(run_logger());
       add(options, files_.observers(*scenario));
       return play::run_scenario(*scenario, options);
@@ -210,7 +212,8 @@ class Stagehand {
     }
   }
 
-  /// Once more, with a recorder, and a run log if there is a page: in free time it comes to the same.
+  /// Runs the case again with a recorder, and with a run log if there is a page. In virtual time the result
+  /// is the same.
   std::vector<play::ScenarioResult> play_again(play::CaseReader& reader,
                                                const play::CaseId& which_case) const {
     const auto scenario = reader.read(which_case);
@@ -228,7 +231,7 @@ class Stagehand {
     for (play::ObserverMaker& maker : more) options.observers.push_back(std::move(maker));
   }
 
-  /// A case that was not among those that were checked beforehand, and that something is wrong with.
+  /// Returns the result of a case that was not checked before the run and cannot be read.
   static play::ScenarioResult unreadable(play::CaseReader& reader, const play::CaseId& which_case,
                                          const play::CaseList& case_list, const FileError& error) {
     play::ScenarioResult result{.verdict = play::ScenarioResult::Verdict::failed,
@@ -240,7 +243,7 @@ class Stagehand {
       result.which = reader.case_of(which_case);
       result.name = reader.name_of(which_case);
     } catch (const FileError&) {
-      // Then it has no better one.
+      // The result keeps the file's name.
     }
     play::Failure failure{.what = one_line(error.diagnostics().front().text)};
     for (std::size_t i = 1; i < error.diagnostics().size(); ++i) {
@@ -255,7 +258,7 @@ class Stagehand {
   play::RunOptions options_{};
 };
 
-/// The program is part of what makes a result.
+/// Returns the hash of a case's sources and of the program's version.
 std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const std::string& version) {
   return hash_of(std::as_bytes(std::span(version)), case_list.made_of(file));
 }
@@ -284,7 +287,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   report.empty();
   account.begin();
   const Stagehand stagehand(arguments, files);
-  play::CaseReader reader(case_list);  // of this thread
+  play::CaseReader reader(case_list);  // one reader for each thread
   play::CaseReader next_reader(case_list);
   const std::uint64_t total = play::Selection::count(case_list, arguments.filter, shard);
   play::Selection selection(case_list, arguments.filter, shard);

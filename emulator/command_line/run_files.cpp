@@ -49,14 +49,14 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLongestName = 100;    // bytes
 constexpr std::size_t kPieceOfCopy = 65536;  // bytes
 
-/// What is made of a play.
+/// Describes one kind of file that a run makes.
 struct FileKind {
   const char* flag;
   ContentKind content;
   std::string RunFolders::*folder;
   std::string play::ScenarioResult::*place;
   const char* ending;
-  std::array<const char*, 3> of_files;  // no folder has such a name
+  std::array<const char*, 3> of_files;  // endings of file names; a folder must not have one
 };
 constexpr FileKind kRecording{
     "--record", ContentKind::recording, &RunFolders::recordings, &play::ScenarioResult::recording, ".jsonl",
@@ -72,11 +72,11 @@ constexpr FileKind kFailure{
     {".jsonl"}};
 constexpr std::array<FileKind, 4> kFolders{kRecording, kTrace, kCapture, kFailure};
 
-/// A file about a play. Such a file has one course: where the play goes back to an earlier state, or is a
-/// branch that begins in one, it begins anew.
+/// Writes a file about a run. The file has one course of events: if the run returns to an earlier state, or
+/// is a branch from one, the file starts again.
 class PlayFile final : public play::Observer {
  public:
-  /// What ends the file, and returns why it has ended early.
+  /// Ends the file. Returns why it ended early, or an empty text.
   using Finish = std::function<std::string()>;
   using Begin = std::function<Finish(world::World&, const std::string& path)>;
 
@@ -85,10 +85,10 @@ class PlayFile final : public play::Observer {
     world_restored(0);
   }
   void world_restored(std::size_t) override {
-    finish_ = {};  // the one before is over, and its file is free
+    finish_ = {};  // frees the earlier file first
     finish_ = begin_(world_, path_);
   }
-  /// Throws GrowingFileError where the file has not become whole.
+  /// Throws GrowingFileError if the file is incomplete.
   void finish(play::ScenarioResult& result) override {
     const std::string failure = finish_();
     finish_ = {};
@@ -104,7 +104,7 @@ class PlayFile final : public play::Observer {
   Finish finish_;  // owns the file
 };
 
-/// What any file system takes, and no shell needs quotes for.
+/// Returns the name with only letters that every file system accepts and no shell needs to quote.
 std::string file_name_of(const std::string& name) {
   std::string text;
   for (const char c : name) {
@@ -123,13 +123,13 @@ std::string file_name_of(const std::string& name) {
 
 constexpr const char* kSpool = "spool";
 
-/// A lock that lasts as long as the process; nothing if somebody else has it.
+/// Returns a lock that lasts as long as the process, or nothing if another process holds it.
 Descriptor locked(const std::string& folder) {
   Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   return lock && ::flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : Descriptor();
 }
 
-/// What a `run` that was killed has left behind. The recordings that it kept stay.
+/// Removes the spools of `run` processes that were killed. It keeps their saved recordings.
 void remove_abandoned_spools() {
   const fs::path folders(serve::kPrivateFolders);
   std::error_code error;
@@ -140,7 +140,7 @@ void remove_abandoned_spools() {
                         S_ISDIR(status.st_mode) && status.st_uid == ::geteuid();
     if (!is_own || !locked(path + "/" + kSpool)) continue;
     fs::remove_all(path + "/" + kSpool, error);
-    fs::remove(path, error);  // if nothing else is in it
+    fs::remove(path, error);  // succeeds only if the folder is empty
   }
 }
 
@@ -148,7 +148,7 @@ void remove_abandoned_spools() {
   throw std::system_error(error, std::string(flag) + ": " + path + " cannot be written");
 }
 
-/// What it cannot hold as a whole is not left there in part.
+/// Copies a file. If the copy fails, it removes the partial copy.
 void copy_file(const std::string& from, const std::string& to, ContentKind content) {
   OutputFile file(to, content);
   file.begin("");
@@ -164,7 +164,7 @@ void copy_file(const std::string& from, const std::string& to, ContentKind conte
   }
 }
 
-/// Also from one file system to another.
+/// Moves a file, also between file systems.
 void move_file(const char* flag, const std::string& from, const std::string& path, ContentKind content) {
   std::error_code error;
   try {
@@ -180,7 +180,7 @@ void move_file(const char* flag, const std::string& from, const std::string& pat
   fs::remove(from, error);
 }
 
-// A recording that had grown too large has its older part in a file of its own.
+// The older part of a large recording is a separate file.
 constexpr std::array<const char*, 2> kParts = {"", world::kOlderPart};
 
 }  // namespace
@@ -221,7 +221,7 @@ RunFiles::RunFiles(RunFolders folders, FileClaims claims, bool real_time, std::s
   }
   remove_abandoned_spools();
   serve::remove_left_overs();
-  // It gets its name when it is locked: before, others would take it for abandoned.
+  // The folder gets its name only after it is locked. Otherwise another process would consider it abandoned.
   const std::string unlocked = private_folder_.path() + "/unlocked";
   spool_ = private_folder_.path() + "/" + kSpool;
   fs::create_directory(unlocked, error);
@@ -255,7 +255,7 @@ play::ObserverMaker RunFiles::recorder(const play::Scenario& scenario) {
 
 std::vector<play::ObserverMaker> RunFiles::observers(const play::Scenario& scenario) {
   std::vector<play::ObserverMaker> makers;
-  // Of cases without end most recordings would be thrown away; in free time a failure can be played again.
+  // Most recordings of varied cases would be thrown away. In virtual time a failed case can run again.
   if (!scenario.which.is_varied || real_time_ || !folders_.recordings.empty()) {
     makers.push_back(recorder(scenario));
   }
@@ -280,7 +280,7 @@ std::vector<play::ObserverMaker> RunFiles::observers(const play::Scenario& scena
 
 std::string RunFiles::free_name(const play::ScenarioResult& result) {
   std::string plain = file_name_of(result.name);
-  // Names are kept in mind only where there are not too many of them.
+  // Varied cases may be too many to remember their names.
   if (result.which.is_varied) {
     if (!result.branch.empty()) plain += "-" + file_name_of(result.branch);
     return plain + "-" + play::identity_text(play::identity_of(result.which));

@@ -1,5 +1,5 @@
-// The files that `run` makes of each scenario: recordings, traces, captures. They are spooled below /tmp,
-// and kept where the user wants them.
+// Manages the files that `run` makes of each scenario: recordings, traces, captures. They are spooled below
+// /tmp, and kept in the folders that the user chose.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@
 
 namespace understudy::emulator::command_line {
 
-/// The folders for the files of each scenario. They are made if needed; an empty path means no files.
+/// The folders for the files of each scenario. `run` makes them if needed. An empty path means no files.
 struct RunFolders {
-  std::string recordings;  // for all; if empty, recordings of failures are kept, the first of each kind:
-  std::string failures;    // here, or, if empty, below /tmp
+  std::string recordings;  // for all recordings; if empty, the first failure of each kind is recorded:
+  std::string failures;    // in this folder, or, if empty, below /tmp
   std::string traces;
   std::string captures;
   std::vector<std::string> trace_also;
@@ -44,8 +44,8 @@ class RunFiles {
   std::vector<play::ObserverMaker> observers(const play::Scenario& scenario);
   play::ObserverMaker recorder(const play::Scenario& scenario);
   /// Keeps the files under the result's name, or removes them, and stores their paths in the result. It is
-  /// called in the order of the results, which decides between equal names. `is_new` tells that it is the
-  /// first failure of its kind.
+  /// called in the order of the results, which decides between equal names. `is_new` means the first failure
+  /// of its kind.
   void settle(play::ScenarioResult& result, bool is_new);
 
  private:
@@ -57,10 +57,10 @@ class RunFiles {
   bool real_time_;
   std::string version_;
   serve::PrivateFolder private_folder_;
-  Descriptor lock_;    // on the spool: locked: its owner is alive
-  std::string spool_;  // a folder in that one
+  Descriptor lock_;    // locks the spool while its owner is alive
+  std::string spool_;  // a folder in the private folder
   std::atomic<int> count_ = 0;
-  std::set<std::string> names_;  // that are taken
+  std::set<std::string> names_;  // the names in use
 };
 
 }  // namespace understudy::emulator::command_line

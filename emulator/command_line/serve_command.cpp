@@ -17,7 +17,7 @@ namespace understudy::emulator::command_line {
 int serve(ModelList models, const ServeArguments& arguments) {
   if (arguments.page) require_page_port("serve: --page", *arguments.page);
   const Serving serving = make_serving(models, arguments, "serve");
-  signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
+  signal(SIGPIPE, SIG_IGN);  // the reader of the log may end first
   serve::Daemon daemon(serving.bench, serving.options, log_line);
   for (const auto& port : daemon.ports()) {
     if (serving.group && port->terminal() != nullptr)

@@ -50,7 +50,7 @@ pty::Timing require_timing(const std::string& timing) {
   throw UsageError("--timing: " + understudy::quoted(timing) + " is unknown; expected wire or instant");
 }
 
-/// What the model says of a setting is said of its flag.
+/// Reports the model's error about a setting as an error of its flag.
 void require_possible(const world::DeviceSetup& device) {
   try {
     make_device(*device.model, device.settings);
@@ -60,7 +60,7 @@ void require_possible(const world::DeviceSetup& device) {
   }
 }
 
-/// One device on all its ports, from flags.
+/// Returns a bench with one device on all its ports, as the flags describe it.
 world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
   std::vector<FileClaim> files;
   world::DeviceSetup device{.model = &require_model(models, arguments.model, files), .settings = {}};
@@ -93,7 +93,7 @@ world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
   return bench;
 }
 
-/// What follows [LINE=].
+/// Parses the address after [LINE=].
 world::TcpAddress address_wished(const std::string& wish, std::size_t begin) {
   try {
     return world::parse_tcp_address(std::string_view(wish).substr(begin));
@@ -102,7 +102,7 @@ world::TcpAddress address_wished(const std::string& wish, std::size_t begin) {
   }
 }
 
-/// [LINE=]rtu://[HOST]:PORT: the line that it names, or the only one, listens there as well.
+/// Parses [LINE=]rtu://[HOST]:PORT. The named line, or the only one, also listens at that address.
 void listen_as_wished(world::Bench& bench, const std::string& wish) {
   const std::size_t equals = wish.substr(0, wish.find("://")).rfind('=');
   const bool names_line = equals != std::string::npos;
@@ -186,7 +186,8 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
   return bench;
 }
 
-/// What the bench is made of, the memories, which are written as well, and what hosts and `ctl` open.
+/// Returns the files that the bench uses: its own files, the memories, which are also written, the links and
+/// the control socket.
 FileClaims claims_of(const world::Bench& bench, const std::string& control) {
   FileClaims claims;
   claims.add(bench.files);
@@ -200,7 +201,7 @@ FileClaims claims_of(const world::Bench& bench, const std::string& control) {
   return claims;
 }
 
-/// What else is to be traced can be seen of this bench.
+/// Throws UsageError if the bench has no signal of one of these names.
 void require_names(const world::Bench& bench, const std::vector<std::string>& also) {
   if (also.empty()) return;
   try {
@@ -210,7 +211,7 @@ void require_names(const world::Bench& bench, const std::vector<std::string>& al
   }
 }
 
-/// And the file beside it, where its older part goes once it has grown large.
+/// Claims the recording and the file for its older part.
 std::string require_recording(const std::string& path, FileClaims& claims) {
   const std::string older = older_part_of(path);
   require_output(claims, "--record", older);
@@ -262,7 +263,7 @@ Serving make_serving(ModelList models, const ServeArguments& arguments, const st
 
 namespace {
 
-/// For a person only: in a script's log it would look like something gone wrong.
+/// Prints a hint for people only. In a script's log it would look like an error.
 void say_how_to_have_parity(const serve::Daemon& daemon) {
   if (isatty(STDERR_FILENO) == 0) return;
   for (const auto& port : daemon.ports()) {

@@ -16,10 +16,10 @@ namespace understudy::emulator::command_line {
 struct Serving {
   world::Bench bench;
   serve::DaemonOptions options;
-  std::optional<gid_t> group;  // that may open the ports as well
+  std::optional<gid_t> group;  // a group that may also open the ports
 };
 
-/// Reads the bench and its initial memories. `command` is for messages. Throws errors in either.
+/// Reads the bench and its initial memories. `command` is for messages. Throws the errors of both.
 Serving make_serving(ModelList models, const ServeArguments& arguments, const std::string& command);
 
 /// Prints one line for each port: its pty and its link. Throws PortError if standard output cannot be

@@ -1,4 +1,4 @@
-// Output for people at a terminal only: colours, and the progress of a long run.
+// Prints output for people at a terminal only: colours, and the progress of a long run.
 #pragma once
 
 #include <condition_variable>
@@ -19,13 +19,13 @@ bool wants_colour(int descriptor);
 /// Colours the verdict that begins a line ("ok", "FAIL", "-"), if colours are wanted.
 std::string coloured_verdict(const std::string& line, bool with_colour);
 
-/// A last line at a terminal that says how many are done, how many have failed, how many a second, and how
-/// much time is left; rewritten now and then once the run has taken a while. There is none if standard error
-/// is not a terminal, or the variable CI says that nobody is there.
+/// Shows a last line on a terminal with the number of finished and failed cases, the rate, and the remaining
+/// time. It appears once the run has taken a while. There is no such line if standard error is not a
+/// terminal, or if the variable CI is set.
 class ProgressLine {
  public:
   explicit ProgressLine(std::uint64_t total);
-  ~ProgressLine();  // wipes it away
+  ~ProgressLine();  // clears the line
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 

@@ -1,4 +1,4 @@
-// `understudy ctl watch`: a table that is kept up to date.
+// Implements `understudy ctl watch`: a table that is kept up to date.
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -28,7 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Keys one by one, without an echo, for as long as this lives; Ctrl-C stays what it is.
+/// Reads single keys without an echo while it exists. Ctrl-C keeps its meaning.
 class Keyboard {
  public:
   Keyboard() : is_there_(isatty(STDIN_FILENO) != 0 && tcgetattr(STDIN_FILENO, &before_) == 0) {
@@ -45,15 +45,15 @@ class Keyboard {
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
   bool is_there() const { return is_there_; }
-  void forget() { is_there_ = false; }  // it has hung up
+  void forget() { is_there_ = false; }  // the terminal has hung up
 
  private:
   termios before_{};
   bool is_there_ = false;
 };
 
-/// The terminal's other screen, without a cursor, for as long as this lives. What the user had on the
-/// terminal is there again afterwards.
+/// Uses the terminal's alternate screen, without a cursor, while it exists. Afterwards the user's content
+/// appears again.
 class Screen {
  public:
   Screen() { put("\x1b[?1049h\x1b[?25l"); }
@@ -61,7 +61,7 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Written over what is there, in one piece: a screen that is cleared first flickers.
+  /// Writes the lines over the old ones in one piece. A screen that is cleared first flickers.
   void show(const std::vector<std::string>& lines) {
     const winsize size = size_now();
     std::string text = "\x1b[H";
@@ -72,7 +72,7 @@ class Screen {
   }
   static std::size_t columns() { return size_now().ws_col; }
 
-  /// Waits this long, or until a signal or a key comes. False when somebody wants to end it.
+  /// Waits this long, or until a signal or a key comes. Returns false if the user wants to end it.
   bool wait(Clock::duration time) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(time).count();
     pollfd keyboard{keyboard_.is_there() ? STDIN_FILENO : -1, POLLIN, 0};
@@ -109,8 +109,8 @@ void print(const std::vector<std::string>& lines) {
   std::fflush(stdout);
 }
 
-/// What is shown of one reply. Later ones may be refused, as that of a device without power: then that is
-/// shown.
+/// Holds the content of one reply. Later replies may be refused, for example without power; then it shows the
+/// refusal.
 class Shown {
  public:
   explicit Shown(std::vector<std::string> names) : names_(std::move(names)) {}
@@ -143,7 +143,7 @@ int watch(const WatchArguments& arguments) {
   if (arguments.times < 0) throw UsageError("ctl watch: --times: expected 0 (no end) or more");
   const std::string path = choose_daemon(arguments.which);
   Shown shown(arguments.names);
-  // Nobody answers, or there is nothing of that name? That is told before the terminal is touched.
+  // An error is reported before the terminal is changed: no daemon, or no such name.
   std::string reply = serve::ask_control(path, shown.message());
   if (const std::string why = serve::why_refused(reply); !why.empty()) {
     std::fprintf(stderr, "understudy: ctl watch: %s\n", one_line(why).c_str());

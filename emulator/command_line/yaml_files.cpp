@@ -23,7 +23,7 @@ std::vector<std::string> files_below(const std::string& folder, std::span<const 
     if (is_hidden && it->is_directory()) it.disable_recursion_pending();
     if (is_hidden || it->is_directory()) continue;
     if (std::find(endings.begin(), endings.end(), path.extension().string()) != endings.end())
-      files.push_back(path.lexically_normal().string());  // services that annotate files know no "./"
+      files.push_back(path.lexically_normal().string());  // services that annotate files do not accept "./"
   }
   if (error) throw FileError(folder + ": folder: cannot be read (" + error.message() + "); expected one");
   if (files.empty())

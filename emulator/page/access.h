@@ -17,29 +17,30 @@ struct WebAddress {
   std::uint16_t port = 0;
 };
 
-/// A host such as "localhost:8080". It is parsed, not compared by its beginning.
+/// Names a host such as "localhost:8080". The text is parsed completely, not only compared by its beginning.
 struct HostName {
   std::string name;  // in lower case; an IPv6 address without its brackets
   std::uint16_t port = 80;
   bool operator==(const HostName&) const = default;
 };
-/// Returns nothing for a text that is not a host: with user names, paths, spaces, ports beyond 65535, or
+/// Returns nothing if the text is not a host: if it has user names, paths, spaces, ports beyond 65535, or
 /// empty names.
 std::optional<HostName> parse_host(std::string_view text);
 
 struct WebAccess {
   std::vector<HostName> hosts;
   bool admits_host(std::string_view host) const;
-  /// `origin` is a text such as "http://localhost:8080".
+  /// Returns true if pages from this origin are accepted. It is a text such as "http://localhost:8080".
   bool admits_origin(std::string_view origin) const;
 };
 
-/// Accepts the loopback's names at that port, and other names that the user has given.
+/// Returns the access that accepts the loopback's names at that port, and the other names that the user has
+/// given.
 WebAccess access_of(const WebAddress& address, const std::vector<std::string>& other_names);
 
 /// Returns 128 random bits from the system, in hexadecimal digits.
 std::string make_token();
-/// Compares in constant time.
+/// Compares a given text with the token in constant time.
 bool is_token(std::string_view given, std::string_view token);
 
 }  // namespace understudy::emulator::page

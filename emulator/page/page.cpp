@@ -23,7 +23,7 @@ namespace understudy::emulator::page {
 
 namespace {
 
-constexpr std::size_t kMaxAsked = 32;  // answers that one browser waits for
+constexpr std::size_t kMaxAsked = 32;  // replies that one browser can wait for
 constexpr std::chrono::milliseconds kForToken{5'000};
 
 std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -147,7 +147,7 @@ void Page::watch(Browser& whose, BrowserMessage message) {
                 .events = message.events,
                 .status = message.status,
                 .epoch = benches_[message.bench]->epoch()};
-  // What it has been sent of frames and events it has.
+  // The browser already has the frames and events that were sent to it.
   const auto before = whose.watched.find(message.bench);
   if (before != whose.watched.end() && before->second.epoch == next.epoch) {
     next.next_frame = before->second.next_frame;
@@ -161,7 +161,7 @@ void Page::watch(Browser& whose, BrowserMessage message) {
   watched_changed(message.bench);
 }
 
-/// What all browsers together want of a bench.
+/// Combines the requests of all browsers for a bench.
 void Page::watched_changed(std::size_t bench) {
   PageBench::Wanted wanted;
   for (const auto& [id, browser] : browsers_) {
@@ -199,7 +199,7 @@ void Page::show(std::size_t bench) {
   for (auto& [id, browser] : browsers_) show_to(id, browser, bench);
 }
 
-/// One that has not taken the last update yet gets the next one when it has.
+/// A browser that still receives the last update gets the next one afterwards.
 void Page::show_to(BrowserId browser, Browser& whose, std::size_t bench) {
   const auto found = whose.watched.find(bench);
   if (found == whose.watched.end() || web_.waiting(browser) > 0) return;
@@ -215,7 +215,7 @@ void Page::tell_state(std::size_t bench) {
                   {"epoch", benches_[bench]->epoch()}};
   for (auto& [id, browser] : browsers_) {
     if (!browser.is_known) continue;
-    // Of another daemon, everything is new.
+    // If another daemon replies, all its data is new.
     if (const auto found = browser.watched.find(bench);
         found != browser.watched.end() && benches_[bench]->state() == PageBench::State::there) {
       if (found->second.epoch != benches_[bench]->epoch()) {

@@ -26,7 +26,7 @@ struct PageOptions {
   bool is_read_only = false;
   std::string folder;  // a folder with the page's files; empty: those in the program
   WebLimits limits{};
-  std::size_t browsers = 16;  // with the token
+  std::size_t browsers = 16;  // browsers with the token
 };
 
 struct BrowserMessage;
@@ -48,9 +48,9 @@ class Page final : private WebEvents {
 
  private:
   struct Browser {
-    bool is_known = false;                    // it has brought the token
+    bool is_known = false;                    // the browser has sent the token
     std::map<std::size_t, Watching> watched;  // by bench
-    std::size_t asked = 0;                    // answers that it waits for
+    std::size_t asked = 0;                    // replies that it waits for
   };
 
   std::optional<WebFile> file(std::string_view path) override;

@@ -20,19 +20,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxInAnUpdate = 200;  // frames, and events
+constexpr std::size_t kMaxInAnUpdate = 200;  // limits frames and events
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 std::string quoted_json(const std::string& text) { return text_of(Json(text)); }
 
-/// `"frames":[...]` of those from `next` on, and how many before or between them were missed: those that the
-/// browser was too slow for, and those that this page was. What has a number below `from` is gone, and nobody
-/// misses it.
+/// Writes `"frames":[...]` with the frames from `next` on, and the number of those that were missed before or
+/// between them, because the browser or this page was too slow. Frames with a number below `from` are gone
+/// and do not count as missed.
 template <class Ring>
 std::string listed(const Ring& ring, std::uint64_t from, std::uint64_t& next, const std::string& key) {
   if (ring.empty() || ring.back().number < next) return {};
-  std::uint64_t expected = next == 0 ? 0 : std::max(next, from);  // 0: whatever comes
+  std::uint64_t expected = next == 0 ? 0 : std::max(next, from);  // 0: accepts any number
   std::uint64_t lost = 0;
   std::string text = ",\"" + key + "\":[";
   std::size_t count = 0;
@@ -47,13 +47,14 @@ std::string listed(const Ring& ring, std::uint64_t from, std::uint64_t& next, co
   return text + "]" + (lost > 0 ? ",\"" + key + "_lost\":" + std::to_string(lost) : "");
 }
 
-/// The number of the first one that a look brings, or of the one that comes next.
+/// Returns the number of the first frame or event in a look. If it has none, it returns the number of the
+/// next one.
 std::uint64_t first_of(const Json& look, const char* key, const char* next_key) {
   const Json& list = look.at(key);
   return (list.empty() ? look.at(next_key) : list.front().at("number")).get<std::uint64_t>();
 }
 
-/// The frames or events that a look brings, if it brings any.
+/// Takes the frames or events from a look, if it has any.
 template <class Ring>
 void take_list(const Json& look, const char* key, const char* next_key, Ring& ring, std::uint64_t& next) {
   if (!look.contains(key)) return;
@@ -70,7 +71,7 @@ PageBench::PageBench(Web& web, std::string socket, Hears hears)
 void PageBench::want(Wanted wanted) {
   for (const std::string& name : wanted.names) values_.try_emplace(name);
   std::erase_if(values_, [&](const auto& known) { return !wanted.names.contains(known.first); });
-  // Whoever wants them later gets those that the daemon has kept.
+  // A browser that wants them later gets the ones that the daemon still has.
   if (!wanted.frames) {
     frames_.clear();
     next_frame_ = 0;
@@ -89,7 +90,7 @@ void PageBench::ask(std::string message, ControlWire::Answered answered) {
   plan(kTurn);
 }
 
-/// A turn, this long after the last one.
+/// Schedules the next turn at this time after the last one.
 void PageBench::plan(std::chrono::milliseconds time) {
   if (std::exchange(is_planned_, true)) return;
   const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - last_turn_);
@@ -118,7 +119,7 @@ void PageBench::send_asks() {
   for (std::size_t i = 0; i < kAsksATurn && !asks_.empty(); ++i) {
     Ask ask = std::move(asks_.front());
     asks_.pop_front();
-    // Each on a wire of its own: some are answered only when simulated time is there.
+    // Each message has a wire of its own, because some are answered only at a later simulated time.
     const std::uint64_t number = ++last_ask_;
     auto& wire = ask_wires_[number] = web_.wire(socket_);
     wire->ask(std::move(ask.message),
@@ -144,7 +145,7 @@ void PageBench::divide_names() {
   }
 }
 
-/// One message, or several where there are many names: frames and events come with the first.
+/// Sends one message, or several if there are many names. Frames and events come with the first.
 void PageBench::look() {
   asked_at_ = last_turn_;
   looks_under_way_ = lists_.size();
@@ -179,7 +180,7 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
   try {
     look = Json::parse(reply);
     if (!look.at("ok").get<bool>()) {
-      // It keeps them no longer: they are spelt out again.
+      // The daemon no longer has the list, so the next look spells out the names.
       if (std::exchange(list->look, std::nullopt)) return;
       return lose();
     }
@@ -188,14 +189,14 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
         ",\"speed\":" + text_of(look.at("speed")) + ",\"advancing\":" + text_of(look.at("advancing"));
     const std::uint64_t who = look.at("pid").get<std::uint64_t>();
     if (who != who_) {
-      // Its numbers are another's.
+      // The numbers of lists belong to the old daemon.
       const bool is_by_number = list->look.has_value();
       for (const auto& one : lists_) one->look.reset();
       list->look.reset();
       if (is_by_number) return;
       begin_anew(who);
     }
-    // What was told before is not what led here.
+    // The frames and events before a restore do not belong to the present run.
     const std::uint64_t restores = look.value("restores", std::uint64_t{0});
     if (std::exchange(restores_, restores) != restores) {
       frames_.clear();
@@ -223,14 +224,14 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
       status_changed_ = looks_;
     }
   } catch (const Json::exception&) {
-    return lose();  // not an understudy
+    return lose();  // the reply is not from understudy
   }
   if (!is_last) return;
   ++looks_;
   hears_.looked();
 }
 
-/// Another daemon answers, or the same one anew.
+/// Starts again when another daemon answers, or the same one has restarted.
 void PageBench::begin_anew(std::uint64_t who) {
   who_ = who;
   ++epoch_;

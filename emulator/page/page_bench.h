@@ -1,4 +1,4 @@
-// A bench as the page knows it: the latest answers of its control socket, and which browser wants which of
+// Represents a bench on the page: the latest replies of its control socket, and which browser needs which of
 // them.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace understudy::emulator::page {
 
-/// What a browser wants of a bench, and what it has been sent.
+/// Holds what a browser wants of a bench, and what the page has already sent.
 struct Watching {
   std::vector<std::string> names;
   bool frames = false;
@@ -37,14 +37,14 @@ class PageBench {
  public:
   /// The shortest time between two requests to the socket.
   static constexpr std::chrono::milliseconds kTurn{34};
-  static constexpr std::chrono::milliseconds kRetry{500};  // for one that does not answer
+  static constexpr std::chrono::milliseconds kRetry{500};  // for a socket that does not answer
   static constexpr std::chrono::milliseconds kStatus{500};
   static constexpr std::chrono::milliseconds kPatience{2'000};  // after this it is reported as silent
   static constexpr std::size_t kFramesKept = 1024;
   static constexpr std::size_t kAsksATurn = 16;
-  static constexpr std::size_t kMaxNames = 4'000;  // of all browsers together
+  static constexpr std::size_t kMaxNames = 4'000;  // for all browsers together
   static constexpr std::size_t kNamesAMessage = 1'000;
-  static constexpr std::size_t kBytesAMessage = 48 * 1024;  // of names
+  static constexpr std::size_t kBytesAMessage = 48 * 1024;  // size of the names
 
   enum class State : std::uint8_t { unknown, there, silent, gone };
 
@@ -59,7 +59,7 @@ class PageBench {
   /// Grows when another daemon, or a restarted one, answers: numbers of frames and events begin again.
   std::uint64_t epoch() const { return epoch_; }
 
-  /// What is observed from now on. If no browser watches, the bench is left alone.
+  /// What the page observes from now on. If no browser watches, it sends no requests to the bench.
   struct Wanted {
     std::set<std::string> names;
     bool frames = false;
@@ -79,7 +79,7 @@ class PageBench {
  private:
   struct Known {
     std::string text = "null";  // as JSON
-    std::uint64_t changed = 0;  // the look in which it changed
+    std::uint64_t changed = 0;  // the number of the look in which it changed
   };
   struct Numbered {
     std::uint64_t number = 0;
@@ -113,7 +113,7 @@ class PageBench {
   std::chrono::steady_clock::time_point last_status_{};
   std::chrono::steady_clock::time_point asked_at_{};
   std::size_t looks_under_way_ = 0;
-  std::vector<std::shared_ptr<NameList>> lists_;  // of all that is wanted
+  std::vector<std::shared_ptr<NameList>> lists_;  // lists of all requested names
 
   std::uint64_t looks_ = 1;
   std::string time_text_;  // members that every update has
@@ -127,15 +127,16 @@ class PageBench {
   std::uint64_t events_from_ = 0;
   std::string status_;
   std::uint64_t status_changed_ = 0;
-  std::uint64_t who_ = 0;       // the process that answers
-  std::uint64_t restores_ = 0;  // of its world
+  std::uint64_t who_ = 0;       // the process that replies
+  std::uint64_t restores_ = 0;  // number of restores of its world
 
   struct Ask {
     std::string message;
     ControlWire::Answered answered;
   };
   std::deque<Ask> asks_;
-  std::map<std::uint64_t, std::unique_ptr<ControlWire>> ask_wires_;  // one for each that is under way
+  // One for each message without a reply yet.
+  std::map<std::uint64_t, std::unique_ptr<ControlWire>> ask_wires_;
   std::uint64_t last_ask_ = 0;
   std::shared_ptr<bool> alive_ =
       std::make_shared<bool>(true);    // tells later callbacks whether this object still exists

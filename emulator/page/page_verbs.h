@@ -1,4 +1,4 @@
-// Parses and checks messages of browsers (docs/page.md) before anything is done with them.
+// Parses and checks messages of browsers (docs/page.md) before the page acts on them.
 #pragma once
 
 #include <cstddef>
@@ -20,19 +20,19 @@ struct BrowserError : std::runtime_error {
 struct BrowserMessage {
   enum class What : std::uint8_t { watch, ask } what = What::watch;
   std::size_t bench = 0;
-  // For watch; without fields it ends the watching.
+  // These fields are for `watch`. A message without them stops watching.
   bool watches = false;
   std::vector<std::string> names{};
   bool frames = false;
   bool events = false;
   bool status = false;
-  // ask
+  // These fields are for `ask`.
   std::string id{};       // a whole number
-  std::string message{};  // for the control socket, a line of JSON; empty if it is not passed on:
-  std::string refusal{};  // why
+  std::string message{};  // a line of JSON for the control socket; empty: refused
+  std::string refusal{};  // the reason why it is refused
 };
 
-/// Throws BrowserError.
+/// Parses a message. Throws BrowserError.
 BrowserMessage parse_browser_message(std::string_view text, std::size_t benches, bool is_read_only);
 
 /// Returns the token of a first message, or an empty text.

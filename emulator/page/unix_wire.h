@@ -1,4 +1,4 @@
-// A control socket for web.cpp, which alone includes this: Asio is slow to compile.
+// Connects to a control socket. Only web.cpp includes this file, because Asio is slow to compile.
 #pragma once
 
 #include <sys/un.h>
@@ -76,8 +76,8 @@ class UnixWire final : public ControlWire {
           });
     }
 
-    /// Drops all unanswered messages; the next message connects again. It must not be called from within
-    /// ask(), because the caller is not done.
+    /// Drops all unanswered messages; the next message connects again. Do not call it from within ask(),
+    /// which is not finished then.
     void fail() {
       boost::system::error_code ignored;
       socket.close(ignored);

@@ -44,7 +44,8 @@ using Error = boost::system::error_code;
 using Executor = net::io_context::executor_type;
 using Tcp = net::ip::tcp;
 using TcpStream = beast::basic_stream<Tcp, Executor>;
-using Socket = websocket::stream<TcpStream, false>;  // uncompressed: it is the same machine
+// Uncompressed, because most browsers are on the same machine.
+using Socket = websocket::stream<TcpStream, false>;
 using Timer = net::basic_waitable_timer<std::chrono::steady_clock,
                                         net::wait_traits<std::chrono::steady_clock>, Executor>;
 using Request = http::request<http::empty_body>;
@@ -52,7 +53,8 @@ using Response = http::response<http::string_body>;
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
-/// What every answer says: nothing from elsewhere, in no frame, kept nowhere.
+/// Sets the headers of every reply: pages load nothing from other sites, stay out of frames, and are not
+/// cached.
 void set_policy(http::fields& fields) {
   fields.set(http::field::server, "understudy");
   fields.set("Content-Security-Policy",
@@ -83,7 +85,7 @@ Response refusal_of(const Request& request, http::status status, const std::stri
   return answer_to(request, status, "text/plain; charset=utf-8", why + "\n");
 }
 
-/// A stranger's place, until it is welcome or gone.
+/// Holds the place of an unauthenticated connection until it is authenticated or closed.
 class PendingSlot {
  public:
   explicit PendingSlot(std::list<PendingSlot*>& unauthenticated) : unauthenticated_(unauthenticated) {
@@ -97,9 +99,9 @@ class PendingSlot {
     if (is_pending_) unauthenticated_.erase(place_);
     is_pending_ = false;
   }
-  /// How whoever sits there is sent away; nothing: it is on its way out.
+  /// Sets how to close the connection. An empty function means that it closes already.
   void set_end(std::function<void()> end) { end_ = std::move(end); }
-  /// For another.
+  /// Frees the place for another connection.
   void vacate() {
     authenticated();
     if (const auto end = std::exchange(end_, {})) end();
@@ -127,14 +129,14 @@ class Web::Inside {
   WebLimits limits;
   WebEvents& events;
   WebAccess access;
-  std::list<PendingSlot*> unauthenticated;  // the oldest first; outlives `io`, whose handlers hold seats
+  std::list<PendingSlot*> unauthenticated;  // the oldest first; outlives `io`, whose handlers hold slots
   BrowserId last_browser = 0;
   net::io_context io{1};
   net::basic_socket_acceptor<Tcp, Executor> acceptor{io};
   std::map<BrowserId, std::shared_ptr<Browser>> browsers;
 };
 
-/// A browser's WebSocket.
+/// Implements a browser's WebSocket.
 class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
  public:
   Browser(Inside& inside, TcpStream&& stream, std::shared_ptr<PendingSlot> pending_slot, BrowserId id)
@@ -155,7 +157,7 @@ class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
     socket_.set_option(timeout);
     socket_.set_option(
         websocket::stream_base::decorator([](websocket::response_type& response) { set_policy(response); }));
-    socket_.auto_fragment(false);  // a message is a frame
+    socket_.auto_fragment(false);  // sends each message as one frame
     socket_.read_message_max(inside_.limits.message_bytes);
     socket_.async_accept(request, [self = shared_from_this()](Error error) {
       if (error) return;
@@ -176,7 +178,7 @@ class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
 
   std::size_t waiting() const { return waiting_bytes_; }
 
-  /// What waits is said first, where the browser takes it.
+  /// Sends the queued data first, if the browser accepts it.
   void close(std::string_view why) {
     if (is_closing_) return;
     is_closing_ = true;
@@ -215,7 +217,7 @@ class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
     socket_.async_close(reason, [self = shared_from_this()](Error) { self->be_gone(); });
   }
 
-  /// The read that is under way tells that it is gone, not this call.
+  /// The pending read reports that the browser is gone, not this call.
   void cut() {
     is_closing_ = true;
     Error ignored;
@@ -240,7 +242,7 @@ class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
   bool is_closing_ = false;
 };
 
-/// A connection with one request: its answer, or a WebSocket, and no more.
+/// Serves a connection with one request: it sends a reply or opens a WebSocket.
 class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
  public:
   Visit(Inside& inside, net::basic_stream_socket<Tcp, Executor>&& socket)
@@ -253,7 +255,7 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
     parser_.body_limit(0);
   }
 
-  /// It may sit on as a browser.
+  /// The connection may live on as a browser.
   ~Visit() {
     if (!is_browser_) pending_slot_->set_end({});
   }
@@ -351,11 +353,11 @@ Web::Inside::Inside(const WebAddress& address, const WebLimits& given, WebEvents
 void Web::Inside::accept() {
   acceptor.async_accept([this](Error error, net::basic_stream_socket<Tcp, Executor> socket) {
     if (error == net::error::operation_aborted) return;
-    if (error) {  // no descriptors are left: it would be told so again and again
+    if (error) {  // no descriptors are left; an immediate retry would fail again and again
       auto rest = std::make_shared<Timer>(io, std::chrono::milliseconds(100));
       return rest->async_wait([this, rest](Error) { accept(); });
     }
-    // Whoever holds places without a token would keep others out.
+    // Otherwise connections without a token would keep other browsers out.
     if (unauthenticated.size() >= limits.unauthenticated) unauthenticated.front()->vacate();
     std::make_shared<Visit>(*this, std::move(socket))->begin();
     accept();

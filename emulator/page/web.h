@@ -38,7 +38,7 @@ class WebEvents {
   virtual std::optional<WebFile> file(std::string_view path) = 0;
   virtual void opened(BrowserId browser) = 0;
   virtual void heard(BrowserId browser, std::string_view text) = 0;
-  /// Also called after close().
+  /// Called when a browser has gone, also after close().
   virtual void closed(BrowserId browser) = 0;
   /// All queued data has been sent.
   virtual void drained(BrowserId browser) = 0;
@@ -48,20 +48,20 @@ class WebEvents {
 };
 
 struct WebLimits {
-  std::size_t unauthenticated = 64;           // connections of those who are not welcome yet
-  std::size_t request_bytes = 8 * 1024;       // of a request's head; it has no body
-  std::size_t message_bytes = 64 * 1024;      // of a browser's
-  std::size_t waiting_bytes = 8 << 20;        // for a browser that does not read; it is closed then
-  std::size_t reply_bytes = 16 << 20;         // of a control socket's
+  std::size_t unauthenticated = 64;           // connections that are not authenticated yet
+  std::size_t request_bytes = 8 * 1024;       // size of a request's head; it has no body
+  std::size_t message_bytes = 64 * 1024;      // size of a browser's message
+  std::size_t waiting_bytes = 8 << 20;        // queued for a browser that does not read; then it is closed
+  std::size_t reply_bytes = 16 << 20;         // size of a control socket's reply
   std::chrono::milliseconds request{5'000};   // for a whole request
-  std::chrono::milliseconds silence{30'000};  // of a browser that does not even answer pings
+  std::chrono::milliseconds silence{30'000};  // of a browser that does not answer pings
 };
 
 /// A control socket, connected on first use. Replies come in the order of the messages.
 class ControlWire {
  public:
-  /// The reply is nothing if the socket does not answer or has broken off. It is never called after the wire
-  /// is destroyed.
+  /// The reply is empty if the socket does not answer or disconnects. The function is never called after the
+  /// wire is destroyed.
   using Answered = std::function<void(std::optional<std::string> reply)>;
   virtual ~ControlWire() = default;
   virtual void ask(std::string message, Answered answered) = 0;
@@ -76,20 +76,20 @@ class Web {
   Web& operator=(const Web&) = delete;
 
   std::uint16_t port() const;
-  /// Sets whose requests are served (access.h). Before that none are.
+  /// Sets which requests are served (access.h). Before that call, none are.
   void admit(WebAccess access);
   /// Runs until stop(), or SIGINT, SIGTERM or SIGHUP if it watches signals.
   void run(bool watch_signals);
-  /// May be called on any thread.
+  /// Stops run(). It may be called on any thread.
   void stop();
 
-  /// Marks a browser as authenticated: its place can no longer be taken. At first every connection is
-  /// unauthenticated; there is a bounded number of these, and the newest one takes the place of the oldest.
+  /// Marks a browser as authenticated, so no other connection can take its place. Every connection starts
+  /// unauthenticated. Their number is limited, and the newest one replaces the oldest.
   void authenticated(BrowserId browser);
   void send(BrowserId browser, std::shared_ptr<const std::string> text);
   /// Returns the number of bytes that are queued and not sent yet.
   std::size_t waiting(BrowserId browser) const;
-  /// Sends the reason, and closes. Has no effect on a browser that has gone.
+  /// Sends the reason and closes the browser. It has no effect on a browser that has gone.
   void close(BrowserId browser, std::string_view why);
   void after(std::chrono::milliseconds time, std::function<void()> act);
   std::unique_ptr<ControlWire> wire(const std::string& socket);

@@ -20,11 +20,12 @@ namespace understudy::emulator::models::imported {
 namespace {
 
 constexpr double kSteepest_pps2 = 1e12;
-constexpr double kFarthest_pulses = 4e15;  // where a double still has a quarter of a pulse
+constexpr double kFarthest_pulses = 4e15;  // a double still resolves a quarter of a pulse here
 
 using enum Answer;
 
-/// Where modes meet events. `forward` and `backward` are levels: steer() has them.
+/// The transition table of activities and commands. `forward` and `backward` are levels, which steer()
+/// handles.
 constexpr std::array<std::array<Answer, kDoings>, kCommands> kAnswers{{
     // rests    moves      runs       homes     stops
     {{nothing, halt, halt, halt, halt}},                    // stop_at_once
@@ -99,7 +100,7 @@ namespace {
 
 void go(AxisState& axis, std::int64_t distance_pulses, bool joins, const AxisNumbers& numbers, Tick now) {
   const double top = std::abs(numbers.speed_pps());
-  if (top == 0) return;  // a speed of 0 starts nothing
+  if (top == 0) return;  // a speed of 0 does not start the axis
   const motion::SpeedLaw law = numbers.law(top);
   const motion::Cause why_not = joins ? axis.motor.move_on(speed_pps(axis, now), distance_pulses, law, now)
                                       : axis.motor.move(distance_pulses, law, now);
@@ -132,7 +133,7 @@ void obey(AxisState& axis, const AxisBinding& binding, Command command, const Ax
     case begin:
     case join: break;
   }
-  axis.direction_is_spent = true;  // what was held is over; it counts again when it is told anew
+  axis.direction_is_spent = true;  // a host must release its command before it counts again
   if (command == Command::home) return go_home(axis, binding, numbers, now);
   std::int64_t distance = 0;
   if (command == Command::start) {
@@ -156,12 +157,13 @@ void steer(AxisState& axis, int direction, const AxisNumbers& numbers, Tick now)
     if (wanted == 0) return;
     axis.arrived = false;
     axis.run_pps = top;
-    // Against a limit, or without enable: it would be refused in every tick.
+    // A limit, or a lost enable, would otherwise refuse the motion in every tick.
     axis.direction_is_spent = axis.motor.run(wanted, numbers.law(top), now) != motion::Cause::none;
     return;
   }
   if (axis.motor.task != motion::Task::endless || activity == Activity::homes) return;
-  if (wanted != axis.motor.drive.direction) return axis.motor.slow_down(now);  // and then the other way
+  // The axis starts in the other direction once it has stopped.
+  if (wanted != axis.motor.drive.direction) return axis.motor.slow_down(now);
   if (activity == Activity::stops) {
     if (axis.motor.resume(numbers.law(top), now)) axis.run_pps = top;
   } else if (top != axis.run_pps) {
@@ -174,7 +176,7 @@ void enable(AxisState& axis, const AxisBinding& binding, bool on) {
   const bool is_on = on || !binding.command(Command::enable);
   if (axis.motor.servo_on == is_on) return;
   axis.motor.switch_servo(is_on);
-  if (is_on) axis.direction_is_spent = false;  // what hosts hold counts from now on
+  if (is_on) axis.direction_is_spent = false;  // levels that hosts hold count from now on
 }
 
 bool note_events(AxisState& axis, const AxisBinding& binding) {
@@ -185,10 +187,10 @@ bool note_events(AxisState& axis, const AxisBinding& binding) {
     set_position(axis, binding, binding.home_position);
   }
   const bool has_ended = (events & motion::bit(motion::Event::ended)) != 0;
-  if (has_ended && axis.motor.task == motion::Task::none) {  // nothing else has begun since
+  if (has_ended && axis.motor.task == motion::Task::none) {  // no other motion has begun since
     const motion::Cause cause = axis.motor.cause;
     if (cause == motion::Cause::arrived) axis.arrived = true;
-    // Whoever holds it is to tell it anew, but for one that was to turn round.
+    // The host must give its command again, unless the axis stopped to reverse.
     if (cause != motion::Cause::arrived && cause != motion::Cause::stopped) axis.direction_is_spent = true;
   }
   return has_ended || (events & motion::bit(motion::Event::homed)) != 0;

@@ -24,9 +24,10 @@ struct AxisState {
   std::int64_t sent_pulses = 0;  // pulses of the last tick, in the motor's direction
   std::int64_t encoder_counts = 0;
   double run_pps = 0;                // speed at which it runs forward or backward
-  std::int8_t wanted_direction = 0;  // that hosts request: +1 forward, -1 backward, 0 neither or both
-  bool direction_is_spent = false;   // another command has come since: it runs again only on a new request
-  bool arrived = false;              // the last move has reached its target
+  std::int8_t wanted_direction = 0;  // requested by hosts: +1 forward, -1 backward, 0 neither or both
+  // Another command has come since, so the axis runs again only on a new request.
+  bool direction_is_spent = false;
+  bool arrived = false;  // the last move has reached its target
   bool homed = false;
 
   bool operator==(const AxisState&) const = default;
@@ -45,21 +46,21 @@ Activity activity_of(const AxisState& axis);
 /// Returns the answer to a command that acts at one moment, and to the loss of `enable`.
 Answer answer_to(Command command, Activity activity, WhileBusy while_busy);
 
-/// Returns the present number of a quantity, in counts.
+/// Returns the current value of a quantity, in counts.
 using CountsOf = std::function<double(const Quantity& quantity)>;
-/// Gives the present numbers of an axis, in their units (seconds, pulses a second); nothing for a number that
-/// is not bound.
+/// Gives the current numbers of an axis, in their units (seconds, pulses a second). The result is empty for a
+/// number that is not bound.
 class AxisNumbers {
  public:
   AxisNumbers(const AxisBinding& binding, const CountsOf& counts_of)
       : binding_(binding), counts_of_(counts_of) {}
   std::optional<double> counts(Number which) const;
-  /// Returns speeds and accelerations in pulses a second.
+  /// Returns a speed or acceleration in pulses a second.
   std::optional<double> pps(Number which) const;
   double speed_pps() const { return pps(Number::speed).value_or(0); }
-  /// Returns the pulses of a count of positions, rounded.
+  /// Converts a count of positions to pulses, rounded.
   std::int64_t pulses(double counts) const;
-  /// Returns the law of a move. Without a time, its ramps take a millionth of a second.
+  /// Returns the speed law of a move. Without a time, its ramps take a millionth of a second.
   motion::SpeedLaw law(double top_pps) const;
 
  private:
@@ -68,8 +69,8 @@ class AxisNumbers {
   const CountsOf& counts_of_;
 };
 
-/// Obeys a command at one moment. `now` is the last completed tick. Throws motion::BadMotion for numbers that
-/// no motion can have; then nothing has changed.
+/// Carries out a command that acts at one moment. `now` is the last completed tick. Throws motion::BadMotion
+/// for numbers that no motion can have, and then changes nothing.
 void obey(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers, Tick now);
 /// Runs the axis in the direction that hosts request now: +1, -1 or 0. Throws as obey() does.
 void steer(AxisState& axis, int direction, const AxisNumbers& numbers, Tick now);

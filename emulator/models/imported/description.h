@@ -1,5 +1,5 @@
-// A controller that a user describes: a list of registers, and the purpose of some of them. All of it is data
-// that owns its names. emulator/model_file/ reads it from files, and model.h makes a Model of it.
+// Describes a controller that a user imports: a list of registers, and the purpose of some of them. All of it
+// is data that owns its names. emulator/model_file/ reads it from files, and model.h makes a Model of it.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ struct ListedRegister {
   std::vector<BitName> bits{};
 };
 
-/// A register, by its number in the list, or bits of it.
+/// Names a register, by its number in the list, or some of its bits.
 struct Spot {
   std::size_t number = 0;
   int bit = -1;  // the lowest of the bits; -1: the whole register
@@ -50,14 +50,14 @@ struct Spot {
   bool operator==(const Spot&) const = default;
 };
 
-/// The value of a register, or a fixed number instead.
+/// Stands for the value of a register, or for a fixed number.
 struct Quantity {
   std::optional<Spot> spot{};
   double number = 0;  // if there is no register
-  double unit = 1;    // what one count stands for
+  double unit = 1;    // the quantity that one count represents
 };
 
-/// A condition on a spot: it has `value`, or, without a value, anything but 0.
+/// Holds if the spot has `value`. Without a value, it holds if the spot is not 0.
 struct Condition {
   Spot spot;
   std::optional<Value> value{};
@@ -66,7 +66,8 @@ struct Condition {
 
 // --- axes ------------------------------------------------------------------------------------------
 
-/// The numbers that an axis takes from registers. Distances are counts of position, speeds counts of speed.
+/// The numbers that an axis takes from registers. Distances are in counts of position, speeds in counts of
+/// speed.
 enum class Number : std::uint8_t {
   target,
   distance,
@@ -81,7 +82,7 @@ enum class Number : std::uint8_t {
 };
 inline constexpr std::size_t kNumbers = 10;
 
-/// The commands of hosts to an axis, in the order in which those of one request act.
+/// The commands of hosts to an axis, in the order in which the commands of one request act.
 enum class Command : std::uint8_t {
   stop_at_once,
   stop,
@@ -93,7 +94,7 @@ enum class Command : std::uint8_t {
   backward,        // while it holds
 };
 inline constexpr std::size_t kCommands = 8;
-/// Returns true if a command applies as long as it holds, false if it acts at the moment when it is given.
+/// Returns true if a command applies as long as it holds, false if it acts at one moment.
 constexpr bool is_level(Command command) {
   return command == Command::enable || command == Command::forward || command == Command::backward;
 }
@@ -135,7 +136,7 @@ constexpr Varies changes_of(View view) {
 /// Returns true if the view is 0 or 1.
 constexpr bool is_flag(View view) { return view >= View::busy; }
 
-/// What a start does while the axis moves: it goes on to the new target, has no effect, or is answered with
+/// What a start does while the axis moves: it continues to the new target, has no effect, or is answered with
 /// busy.
 enum class WhileBusy : std::uint8_t { replace, ignore, refuse };
 /// What a start does while the axis is not enabled: it has no effect, or is answered with failure.
@@ -153,7 +154,7 @@ struct AxisBinding {
   int lower_limit_input = -1;
   int home_input = -1;
   int alarm_input = -1;
-  int home_direction = -1;        // direction in which to look for the home switch
+  int home_direction = -1;        // direction of the search for the home switch
   Value home_position = 0;        // position in counts once home is found
   int pulses_per_revolution = 0;  // 0: unknown
   WhileBusy while_busy = WhileBusy::replace;
@@ -172,9 +173,9 @@ struct AxisBinding {
 /// A register that follows another value, as a temperature follows its setpoint.
 struct Following {
   Spot spot;                              // a whole register
-  Quantity of;                            // the value that it follows
+  Quantity of;                            // the followed value
   std::optional<Condition> as_long_as{};  // condition for following; none: always
-  Quantity rest;                          // the value that it goes to otherwise
+  Quantity rest;                          // the value that it approaches otherwise
   double time_constant_s = 0;             // 0: at once, limited only by `most_per_s`
   double most_per_s = 0;                  // counts a second; 0: no limit
   Tick every = 100;                       // period of its updates
@@ -219,7 +220,7 @@ inline pty::SimTime standard_silence(const pty::LineSettings& settings) {
 struct Description {
   std::string name{};
   std::string title{};
-  std::string text{};  // of the whole controller (Model::description)
+  std::string text{};  // the text of the whole controller (Model::description)
   std::vector<ListedRegister> registers{};
   MapPolicy policy{.low_word_first = false};
   Line line{};

@@ -71,7 +71,7 @@ ImportedDevice::ImportedDevice(const ImportedModel& model, const DeviceSettings&
 
 const Description& ImportedDevice::description() const { return model_.description(); }
 
-/// What shows an input begins with the register's default, and so has the input to.
+/// A spot that shows an input starts with the register's default, so the input starts with it too.
 std::int32_t ImportedDevice::level_at_rest(const Spot& spot) const {
   const Value whole = description().registers[spot.number].factory;
   if (!spot.is_whole()) return static_cast<std::int32_t>((whole >> spot.bit) & 1);
@@ -82,7 +82,7 @@ std::int32_t ImportedDevice::level_at_rest(const Spot& spot) const {
 
 namespace {
 
-/// As its type has it: cut to what it can hold.
+/// Converts a number to the type, and limits it to the type's range.
 Value value_for(double number, Type type) {
   if (type == Type::f32) return value_of_real(static_cast<float>(number));
   const TypeLimits limits = limits_of(type);
@@ -104,7 +104,7 @@ Value ImportedDevice::value_of_view(std::size_t axis_number, View view, Type typ
     case View::position: {
       const std::int64_t counts = position_counts(axis, binding);
       if (type == Type::f32) return value_of_real(static_cast<float>(counts));
-      return value_of(static_cast<std::uint32_t>(counts), type);  // a counter that is full begins anew
+      return value_of(static_cast<std::uint32_t>(counts), type);  // a full counter wraps
     }
     case View::actual_speed: {
       const double counts = imported::speed_pps(axis, now()) / binding.pps_per_count;
@@ -217,7 +217,7 @@ void ImportedDevice::registers_written() {
   written_.clear();
 }
 
-/// A bit is given when it comes on, a register each time that it is written.
+/// A command on a bit is given when the bit comes on. On a register, it is given by each write.
 bool ImportedDevice::is_given(const Condition& condition, bool was_held) const {
   const auto slot = static_cast<std::size_t>(model_.slot_of(condition.spot.number));
   if (std::find(written_.begin(), written_.end(), slot) == written_.end()) return false;
@@ -280,7 +280,7 @@ void ImportedDevice::steer_axes(Tick done) {
 
 namespace {
 
-/// What a request writes to a 16-bit register or a coil; nothing if it does not.
+/// Returns the value that a request writes to a 16-bit register or a coil, or nothing if it writes none.
 std::optional<std::uint16_t> written_word(const RegisterRequest& request, const ListedRegister& listed) {
   if (request.table != listed.table || listed.address < request.first) return std::nullopt;
   const std::size_t index = static_cast<std::size_t>(listed.address - request.first);

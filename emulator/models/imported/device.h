@@ -1,5 +1,5 @@
-// A described controller: registers, axes that are bound to them, and values that follow others. Its state is
-// one value; the bindings belong to its model (model.h).
+// Emulates a described controller: its registers, the axes that are bound to them, and values that follow
+// others. Its state is one value; the bindings belong to its model (model.h).
 #pragma once
 
 #include <array>
@@ -57,7 +57,7 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   void warn_not_implemented(const RegisterRow& row) const override {
     Device::warn_not_implemented(row.name, row.not_implemented);
   }
-  /// Returns what a register holds now, by its type.
+  /// Returns the current value of a register, by its type.
   Value value_of_register(std::size_t number) const;
   Value value_at(const Spot& spot) const;
   void write_view(std::size_t number, Value value);
@@ -136,8 +136,7 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   std::vector<double> shares_;             // by following: the share of the distance covered in one period
 };
 
-/// The reader and the effect of all rows that show something (Cell::argument: the register's number in the
-/// list).
+/// Read and write every row that shows other state (Cell::argument: the register's number in the list).
 Value read_shown(const ImportedDevice& device, Cell cell);
 void write_shown(ImportedDevice& device, Cell cell, Value value);
 

@@ -1,4 +1,4 @@
-// What a described controller keeps without power, and its state as bytes.
+// Saves what a described controller keeps without power, and its state as bytes.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -80,7 +80,7 @@ State ImportedDevice::state_at_power_up() const {
     motor.settings.needs_servo = description().axes[i].command(Command::enable).has_value();
     motor.servo_on = !motor.settings.needs_servo;
     if (i < state_.axes.size())
-      made.axes[i].encoder_counts = state_.axes[i].encoder_counts;  // of the machine
+      made.axes[i].encoder_counts = state_.axes[i].encoder_counts;  // encoders belong to the machine
   }
   for (const Following& following : description().followings) {
     const ListedRegister& listed = description().registers[following.spot.number];

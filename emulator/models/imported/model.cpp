@@ -120,7 +120,7 @@ Model ImportedModel::made_model() {
                      .alarm_input = axis.alarm_input,
                      .pulses_per_revolution = axis.pulses_per_revolution});
   }
-  // What is bound to something shows best what it is doing.
+  // A register that is bound to something shows best what the controller does.
   for (std::size_t i = 0; i < shown_.size() && state_names_.size() < kMaxStateRegisters; ++i) {
     const RegisterRow& row = map_.rows()[i];
     if (!shown_[i].empty() && row.access != Access::write) state_names_.push_back(map_.unique_name(row, 0));

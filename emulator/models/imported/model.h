@@ -1,4 +1,4 @@
-// A model made of a description. It owns the tables that are constants in the other models.
+// Makes a model of a description. It owns the tables that are constants in the other models.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::models::imported {
 
-/// Makes the rows of a list for a register map; they refer to the list. `fields` gets the named bits.
+/// Makes the rows of a list for a register map. They refer to the list. `fields` receives the named bits.
 std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers,
                                     std::vector<std::vector<BitField>>& fields);
 

@@ -47,8 +47,8 @@ bool moves(const Description& description, const std::vector<std::vector<ShownPa
     if (!overlap(part.spot, spot)) return false;
     switch (part.what) {
       case ShownPart::What::axis: return changes_of(part.view) == Varies::while_moving;
-      case ShownPart::What::input: return false;      // a tick is run for it
-      case ShownPart::What::following: return false;  // it is renewed in ticks of its own
+      case ShownPart::What::input: return false;      // a tick runs for each change of an input
+      case ShownPart::What::following: return false;  // a following renews it in its own ticks
       case ShownPart::What::comparison: {
         const Comparison& comparison = description.comparisons[part.number];
         return side_moves(comparison.left) || side_moves(comparison.right);

@@ -1,4 +1,4 @@
-// The registers that show other state than what was written to them.
+// Finds the registers that show other state than the values written to them.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::models::imported {
 
-/// A register, or bits of it, that show other state.
+/// A register, or some of its bits, that shows other state.
 struct ShownPart {
   enum class What : std::uint8_t { axis, input, following, comparison } what = What::axis;
   Spot spot{};
@@ -17,8 +17,8 @@ struct ShownPart {
   View view = View::position;
 };
 
-/// Returns true if what a spot shows may change with each pulse of an axis (Varies::while_moving). `shown` is
-/// that of all registers. The two sides of a comparison do not show one themselves.
+/// Returns true if the value of a spot may change with each pulse of an axis (Varies::while_moving). `shown`
+/// covers all registers. The two sides of a comparison never show a comparison themselves.
 bool moves(const Description& description, const std::vector<std::vector<ShownPart>>& shown,
            const Spot& spot);
 

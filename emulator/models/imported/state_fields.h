@@ -1,4 +1,4 @@
-// The fields of a described controller's state (base/state/fields.h), in the order of the bytes.
+// Lists the fields of a described controller's state (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include "base/state/fields.h"

@@ -1,4 +1,4 @@
-// What a described controller does as time goes on: its inputs, its axes and the values that follow others.
+// Advances a described controller in time: its inputs, its axes and the values that follow others.
 #include "emulator/models/imported/device.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void ImportedDevice::update_environment(std::size_t axis_number) {
 void ImportedDevice::set_edges(int axis, const MachineEdges& edges) {
   const auto number = static_cast<std::size_t>(axis);
   edges_[number] = edges;
-  // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
+  // A restored state has seen these inputs already, but not the changes since the last tick.
   if (is_restored_[number] == 0) update_environment(number);
   is_restored_[number] = 0;
 }
@@ -92,7 +92,8 @@ void ImportedDevice::renew_followed(Tick tick) {
     const double most = following.most_per_s * static_cast<double>(following.every) / motion::kTicksPerSecond;
     const double before = state_.followed[i];
     state_.followed[i] = approach(before, goal_of(following), shares_[i], most);
-    if (state_.followed[i] != before && !state_.axes.empty()) state_.touched = true;  // it may be a speed
+    // The value may be a speed.
+    if (state_.followed[i] != before && !state_.axes.empty()) state_.touched = true;
   }
 }
 
@@ -119,7 +120,8 @@ bool ImportedDevice::is_quiet(const AxisState& axis) const {
          axis.sent_pulses == 0 && axis.environment.version == motor.seen_version;
 }
 
-/// Without what moves: when a value is renewed next that is not where it goes, or may not stay there.
+/// Returns the next tick that renews a value which has not reached its goal, or may leave it. It ignores axes
+/// in motion.
 Tick ImportedDevice::next_tick_of_values(Tick done) const {
   const bool are_moving = any_moves();
   Tick next = state_.eeprom.next_active_tick();
