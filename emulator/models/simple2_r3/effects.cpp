@@ -9,10 +9,15 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
+#include "emulator/models/simple2_r3/commands.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/memory.h"
 #include "emulator/models/simple2_r3/options.h"
 #include "emulator/models/simple2_r3/registers.h"
+#include "emulator/models/simple2_r3/setup.h"
+#include "emulator/models/simple2_r3/signals.h"
 #include "emulator/models/simple2_r3/slots.h"
+#include "emulator/models/simple2_r3/state.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 
@@ -41,9 +46,11 @@ MoveParameters own_parameters(const Simple2R3& device, int axis) {
           .by_trigger = true};
 }
 
+bool is_unlocked(const Simple2R3& device) { return simple2_r3::is_unlocked(device.state(), device.setup()); }
+
 /// The program, while it is locked.
 bool is_write_protected(const Simple2R3& device) {
-  return !device.unlocked() && device.chose(option("locked_writes", "ignored"));
+  return !is_unlocked(device) && device.chose(option("locked_writes", "ignored"));
 }
 
 /// Only a choice has a set appear in the axis's registers.
@@ -55,14 +62,6 @@ void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
   image[slots.speed] = set.speed_rpm;
   image[slots.acc_time] = set.acceleration_10ms;
   image[slots.dec_time] = set.deceleration_10ms;
-}
-
-/// An axis's bit of STATUS: what the input means by its function, or, where it has none and a choice wants it
-/// so, the pin's level.
-bool shown(const Simple2R3& device, bool by_function, std::size_t assignment_slot, int input) {
-  if (device.assigned(assignment_slot) || !device.chose(option("unassigned_input_status", "level_of_pin")))
-    return by_function;
-  return ((device.inputs() >> input) & 1) != 0;
 }
 
 /// A trigger that goes on, as it reads.
@@ -94,27 +93,7 @@ std::size_t cell_slot(Cell cell) {
 
 }  // namespace
 
-Value read_status(const Simple2R3& device, Cell) {
-  Value status = 0;
-  for (int axis = 0; axis < 2; ++axis) {
-    const AxisState& state = device.state().axes[static_cast<std::size_t>(axis)];
-    const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
-    const bool shows_moving =
-        state.mode == Mode::position || !device.chose(option("moving_bit", "position_only"));
-    const auto bit = [&](int number, bool on) { status |= static_cast<Value>(on) << (number + axis); };
-    bit(0, shown(device, device.alarm(axis), slots.alarm_assigned, slots.alarm_input));
-    bit(2, shown(device, device.ready(axis), slots.ready_assigned, slots.ready_input));
-    const bool homes_apart =
-        state.command == Command::homing && device.chose(option("homing_bits", "homing_alone"));
-    bit(4, shows_moving && is_moving(state) && !homes_apart);
-    bit(6, state.command == Command::homing);
-    bit(8, state.homed);
-    bit(10, state.motor.servo_on);
-    bit(12, shown(device, device.upper_limit(axis), slots.upper_assigned, slots.upper_input));
-    bit(14, shown(device, device.lower_limit(axis), slots.lower_assigned, slots.lower_input));
-  }
-  return status;
-}
+Value read_status(const Simple2R3& device, Cell) { return device.signals().status(); }
 
 Value read_version(const Simple2R3& device, Cell) {
   const Value version = device.firmware();
@@ -125,7 +104,7 @@ Value read_version(const Simple2R3& device, Cell) {
 Value read_output(const Simple2R3& device, Cell cell) {
   if (device.chose(option("output_read_back", "written_level")))
     return (device.state().written_outputs >> cell.index) & 1;
-  return device.output_level(cell.index);
+  return device.signals().output(cell.index);
 }
 
 Value read_all_outputs(const Simple2R3& device, Cell) {
@@ -134,9 +113,9 @@ Value read_all_outputs(const Simple2R3& device, Cell) {
   return levels;
 }
 
-Value read_input(const Simple2R3& device, Cell cell) { return (device.inputs() >> cell.index) & 1; }
+Value read_input(const Simple2R3& device, Cell cell) { return device.signals().input(cell.index); }
 
-Value read_all_inputs(const Simple2R3& device, Cell) { return device.inputs(); }
+Value read_all_inputs(const Simple2R3& device, Cell) { return device.signals().inputs(); }
 
 Value read_encoder(const Simple2R3& device, Cell cell) {
   const AxisState& axis = axis_of(device, cell);
@@ -178,24 +157,26 @@ Value read_now_line(const Simple2R3& device, Cell) {
 Value read_program_runs(const Simple2R3& device, Cell) { return device.state().execution.running; }
 
 Value read_timer(const Simple2R3& device, Cell cell) {
-  return device.timer_value(device.state().timers[static_cast<std::size_t>(cell.argument)]);
+  const Setup& setup = device.setup();
+  return device.state().timers[static_cast<std::size_t>(cell.argument)].at(setup.timer_time(),
+                                                                           setup.timers_stay);
 }
 
 Tick every_tick(const Simple2R3&, Cell, Tick done) { return done + 1; }
 
 Tick next_count_of_timer(const Simple2R3& device, Cell cell, Tick done) {
-  const Tick unit = device.timer_unit();
+  const Tick unit = device.setup().timer_unit;
   return device.state().timers[static_cast<std::size_t>(cell.argument)].running ? (done / unit + 1) * unit
                                                                                 : kNever;
 }
 
 Value read_servo(const Simple2R3& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
 
-Value read_alarm_clear(const Simple2R3& device, Cell cell) { return device.alarm_clear(cell.argument); }
-
-Value read_adc(const Simple2R3& device, Cell cell) {
-  return device.adc(static_cast<std::size_t>(cell.argument));
+Value read_alarm_clear(const Simple2R3& device, Cell cell) {
+  return device.signals().alarm_clear(cell.argument);
 }
+
+Value read_adc(const Simple2R3& device, Cell cell) { return device.signals().adc(cell.argument); }
 
 Value read_analog(const Simple2R3& device, Cell cell) {
   const auto& image = device.state().image;
@@ -214,24 +195,25 @@ Value read_analog(const Simple2R3& device, Cell cell) {
 Value read_eeprom_busy(const Simple2R3& device, Cell) { return device.state().eeprom.writing(); }
 
 Value read_cell(const Simple2R3& device, Cell cell) {
-  return device.unlocked() ? device.state().image[cell_slot(cell)] : 0;
+  return is_unlocked(device) ? device.state().image[cell_slot(cell)] : 0;
 }
 
-Value read_unlocked(const Simple2R3& device, Cell) { return device.unlocked(); }
+Value read_unlocked(const Simple2R3& device, Cell) { return is_unlocked(device); }
 
 Value read_password(const Simple2R3& device, Cell) {
-  return device.unlocked() && !device.chose(option("password_read_back", "zero")) ? device.state().password
-                                                                                  : 0;
+  return is_unlocked(device) && !device.chose(option("password_read_back", "zero")) ? device.state().password
+                                                                                    : 0;
 }
 
 Value read_zero(const Simple2R3&, Cell) { return 0; }
 
 void write_output(Simple2R3& device, Cell cell, Value level) {
-  device.write_outputs(static_cast<std::uint8_t>(1U << cell.index), level != 0 ? 0x7F : 0);
+  write_outputs(device.state(), device.setup(), static_cast<std::uint8_t>(1U << cell.index),
+                level != 0 ? 0x7F : 0);
 }
 
 void write_all_outputs(Simple2R3& device, Cell, Value levels) {
-  device.write_outputs(0x7F, static_cast<std::uint8_t>(levels));
+  write_outputs(device.state(), device.setup(), 0x7F, static_cast<std::uint8_t>(levels));
 }
 
 void preset_encoder(Simple2R3& device, Cell cell, Value counts) {
@@ -240,21 +222,22 @@ void preset_encoder(Simple2R3& device, Cell cell, Value counts) {
 }
 
 void preset_coordinate(Simple2R3& device, Cell cell, Value pulses) {
-  device.preset_coordinate(cell.argument, static_cast<std::int32_t>(pulses));
+  device.axis(cell.argument).preset_coordinate(static_cast<std::int32_t>(pulses));
 }
 
-void change_sync(Simple2R3& device, Cell cell, Value) { device.sync_changed(cell.argument); }
+void change_sync(Simple2R3& device, Cell cell, Value) { device.axis(cell.argument).sync_changed(); }
 
-void change_speed(Simple2R3& device, Cell cell, Value) { device.speed_changed(cell.argument); }
+void change_speed(Simple2R3& device, Cell cell, Value) { device.axis(cell.argument).speed_changed(); }
 
 void start_incremental(Simple2R3& device, Cell cell, Value) {
-  for_each_axis(
-      cell, [&](int axis) { device.start_move(axis, Command::incremental, own_parameters(device, axis)); });
+  for_each_axis(cell, [&](int axis) {
+    device.axis(axis).start_move(Command::incremental, own_parameters(device, axis));
+  });
 }
 
 void start_absolute(Simple2R3& device, Cell cell, Value) {
   for_each_axis(cell, [&](int axis) {
-    device.start_move(axis, Command::absolute, from_here(device, axis, own_parameters(device, axis)));
+    device.axis(axis).start_move(Command::absolute, from_here(device, axis, own_parameters(device, axis)));
   });
 }
 
@@ -262,7 +245,7 @@ void start_incremental_by_set(Simple2R3& device, Cell cell, Value set) {
   const MoveParameters move = parameters_of_set(device, set);
   for_each_axis(cell, [&](int axis) {
     show_set(device, axis, move);
-    device.start_move(axis, Command::incremental, move);
+    device.axis(axis).start_move(Command::incremental, move);
   });
 }
 
@@ -270,60 +253,60 @@ void start_absolute_by_set(Simple2R3& device, Cell cell, Value set) {
   const MoveParameters move = parameters_of_set(device, set);
   for_each_axis(cell, [&](int axis) {
     show_set(device, axis, move);
-    device.start_move(axis, Command::absolute, from_here(device, axis, move));
+    device.axis(axis).start_move(Command::absolute, from_here(device, axis, move));
   });
 }
 
 void stop_motion(Simple2R3& device, Cell cell, Value) {
-  for_each_axis(cell, [&](int axis) { device.stop(axis, Stopping::by_register); });
+  for_each_axis(cell, [&](int axis) { device.axis(axis).stop(Stopping::by_register); });
 }
 
 void switch_servo(Simple2R3& device, Cell cell, Value on) {
-  for_each_axis(cell, [&](int axis) { device.switch_servo(axis, on != 0); });
+  for_each_axis(cell, [&](int axis) { device.axis(axis).switch_servo(on != 0); });
 }
 
 void clear_alarm(Simple2R3& device, Cell cell, Value) {
-  for_each_axis(cell, [&](int axis) { device.clear_alarm(axis); });
+  for_each_axis(cell, [&](int axis) { device.axis(axis).clear_alarm(); });
 }
 
 void go_home(Simple2R3& device, Cell cell, Value) {
-  for_each_axis(cell, [&](int axis) { device.go_home(axis, true); });
+  for_each_axis(cell, [&](int axis) { device.axis(axis).go_home(true); });
 }
 
 void command_velocity(Simple2R3& device, Cell cell, Value milli_rpm) {
   // The note that it takes effect stands beside the high word, so a lone low word only waits for it.
   if (!cell.high_half && !device.chose(option("velocity_commit", "takes_effect"))) return;
-  device.run_velocity(cell.argument, milli_rpm);
+  device.axis(cell.argument).run_velocity(milli_rpm);
 }
 
 void run_velocity_by_set(Simple2R3& device, Cell cell, Value set) {
   const auto& image = device.state().image;
   const std::uint32_t milli_rpm = image[slot("Parms_mRPM{}") + static_cast<std::size_t>(set - 1)];
   for_each_axis(cell, [&](int axis) {
-    device.show_velocity(axis, static_cast<std::int32_t>(milli_rpm));
-    device.run_velocity(axis, static_cast<std::int32_t>(milli_rpm));
+    device.axis(axis).show_velocity(static_cast<std::int32_t>(milli_rpm));
+    device.axis(axis).run_velocity(static_cast<std::int32_t>(milli_rpm));
   });
 }
 
 void command_pwm(Simple2R3& device, Cell cell, Value percent) {
-  device.output_pwm(cell.argument, static_cast<std::uint8_t>(percent));
+  device.axis(cell.argument).output_pwm(static_cast<std::uint8_t>(percent));
 }
 
 void command_following(Simple2R3& device, Cell cell, Value) {
-  for_each_axis(cell, [&](int axis) { device.follow_encoder(axis); });
+  for_each_axis(cell, [&](int axis) { device.axis(axis).follow_encoder(); });
 }
 
 void preset_timer(Simple2R3& device, Cell cell, Value value) {
   device.state().timers[static_cast<std::size_t>(cell.argument)].set(static_cast<std::uint32_t>(value),
-                                                                     device.timer_time());
+                                                                     device.setup().timer_time());
 }
 
 void start_program(Simple2R3& device, Cell, Value line) {
-  if (!device.unlocked() && device.chose(option("locked_start", "ignored"))) return;
-  device.start_program(static_cast<std::uint8_t>(line));
+  if (!is_unlocked(device) && device.chose(option("locked_start", "ignored"))) return;
+  device.programs().start(static_cast<std::uint8_t>(line));
 }
 
-void stop_program(Simple2R3& device, Cell, Value) { device.stop_program(); }
+void stop_program(Simple2R3& device, Cell, Value) { device.programs().stop(); }
 
 void write_cell(Simple2R3& device, Cell cell, Value value) {
   const int number = 4 * cell.index + cell.argument;
@@ -334,17 +317,17 @@ void write_cell(Simple2R3& device, Cell cell, Value value) {
   device.state().program.set_cell(number, static_cast<std::uint8_t>(value));
 }
 
-void enter_password(Simple2R3& device, Cell, Value) { device.judge_lock(); }
+void enter_password(Simple2R3& device, Cell, Value) { device.kept().judge_lock(); }
 
 void change_password(Simple2R3& device, Cell, Value password) {
-  device.change_password(static_cast<std::uint16_t>(password));
+  device.kept().change_password(static_cast<std::uint16_t>(password));
 }
 
 void erase_program(Simple2R3& device, Cell, Value) {
   if (is_write_protected(device)) return;
-  device.erase_program();
+  device.power().erase_program();
 }
 
-void reset_to_factory(Simple2R3& device, Cell, Value) { device.reset_to_factory(); }
+void reset_to_factory(Simple2R3& device, Cell, Value) { device.power().reset_to_factory(); }
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -5,11 +5,11 @@
 #include <string_view>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "base/simulated_time.h"
 #include "emulator/device/user_program.h"
-#include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/programs.h"
+#include "emulator/models/simple2_r3/state.h"
 #include "interpreter/simple2/execution/execution.h"
 #include "interpreter/simple2/listing.h"
 #include "interpreter/simple2/program.h"
@@ -57,17 +57,17 @@ std::pair<int, std::string> listed(const interpreter::simple2::Program& program,
 
 }  // namespace
 
-std::vector<ProgramLocation> Simple2R3::program_locations() const {
-  const interpreter::simple2::Execution& execution = state_.execution;
+ProgramLocation program_location(const State& state) {
+  const interpreter::simple2::Execution& execution = state.execution;
   ProgramLocation place;
   if (execution.running || execution.ending != interpreter::simple2::Ending::not_started) {
-    std::tie(place.line, place.text) = listed(state_.program, execution.now_line);
+    std::tie(place.line, place.text) = listed(state.program, execution.now_line);
   }
   if (!execution.running) {
     place.state =
         is_failure(execution.ending) ? ProgramLocation::State::failed : ProgramLocation::State::stopped;
     place.why = why_of(execution.ending);
-    return {place};
+    return place;
   }
   place.state = ProgramLocation::State::waiting;
   if (execution.phase == interpreter::simple2::Phase::delay) {
@@ -82,7 +82,7 @@ std::vector<ProgramLocation> Simple2R3::program_locations() const {
   } else {
     place.state = ProgramLocation::State::running;
   }
-  return {place};
+  return place;
 }
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -1,19 +1,26 @@
-// Simple2-R3 as its program sees it: the abstract machine of interpreter/simple2/, implemented by the device.
+// Simple2-R3 as its program sees it: the abstract machine of interpreter/simple2/, over a state and its
+// setup.
 #pragma once
 
-#include "emulator/models/simple2_r3/device.h"
-#include "interpreter/simple2/dialect.h"
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/models/simple2_r3/commands.h"
+#include "emulator/models/simple2_r3/setup.h"
+#include "emulator/models/simple2_r3/state.h"
 #include "interpreter/simple2/machine.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 
 /// The part of the machine that a program reads. `Seen` is the whole abstract machine, or its read-only part.
-template <class Seen, class Of>
+template <class Seen, class StateSeen, class Bank>
 class ProgramSight : public Seen {
  public:
   using Axis = interpreter::simple2::Axis;
 
-  explicit ProgramSight(Of& device) : device_(device) {}
+  ProgramSight(StateSeen& state, const Setup& setup, Bank& bank)
+      : state_(state), setup_(setup), bank_(bank) {}
 
   bool input(int din) const final;
   bool status_bit(int bit) const final;
@@ -23,15 +30,19 @@ class ProgramSight : public Seen {
   bool cut_short(Axis axis) const final;
 
  protected:
-  Of& device_;
+  static std::size_t number_of(Axis axis) { return axis == Axis::a ? 0 : 1; }
+
+  StateSeen& state_;
+  const Setup& setup_;
+  Bank& bank_;
 };
 
-extern template class ProgramSight<interpreter::simple2::MachineView, const Simple2R3>;
-extern template class ProgramSight<interpreter::simple2::Machine, Simple2R3>;
+extern template class ProgramSight<interpreter::simple2::MachineView, const State, const RegisterBank>;
+extern template class ProgramSight<interpreter::simple2::Machine, State, RegisterBank>;
 
-using ProgramView = ProgramSight<interpreter::simple2::MachineView, const Simple2R3>;
+using ProgramView = ProgramSight<interpreter::simple2::MachineView, const State, const RegisterBank>;
 
-class ProgramMachine final : public ProgramSight<interpreter::simple2::Machine, Simple2R3> {
+class ProgramMachine final : public ProgramSight<interpreter::simple2::Machine, State, RegisterBank> {
  public:
   using ProgramSight::ProgramSight;
 
@@ -48,9 +59,13 @@ class ProgramMachine final : public ProgramSight<interpreter::simple2::Machine, 
   void run_velocity(Axis axis, std::int32_t milli_rpm) override;
   void output_pwm(Axis axis, std::int32_t percent) override;
   void follow_encoder(Axis axis) override;
-};
 
-/// Returns the language of the device's firmware, with the device's choices.
-interpreter::simple2::Dialect dialect_of(const Simple2R3& device);
+ private:
+  AxisCommands commands(Axis axis) { return {state_, setup_, static_cast<int>(number_of(axis))}; }
+  /// Returns true if a program's speed and times are not those of the axis's registers.
+  bool has_speed_of_its_own() const { return setup_.chose(option("program_speed", "of_its_own")); }
+  MoveParameters parameters_for(std::size_t axis, std::int64_t distance_pulses) const;
+  void show_pulse(std::size_t axis, std::int32_t pulses);
+};
 
 }  // namespace understudy::emulator::models::simple2_r3

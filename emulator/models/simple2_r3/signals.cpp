@@ -1,125 +1,135 @@
-// What limits and alarms do to velocity, PWM and sync mode, by the table in transitions.h. Position moves and
-// homing meet them in motion/, by AxisSettings and the homing's own table.
-#include <cstddef>
+#include "emulator/models/simple2_r3/signals.h"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
-#include "emulator/models/simple2_r3/device.h"
-#include "emulator/models/simple2_r3/marks.h"
+#include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/options.h"
-#include "emulator/models/simple2_r3/transitions.h"
-#include "motion/axis.h"
+#include "emulator/models/simple2_r3/setup.h"
+#include "emulator/models/simple2_r3/state.h"
+#include "emulator/models/simple2_r3/terminals.h"
 #include "motion/environment.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 
-namespace {
-
-/// A signal that has come on or gone, as the axis meets it.
-Event event_of(const AxisState& axis, motion::Signal signal, bool on) {
-  if (signal == motion::Signal::alarm) return on ? Event::alarm : Event::alarm_gone;
-  if (!on) return Event::limit_gone;
-  const int side = signal == motion::Signal::limit_plus ? +1 : -1;
-  return heading(axis) == -side ? Event::limit_behind : Event::limit_ahead;
+bool Signals::dip_switch(int number) const {
+  const std::uint8_t levels =
+      setup_.chose(option("switches_sampled", "always")) ? setup_.switch_levels() : state_.switches;
+  return ((levels >> number) & 1) != 0;
 }
 
-void meet_in_velocity(AxisState& axis, Outcome outcome) {
-  switch (outcome) {
-    case Outcome::stops: axis.motor.stop(); return take_off(axis, outcome);
-    case Outcome::waits: return halt_velocity(axis);
-    case Outcome::slows: return take_off(axis, outcome);
-    case Outcome::turns: halt_velocity(axis); return resume_velocity(axis);
-    case Outcome::resumes: return resume_velocity(axis);
-    case Outcome::goes_on:
-    case Outcome::leaves:
-    case Outcome::slows_and_waits:
-    case Outcome::blocked:
-    case Outcome::dropped:
-    case Outcome::kept:
-    case Outcome::ends:
-    case Outcome::begins:
-    case Outcome::changes: return;  // slows_and_waits: the limit itself holds it
+bool Signals::have_changed() const {
+  if (setup_.input_levels() != state_.inputs) return true;
+  for (int i = 0; i < kAnalogCount; ++i) {
+    if (setup_.adc(i) != state_.adc[static_cast<std::size_t>(i)]) return true;
   }
+  return false;
 }
 
-void meet_in_pwm(AxisState& axis, Outcome outcome) {
-  take_off(axis, outcome);  // what waits is held by the alarm itself
+bool Signals::assigned(std::size_t assignment_slot) const {
+  if (!setup_.assigned_at_power_up) return state_.image[assignment_slot] != 0;
+  return ((state_.assignments >> (assignment_slot - kFirstAssignment)) & 1) != 0;
 }
 
-}  // namespace
-
-Outcome Simple2R3::reaction(int axis_number, Event event) const {
-  const AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  const bool needs_servo = has(transitions::kCommands, event) &&
-                           !(has(transitions::kDuties, event) && chose(transitions::kPwmNeedsNoServo));
-  const bool is_held = needs_servo && lacks_servo(axis_number);
-  const Transition* row =
-      reaction_row(activity(axis), is_held ? Phase::servo_off : phase_of(axis, now()), event);
-  if (row == nullptr) return Outcome::goes_on;
-  for (const OtherOutcome& other : {row->other, row->another}) {
-    if (other.is_there && chose(other.chosen)) return other.outcome;
-  }
-  return row->outcome;
+bool Signals::alarm(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  if (!assigned(slots.alarm_assigned)) return false;
+  return input(slots.alarm_input) != (state_.image[slots.alarm_polarity] == 1) ||
+         state_.axes[static_cast<std::size_t>(axis)].alarm_latched;
 }
 
-void Simple2R3::apply_signals(int axis_number, motion::Signals on) {
-  AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  if (on == axis.signals.steady) return;
-  const auto changed = static_cast<motion::Signals>(on ^ axis.signals.steady);
-  axis.signals.steady = on;
-  ++axis.signals.version;
-  if (axis.mode == Mode::position) return;
-  // One after the other: what the first has made of the axis is what the next one meets.
-  for (const motion::Signal signal :
-       {motion::Signal::alarm, motion::Signal::limit_plus, motion::Signal::limit_minus}) {
-    if ((changed & motion::bit(signal)) == 0 || ignores(signal)) continue;
-    const Outcome outcome = reaction(axis_number, event_of(axis, signal, (on & motion::bit(signal)) != 0));
-    axis.motor.signals = static_cast<motion::Signals>(axis.motor.signals ^ motion::bit(signal));
-    switch (axis.mode) {
-      case Mode::position: break;
-      case Mode::velocity: meet_in_velocity(axis, outcome); break;
-      case Mode::pwm: meet_in_pwm(axis, outcome); break;
-      case Mode::sync: handle_in_sync(axis_number, outcome); break;
+bool Signals::ready(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  return assigned_input(slots.ready_assigned, slots.ready_input);
+}
+
+bool Signals::upper_limit(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  return assigned_input(slots.upper_assigned, slots.upper_input);
+}
+
+bool Signals::lower_limit(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  return assigned_input(slots.lower_assigned, slots.lower_input);
+}
+
+motion::Signals Signals::of_motor(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  motion::Signals on = 0;
+  const auto add = [&](motion::Signal signal, bool is_on) {
+    if (is_on) on |= motion::bit(signal);
+  };
+  add(motion::Signal::alarm, alarm(axis));
+  const bool swapped = setup_.limits_physical && state_.image[slots.direction_polarity] != 0;
+  add(motion::Signal::limit_plus, swapped ? lower_limit(axis) : upper_limit(axis));
+  add(motion::Signal::limit_minus, swapped ? upper_limit(axis) : lower_limit(axis));
+  add(motion::Signal::home, assigned_input(slots.home_assigned, slots.home_input));
+  return on;
+}
+
+bool Signals::output(int number) const {
+  for (int axis = 0; axis < 2; ++axis) {
+    const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+    if (number == slots.servo_output && assigned(slots.servo_output_assigned)) {
+      return state_.axes[static_cast<std::size_t>(axis)].motor.servo_on ==
+             (state_.image[slots.servo_polarity] == 1);
+    }
+    if (number == slots.alarm_clear_output && assigned(slots.alarm_clear_output_assigned)) {
+      return alarm_clear(axis);
     }
   }
-  axis.motor.signals = on;
-  // The motor's way is that of its last pulse; before the first one of a new way it must not stop for the old
-  // one.
-  if (axis.motor.drive.direction != heading(axis)) axis.motor.drive.direction = 0;
+  return ((state_.written_outputs >> number) & 1) != 0;
 }
 
-void Simple2R3::handle_in_sync(int axis_number, Outcome outcome) {
-  AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  switch (outcome) {
-    case Outcome::blocked: return keep_following(axis);
-    case Outcome::leaves: return stop_drive(axis);
-    case Outcome::resumes:
-      if (axis.motor.task != motion::Task::following) begin_following(axis_number);
-      return;
-    case Outcome::goes_on:
-    case Outcome::stops:
-    case Outcome::waits:
-    case Outcome::turns:
-    case Outcome::slows:
-    case Outcome::slows_and_waits:
-    case Outcome::dropped:
-    case Outcome::kept:
-    case Outcome::ends:
-    case Outcome::begins:
-    case Outcome::changes: return;  // waits: the alarm itself stops the motor
+/// An axis's bit of STATUS: what the input means by its function, or, where it has none and a choice wants it
+/// so, the pin's level.
+bool Signals::shown(bool by_function, std::size_t assignment_slot, int number) const {
+  if (assigned(assignment_slot) || !setup_.chose(option("unassigned_input_status", "level_of_pin")))
+    return by_function;
+  return input(number);
+}
+
+Value Signals::status() const {
+  Value status = 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const AxisState& state = state_.axes[static_cast<std::size_t>(axis)];
+    const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+    const bool shows_moving =
+        state.mode == Mode::position || !setup_.chose(option("moving_bit", "position_only"));
+    const auto bit = [&](int number, bool on) { status |= static_cast<Value>(on) << (number + axis); };
+    bit(0, shown(alarm(axis), slots.alarm_assigned, slots.alarm_input));
+    bit(2, shown(ready(axis), slots.ready_assigned, slots.ready_input));
+    const bool homes_apart =
+        state.command == Command::homing && setup_.chose(option("homing_bits", "homing_alone"));
+    bit(4, shows_moving && is_moving(state) && !homes_apart);
+    bit(6, state.command == Command::homing);
+    bit(8, state.homed);
+    bit(10, state.motor.servo_on);
+    bit(12, shown(upper_limit(axis), slots.upper_assigned, slots.upper_input));
+    bit(14, shown(lower_limit(axis), slots.lower_assigned, slots.lower_input));
   }
+  return status;
 }
 
-bool Simple2R3::ignores(motion::Signal signal) const {
-  return chose(signal == motion::Signal::alarm ? option("alarm_reaction", "none")
-                                               : option("limit_reaction", "none"));
+void sample_inputs(State& state, const Setup& setup) {
+  const std::uint16_t levels = setup.input_levels();
+  if (levels != state.inputs) state.touched = true;
+  state.inputs = levels;
+  for (int i = 0; i < kAnalogCount; ++i) state.adc[static_cast<std::size_t>(i)] = setup.adc(i);
 }
 
-void Simple2R3::refresh_signals(int axis_number) {
-  AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  apply_servo_state(axis_number);
-  apply_signals(axis_number, signals_of(axis_number));
-  // A homing that goes on has yet to see its edges.
-  if (!axis.motor.homing.active()) axis.motor.signals = axis.signals.steady;
+void write_outputs(State& state, const Setup& setup, std::uint8_t which, std::uint8_t levels) {
+  // DOUT 0 to 3 are the first of the registers that assign functions.
+  for (unsigned n = 0; n < 4 && setup.chose(option("write_under_function", "ignored")); ++n) {
+    if (Signals(state, setup).assigned(kFirstAssignment + n)) {
+      which = static_cast<std::uint8_t>(which & ~(1U << n));
+    }
+  }
+  std::uint8_t& outputs = state.written_outputs;
+  outputs = static_cast<std::uint8_t>((outputs & ~which) | (levels & which));
 }
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -6,7 +6,7 @@
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "emulator/device/memory/eeprom_fields.h"
-#include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/state.h"
 #include "interpreter/simple2/execution/state_fields.h"
 #include "motion/state_fields.h"
 

@@ -1,5 +1,5 @@
 // The reaction of a Simple2-R3 axis to each event: mode x phase x event, as data. Commands (commands.cpp) and
-// signals (signals.cpp) read it; a test checks all cells against the running device.
+// signals (reactions.cpp) read it; a test checks all cells against the running device.
 //
 // Directions are those of the axis: a limit is "ahead" on the side to which it moves, and commands are
 // "towards" or "away" from the limit that is on. While no limit is on, either may be used.

@@ -27,7 +27,7 @@ TEST(Choices, ThoseOfTheLanguageReachTheInterpreter) {
     Given given = with(choice, option);
     given.firmware = firmware;
     OneSimple2 feeder(given);
-    return static_cast<const Simple2R3&>(feeder.device()).dialect();
+    return static_cast<const Simple2R3&>(feeder.device()).setup().dialect;
   };
   const auto with_field = [](auto member, auto value) {
     Dialect changed;

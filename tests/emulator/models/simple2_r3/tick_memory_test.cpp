@@ -43,6 +43,12 @@ TEST(Simple2TickMemory, OfTheDeviceIsOneLine) {
   EXPECT_EQ(lines.count(), 1u);
 }
 
+TEST(Simple2TickMemory, OfItsSetupIsOneLine) {
+  OneSimple2 one;
+  const auto& setup = static_cast<Simple2R3&>(one.device()).setup();
+  EXPECT_EQ(CacheLines(setup.dialect, setup.motion_first, setup.timer_unit).count(), 1u);
+}
+
 TEST(Simple2TickMemory, OfAnAxisIsThreeLines) {
   OneSimple2 one;
   for (const AxisState& axis : state_of(one).axes) {

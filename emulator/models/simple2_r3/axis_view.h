@@ -1,0 +1,120 @@
+// One axis as its registers, signals and choices make it. Nothing is changed here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/simulated_time.h"
+#include "emulator/device/clear_travel.h"
+#include "emulator/models/simple2_r3/axis_drive.h"
+#include "emulator/models/simple2_r3/axis_slots.h"
+#include "emulator/models/simple2_r3/setup.h"
+#include "emulator/models/simple2_r3/signals.h"
+#include "emulator/models/simple2_r3/state.h"
+#include "emulator/models/simple2_r3/transitions.h"
+#include "motion/following.h"
+#include "motion/ramp.h"
+
+namespace understudy::emulator::models::simple2_r3 {
+
+class AxisView {
+ public:
+  AxisView(const State& state, const Setup& setup, int number)
+      : view_(state), setup_(setup), number_(number) {}
+
+  const AxisState& state() const { return view_.axes[index()]; }
+  const AxisSlots& slots() const { return kAxisSlots[index()]; }
+  bool alarm() const { return signals().alarm(number_); }
+
+  /// Returns the pulses a revolution, never 0, by which the caller divides. A host may write half of a 32-bit
+  /// register alone, so the register can hold anything.
+  std::uint32_t resolution() const;
+  std::uint32_t velocity_step_urpm() const;
+  /// Returns true if DIR_Polarity reverses the pulses.
+  bool reversed() const { return view_.image[slots().direction_polarity] != 0; }
+  bool encoder_reversed() const { return view_.image[slots().encoder_polarity] != 0; }
+  /// Return the pulses as they leave the device.
+  std::int64_t sent(std::int64_t commanded) const { return reversed() ? -commanded : commanded; }
+  double speed_pps() const;
+  std::int64_t pulses_to_come() const { return sent(state().motor.pulses_to_come()); }
+  /// Returns the coordinate after these pulses.
+  std::int32_t coordinate_after(std::int64_t commanded) const;
+
+  DriveSettings drive_settings() const;
+  Crossing crossing(Tick done, const ClearTravel& ahead) const;
+
+ protected:
+  int number() const { return number_; }
+  std::size_t index() const { return static_cast<std::size_t>(number_); }
+  Signals signals() const { return {view_, setup_}; }
+  bool chose(const Option& option) const { return setup_.chose(option); }
+  Tick now() const { return setup_.now(); }
+
+  /// Returns true if SVOFF forbids anything.
+  bool servo_matters() const;
+  /// Returns true if the servo is off, and that matters.
+  bool lacks_servo() const { return !state().motor.servo_on && servo_matters(); }
+  /// Returns true if commands need Ready, and it is missing.
+  bool lacks_ready() const;
+  bool is_refused_as_too_fast(std::int64_t milli_rpm) const;
+  /// Returns the axis's reaction to an event, in its present state and under the chosen options.
+  Outcome reaction(Event event) const;
+  /// Returns `towards` if a limit that is on forbids that direction, else `away`.
+  Event event_by_direction(int direction, Event towards, Event away) const;
+  /// Returns the law of a position move: appendix A and the 100 kHz limit.
+  motion::SpeedLaw law_of(std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
+                          std::uint32_t deceleration_10ms) const;
+  /// Returns the speed in velocity and sync mode, signed as the axis goes: 0 where a limit is in the way.
+  double speed_of_pulses() const;
+  motion::Follower sync_follower() const;
+  /// Returns the count of the encoder that sync mode follows.
+  std::int64_t followed_count() const {
+    return view_.axes[setup_.sync_follows_other ? 1 - index() : index()].encoder_counts;
+  }
+
+  const Setup& setup() const { return setup_; }
+
+ private:
+  /// Returns the resolution in velocity mode: the value now, or the one that its last command found.
+  std::uint32_t resolution_in_velocity() const {
+    return setup_.velocity_settings_latched ? state().velocity_resolution : resolution();
+  }
+
+  const State& view_;
+  const Setup& setup_;
+  const int number_;
+};
+
+inline std::uint32_t AxisView::resolution() const {
+  const std::uint32_t written = view_.image[slots().resolution];
+  return written == 0 ? 1 : written < 0x8000'0000U ? written : 0x8000'0000U;
+}
+
+inline std::uint32_t AxisView::velocity_step_urpm() const {
+  const std::uint32_t written = view_.image[slots().velocity_acceleration];
+  return setup_.velocity_unit_urpm * (written == 0 ? 1 : written);
+}
+
+// Called for each axis in every tick; with two callers the compiler would not inline it by itself.
+[[gnu::always_inline]] inline DriveSettings AxisView::drive_settings() const {
+  DriveSettings settings{.encoder_counts = followed_count(),
+                         .stops_with_encoder = setup_.stops_with_encoder,
+                         .pulses_by_speed_before = setup_.velocity_pulses_first};
+  if (state().mode == Mode::velocity) {
+    settings.pulses_per_revolution = resolution_in_velocity();
+    settings.velocity_step_urpm =
+        setup_.velocity_settings_latched ? state().velocity_step_urpm : velocity_step_urpm();
+  }
+  return settings;
+}
+
+inline std::int32_t AxisView::coordinate_after(std::int64_t commanded) const {
+  const std::int64_t counted = setup_.quirk_coordinate_counts_physical_sense ? sent(commanded) : commanded;
+  const std::int64_t sum = state().coordinate_pulses + counted;
+  if (setup_.coordinate_saturates && sum != static_cast<std::int32_t>(sum)) {
+    return sum < 0 ? INT32_MIN : INT32_MAX;
+  }
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(sum));
+}
+
+}  // namespace understudy::emulator::models::simple2_r3

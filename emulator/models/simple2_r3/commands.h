@@ -1,0 +1,56 @@
+// What an axis is told to do: moves, homing, modes, servo and STOP. Registers and program lines come here
+// alike. What a command is dropped for, and what it does to the one before it, is said in commands.cpp and
+// transitions.h.
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/models/simple2_r3/axis_drive.h"
+#include "emulator/models/simple2_r3/options.h"
+#include "emulator/models/simple2_r3/reactions.h"
+#include "emulator/models/simple2_r3/state.h"
+#include "emulator/models/simple2_r3/transitions.h"
+
+namespace understudy::emulator::models::simple2_r3 {
+
+class AxisCommands : public AxisReactions {
+ public:
+  using AxisReactions::AxisReactions;
+
+  /// Starts a move (appendix A). The move is dropped while the servo is off, an alarm lasts or a limit blocks
+  /// its direction.
+  void start_move(Command command, const MoveParameters& move);
+  /// Starts homing, with the axis's Home_Speed, Home_AccTime and GoHome_DIR. Homing is dropped as moves are.
+  void go_home(bool by_trigger = false);
+  /// Start the other modes. transitions.h says what each command does to the present motion.
+  void run_velocity(std::int64_t milli_rpm);
+  void output_pwm(std::uint8_t percent);
+  void follow_encoder();
+  void switch_servo(bool on);
+  void clear_alarm();
+  /// Applies a write to EncSync, SyncRPM or SyncSlope of the axis.
+  void sync_changed();
+  /// Applies a write to Speed, AccTime, DecTime or Resoultion of the axis.
+  void speed_changed();
+  void preset_coordinate(std::int32_t pulses);
+  void set_encoder(std::int64_t counts) { count_encoder(axis(), counts, encoder_reversed()); }
+  /// Show a command in DirectmRPM and DirectPWM that was not a write to them.
+  void show_velocity(std::int32_t milli_rpm);
+  void show_pwm(std::uint8_t percent);
+
+ private:
+  /// Returns true if a command begins; if not, does what happens instead.
+  bool may_begin(Outcome outcome, const KeptCommand& what);
+  void carry_out_kept();
+  /// A motion has begun.
+  void leave_home() {
+    if (chose(option("home_bit", "any_motion"))) axis().homed = false;
+  }
+  /// Returns true if a command with that outcome leaves its register unchanged.
+  bool is_forgotten(Outcome outcome) const {
+    return outcome != Outcome::kept && chose(option("dropped_value", "forgotten"));
+  }
+  bool shows_command_values() const { return !chose(option("command_values", "not_shown")); }
+};
+
+}  // namespace understudy::emulator::models::simple2_r3

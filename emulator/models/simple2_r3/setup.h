@@ -1,0 +1,82 @@
+// What a Simple2-R3 is made from, beside its state: its device, which has time, inputs and choices, and what
+// firmware and choices give, computed once. All parts of the controller are functions on a State and a Setup:
+//
+//   setup.h, state.h    choices, terminals, time; the state
+//   signals.h           inputs, outputs and the functions that registers give them; STATUS
+//   axis_view.h         an axis as registers and choices make it
+//   reactions.h         the tick of an axis, and what stops it
+//   commands.h          what an axis is told to do
+//   program_machine.h   the controller as its program sees it
+//   programs.h          the program
+//   memory.h            what is kept, and the password
+//   power.h             power-up, power-down, factory reset, erasure
+//   effects.h           what registers read and do
+//
+// Each may know those above it. device.h joins them to a device.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/simple2_r3/options.h"
+#include "emulator/models/simple2_r3/terminals.h"
+#include "interpreter/simple2/dialect.h"
+#include "motion/environment.h"
+
+namespace understudy::emulator::models::simple2_r3 {
+
+struct alignas(64) Setup {
+  explicit Setup(const Device& of);
+
+  // What ticks use, on one cache line.
+  const Device& device;
+  const interpreter::simple2::Dialect dialect;
+  const bool assigned_at_power_up;
+  const bool adc_10_bits;
+  const bool motion_first;
+  const bool limits_physical;
+  const bool alarm_latches;
+  const bool alarm_takes_servo;
+  const bool coordinate_saturates;
+  const bool velocity_pulses_first;
+  const bool velocity_settings_latched;
+  const bool stops_with_encoder;
+  const bool sync_follows_other;
+  /// True if the coordinate counts in the motor's direction, as it did until 1.40 (firmware note "1.40
+  /// 以前").
+  const bool quirk_coordinate_counts_physical_sense;
+  const bool timers_stay;
+  const std::uint32_t velocity_unit_urpm;  // unit of VelMode_ACC, in each 0.5 ms
+  const Tick timer_unit;
+
+  const Tick boot_ticks;
+
+  bool chose(const Option& option) const { return device.chose(option); }
+  Tick now() const { return device.now(); }
+  /// Returns the time of the timers, in their unit.
+  Tick timer_time() const { return now() / timer_unit; }
+  /// Returns the tick that counts as the last one before a motion commanded now.
+  Tick tick_before_motion() const { return chose(option("move_begins", "one_tick_in")) ? now() - 1 : now(); }
+  /// Returns true if neither a limit nor an alarm stops an axis, whichever `signal` is.
+  bool ignores(motion::Signal signal) const {
+    return chose(signal == motion::Signal::alarm ? option("alarm_reaction", "none")
+                                                 : option("limit_reaction", "none"));
+  }
+  bool keeps(const RegisterRow& row) const {
+    // No star is printed at NEW_PWD.
+    return row.persistent || (chose(option("password_kept", "yes")) && row.name == "NEW_PWD");
+  }
+
+  // ---- The levels at the terminals now: bit n for DIN n, and for DIP n + 1
+  std::uint16_t input_levels() const;
+  std::uint8_t switch_levels() const;
+  std::uint16_t adc(int number) const;
+};
+
+/// Returns the map's policy under the choices of a device.
+MapPolicy map_policy_of(const Setup& setup);
+
+}  // namespace understudy::emulator::models::simple2_r3
