@@ -59,7 +59,7 @@ class CompleteTable {
     if (!is_first) throw "a key has two handlers";
   }
   static constexpr void require_key(Key /*key*/, bool is_key) {
-    if (!is_key) throw "a handler is of something that is not a key";
+    if (!is_key) throw "a handler has an unknown key";
   }
 
   std::array<Handler, kSize> handlers_{};

@@ -200,7 +200,7 @@ class StateReader {
     if constexpr (std::is_floating_point_v<T>) {
       return std::bit_cast<T>(bits);
     } else if constexpr (std::is_same_v<T, bool>) {
-      require_state(bits <= 1, "a yes or no must be 0 or 1");
+      require_state(bits <= 1, "a boolean must be 0 or 1");
     } else if constexpr (std::is_enum_v<T>) {
       static_assert(is_last<StateOf<T>::last>(), "StateOf has another last value than the enumeration");
       require_state(bits <= as_bits(StateOf<T>::last), "an enumeration has no such value");

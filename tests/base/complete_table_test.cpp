@@ -45,8 +45,7 @@ TEST(CompleteTable, ADoubledKeyIsRefused) {
 }
 
 TEST(CompleteTable, AHandlerOfNoKeyIsRefused) {
-  EXPECT_EQ(refusal({{Verb::go, 1}, {Verb::stop, 2}, {Verb::wait, 3}}),
-            "a handler is of something that is not a key");
+  EXPECT_EQ(refusal({{Verb::go, 1}, {Verb::stop, 2}, {Verb::wait, 3}}), "a handler has an unknown key");
 }
 
 }  // namespace complete_table_test

@@ -144,7 +144,7 @@ TEST(StateBytes, AreLittleEndianAndWithoutPadding) {
 }
 
 TEST(StateBytes, WhatATypeCannotBeIsRefused) {
-  EXPECT_EQ(refusal<bool>(bytes({2})), "a yes or no must be 0 or 1");
+  EXPECT_EQ(refusal<bool>(bytes({2})), "a boolean must be 0 or 1");
   EXPECT_EQ(refusal<Colour>(bytes({3})), "an enumeration has no such value");
   EXPECT_EQ(refusal<Colour>(bytes({2})), "");
   EXPECT_EQ(refusal<Point>(bytes({100, 0, 0, 0})), "");

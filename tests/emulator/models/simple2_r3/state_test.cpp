@@ -121,7 +121,7 @@ TEST(Simple2State, BytesThatAreNoStateAreRefusedAndChangeNothing) {
   refused("its terminals are different", [](Saved& s) { s[0] = std::byte{kTerminalCount - 1}; });
   refused("a number is beyond its range", [](Saved& s) { s[4] = std::byte{2}; });  // DIN 0
   refused("a number is beyond its range", [](Saved& s) { s[7] = std::byte{0xFF}; });
-  refused("a yes or no must be 0 or 1", [](Saved& s) { s[kPower] = std::byte{2}; });
+  refused("a boolean must be 0 or 1", [](Saved& s) { s[kPower] = std::byte{2}; });
   refused("a number is beyond its range", [](Saved& s) { s[kPower + 8] = std::byte{0x80}; });  // the tick
   EXPECT_EQ(state[kImage + 4], std::byte{0x01});
   EXPECT_EQ(state[kImage + 5], std::byte{0xC0});
