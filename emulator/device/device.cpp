@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/choices.h"
 #include "base/prefetch.h"
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/choices.h"
 #include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/program_error.h"

@@ -112,8 +112,6 @@ class Device {
                                std::span<std::int64_t> pulses);
   /// Prefetches the memory that `tick` will need (base/prefetch.h).
   virtual void prefetch(Tick tick) const;
-  /// Returns true if it equals another device of the same model bit for bit.
-  virtual bool same_state(const Device& other) const = 0;
 
   // --- its state as bytes (base/state/) ---------------------------------------------------------
   /// Returns its whole state at this moment. What it was made from (model, firmware, settings, choices) is
@@ -128,6 +126,8 @@ class Device {
   /// Reads a state and puts it in force at once. If it throws, nothing has changed.
   void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
   std::uint64_t state_hash() const;
+  /// Returns true if it equals another device of the same model bit for bit: both would save the same.
+  bool same_state(const Device& other) const;
   /// Returns the first field in which two saved states of equally made devices differ:
   /// "axes[0].motor.travel_pulses: 12 against 13". Empty if they are equal. Throws StateError for other
   /// bytes.

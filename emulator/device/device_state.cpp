@@ -95,6 +95,11 @@ std::uint64_t Device::state_hash() const {
   return hash_of(save_state(shared));
 }
 
+bool Device::same_state(const Device& other) const {
+  std::vector<SharedText> shared;
+  return &model_ == &other.model_ && save_state(shared) == other.save_state(shared);
+}
+
 std::string Device::state_difference(std::span<const std::byte> a, std::span<const std::byte> b) const {
   return state_difference(StateReader(a), StateReader(b));
 }

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/choices.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/choices.h"
 #include "emulator/device/command_window.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"

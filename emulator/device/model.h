@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/choices.h"
 #include "base/files/file_claims.h"
-#include "emulator/device/choices.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"

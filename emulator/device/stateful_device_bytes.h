@@ -7,21 +7,13 @@
 
 #include "base/state/difference.h"
 #include "base/state/state_bytes.h"
-#include "emulator/device/device.h"
 #include "emulator/device/stateful_device.h"
 
 namespace understudy::emulator {
 
 template <typename Itself, typename State>
-bool StatefulDevice<Itself, State>::same_state(const Device& other) const {
-  const auto* const that = dynamic_cast<const Itself*>(&other);
-  return that != nullptr && &that->model() == &this->model() && that->now() == this->now() &&
-         that->settled() == itself().settled();
-}
-
-template <typename Itself, typename State>
 void StatefulDevice<Itself, State>::write_own_state(StateWriter& writer) const {
-  writer.write(itself().settled());
+  writer.write(static_cast<const Itself&>(*this).settled());
 }
 
 template <typename Itself, typename State>
@@ -29,7 +21,7 @@ std::function<void()> StatefulDevice<Itself, State>::read_own_state(StateReader&
   const auto restored = std::make_shared<State>();
   reader.read(*restored);
   check_restored(*restored);
-  return [this, restored] { state_ = *restored; };
+  return [this, restored] { take_over(*restored); };
 }
 
 template <typename Itself, typename State>

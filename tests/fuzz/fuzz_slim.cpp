@@ -78,10 +78,10 @@ Options options_of(std::uint8_t bits, std::uint8_t mix) {
 void mix_choices(std::uint8_t mix, std::map<std::string, std::string>& choices) {
   if (mix == 0) return;
   std::uint32_t number = mix;
-  for (const emulator::ChoiceRow& row : emulator::models::slim::model().choices) {
+  for (const ChoiceRow& row : emulator::models::slim::model().choices) {
     number = number * 1'664'525 + 1'013'904'223;
     if (std::ranges::find(kNotMixed, row.id) != std::end(kNotMixed)) continue;
-    const auto options = emulator::options_of(row);
+    const auto options = options_of(row);
     const std::size_t which = (number >> 16) % (2 * options.size());
     if (which < options.size()) choices[std::string(row.id)] = options[which];
   }

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 #include "emulator/device/describe/sheet.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"

@@ -51,7 +51,7 @@ Eeprom factory_memory(const RegisterMap& map) {
 }  // namespace
 
 ImportedDevice::ImportedDevice(const ImportedModel& model, const DeviceSettings& settings)
-    : DeviceOf(model.model(), settings),
+    : StatefulDevice(model.model(), settings),
       RegisterBankOf(*this, *model.model().registers, settings.firmware),
       KeptMemory(model.model().name, settings.firmware),
       model_(model),

@@ -13,11 +13,11 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
-#include "emulator/device/device_of.h"
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/stateful_device.h"
 #include "emulator/device/terminals.h"
 #include "emulator/models/imported/axis_drive.h"
 #include "emulator/models/imported/description.h"
@@ -38,7 +38,7 @@ struct State {
   bool operator==(const State&) const = default;
 };
 
-class ImportedDevice final : public DeviceOf<ImportedDevice>,
+class ImportedDevice final : public StatefulDevice<ImportedDevice, State>,
                              public RegisterBankOf<ImportedDevice>,
                              public ModbusStation,
                              public KeptMemory,
@@ -78,7 +78,6 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
   Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override;
   void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
                        std::span<std::int64_t> pulses) override;
-  bool same_state(const Device& other) const override;
 
   // --- terminals and axes -------------------------------------------------------------------------
   bool output(int terminal) const override;
@@ -95,9 +94,8 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
  protected:
   void power_up() override;
   void power_down() override;
-  void write_own_state(StateWriter& writer) const override;
-  std::function<void()> read_own_state(StateReader& reader) override;
-  std::string own_difference(StateReader& a, StateReader& b) const override;
+  void check_restored(State& restored) const override;
+  void take_over(const State& restored) override;
   std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& image) override;
 
@@ -129,7 +127,6 @@ class ImportedDevice final : public DeviceOf<ImportedDevice>,
 
   const ImportedModel& model_;
   const CountsOf counts_of_ = [this](const Quantity& quantity) { return counts_of(quantity); };
-  State state_;
   std::vector<MachineEdges> edges_;        // not state: set again after a restore
   std::vector<std::uint8_t> is_restored_;  // by axis; not state
   std::vector<std::size_t> written_;       // slots of the registers written by the current request

@@ -3,56 +3,39 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
-#include "base/state/difference.h"
-#include "base/state/state_bytes.h"
 #include "base/state/state_error.h"
-#include "emulator/device/device.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/memory/register_memory.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/stateful_device_bytes.h"
 #include "emulator/models/imported/axis_drive.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/models/imported/device.h"
-#include "emulator/models/imported/state_fields.h"  // IWYU pragma: keep, write() and read() go through the fields
+#include "emulator/models/imported/state_fields.h"
 #include "motion/axis.h"
 
 namespace understudy::emulator::models::imported {
 
-void ImportedDevice::write_own_state(StateWriter& writer) const { writer.write(state_); }
-
-std::function<void()> ImportedDevice::read_own_state(StateReader& reader) {
-  const auto restored = std::make_shared<State>();
-  reader.read(*restored);
-  require_state(restored->held.size() == state_.held.size(), "there are other commands");
-  require_state(restored->axes.size() == state_.axes.size(), "there are other axes");
-  require_state(restored->followed.size() == state_.followed.size(), "other values follow");
-  for (const double value : restored->followed)
-    require_state(std::isfinite(value), "a value is not a number");
-  for (const AxisState& axis : restored->axes) {
+void ImportedDevice::check_restored(State& restored) const {
+  require_state(restored.held.size() == state_.held.size(), "there are other commands");
+  require_state(restored.axes.size() == state_.axes.size(), "there are other axes");
+  require_state(restored.followed.size() == state_.followed.size(), "other values follow");
+  for (const double value : restored.followed) require_state(std::isfinite(value), "a value is not a number");
+  for (const AxisState& axis : restored.axes) {
     require_state(std::isfinite(axis.run_pps) && axis.run_pps >= 0, "a speed is not one");
     require_state(axis.wanted_direction >= -1 && axis.wanted_direction <= 1,
                   "a direction is not forward, backward or none");
   }
-  restored->eeprom.check_restored(state_.eeprom);
-  check_restored_registers(*this, restored->image, restored->eeprom.kept());
-  return [this, restored] {
-    state_ = *restored;
-    is_restored_.assign(is_restored_.size(), 1);
-  };
+  restored.eeprom.check_restored(state_.eeprom);
+  check_restored_registers(*this, restored.image, restored.eeprom.kept());
 }
 
-std::string ImportedDevice::own_difference(StateReader& a, StateReader& b) const {
-  return difference_of_saved<State>(a, b);
-}
-
-bool ImportedDevice::same_state(const Device& other) const {
-  const auto* const that = dynamic_cast<const ImportedDevice*>(&other);
-  return that != nullptr && &that->model_ == &model_ && that->now() == now() && that->state_ == state_;
+void ImportedDevice::take_over(const State& restored) {
+  state_ = restored;
+  is_restored_.assign(is_restored_.size(), 1);
 }
 
 std::function<void(NvImage&)> ImportedDevice::memory_writer() const {
@@ -101,3 +84,6 @@ void ImportedDevice::power_down() {
 }
 
 }  // namespace understudy::emulator::models::imported
+
+template class understudy::emulator::StatefulDevice<understudy::emulator::models::imported::ImportedDevice,
+                                                    understudy::emulator::models::imported::State>;

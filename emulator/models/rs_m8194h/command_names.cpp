@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 #include "emulator/device/command_window.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"

@@ -4,25 +4,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
-#include <string>
 
 #include "base/simulated_time.h"
-#include "base/state/difference.h"
-#include "base/state/state_bytes.h"
-#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/register_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/refusal.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/stateful_device_bytes.h"
 #include "emulator/models/rs_m8194h/model.h"
 #include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/programs/memory.h"
 #include "emulator/models/rs_m8194h/rows/options.h"
 #include "emulator/models/rs_m8194h/state.h"
-#include "emulator/models/rs_m8194h/state_fields.h"  // IWYU pragma: keep, write() goes through the fields
+#include "emulator/models/rs_m8194h/state_fields.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -37,13 +33,13 @@ MapPolicy policy_by_choice(const Device& device) {
 }  // namespace
 
 RsM8194h::RsM8194h(const DeviceSettings& given)
-    : DeviceOf(rs_m8194h::model(), given),
+    : StatefulDevice(rs_m8194h::model(), given),
       RegisterBankOf(module_, *rs_m8194h::model().registers, given.firmware),
       KeptMemory(rs_m8194h::model().name, given.firmware),
       policy_(policy_by_choice(*this)),
       ground_(*this),
-      module_(ground_),
-      requests_(ground_, module_.state(), module_),
+      module_(ground_, state_),
+      requests_(ground_, state_, module_),
       ports_(*this, module_) {}
 
 Addressing RsM8194h::addressing(std::uint8_t address) const {
@@ -91,26 +87,16 @@ std::function<void(NvImage&)> RsM8194h::memory_writer() const {
 
 void RsM8194h::read_memory(const NvImage& image) {
   const auto values = read_registers(*this, image, Device::model().firmwares.back());
-  for (std::size_t slot = 0; slot < values.size(); ++slot) module_.state().eeprom.put(slot, values[slot]);
+  for (std::size_t slot = 0; slot < values.size(); ++slot) state_.eeprom.put(slot, values[slot]);
 }
 
-// --- its state as bytes -----------------------------------------------------------------------------------
-
-void RsM8194h::write_own_state(StateWriter& writer) const { writer.write(state()); }
-
-std::function<void()> RsM8194h::read_own_state(StateReader& reader) {
-  const auto restored = std::make_shared<State>();
-  restored->eeprom = state().eeprom;
-  restored->blocks = TextBlocks(block_kinds());
-  reader.read(*restored);
-  restored->eeprom.check_restored(state().eeprom);
-  restored->blocks.check_restored(state().blocks);
-  check_restored_registers(*this, restored->image, restored->eeprom.kept());
-  return [this, restored] { module_.take_over(*restored); };
-}
-
-std::string RsM8194h::own_difference(StateReader& a, StateReader& b) const {
-  return difference_of_saved<State>(a, b);
+void RsM8194h::check_restored(State& restored) const {
+  restored.eeprom.check_restored(state_.eeprom);
+  restored.blocks.check_restored(state_.blocks);
+  check_restored_registers(*this, restored.image, restored.eeprom.kept());
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h
+
+template class understudy::emulator::StatefulDevice<understudy::emulator::models::rs_m8194h::RsM8194h,
+                                                    understudy::emulator::models::rs_m8194h::State>;

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "emulator/device/device.h"
-#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/stateful_device.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/rs_m8194h/module.h"
 #include "emulator/models/rs_m8194h/ports.h"
@@ -24,7 +24,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-class RsM8194h final : public DeviceOf<RsM8194h>,
+class RsM8194h final : public StatefulDevice<RsM8194h, State>,
                        public RegisterBankOf<Module>,
                        public ModbusStation,
                        public KeptMemory,
@@ -32,14 +32,13 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
  public:
   explicit RsM8194h(const DeviceSettings& given);
 
-  const State& state() const { return module_.state(); }
   const Ports* terminals() const override { return &ports_; }
   Ports* axes() override { return &ports_; }
   const Ports* axes() const override { return &ports_; }
 
   // --- registers ---------------------------------------------------------------------------------
-  std::span<std::uint32_t> image() override { return module_.state().image; }
-  std::span<const std::uint32_t> image() const override { return module_.state().image; }
+  std::span<std::uint32_t> image() override { return state_.image; }
+  std::span<const std::uint32_t> image() const override { return state_.image; }
   bool low_word_first() const override { return module_.memory.low_word_first(); }
   bool takes_parts() const override;
   const MapPolicy& map_policy() const override { return policy_; }
@@ -81,15 +80,12 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
     module_.motion_step.fast_forward_to(tick, ahead, pulses);
   }
   void prefetch(Tick tick) const override;
-  bool same_state(const Device& other) const override {
-    return state() == static_cast<const RsM8194h&>(other).state();
-  }
 
   // --- memory ------------------------------------------------------------------------------------
-  TextBlocks* text_blocks() override { return &module_.state().blocks; }
-  const TextBlocks* text_blocks() const override { return &module_.state().blocks; }
+  TextBlocks* text_blocks() override { return &state_.blocks; }
+  const TextBlocks* text_blocks() const override { return &state_.blocks; }
   std::uint64_t kept_revision() const override;
-  void settle_memory() override { module_.state().eeprom.settle(module_.state().image); }
+  void settle_memory() override { state_.eeprom.settle(state_.image); }
   void load_program(std::string_view text) override { module_.load_program(text); }
   std::string program_text() const override { return module_.programs.text(); }
   std::vector<ProgramLocation> program_locations() const override { return module_.programs.locations(); }
@@ -97,9 +93,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
  protected:
   void power_up() override { module_.power_up(); }
   void power_down() override { module_.power_down(); }
-  void write_own_state(StateWriter& writer) const override;
-  std::function<void()> read_own_state(StateReader& reader) override;
-  std::string own_difference(StateReader& a, StateReader& b) const override;
+  void check_restored(State& restored) const override;
+  void take_over(const State& restored) override { module_.take_over(restored); }
   std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& image) override;
 

@@ -17,8 +17,9 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-Module::Module(const Ground& ground)
+Module::Module(const Ground& ground, State& state)
     : Part(ground),
+      state_(state),
       memory(ground, state_),
       status(ground, state_),
       frnet(ground, state_),

@@ -39,10 +39,10 @@
 namespace understudy::emulator::models::rs_m8194h {
 
 class Module final : public Part, private lang::Machine {
-  State state_{};
+  State& state_;
 
  public:
-  explicit Module(const Ground& ground);
+  Module(const Ground& ground, State& state);
 
   // --- its parts --------------------------------------------------------------------------------
   Memory memory;

@@ -3,7 +3,7 @@
 // in options.h.
 #pragma once
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "base/choices.h"
 #include "base/complete_table.h"
 #include "base/simulated_time.h"
-#include "emulator/device/choices.h"
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"

@@ -26,7 +26,7 @@
 namespace understudy::emulator::models::super_40nc {
 
 Super40nc::Super40nc(const DeviceSettings& given)
-    : DeviceOf(super_40nc::model(), given),
+    : StatefulDevice(super_40nc::model(), given),
       RegisterBankOf(*this, *Device::model().registers, given.firmware),
       KeptMemory(Device::model().name, given.firmware) {
   map_policy_ = chosen_map_policy(*this, map().policy());
@@ -142,11 +142,6 @@ void Super40nc::update_outputs(Tick tick) {
     state_.logo_at = kNever;
   }
   parts_.programs.wake_plc_by_what_changed();
-}
-
-bool Super40nc::same_state(const Device& other) const {
-  const auto* that = dynamic_cast<const Super40nc*>(&other);
-  return that != nullptr && that->now() == now() && that->state_ == state_;
 }
 
 // ---- terminals and axes

@@ -13,12 +13,12 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
-#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/stateful_device.h"
 #include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/super_40nc/parts.h"
@@ -26,7 +26,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-class Super40nc final : public DeviceOf<Super40nc>,
+class Super40nc final : public StatefulDevice<Super40nc, State>,
                         public RegisterBankOf<Super40nc>,
                         public ModbusStation,
                         public KeptMemory,
@@ -36,7 +36,6 @@ class Super40nc final : public DeviceOf<Super40nc>,
  public:
   explicit Super40nc(const DeviceSettings& given);
 
-  const State& state() const { return state_; }
   Parts& parts() { return parts_; }
   const Parts& parts() const { return parts_; }
 
@@ -75,7 +74,6 @@ class Super40nc final : public DeviceOf<Super40nc>,
   Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override;
   void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
                        std::span<std::int64_t> pulses) override;
-  bool same_state(const Device& other) const override;
 
   // --- terminals and axes --------------------------------------------------------------------------
   bool has_terminal(int terminal) const override;
@@ -93,9 +91,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
  protected:
   void power_up() override;
   void power_down() override;
-  void write_own_state(StateWriter& writer) const override;
-  std::function<void()> read_own_state(StateReader& reader) override;
-  std::string own_difference(StateReader& a, StateReader& b) const override;
+  void check_restored(State& restored) const override;
+  void take_over(const State& restored) override;
   std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& image) override;
 
@@ -110,7 +107,6 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// Returns the first tick after `done` at which something is due by time.
   Tick next_timed_tick(Tick done) const;
 
-  State state_;
   Parts parts_{*this, *this, state_};
   MapPolicy map_policy_;
 };

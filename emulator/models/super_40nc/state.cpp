@@ -2,17 +2,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <string>
 
 #include "base/simulated_time.h"
-#include "base/state/difference.h"
-#include "base/state/state_bytes.h"
 #include "base/state/state_error.h"
 #include "emulator/device/memory/register_memory.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/stateful_device_bytes.h"
 #include "emulator/models/super_40nc/axis/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/programs/files.h"
@@ -85,23 +82,19 @@ void StateOf<State>::check(const State& state) {
 
 namespace understudy::emulator::models::super_40nc {
 
-void Super40nc::write_own_state(StateWriter& writer) const { writer.write(state_); }
-
-std::function<void()> Super40nc::read_own_state(StateReader& reader) {
-  const auto restored = std::make_shared<State>();
-  reader.read(*restored);
-  restored->eeprom.check_restored(state_.eeprom);
-  restored->blocks.check_restored(state_.blocks);
-  check_restored_registers(*this, restored->image, restored->eeprom.kept());
-  return [this, restored] {
-    state_ = *restored;
-    parts_.axes.inputs.await_edges();
-    parts_.programs.restored();
-  };
+void Super40nc::check_restored(State& restored) const {
+  restored.eeprom.check_restored(state_.eeprom);
+  restored.blocks.check_restored(state_.blocks);
+  check_restored_registers(*this, restored.image, restored.eeprom.kept());
 }
 
-std::string Super40nc::own_difference(StateReader& a, StateReader& b) const {
-  return difference_of_saved<State>(a, b);
+void Super40nc::take_over(const State& restored) {
+  state_ = restored;
+  parts_.axes.inputs.await_edges();
+  parts_.programs.restored();
 }
 
 }  // namespace understudy::emulator::models::super_40nc
+
+template class understudy::emulator::StatefulDevice<understudy::emulator::models::super_40nc::Super40nc,
+                                                    understudy::emulator::models::super_40nc::State>;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/choices.h"
 #include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
@@ -16,7 +17,6 @@
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/choices.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"

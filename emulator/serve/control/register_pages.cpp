@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
 #include "emulator/device/named_values.h"

@@ -24,7 +24,6 @@ constexpr AxisRow kWheel[] = {{.name = "A"}};
 class BareDevice final : public Device {
  public:
   using Device::Device;
-  bool same_state(const Device&) const override { return true; }
 
  protected:
   void write_own_state(StateWriter&) const override {}

@@ -3,7 +3,9 @@
 // against long advances).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <set>
@@ -153,6 +155,39 @@ TEST_P(ModelContract, StartsTheSameWheneverItIsMade) {
     EXPECT_TRUE(one->same_state(*other)) << firmware;
     EXPECT_EQ(one->state_difference(one->save_state(), other->save_state()), "") << firmware;
   }
+}
+
+/// Each of these is told first: what all devices save comes before a model's own.
+TEST_P(ModelContract, DiffersByPowerByAnInputOrByTimeAlone) {
+  const std::unique_ptr<Device> one = make(model().firmwares.front());
+  const std::unique_ptr<Device> other = make(model().firmwares.front());
+  const std::vector<std::byte> saved = one->save_state();
+  const auto expect_told = [&](const std::string& begin) {
+    EXPECT_FALSE(one->same_state(*other)) << begin;
+    const std::string told = one->state_difference(saved, other->save_state());
+    EXPECT_EQ(told.substr(0, begin.size()), begin);
+    other->restore_state(saved);
+    EXPECT_TRUE(one->same_state(*other)) << begin;
+  };
+  for (std::size_t i = 0; i < model().terminals.size(); ++i) {
+    const TerminalRow& row = model().terminals[i];
+    if (!is_input(row.kind)) continue;
+    const int terminal = static_cast<int>(i);
+    other->set_input(terminal, other->input(terminal) == row.lowest ? row.highest : row.lowest);
+    expect_told("inputs[" + std::to_string(i) + "]: ");
+  }
+  other->set_now(5);
+  expect_told("now: 0 against 5");
+  // Losing power changes more than the power. The first byte that differs is the power's alone.
+  other->switch_power(false);
+  const std::vector<std::byte> off = other->save_state();
+  std::vector<std::byte> without_power = saved;
+  const auto [of_saved, of_off] = std::mismatch(without_power.begin(), without_power.end(), off.begin());
+  ASSERT_NE(of_saved, without_power.end());
+  *of_saved = *of_off;
+  other->restore_state(without_power);
+  EXPECT_FALSE(other->powered());
+  expect_told("powered: ");
 }
 
 TEST_P(ModelContract, HasWhatBeginnersNeed) {

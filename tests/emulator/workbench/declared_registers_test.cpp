@@ -79,7 +79,6 @@ class Declared final : public DeviceOf<Declared>, public RegisterBankOf<Declared
   std::span<const std::uint32_t> image() const override { return stored; }
   void register_written(const RegisterRow&, std::size_t) override {}
   void warn_not_implemented(const RegisterRow&) const override {}
-  bool same_state(const Device&) const override { return false; }
 
   std::vector<std::uint32_t> stored;
   std::map<int, std::vector<Value>> views;

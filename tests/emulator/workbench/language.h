@@ -24,10 +24,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/choices.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "base/text/utf8.h"
-#include "emulator/device/choices.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_cells.h"
 #include "emulator/device/program_error.h"

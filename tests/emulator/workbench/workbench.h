@@ -241,10 +241,6 @@ class Workbench final : public DeviceOf<Workbench>,
   }
   bool is_moving() const { return state.positions != state.targets; }
 
-  bool same_state(const Device& other) const override {
-    return state == static_cast<const Workbench&>(other).state;
-  }
-
   WorkbenchState state;
   RefusedRequest last_refused;  // for tests, no part of its state
 

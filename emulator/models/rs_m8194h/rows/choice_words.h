@@ -1,7 +1,7 @@
 // Short names of the confidence levels of a choice, for the rows of RS-M8194H.
 #pragma once
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 #include "emulator/models/rs_m8194h/rows/choices_of_axes.h"
 #include "emulator/models/rs_m8194h/rows/choices_of_events.h"
 #include "emulator/models/rs_m8194h/rows/choices_of_macros.h"

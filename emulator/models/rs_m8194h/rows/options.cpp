@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 #include "emulator/device/model.h"
 #include "emulator/models/rs_m8194h/rows/choices.h"
 #include "interpreter/rs_m8194h/check.h"

@@ -3,7 +3,7 @@
 // generated from these rows; a bench overrides one with `choices: { ID: OPTION }`.
 #pragma once
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/choices.h"
 #include "base/simulated_time.h"
-#include "emulator/device/choices.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/device/register_map/row.h"

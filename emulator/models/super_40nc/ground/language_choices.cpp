@@ -1,7 +1,7 @@
 // The options of the languages, as chosen.
 #include "emulator/models/super_40nc/ground/language_choices.h"
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 #include "emulator/device/device.h"
 #include "emulator/models/super_40nc/rows/options.h"
 #include "emulator/models/super_40nc/rows/registers.h"

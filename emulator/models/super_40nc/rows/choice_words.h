@@ -1,7 +1,7 @@
 // Short names of the confidence levels of a choice, for the rows of a SUPER-40NC.
 #pragma once
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 
 namespace understudy::emulator::models::super_40nc {
 

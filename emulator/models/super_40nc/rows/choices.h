@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 #include "emulator/models/super_40nc/rows/choices_of_motion.h"
 #include "emulator/models/super_40nc/rows/choices_of_programs.h"
 #include "emulator/models/super_40nc/rows/choices_of_registers.h"

@@ -1,7 +1,7 @@
 // SUPER-40NC: choices about programs, the PLC and step programs.
 #pragma once
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 #include "emulator/models/super_40nc/rows/choice_words.h"
 
 namespace understudy::emulator::models::super_40nc {

@@ -44,7 +44,6 @@ class ToyDevice final : public DeviceOf<ToyDevice>, public RegisterBankOf<ToyDev
   void warn_not_implemented(const RegisterRow& row) const override {
     Device::warn_not_implemented(row.name, row.not_implemented);
   }
-  bool same_state(const Device&) const override { return false; }
   bool takes_whole(const RegisterRequest& request) const override {
     return request.count == 2 && request.first == whole_at;
   }

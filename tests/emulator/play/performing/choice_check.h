@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 #include "emulator/play/scenario/scenario.h"
 
 namespace understudy::emulator::play {

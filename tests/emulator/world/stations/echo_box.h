@@ -164,9 +164,6 @@ class EchoBox final : public DeviceOf<EchoBox>,
   Tick next_active_tick(Tick done) const override {
     return state_.speaks_at > done ? state_.speaks_at : kNever;
   }
-  bool same_state(const Device& other) const override {
-    return state_ == dynamic_cast<const EchoBox&>(other).state_;
-  }
   bool output(int) const override { return false; }
   bool output_moves(int) const override { return false; }
 

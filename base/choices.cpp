@@ -1,4 +1,4 @@
-#include "emulator/device/choices.h"
+#include "base/choices.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +12,7 @@
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 
-namespace understudy::emulator {
+namespace understudy {
 
 std::vector<std::string_view> options_of(const ChoiceRow& row) {
   std::vector<std::string_view> options;
@@ -56,4 +56,4 @@ std::vector<std::uint8_t> resolve_choices(std::span<const ChoiceRow> rows,
   return chosen;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace understudy::emulator {
+namespace understudy {
 
 enum class Confidence : std::uint8_t {
   follows,   // follows from the manual's text elsewhere
@@ -69,4 +69,4 @@ constexpr Option option_of(std::span<const ChoiceRow> rows, std::string_view id,
   }
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy
