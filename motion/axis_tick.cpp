@@ -113,37 +113,57 @@ void AxisTick::find_next() {
   }
 }
 
-void AxisTick::go_to(Instant at) {
+/// Returns the pulses that the drive has sent by then, in its own coordinate.
+std::int64_t AxisTick::due_at(const Instant& at) {
   PulseDrive& drive = axis_.drive;
-  const bool is_all = !is_before(at, until_);
-  const auto due = [&] {
-    const std::int64_t most = drive.pulses_at(tick_);
-    return is_all
-               ? most
-               : std::clamp(drive.pulses_at_moment(at), drive.sent_pulses, std::max(most, drive.sent_pulses));
-  };
+  const std::int64_t most = drive.pulses_at(tick_);
+  if (!is_before(at, until_)) return most;
+  return std::clamp(drive.pulses_at_moment(at), drive.sent_pulses, std::max(most, drive.sent_pulses));
+}
+
+/// Returns the carried pulses that have come by then.
+std::int64_t AxisTick::come_at(const Instant& at) const {
+  const double part = is_before(at, until_) ? at.after_s * kTicksPerSecond : 1;
+  return static_cast<std::int64_t>(part * static_cast<double>(std::abs(carried_)) + 1e-9);
+}
+
+AxisPlace AxisTick::place_at(const Instant& at) {
+  const PulseDrive& drive = axis_.drive;
+  AxisPlace place{.travel_pulses = axis_.travel_pulses, .backlash_sent = axis_.backlash_sent};
+  if (is_over_) return place;
   if (drives()) {
     axis_.watch(here_);
-    const std::int64_t sent_before = drive.sent_pulses;
-    const std::int64_t travel = axis_.base_pulses + drive.direction * due();
-    axis_.travel_pulses = std::clamp(travel, axis_.watch_low, axis_.watch_high);
-    drive.sent_pulses = (axis_.travel_pulses - axis_.base_pulses) * drive.direction;
-    axis_.look_at_speed(sent_before, at_, at);
+    const std::int64_t travel = axis_.base_pulses + drive.direction * due_at(at);
+    place.travel_pulses = std::clamp(travel, axis_.watch_low, axis_.watch_high);
   } else if (axis_.in_backlash && drive.elapsed_s(until_) >= 0) {
-    const std::int64_t come = (due() - drive.sent_pulses) * drive.direction;
-    drive.sent_pulses += come * drive.direction;
-    axis_.backlash_sent += come;
-    axis_.backlash_taken_pulses += come;
+    place.backlash_sent += (due_at(at) - drive.sent_pulses) * drive.direction;
   } else if (come_ != std::abs(carried_) && axis_.task == carried_by_) {
     axis_.watch(here_);
     const std::int64_t room =
         carried_ > 0 ? axis_.watch_high - axis_.travel_pulses : axis_.travel_pulses - axis_.watch_low;
-    const double part = is_all ? 1 : at.tick < tick_ ? at.after_s * kTicksPerSecond : 1;
-    const auto come = static_cast<std::int64_t>(part * static_cast<double>(std::abs(carried_)) + 1e-9);
-    const std::int64_t pulses = std::clamp<std::int64_t>(come - come_, 0, room);
-    come_ += pulses;
-    axis_.travel_pulses += carried_ < 0 ? -pulses : pulses;
-    axis_.base_pulses = axis_.travel_pulses;
+    const std::int64_t pulses = std::clamp<std::int64_t>(come_at(at) - come_, 0, room);
+    place.travel_pulses += carried_ < 0 ? -pulses : pulses;
+  }
+  return place;
+}
+
+void AxisTick::go_to(Instant at) {
+  PulseDrive& drive = axis_.drive;
+  const AxisPlace place = place_at(at);
+  const std::int64_t pulses = place.travel_pulses - axis_.travel_pulses;
+  if (drives()) {
+    const std::int64_t sent_before = drive.sent_pulses;
+    axis_.travel_pulses = place.travel_pulses;
+    drive.sent_pulses = (axis_.travel_pulses - axis_.base_pulses) * drive.direction;
+    axis_.look_at_speed(sent_before, at_, at);
+  } else if (axis_.in_backlash) {
+    const std::int64_t come = place.backlash_sent - axis_.backlash_sent;
+    drive.sent_pulses += come * drive.direction;
+    axis_.backlash_sent += come;
+    axis_.backlash_taken_pulses += come;
+  } else if (come_ != std::abs(carried_) && axis_.task == carried_by_) {
+    come_ += std::abs(pulses);
+    axis_.travel_pulses = axis_.base_pulses = place.travel_pulses;
   }
   at_ = at;
   axis_.know_encoder(here_);

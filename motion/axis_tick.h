@@ -20,6 +20,12 @@ constexpr bool is_before(const Instant& one, const Instant& other) {
   return one.tick < other.tick || (one.tick == other.tick && one.after_s < other.after_s);
 }
 
+/// Where an axis is: its travel, and the pulses beside it.
+struct AxisPlace {
+  std::int64_t travel_pulses = 0;
+  std::int64_t backlash_sent = 0;
+};
+
 class AxisTick {
  public:
   /// Begins the tick and handles at once what has changed since the last tick. `carried` is the number of
@@ -30,6 +36,8 @@ class AxisTick {
   const Instant& next();
   /// Goes to a moment that is not after next().
   void go_to(Instant at);
+  /// Returns where that would bring the axis.
+  AxisPlace place_at(const Instant& at);
   /// Goes to next() and handles what happens there.
   void look();
   bool is_over() const { return is_over_; }
@@ -62,7 +70,8 @@ class AxisTick {
   void go_to_edge();
   void end_backlash();
   void end_drive();
-  void set_travel(std::int64_t travel, Instant at, int direction);
+  std::int64_t due_at(const Instant& at);
+  std::int64_t come_at(const Instant& at) const;
   Cause against(int direction) const;
   bool sets_out(int direction, Instant at);
   void go_on_carried(std::int64_t pulses, Instant at);

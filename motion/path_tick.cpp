@@ -135,11 +135,23 @@ void PathTick::look() {
   if (path_.engaged && ends_in_it_ && path_.is_over(false)) path_.let_go(axes_, at);
 }
 
-void PathTick::go_to(Instant at) {
-  if (!path_.engaged || is_over_) return;
+double PathTick::along_at(const Instant& at) const {
   const double along_u = std::clamp(path_.run.along_at(gone_, at), along_u_, std::max(gone_.to_u, along_u_));
   // A rounding must not carry an axis over the next edge.
-  carry_to(edge_u_ ? std::min(along_u, *edge_u_) : along_u, at);
+  return edge_u_ ? std::min(along_u, *edge_u_) : along_u;
+}
+
+std::int64_t PathTick::travel_at(std::size_t i, const Instant& at) const {
+  const Axis* const mine = axis(i);
+  if (!path_.engaged || is_over_ || mine->task != Task::coordinated) return mine->travel_pulses;
+  const double along_u = along_at(at);
+  if (along_u >= gone_.to_u) return target_[i];
+  return path_.travel_at(i, path_.run.place_on(gone_, along_u)[static_cast<Eigen::Index>(i)]);
+}
+
+void PathTick::go_to(Instant at) {
+  if (!path_.engaged || is_over_) return;
+  carry_to(along_at(at), at);
   check_axes();
 }
 

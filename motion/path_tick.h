@@ -32,6 +32,8 @@ class PathTick {
   bool is_over() const { return is_over_; }
   /// Goes to a moment that is not after next().
   void go_to(Instant at);
+  /// Returns the travel to which that would bring the axis of coordinate `i`.
+  std::int64_t travel_at(std::size_t i, const Instant& at) const;
   /// Slows the path down from the present moment on, by the ramps of `by`.
   void slow_down(Cause why, const SpeedLaw& by);
   /// Checks the axes again, after another object has changed them.
@@ -44,6 +46,7 @@ class PathTick {
   void find_next();
   std::optional<double> first_beyond(std::size_t i) const;
   std::optional<double> first_beyond(std::size_t i, double from_u, double to_u) const;
+  double along_at(const Instant& at) const;
   void carry_to(double along_u, Instant at);
   void check_axes();
   Axis* axis(std::size_t i) const {

@@ -32,12 +32,17 @@ void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* pa
   std::size_t count = 0;
   for (std::uint32_t left = singles; left != 0; left &= left - 1) {
     const auto axis = static_cast<std::size_t>(std::countr_zero(left));
-    const bool is_quiet = all.axes[axis].step_quietly(all.tick, all.environment[axis], quiet[count++]);
+    const bool is_watched = (all.watched >> axis & 1U) != 0;
+    Axis::QuietTick& its = quiet[count++];
+    const bool is_quiet = !is_watched && all.axes[axis].step_quietly(all.tick, all.environment[axis], its);
     if (!is_quiet) [[unlikely]]
       restless |= 1U << axis;
   }
   std::optional<Coordinated::Ahead> ahead;
   if (path != nullptr) ahead = path->look_ahead(all.tick, all.axes, all.environment, stays_engaged);
+  for (std::size_t axis = 0; ahead && axis < all.axes.size(); ++axis) {
+    if ((all.watched >> axis & 1U) != 0 && path->takes(axis)) ahead->is_quiet = false;
+  }
   count = 0;
   if (restless == 0 && (!ahead || ahead->is_quiet)) [[likely]] {
     for (std::uint32_t left = singles; left != 0; left &= left - 1) {
@@ -113,7 +118,15 @@ bool SharedTick::look_at_first() {
     if (first == nullptr || is_before(member.part->next(), first->part->next())) first = &member;
   }
   const bool path_has = path_tick_ && !path_tick_->is_over();
-  if (path_has && (first == nullptr || is_before(path_tick_->next(), first->part->next()))) {
+  const bool is_path_first =
+      path_has && (first == nullptr || is_before(path_tick_->next(), first->part->next()));
+  if (all_.watched != 0 && owner_ != nullptr) {
+    const Instant end{.tick = all_.tick};
+    if (look_at_owner(is_path_first ? path_tick_->next() : first != nullptr ? first->part->next() : end)) {
+      return true;
+    }
+  }
+  if (is_path_first) {
     now_ = path_tick_->next();
     path_tick_->look();
     return true;
@@ -133,20 +146,30 @@ void SharedTick::handle_events() {
       const Events events = member.part->take_events();
       if (events == 0 || owner_ == nullptr) continue;
       has_happened = true;
-      act(member.axis, events);
+      act([&] { owner_->at_edge(*this, member.axis, events); });
     }
     if (!has_happened) return;
   }
 }
 
-void SharedTick::act(std::size_t axis, Events events) {
+/// Goes to the owner's next moment, if it comes before the next edge.
+bool SharedTick::look_at_owner(const Instant& until) {
+  const auto found = owner_->next_moment(*this, until);
+  if (!found) return false;
+  now_ = *found;
+  act([&] { owner_->at_moment(*this); });
+  return true;
+}
+
+template <class Act>
+void SharedTick::act(const Act& by_owner) {
   std::array<bool, kMax> had_to_recheck{};
   for (std::size_t i = 0; i < count_; ++i) {
     bool& must_recheck = all_.axes[members_[i].axis].must_recheck;
     had_to_recheck[i] = must_recheck;
     must_recheck = false;
   }
-  owner_->at_edge(*this, axis, events);
+  by_owner();
   for (std::size_t i = 0; i < count_; ++i) {
     bool& must_recheck = all_.axes[members_[i].axis].must_recheck;
     if (members_[i].part) {
@@ -169,6 +192,18 @@ void SharedTick::bring(std::size_t axis) {
   if (member == nullptr) return;
   open(*member);
   if (!member->part->is_over()) member->part->go_to(now_);
+}
+
+AxisPlace SharedTick::place_ahead(std::size_t axis, const Instant& at) {
+  Member& member = *member_of(axis);
+  if (!member.is_on_path) return member.part->place_at(at);
+  AxisPlace place{.travel_pulses = all_.axes[axis].travel_pulses,
+                  .backlash_sent = all_.axes[axis].backlash_sent};
+  for (std::size_t i = 0; path_tick_ && i < path_->axis_of.size(); ++i) {
+    if (path_->axis_of[i] == static_cast<std::int8_t>(axis))
+      place.travel_pulses = path_tick_->travel_at(i, at);
+  }
+  return place;
 }
 
 void SharedTick::slow_path(Cause why, const SpeedLaw& by) {

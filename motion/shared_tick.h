@@ -3,11 +3,12 @@
 //
 //   X  ├────────────●─────────────────────┤     ● an edge; its owner is told, and acts
 //   Y  ├────────────┊──────────●──────────┤     ┊ and brings there whom it acts on
-//   path ├───────────────────┊────────────┤
+//   path ├───────────────────┊─────┊──────┤
+//   owner ├────────────────────────●──────┤     ● a moment that the owner has found between the edges
 //
-// Edges are handled in the order of their moments (kMoments in motion/axis.h); at equal moments in the order
-// of the axes, the path last. Edges that an action causes at its own moment come next. If nothing can happen
-// in the tick, each axis is stepped alone, at no extra cost.
+// Edges are handled in the order of their moments (kMoments in motion/axis.h); at equal moments the owner's
+// own first, then in the order of the axes, the path last. Edges that an action causes at its own moment come
+// next. If nothing can happen in the tick, each axis is stepped alone, at no extra cost.
 #pragma once
 
 #include <array>
@@ -31,6 +32,12 @@ class EdgeOwner {
  public:
   /// Called at tick.now(), where `axis` is. Other axes are there after they have been brought.
   virtual void at_edge(SharedTick& tick, std::size_t axis, Events events) = 0;
+  /// Returns the first moment from tick.now() until `until` at which something happens that the axes do not
+  /// know: to a number that the owner makes of several, say. No edge comes before `until`. Asked only in
+  /// ticks with TickOfAxes::watched.
+  virtual std::optional<Instant> next_moment(SharedTick& /*tick*/, const Instant& /*until*/) { return {}; }
+  /// Called at that moment. What has happened must not be found again.
+  virtual void at_moment(SharedTick& /*tick*/) {}
 
  protected:
   ~EdgeOwner() = default;
@@ -42,6 +49,7 @@ struct TickOfAxes {
   std::span<Axis> axes;
   std::span<const Environment> environment;
   std::span<std::int64_t> pulses;
+  std::uint32_t watched = 0;  // mask of the axes that the owner asks about between their edges
 };
 
 /// Steps the axes of the mask `singles`, which no path carries, and those that `path` carries (null: none),
@@ -62,6 +70,8 @@ class SharedTick {
   std::int64_t pulses(std::size_t axis) const { return all_.pulses[axis]; }
   /// Brings an axis to the present moment; all axes of a path come along.
   void bring(std::size_t axis);
+  /// Returns where a watched axis will be at a moment from now on, as far as no edge comes before.
+  AxisPlace place_ahead(std::size_t axis, const Instant& at);
   /// Brings the path here and slows it down, by the ramps of `by`.
   void slow_path(Cause why, const SpeedLaw& by);
 
@@ -86,7 +96,9 @@ class SharedTick {
   Member* member_of(std::size_t axis);
   bool look_at_first();
   void handle_events();
-  void act(std::size_t axis, Events events);
+  template <class Act>
+  void act(const Act& by_owner);
+  bool look_at_owner(const Instant& until);
   void finish();
 
   const TickOfAxes& all_;

@@ -85,7 +85,8 @@ void Super40nc::step_motion(Tick tick) {
                                                 static_cast<std::uint32_t>(state_.wheel_edges));
   state_.wheel_edges = input(kWheelTerminal);
   if (turned != 0 && !parts_.ground.is_on(m8::kMotionInhibit)) parts_.axes.wheel.feed_wheel(turned);
-  const BeforeTick before = parts_.axes.counters.begin_tick(turned);
+  const BeforeTick before = parts_.axes.counters.begin_tick(tick, turned);
+  parts_.axes.edges.begin_tick(tick, turned != 0);
   std::array<std::int64_t, kAxisCount> sent{};
   std::array<bool, kAxisCount> was_on_path{};
   for (int number = 0; number < kAxisCount; ++number) {
@@ -110,7 +111,7 @@ void Super40nc::end_path() {
   if (const auto why = parts_.paths.path_ended()) parts_.programs.path_broken(*why);
 }
 
-/// Checks the comparators that the chip's own cannot do.
+/// Checks the comparators that the chip's own cannot do, as far as the tick has not checked them.
 void Super40nc::stop_by_comparators(int axis) {
   for (std::size_t which = 0; which < kComparators; ++which) {
     const auto stop = parts_.axes.comparators.compare(axis, which);
@@ -132,6 +133,7 @@ void Super40nc::update_outputs(Tick tick) {
   for (int number = 0; number < kAxisCount; ++number) {
     const AxisState& axis = chips().axis(number);
     if (axis.clears != 0) parts_.axes.counters.clear_counters(number);
+    parts_.axes.counters.latch_by_comparator(number);
     if (axis.compares_by_tick != 0) stop_by_comparators(number);
   }
   parts_.axes.pins.hold_cleared();

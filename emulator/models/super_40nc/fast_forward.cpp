@@ -82,7 +82,8 @@ void Super40nc::fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
     const std::int64_t travel_at_last = motor.travel_pulses;
     state.sent_pulses = motor.step(tick, parts_.axes.chips.environment(number));
     state.followed_pulses = motor.travel_pulses - travel_at_last;
-    counters.count(number, travel_before, 0);
+    counters.count(number, {.pulses = motor.travel_pulses - travel_before,
+                            .backlash = motor.backlash_sent - state.backlash_seen});
     pulses[n] += before_last + state.sent_pulses;
     if (ahead.has_encoder(number)) counters.set_encoder(number, ahead.encoder_counts(number, pulses[n]));
   }

@@ -25,9 +25,11 @@ namespace {
 
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
-constexpr std::array<std::string_view, 4> kGaps{
-    ("Comparators work to the pulse with COUNTER1: four of them at once, in addition to the soft "
-     "limits. A fifth one, and comparators with other counters, stop an axis at the end of the tick."),
+constexpr std::array<std::string_view, 5> kGaps{
+    ("The speed of an axis that is on a path or follows the hand wheel is compared at the end of each tick, "
+     "and so are counters that count an encoder while the machine does not follow its pulses."),
+    ("Changes of the CLR and LTC inputs take effect at the beginning of the next tick, unless a switch "
+     "of the machine is wired to them."),
     ("An axis that follows the hand wheel moves by the sum of its counts in a tick, so turning it back "
      "and forth within a tick has no effect."),
     ("The chip's signals CSTA, CSTP, PCS, SD and DR are not modelled. Its ERC, CLR and LTC are "

@@ -56,8 +56,7 @@ void AxisInputs::update_environment(int axis_number) {
       {pin_of(axis_number, kIndexPin), motion::Signal::index, true},
       {pin_of(axis_number, kAlarmPin), motion::Signal::alarm, true},
       {pin_of(axis_number, kInPositionPin), motion::Signal::in_position, true}};
-  const MachineEdges& told = edges_[static_cast<std::size_t>(axis_number)];
-  const MachineEdges edges = chip(axis_number).inverted ? told.reversed() : told;
+  const MachineEdges edges = edges_of(axis_number);
   motion::Environment seen;
   for (const Function& function : functions) {
     if (!function.active_level) continue;
@@ -91,6 +90,17 @@ void AxisInputs::see_first_signals() {
   for (int number = 0; number < kAxisCount; ++number) {
     chip(number).signals = environment(number).at(chip(number).travel_pulses, chip(number).signals);
   }
+}
+
+MachineEdges AxisInputs::edges_of(int axis) const {
+  const MachineEdges& told = edges_[static_cast<std::size_t>(axis)];
+  return chip(axis).inverted ? told.reversed() : told;
+}
+
+std::optional<MachineEdges::Span> AxisInputs::span_of(int axis, int input) const {
+  const MachineEdges edges = edges_of(axis);
+  const MachineEdges::Span* const span = edges.span_of(input);
+  return span == nullptr ? std::nullopt : std::optional(*span);
 }
 
 void AxisInputs::set_edges(int axis, const MachineEdges& edges) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "emulator/device/machine_edges.h"
 #include "emulator/device/register_map/row.h"
@@ -20,11 +21,16 @@ class AxisInputs : protected Chips {
   void update_environment(int axis_number);
   void see_first_signals();
   void set_edges(int axis, const MachineEdges& edges);
+  /// Returns where a switch of the machine switches an input, in the axis's own direction.
+  std::optional<MachineEdges::Span> span_of(int axis, int input) const;
   /// The edges of a restored state are set again before anything has changed.
   void await_edges() { is_restored_.fill(true); }
   void await_no_edges() { is_restored_.fill(false); }
 
  private:
+  /// Returns what the machine has told, in the axis's own direction.
+  MachineEdges edges_of(int axis) const;
+
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: set again after a restore
   std::array<bool, kAxisCount> is_restored_{};    // restored, and its edges not set again yet
 };

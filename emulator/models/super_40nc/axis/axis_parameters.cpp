@@ -7,6 +7,7 @@
 
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis/axis_state.h"
+#include "emulator/models/super_40nc/axis/comparator_rows.h"
 #include "emulator/models/super_40nc/ground/ground.h"
 #include "emulator/models/super_40nc/rows/names.h"
 #include "emulator/models/super_40nc/rows/options.h"
@@ -31,8 +32,6 @@ motion::AxisSettings AxisParameters::motor_settings(int axis, bool homes) const 
   made.soft_limit_plus = made.soft_limit_minus = std::nullopt;
   if (homes && chose(option("home_soft_limits", "ignored"))) return made;
   const std::int64_t counter_lead = machine_pulses(axis) - chip(axis).travel_pulses;
-  constexpr Value kSoftLimit = 6;
-  constexpr Value kRamp = 2;
   struct Side {
     Kept source, method, action, value;
     std::optional<std::int64_t> motion::AxisSettings::*limit;
@@ -45,11 +44,12 @@ motion::AxisSettings AxisParameters::motor_settings(int axis, bool homes) const 
   for (const Side& side : kSides) {
     const Value action = settings.of(side.action, axis);
     const bool is_limit = settings.of(side.method, axis) == kSoftLimit &&
-                          settings.of(side.source, axis) == 0 && (action == 1 || action == kRamp);
+                          settings.of(side.source, axis) == kCounter1 && stops(action) &&
+                          !is_held_cleared(axis, kCounter1);
     if (!is_limit) continue;
     made.*side.limit = settings.raw(side.value, axis) - counter_lead;
     const motion::Reaction at_limit =
-        action == kRamp ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
+        action == kStopByRamp ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
     if (side.limit == &motion::AxisSettings::soft_limit_plus) {
       made.at_soft_limit = at_limit;
     } else {

@@ -12,6 +12,7 @@
 #include "emulator/models/super_40nc/axis/homes.h"
 #include "emulator/models/super_40nc/axis/jogs.h"
 #include "emulator/models/super_40nc/axis/starts.h"
+#include "emulator/models/super_40nc/axis/tick_edges.h"
 #include "emulator/models/super_40nc/axis/wheel.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -27,6 +28,7 @@ struct AxisParts {
   AxisParameters parameters{chips, comparators, inputs};
   Counters counters{chips, comparators, parameters};
   ChipPins pins{chips, parameters, counters};
+  TickEdges edges{chips, inputs, counters, pins};
   AxisFlags flags{chips, comparators, pins};
   Starts starts{chips, inputs, parameters, pins};
   Jogs jogs{chips, starts};

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/simulated_time.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis/axis_state.h"
 #include "emulator/models/super_40nc/ground/ground.h"
 #include "emulator/models/super_40nc/rows/names.h"
@@ -22,39 +23,48 @@ namespace {
 
 /// D9x06: from 12 us to 104 ms, in whole ticks; the last one stays until the next start.
 constexpr std::array<Tick, 8> kErcTicks{1, 1, 1, 2, 13, 52, 104, kNever};
-/// The modes of D9x09.
-enum ClearMode : std::uint8_t { kAtOn, kAtOff, kWhileOn, kWhileOff };
 
 }  // namespace
 
 void ChipPins::see_pins() {
   if (!has_chip_pins()) return;
   for (int number = 0; number < kAxisCount; ++number) {
-    const auto n = static_cast<std::size_t>(number);
-    const bool clears = input(chip_pin_of(number, kClearPin)) != 0;
-    const auto mode = registers().of(kept_x(d9x::kClrSignal), number);
-    const bool has_edge = clears != axes_.clears_seen[n] && ground_.state().has_ticked;
-    if (has_edge && mode == (clears ? kAtOn : kAtOff)) clear_by_pin(number);
-    axes_.clears_seen[n] = clears;
-    const bool latches = input(chip_pin_of(number, kLatchPin)) != 0;
-    const bool rises = latches && !axes_.latches_seen[n] && ground_.state().has_ticked;
-    if (rises && registers().of(kept_x(d9x::kLatchOfCounters), number) == 0)
-      counters_.take_latch(number, chip(number).travel_pulses);
-    axes_.latches_seen[n] = latches;
+    for (const ChipPin pin : {kClearPin, kLatchPin}) {
+      const bool is_on = input(chip_pin_of(number, pin)) != 0;
+      if (is_on == pin_seen(number, pin)) continue;
+      if (ground_.state().has_ticked) {
+        pin_changes(number, pin, is_on, chip_speed(number));
+      } else {
+        see(number, pin, is_on);
+      }
+    }
   }
 }
 
-/// Clears at the end of each tick while the level lasts.
+void ChipPins::see(int axis, ChipPin pin, bool is_on) {
+  (pin == kClearPin ? axes_.clears_seen : axes_.latches_seen)[static_cast<std::size_t>(axis)] = is_on;
+}
+
+void ChipPins::pin_changes(int axis, ChipPin pin, bool is_on, std::int64_t speed) {
+  see(axis, pin, is_on);
+  if (pin == kLatchPin) {
+    if (is_on && registers().of(kept_x(d9x::kLatchOfCounters), axis) == 0)
+      counters_.take_latch(axis, chip(axis).travel_pulses, speed);
+    return;
+  }
+  const Value mode = registers().of(kept_x(d9x::kClrSignal), axis);
+  if (mode == (is_on ? kAtOn : kAtOff) || holds_cleared(axis)) clear_by_pin(axis);
+  const bool has_level = mode == kWhileOn || mode == kWhileOff;
+  if (has_level) parameters_.apply_axis_parameters(axis, 0);  // what is held passes nothing
+}
+
 void ChipPins::hold_cleared() {
   if (!has_chip_pins()) return;
   for (int number = 0; number < kAxisCount; ++number) {
-    const bool is_on = axes_.clears_seen[static_cast<std::size_t>(number)];
-    if (registers().of(kept_x(d9x::kClrSignal), number) == (is_on ? kWhileOn : kWhileOff))
-      clear_by_pin(number);
+    if (holds_cleared(number)) clear_by_pin(number);
   }
 }
 
-/// Clears the counters in the mask D9x27.
 void ChipPins::clear_by_pin(int axis) {
   const std::int32_t mask = registers().raw(kept_x(d9x::kClrResetC), axis);
   for (int which = 0; which < static_cast<int>(kCounters); ++which) {

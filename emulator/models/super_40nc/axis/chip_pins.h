@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "base/simulated_time.h"
 #include "emulator/models/super_40nc/axis/axis_parameters.h"
 #include "emulator/models/super_40nc/axis/chips.h"
 #include "emulator/models/super_40nc/axis/counters.h"
+#include "emulator/models/super_40nc/rows/terminals.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -15,8 +17,14 @@ class ChipPins : protected Chips {
   ChipPins(const Chips& chips, AxisParameters& parameters, Counters& counters)
       : Chips(chips), parameters_(parameters), counters_(counters) {}
 
-  bool has_chip_pins() const { return chose(option("pins_fitted", "also_clr_ltc_and_erc")); }
+  using Chips::has_chip_pins;
   void see_pins();
+  /// Called at the moment of a change of CLR or LTC, when the counters have counted until then. `speed` is
+  /// the chip's at that moment.
+  void pin_changes(int axis, ChipPin pin, bool is_on, std::int64_t speed);
+  /// Clears the counters in the mask D9x27.
+  void clear_by_pin(int axis);
+  /// What is held counts nothing. COUNTER1 goes with the travel: it is set back at the end of each tick.
   void hold_cleared();
   /// Returns true while ERC is given (M8x49, M8x52, M8x53).
   bool gives_erc(int axis) const { return now() < axes_.erc_until[static_cast<std::size_t>(axis)]; }
@@ -26,7 +34,7 @@ class ChipPins : protected Chips {
   Tick next_end_of_erc(Tick done) const;
 
  private:
-  void clear_by_pin(int axis);
+  void see(int axis, ChipPin pin, bool is_on);
 
   AxisParameters& parameters_;
   Counters& counters_;

@@ -22,6 +22,15 @@
 
 namespace understudy::emulator::models::super_40nc {
 
+bool Chips::holds_cleared(int axis) const {
+  if (!has_chip_pins()) return false;
+  return registers().of(kept_x(d9x::kClrSignal), axis) == (pin_seen(axis, kClearPin) ? kWhileOn : kWhileOff);
+}
+
+bool Chips::is_held_cleared(int axis, int which) const {
+  return holds_cleared(axis) && is_bit(registers().raw(kept_x(d9x::kClrResetC), axis), which);
+}
+
 std::int32_t Chips::counter(int axis_number, int number) const {
   const AxisState& state = axis(axis_number);
   if (number == 0) return static_cast<std::int32_t>(machine_pulses(axis_number));

@@ -8,6 +8,8 @@
 #include "emulator/models/super_40nc/axis/axis_state.h"
 #include "emulator/models/super_40nc/axis/ownership.h"
 #include "emulator/models/super_40nc/ground/ground.h"
+#include "emulator/models/super_40nc/rows/options.h"
+#include "emulator/models/super_40nc/rows/terminals.h"
 #include "motion/axis.h"
 #include "motion/environment.h"
 
@@ -27,6 +29,15 @@ class Chips : protected OnGround {
     return axes_.environment[static_cast<std::size_t>(axis)];
   }
   bool is_on_path(int axis) const { return axes_.path.takes(static_cast<std::size_t>(axis)); }
+  bool has_chip_pins() const { return chose(option("pins_fitted", "also_clr_ltc_and_erc")); }
+  /// Returns the level of CLR or LTC, as sampled.
+  bool pin_seen(int axis, ChipPin pin) const {
+    return (pin == kClearPin ? axes_.clears_seen : axes_.latches_seen)[static_cast<std::size_t>(axis)];
+  }
+  /// Returns true if the level of CLR keeps counters at 0 (D9x09).
+  bool holds_cleared(int axis) const;
+  /// Returns true if it keeps COUNTER1 to COUNTER4 (`which` 0 to 3) at 0.
+  bool is_held_cleared(int axis, int which) const;
   bool has_signal(int number, motion::Signal signal) const {
     return (chip(number).signals & motion::bit(signal)) != 0;
   }
@@ -72,6 +83,9 @@ class Chips : protected OnGround {
  private:
   bool lines_wait_;
 };
+
+/// The modes of D9x09.
+enum ClearMode : std::uint8_t { kAtOn, kAtOff, kWhileOn, kWhileOff };
 
 /// The values of D8x64, by the chip's numbers.
 enum Operation : std::int32_t {

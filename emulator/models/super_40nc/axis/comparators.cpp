@@ -1,10 +1,10 @@
 // The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48): = (1), on the way up (2) or down (3),
-// set > count (4), set < count (5), and soft limits (6). The chip stops and latches at the exact pulse for
-// COUNTER1, and for COUNTER2 and COUNTER4 if they count pulses or an encoder. For other numbers, and for soft
-// limits on counters other than COUNTER1, it does so at the end of a tick.
+// set > count (4), set < count (5), and soft limits (6). The axis itself compares COUNTER1, and COUNTER2 and
+// COUNTER4 if they count pulses or an encoder, four of them at once; tick_edges.h compares all else. Both act
+// at the exact pulse. The end of a tick is left for what nobody knows before: an encoder that does not
+// follow.
 #include "emulator/models/super_40nc/axis/comparators.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -12,6 +12,7 @@
 
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis/axis_state.h"
+#include "emulator/models/super_40nc/axis/comparator_rows.h"
 #include "emulator/models/super_40nc/rows/names.h"
 #include "emulator/models/super_40nc/rows/registers.h"
 #include "emulator/models/super_40nc/rows/settings.h"
@@ -21,21 +22,6 @@
 namespace understudy::emulator::models::super_40nc {
 
 namespace {
-
-struct ComparatorRow {
-  Kept source, method, action, value;
-};
-constexpr std::array<ComparatorRow, kComparators> kComparatorRows{
-    {{kept_x(d9x::kCp1Source), kept_x(d9x::kCp1Method), kept_x(d9x::kCp1Action), kept_d(d8x::kRcmp1)},
-     {kept_x(d9x::kCp2Source), kept_x(d9x::kCp2Method), kept_x(d9x::kCp2Action), kept_d(d8x::kRcmp2)},
-     {kept_x(d9x::kCp3Source), kept_x(d9x::kCp3Method), kept_x(d9x::kCp3Action), kept_d(d8x::kRcmp3)},
-     {kept_x(d9x::kCp4Source), kept_x(d9x::kCp4Method), kept_x(d9x::kCp4Action), kept_d(d8x::kRcmp4)},
-     {kept_x(d9x::kCp5Source), kept_x(d9x::kCp5Method), kept_x(d9x::kCp5Action), kept_d(d8x::kPrcmp5)}}};
-
-enum Method : Value { kEqual = 1, kEqualUpwards, kEqualDownwards, kSetAbove, kSetBelow, kSoftLimit };
-constexpr Value kByRamp = 2;
-
-bool stops(Value action) { return action == 1 || action == kByRamp; }
 
 motion::Comparator::Relation relation_of(Value method) {
   using Relation = motion::Comparator::Relation;
@@ -49,30 +35,16 @@ motion::Comparator::Relation relation_of(Value method) {
   }
 }
 
-/// Returns true if a number has met the condition between two values.
-bool is_met(Value method, std::int64_t before, std::int64_t present, std::int64_t set) {
-  const bool upwards = before < set && set <= present;
-  const bool downwards = before > set && set >= present;
-  switch (method) {
-    case kEqual: return upwards || downwards;
-    case kEqualUpwards: return upwards;
-    case kEqualDownwards: return downwards;
-    case kSetAbove: return set > present && !(set > before);
-    case kSetBelow: return set < present && !(set < before);
-    default: return false;
-  }
-}
-
 }  // namespace
 
 /// Returns the number that a comparator compares.
 std::int64_t Comparators::compared_number(int axis, std::size_t which) const {
   switch (registers().of(kComparatorRows[which].source, axis)) {
-    case 0: return counter(axis, 0);
-    case 1: return counter(axis, 1);
-    case 2: return std::abs(std::int64_t{counter(axis, 2)});
-    case 3: return counter(axis, 3);
-    case 4: return remaining_pulses(axis);
+    case kCounter1: return counter(axis, 0);
+    case kCounter2: return counter(axis, 1);
+    case kCounter3: return std::abs(std::int64_t{counter(axis, 2)});
+    case kCounter4: return counter(axis, 3);
+    case kRemaining: return remaining_pulses(axis);
     default: return chip_speed(axis);
   }
 }
@@ -96,8 +68,7 @@ bool Comparators::comparator_holds(int axis, int number) const {
   }
 }
 
-/// Returns the comparator as the chip compares within a tick, or nothing if it is checked at the end of a
-/// tick.
+/// Returns the comparator as the axis compares, or nothing if it cannot.
 std::optional<motion::Comparator> Comparators::comparator_of(int axis_number, std::size_t which) const {
   const Settings settings = registers();
   const ComparatorRow& row = kComparatorRows[which];
@@ -107,14 +78,12 @@ std::optional<motion::Comparator> Comparators::comparator_of(int axis_number, st
   if (made.relation == motion::Comparator::Relation::off) return std::nullopt;
   const Value source = settings.of(row.source, axis_number);
   const AxisState& state = axis(axis_number);
-  if (source == 0) {
+  if (source == kCounter1) {
     made.counter = state.command;
     return made;
   }
-  constexpr Value kCounter2 = 1;
-  constexpr Value kCounter4 = 3;
   const bool is_stopped =
-      is_bit(settings.raw(kept_x(d9x::kDisableC2ToC4), axis_number), static_cast<int>(source));
+      is_bit(settings.raw(kept_x(d9x::kDisableC2ToC4), axis_number), static_cast<int>(source) - 1);
   if (is_stopped || (source != kCounter2 && source != kCounter4)) return std::nullopt;
   // The source of COUNTER2 is D9x23, that of COUNTER4 D9x25: the pulses, the encoder, or something else.
   const Value from =
@@ -142,21 +111,19 @@ void Comparators::set_comparators(int axis_number) {
     const ComparatorRow& row = kComparatorRows[which];
     const Value method = settings.of(row.method, axis_number);
     const Value action = settings.of(row.action, axis_number);
-    // D9x50: 2 and 3 are the comparators 4 and 5.
-    const bool latches = which >= 3 && settings.of(kept_x(d9x::kLatchOfCounters), axis_number) ==
-                                           static_cast<Value>(which) - 1;
-    if ((!stops(action) && !latches) || method == 0) continue;
-    if (settings.of(row.source, axis_number) == 0 && method == kSoftLimit)
-      continue;  // the axis's own soft limit
+    const bool is_latch = latches(settings, axis_number, which);
+    if ((!stops(action) && !is_latch) || method == 0) continue;
+    const Value source = settings.of(row.source, axis_number);
+    if (source == kCounter1 && method == kSoftLimit) continue;  // the axis's own soft limit
+    if (source <= kCounter4 && is_held_cleared(axis_number, static_cast<int>(source))) continue;
     std::optional<motion::Comparator> made = comparator_of(axis_number, which);
     if (!made || next == motor.comparators.size()) {
-      if (stops(action))
-        state.compares_by_tick = static_cast<std::uint8_t>(state.compares_by_tick | 1U << which);
+      state.compares_by_tick = static_cast<std::uint8_t>(state.compares_by_tick | 1U << which);
       continue;
     }
-    if (latches) state.latching = static_cast<motion::Events>(1U << next);
+    if (is_latch) state.latching = static_cast<motion::Events>(1U << next);
     if (stops(action))
-      made->reaction = action == 1 ? motion::Reaction::stop_at_once : motion::Reaction::slow_down;
+      made->reaction = action == kStopAtOnce ? motion::Reaction::stop_at_once : motion::Reaction::slow_down;
     set_comparator(axis_number, next++, *made);
   }
   while (next < motor.comparators.size()) set_comparator(axis_number, next++, {});
@@ -188,11 +155,13 @@ std::optional<ComparatorStop> Comparators::compare(int axis_number, std::size_t 
   const std::int64_t before = state.compared[which];
   const std::int64_t present = compared_number(axis_number, which);
   state.compared[which] = present;
-  if (!chip(axis_number).moving()) return std::nullopt;
-  const bool by_ramp = settings.of(row.action, axis_number) == kByRamp;
+  const Value action = settings.of(row.action, axis_number);
+  if (!chip(axis_number).moving() || !stops(action)) return std::nullopt;
+  const bool by_ramp = action == kStopByRamp;
   const Value method = settings.of(row.method, axis_number);
   if (method != kSoftLimit) {
-    const bool stops_it = is_met(method, before, present, settings.raw(row.value, axis_number));
+    const Value source = settings.of(row.source, axis_number);
+    const bool stops_it = is_met(source, method, before, present, settings.raw(row.value, axis_number));
     return stops_it ? std::optional(ComparatorStop{by_ramp, motion::Cause::comparator}) : std::nullopt;
   }
   const int direction = which == 0 ? +1 : -1;

@@ -1,47 +1,75 @@
 #include "emulator/models/super_40nc/axis/counters.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <utility>
 
 #include "base/simulated_time.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis/axis_state.h"
+#include "emulator/models/super_40nc/axis/comparator_rows.h"
 #include "emulator/models/super_40nc/rows/names.h"
 #include "emulator/models/super_40nc/rows/options.h"
 #include "emulator/models/super_40nc/rows/registers.h"
 #include "emulator/models/super_40nc/rows/row_words.h"
 #include "emulator/models/super_40nc/rows/settings.h"
 #include "motion/axis.h"
+#include "motion/axis_tick.h"
 #include "motion/encoder_line.h"
 #include "motion/environment.h"
 #include "motion/homing.h"
-#include "motion/shared_tick.h"
 #include "motion/tick.h"
 
 namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// The sources of the counters, as D9x23 to D9x25 number them.
-struct CountedThisTick {
-  std::int64_t pulses = 0;
-  std::int64_t backlash = 0;
-  std::int64_t wheel = 0;
-};
+/// Counts of a tick are spread evenly over it, the last one at its end.
+std::int64_t spread(std::int64_t counts, double at_s) {
+  const double part = at_s * motion::kTicksPerSecond;
+  const auto come = static_cast<std::int64_t>(part * static_cast<double>(std::abs(counts)) + 1e-9);
+  return counts < 0 ? -come : come;
+}
 
 /// Returns the counts of half the chip's clock of 19.6608 MHz in a number of ticks.
 std::int64_t clock_counts(Tick ticks) { return ticks * 49'152 / 5; }
 
+std::int64_t clock_until(Tick tick, double at_s) {
+  constexpr std::int64_t kFifths = 49'152;
+  const auto in_it = static_cast<std::int64_t>(at_s * motion::kTicksPerSecond * kFifths + 1e-6);
+  return ((tick - 1) * kFifths + in_it) / 5 - clock_counts(tick - 1);
+}
+
 }  // namespace
 
-BeforeTick Counters::begin_tick(std::int32_t wheel_counts) {
+std::int64_t counts_of(const Settings& settings, int axis, int counter, const Counted& counted) {
+  const bool with_backlash = is_bit(settings.raw(kept_x(d9x::kCountCorrect), axis), counter);
+  const std::int64_t pulses = counted.pulses + (with_backlash ? counted.backlash : 0);
+  const std::int64_t encoder = settings.is_on(kept_x(d9x::kEncoderDisable), axis) ? 0 : counted.encoder;
+  const auto pick = [](Value source, auto... of) {
+    const std::array all{of...};
+    return all[static_cast<std::size_t>(source)];
+  };
+  switch (counter) {
+    case kCounter2: return pick(settings.of(kept_x(d9x::kC2Source), axis), encoder, pulses, counted.wheel);
+    case kCounter3:
+      return pick(settings.of(kept_x(d9x::kC3Source), axis), pulses - encoder, pulses - counted.wheel,
+                  encoder - counted.wheel);
+    default:
+      return pick(settings.of(kept_x(d9x::kC4Source), axis), pulses, encoder, counted.wheel, counted.clock);
+  }
+}
+
+BeforeTick Counters::begin_tick(Tick tick, std::int32_t wheel_counts) {
   BeforeTick before;
+  tick_ = tick;
   wheel_of_tick_ = wheel_counts;
   for (std::size_t n = 0; n < kAxisCount; ++n) {
     before.travel[n] = axes_.chips[n].travel_pulses;
     before.phase[n] = axes_.chips[n].homing.phase;
-    counted_[n] = {.travel = before.travel[n]};
+    so_far_[n] = {.travel = before.travel[n]};
   }
   return before;
 }
@@ -50,23 +78,30 @@ void Counters::end_tick(int axis_number, const BeforeTick& before) {
   const auto n = static_cast<std::size_t>(axis_number);
   axis(axis_number).followed_pulses = chip(axis_number).travel_pulses - before.travel[n];
   count_index(axis_number, before.phase[n]);
-  count(axis_number, counted_[n].travel, wheel_of_tick_ - counted_[n].wheel);
-  latch_by_comparator(axis_number);
+  count_without_encoder(axis_number, 1 / motion::kTicksPerSecond);
 }
 
-/// Adds to one of COUNTER2 to COUNTER4.
-void Counters::add_to_counter(const Settings& settings, int axis_number, int which, std::int64_t counts) {
-  constexpr int kDeviation = 2;
-  if (counts == 0 || is_bit(settings.raw(kept_x(d9x::kDisableC2ToC4), axis_number), which - 1)) return;
-  std::int32_t& its_count = axis(axis_number).counts[static_cast<std::size_t>(which - 1)];
-  its_count = wrapped(its_count + counts);
-  if (which == kDeviation) its_count = static_cast<std::int16_t>(its_count);  // 16 bits on the chip
+/// Adds to COUNTER2 to COUNTER4.
+void Counters::add_to_counters(int axis_number, const Counted& counted) {
+  const Settings settings = registers();
+  for (int which = kCounter2; which <= kCounter4; ++which) {
+    const std::int64_t counts = counts_of(settings, axis_number, which, counted);
+    if (counts == 0 || !counts_now(axis_number, which)) continue;
+    std::int32_t& its_count = axis(axis_number).counts[static_cast<std::size_t>(which - 1)];
+    its_count = wrapped(its_count + counts);
+    if (which == kCounter3) its_count = static_cast<std::int16_t>(its_count);  // 16 bits on the chip
+  }
 }
 
-/// Returns true if COUNTER4 counts now; it may count only while the axis moves.
-bool Counters::counts_now(const Settings& settings, int axis_number) const {
+bool Counters::counts_now(int axis_number, int which) const {
+  const Settings settings = registers();
+  if (is_bit(settings.raw(kept_x(d9x::kDisableC2ToC4), axis_number), which - 1) ||
+      is_held_cleared(axis_number, which)) {
+    return false;
+  }
   const AxisState& state = axis(axis_number);
-  return !settings.is_on(kept_x(d9x::kC4Enable), axis_number) || state.moves() || state.followed_pulses != 0;
+  return which != kCounter4 || !settings.is_on(kept_x(d9x::kC4Enable), axis_number) || state.moves() ||
+         state.followed_pulses != 0;
 }
 
 bool Counters::counts_a_clock(int axis) const {
@@ -96,15 +131,9 @@ void Counters::count_encoder(int axis_number, std::int64_t counts) {
   const Settings settings = registers();
   const std::int64_t turned = counts - state.encoder_counts;
   state.encoder_counts = counts;
-  if (turned == 0 || !ground_.powered() || settings.is_on(kept_x(d9x::kEncoderDisable), axis_number)) return;
-  const std::int64_t counted = settings.is_on(kept_x(d9x::kEncoderDirection), axis_number) ? -turned : turned;
-  if (settings.of(kept_x(d9x::kC2Source), axis_number) == 0)
-    add_to_counter(settings, axis_number, 1, counted);
-  const Value deviation = settings.of(kept_x(d9x::kC3Source), axis_number);
-  if (deviation == 0) add_to_counter(settings, axis_number, 2, -counted);
-  if (deviation == 2) add_to_counter(settings, axis_number, 2, counted);
-  if (settings.of(kept_x(d9x::kC4Source), axis_number) == 1 && counts_now(settings, axis_number))
-    add_to_counter(settings, axis_number, 3, counted);
+  if (turned == 0 || !ground_.powered()) return;
+  const bool is_reversed = settings.is_on(kept_x(d9x::kEncoderDirection), axis_number);
+  add_to_counters(axis_number, {.encoder = is_reversed ? -turned : turned});
 }
 
 void Counters::clear_counters(int axis_number) {
@@ -114,46 +143,15 @@ void Counters::clear_counters(int axis_number) {
   }
 }
 
-void Counters::count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts,
-                     Tick clock_ticks) {
+void Counters::count(int axis_number, const Counted& counted) {
   AxisState& state = axis(axis_number);
-  const Settings settings = registers();
-  const std::int64_t extra = chip(axis_number).backlash_sent - state.backlash_seen;
-  state.backlash_seen = chip(axis_number).backlash_sent;
-  const CountedThisTick now_counted{
-      .pulses = chip(axis_number).travel_pulses - travel_before, .backlash = extra, .wheel = wheel_counts};
-  const std::int32_t with_backlash = settings.raw(kept_x(d9x::kCountCorrect), axis_number);
-  if (extra != 0 && is_bit(with_backlash, 0)) {
-    state.command.set(machine_pulses(axis_number) + extra, chip(axis_number).travel_pulses);
+  state.backlash_seen += counted.backlash;
+  const bool is_beside_travel = counted.backlash != 0;
+  if (is_beside_travel && is_bit(registers().raw(kept_x(d9x::kCountCorrect), axis_number), 0)) {
+    state.command.set(machine_pulses(axis_number) + counted.backlash, chip(axis_number).travel_pulses);
     parameters_.apply_axis_parameters(axis_number, 0);
   }
-  const bool is_beside_travel = extra != 0;
-  const auto pulses_for = [&](int counter) {
-    return now_counted.pulses + (is_bit(with_backlash, counter) ? now_counted.backlash : 0);
-  };
-  const auto add = [&](int counter, std::int64_t counts) {
-    add_to_counter(settings, axis_number, counter, counts);
-  };
-  switch (settings.of(kept_x(d9x::kC2Source), axis_number)) {
-    case 0: break;
-    case 1: add(1, pulses_for(1)); break;
-    default: add(1, now_counted.wheel); break;
-  }
-  switch (settings.of(kept_x(d9x::kC3Source), axis_number)) {
-    case 0: add(2, pulses_for(2)); break;
-    case 1: add(2, pulses_for(2) - now_counted.wheel); break;
-    default: add(2, -now_counted.wheel); break;
-  }
-  if (counts_now(settings, axis_number)) {
-    switch (settings.of(kept_x(d9x::kC4Source), axis_number)) {
-      case 0: add(3, pulses_for(3)); break;
-      case 2: add(3, now_counted.wheel); break;
-      case 3:
-        add(3, counts_a_clock(axis_number) ? clock_counts(now()) - clock_counts(now() - clock_ticks) : 0);
-        break;
-      default: break;  // the encoder's
-    }
-  }
+  add_to_counters(axis_number, counted);
   if (is_beside_travel)
     comparators_.set_comparators(axis_number);  // the comparators by travel would not notice it
 }
@@ -169,33 +167,42 @@ void Counters::count_index(int axis_number, std::int8_t phase_before) {
   if (has_met) axis(axis_number).index_count = is_over ? row.count : homing.counted;
 }
 
-/// Counts up to this moment of a tick; the rest of the tick is counted afterwards.
-void Counters::count_until(const motion::SharedTick& tick, int axis_number) {
-  CountedSoFar& so_far = counted_[static_cast<std::size_t>(axis_number)];
+Counted Counters::counted_until(int axis_number, double at_s, const motion::AxisPlace& place) const {
+  const AxisState& state = axis(axis_number);
+  const CountedSoFar& so_far = so_far_[static_cast<std::size_t>(axis_number)];
+  Counted counted{.pulses = place.travel_pulses - so_far.travel,
+                  .backlash = place.backlash_sent - state.backlash_seen,
+                  .wheel = spread(wheel_of_tick_, at_s) - so_far.wheel};
+  if (counts_a_clock(axis_number)) counted.clock = clock_until(tick_, at_s) - so_far.clock;
+  const motion::EncoderLine& encoder = environment(axis_number).encoder;
+  if (encoder.is_known()) {
+    counted.encoder =
+        encoder.at(place.travel_pulses) - (encoder.turned ? -state.encoder_counts : state.encoder_counts);
+  }
+  return counted;
+}
+
+/// Counts what has come of an axis until a moment, where it is.
+void Counters::count_without_encoder(int axis_number, double at_s) {
   const motion::Axis& motor = chip(axis_number);
-  const double part = tick.now().tick == tick.tick() ? 1 : tick.now().after_s * motion::kTicksPerSecond;
-  const auto wheel = static_cast<std::int64_t>(part * static_cast<double>(wheel_of_tick_));
-  count(axis_number, so_far.travel, wheel - so_far.wheel, 0);
-  so_far = {.travel = motor.travel_pulses, .wheel = wheel};
+  Counted counted = counted_until(
+      axis_number, at_s, {.travel_pulses = motor.travel_pulses, .backlash_sent = motor.backlash_sent});
+  counted.encoder = 0;
+  CountedSoFar& so_far = so_far_[static_cast<std::size_t>(axis_number)];
+  so_far = {.travel = motor.travel_pulses,
+            .wheel = so_far.wheel + counted.wheel,
+            .clock = so_far.clock + counted.clock};
+  count(axis_number, counted);
+}
+
+void Counters::count_until(int axis_number, double at_s) {
+  count_without_encoder(axis_number, at_s);
   const motion::EncoderLine& encoder = environment(axis_number).encoder;
   if (!encoder.is_known()) return;
-  const std::int64_t counts = encoder.at(motor.travel_pulses);
+  const std::int64_t counts = encoder.at(chip(axis_number).travel_pulses);
   count_encoder(axis_number, encoder.turned ? -counts : counts);
 }
 
-/// D9x50: latches at the DOG's edge, and at the comparators 4 and 5 if the chip compares them.
-void Counters::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) {
-  const int axis_number = static_cast<int>(axis);
-  const Value by = registers().of(kept_x(d9x::kLatchOfCounters), axis_number);
-  constexpr Value kDog = 1;
-  const motion::Events latches =
-      by == kDog ? motion::bit(motion::Event::mark_on) : this->axis(axis_number).latching;
-  if ((events & latches) == 0) return;
-  count_until(tick, axis_number);
-  take_latch(axis_number, chip(axis_number).travel_pulses);
-}
-
-/// Latches by a comparator that the chip does not check within the tick: when it is true at the tick's end.
 void Counters::latch_by_comparator(int axis_number) {
   AxisState& state = axis(axis_number);
   const Value by = registers().of(kept_x(d9x::kLatchOfCounters), axis_number);
@@ -203,18 +210,18 @@ void Counters::latch_by_comparator(int axis_number) {
                              : by == 3 && comparators_.comparator_holds(axis_number, 4);
   const bool comes = is_on && !state.latch_was_on && state.latching == 0;
   state.latch_was_on = is_on;
-  if (comes) take_latch(axis_number, chip(axis_number).travel_pulses);
+  if (comes) take_latch(axis_number, chip(axis_number).travel_pulses, chip_speed(axis_number));
 }
 
-void Counters::take_latch(int axis_number, std::int64_t travel) {
+void Counters::take_latch(int axis_number, std::int64_t travel, std::int64_t speed) {
   AxisState& state = axis(axis_number);
   const Settings settings = registers();
   if (settings.is_on(kept_x(d9x::kStopLatch), axis_number)) return;
-  state.latched[0] = wrapped(state.command.at(travel));
+  state.latched[0] = is_held_cleared(axis_number, kCounter1) ? 0 : wrapped(state.command.at(travel));
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
     state.latched[static_cast<std::size_t>(which)] = counter(axis_number, which);
   }
-  if (settings.is_on(kept_x(d9x::kC3LatchSpeed), axis_number)) state.latched[2] = chip_speed(axis_number);
+  if (settings.is_on(kept_x(d9x::kC3LatchSpeed), axis_number)) state.latched[2] = wrapped(speed);
   const std::int32_t cleared = settings.raw(kept_x(d9x::kLatchResetC), axis_number);
   if (is_bit(cleared, 0)) {
     state.command.set(0, travel);

@@ -10,8 +10,7 @@
 #include "emulator/models/super_40nc/axis/chips.h"
 #include "emulator/models/super_40nc/axis/comparators.h"
 #include "emulator/models/super_40nc/rows/settings.h"
-#include "motion/axis.h"
-#include "motion/shared_tick.h"
+#include "motion/axis_tick.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -21,16 +20,32 @@ struct BeforeTick {
   std::array<std::int8_t, kAxisCount> phase{};  // of a homing
 };
 
-class Counters final : protected Chips, public motion::EdgeOwner {
+/// What has come that the counters may count.
+struct Counted {
+  std::int64_t pulses = 0;
+  std::int64_t backlash = 0;
+  std::int64_t wheel = 0;
+  std::int64_t encoder = 0;
+  std::int64_t clock = 0;
+};
+
+/// Returns what COUNTER2 to COUNTER4 (`counter` 1 to 3) count of it, by D9x19, D9x23 to D9x25 and D9x29.
+std::int64_t counts_of(const Settings& settings, int axis, int counter, const Counted& counted);
+
+class Counters : protected Chips {
  public:
   Counters(const Chips& chips, Comparators& comparators, AxisParameters& parameters)
       : Chips(chips), comparators_(comparators), parameters_(parameters) {}
 
-  BeforeTick begin_tick(std::int32_t wheel_counts);
-  /// Counts the rest of a tick of an axis, and latches.
+  BeforeTick begin_tick(Tick tick, std::int32_t wheel_counts);
+  /// Counts the rest of a tick of an axis; set_encoder() counts the encoder.
   void end_tick(int axis_number, const BeforeTick& before);
-  /// Counts the pulses of one or several ticks, and those of the wheel; set_encoder() counts the encoder.
-  void count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts, Tick clock_ticks = 1);
+  /// Returns what has come at a moment of the tick, with the axis at `place`, since it was counted last.
+  Counted counted_until(int axis_number, double at_s, const motion::AxisPlace& place) const;
+  /// Counts until this moment of the tick.
+  void count_until(int axis_number, double at_s);
+  /// Counts what has come in one or several ticks, or in a part of one.
+  void count(int axis_number, const Counted& counted);
   /// Sets the machine's encoder, which has moved by the pulses of this tick.
   void set_encoder(int axis_number, std::int64_t counts);
   /// Returns true if nothing of the axis changes until something happens to it.
@@ -40,29 +55,32 @@ class Counters final : protected Chips, public motion::EdgeOwner {
   bool acts_each_tick(int axis) const;
   /// Clears counters at the end of a home, after the counts of its last tick.
   void clear_counters(int axis_number);
-  void take_latch(int axis_number, std::int64_t travel);
+  void take_latch(int axis_number, std::int64_t travel, std::int64_t speed);
+  /// Latches by a comparator that has become true, and has not latched within the tick.
+  void latch_by_comparator(int axis_number);
+  /// Returns true if one of COUNTER2 to COUNTER4 counts now. COUNTER4 may count only while the axis moves.
+  bool counts_now(int axis_number, int which) const;
+  /// Returns true if a clock drives COUNTER4 (D9x25 = 3).
+  bool counts_a_clock(int axis) const;
 
  private:
   /// What has been counted of an axis so far in the current tick.
   struct CountedSoFar {
     std::int64_t travel = 0;  // travel up to which it has been counted
-    std::int64_t wheel = 0;   // wheel counts so far
+    std::int64_t wheel = 0;
+    std::int64_t clock = 0;
   };
 
-  void at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) override;
-  /// Returns true if a clock drives COUNTER4 (D9x25 = 3).
-  bool counts_a_clock(int axis) const;
-  void add_to_counter(const Settings& settings, int axis_number, int which, std::int64_t counts);
-  bool counts_now(const Settings& settings, int axis_number) const;
+  void add_to_counters(int axis_number, const Counted& counted);
   void count_encoder(int axis_number, std::int64_t counts);
-  void count_until(const motion::SharedTick& tick, int axis_number);
+  void count_without_encoder(int axis_number, double at_s);
   void count_index(int axis_number, std::int8_t phase_before);
-  void latch_by_comparator(int axis_number);
 
   Comparators& comparators_;
   AxisParameters& parameters_;
   // Working values of a tick; none of them is state.
-  std::array<CountedSoFar, kAxisCount> counted_{};
+  Tick tick_ = 0;
+  std::array<CountedSoFar, kAxisCount> so_far_{};
   std::int32_t wheel_of_tick_ = 0;
 };
 

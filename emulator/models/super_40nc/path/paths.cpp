@@ -268,8 +268,12 @@ void Paths::step_axes(Tick tick, std::array<std::int64_t, kAxisCount>& sent) {
     directions[n] = axes_.chips[n].last_direction;
     if (!is_on_path(number)) singles |= 1U << n;
   }
-  motion::step_together({.tick = tick, .axes = axes_.chips, .environment = axes_.environment, .pulses = sent},
-                        singles, &axes_.path, &parts_.counters);
+  motion::step_together({.tick = tick,
+                         .axes = axes_.chips,
+                         .environment = axes_.environment,
+                         .pulses = sent,
+                         .watched = parts_.edges.watched()},
+                        singles, &axes_.path, &parts_.edges);
   if (!has_path) return;
   if (chose(option("backlash_scope", "also_where_an_arc_turns_round"))) {
     backlash_.step_arc_backlash(directions, sent);
