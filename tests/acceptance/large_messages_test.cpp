@@ -53,9 +53,10 @@ class LargeMessages : public testing::Test {
     }
     return exchange;
   }
-  /// Where the message took long a host has waited for a part of it at most.
+  /// Where the message took long a host has waited for a part of it at most. A busy machine may make it wait
+  /// for a part of a second by itself.
   static void expect_served(const Exchange& exchange, const std::string& what) {
-    if (exchange.took < std::chrono::milliseconds(300)) return;
+    if (exchange.took < std::chrono::seconds(1)) return;
     EXPECT_LT(exchange.longest_wait, exchange.took / 2) << what;
     EXPECT_GT(exchange.polls, 2) << what;
   }
