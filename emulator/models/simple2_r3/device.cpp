@@ -9,6 +9,7 @@
 
 #include "base/prefetch.h"
 #include "base/simulated_time.h"
+#include "base/state/state_bytes.h"
 #include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
@@ -29,6 +30,8 @@
 namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
+
+bool starts_by_itself(const State& state) { return state.image[slot("AutoStart_MainProg")] != 0; }
 
 std::int32_t in_32_bits(std::int64_t value, bool saturates) {
   if (saturates) return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, INT32_MIN, INT32_MAX));
@@ -205,16 +208,18 @@ bool Simple2R3::sees_something_new() const {
   return false;
 }
 
-bool Simple2R3::starts_by_itself() const { return state_.image[slot("AutoStart_MainProg")] != 0; }
-
 void Simple2R3::run_interpreters(Tick tick) {
   if (!motion_first_) run_program(tick);
 }
 
 void Simple2R3::run_program(Tick tick) {
-  if (tick == state_.first_tick && starts_by_itself()) start_program(0);
+  if (tick == state_.first_tick && starts_by_itself(state_)) start_program(0);
   if (!state_.execution.running || tick % interpreter::simple2::kSlotMs != 0) return;
   ProgramMachine machine(*this);
+  if (program_watch_ != nullptr) {
+    program_watch_->look(hash_of(std::as_bytes(std::span(state_.program.lines()))));
+    machine.set_watch(program_watch_);
+  }
   interpreter::simple2::step(state_.execution, tick, state_.program, dialect_, machine);
   if (!state_.execution.running) program_has_ended();
 }
@@ -287,7 +292,7 @@ Tick Simple2R3::next_slot(Tick done) const {
 Tick Simple2R3::next_tick_without_axes(Tick done) const {
   if (state_.touched) return done + 1;
   Tick next = state_.eeprom.next_active_tick();  // it goes on while the device boots
-  if (done < state_.first_tick && starts_by_itself()) next = std::min(next, state_.first_tick);
+  if (done < state_.first_tick && starts_by_itself(state_)) next = std::min(next, state_.first_tick);
   if (state_.execution.running) next = std::min(next, next_slot(done));
   for (const AxisState& axis : state_.axes) {
     if (axis.alarm_clear_until > done) next = std::min(next, axis.alarm_clear_until);

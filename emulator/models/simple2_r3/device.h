@@ -147,6 +147,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   void load_program(std::string_view listing) override;
   std::string program_text() const override;
   std::vector<ProgramLocation> program_locations() const override;
+  void watch_program(ProgramWatch* watch) override { program_watch_ = watch; }
 
   Addressing addressing(std::uint8_t address) const override;
   pty::LineSettings line_settings(std::size_t port) const override;
@@ -313,7 +314,6 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   std::int64_t followed_count(int axis) const;
   /// Returns the tick that counts as the last one before a motion commanded now.
   Tick tick_before_motion() const { return chose(option("move_begins", "one_tick_in")) ? now() - 1 : now(); }
-  bool starts_by_itself() const;
   void run_program(Tick tick);
   void program_has_ended();
   motion::Signals signals_of(int axis) const;
@@ -341,6 +341,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   MapPolicy map_policy_;
   // within one request: whether the EEPROM was being written when the request came
   std::optional<bool> was_saving_;
+  ProgramWatch* program_watch_ = nullptr;
 };
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -65,6 +65,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::vector<ProgramLocation> program_locations() const override {
     return parts_.programs.program_locations();
   }
+  void watch_program(ProgramWatch* watch) override { parts_.programs.set_watch(watch); }
 
   // --- time ----------------------------------------------------------------------------------------
   void sample_inputs(Tick tick) override;
