@@ -12,6 +12,7 @@ test_packages=(python3                                   # counts the results
                tshark gtkwave                            # read the captures and traces
                socat                                     # makes a port of an address
                sqlite3 parallel                          # read results, and play shards
+               lcov                                      # reads coverage
                zsh fish                                  # are offered commands and flags
                python3-pytest python3-pytest-xdist python3-hypothesis python3-yaml mypy  # the Python client
                python3-pip python3-setuptools python3-wheel                  # its wheel

@@ -20,6 +20,7 @@ enum class ContentKind : std::uint8_t {
   trace,
   page,
   junit,
+  coverage,  // of programs, as lcov or Cobertura have it
   picture,
   // Kinds from here on are files that people write.
   bench,

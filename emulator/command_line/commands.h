@@ -57,6 +57,7 @@ struct ServeArguments {
   std::string record;
   std::string trace;  // a file: .csv or .vcd
   std::vector<std::string> trace_also;
+  std::string coverage;  // a file: .info or .xml
   bool lint = false;
   std::vector<std::string> listen;  // TCP addresses of lines
   bool no_pty = false;              // these lines have no pseudo-terminal
@@ -97,8 +98,10 @@ struct RunArguments {
   std::string filter;                // a pattern for names, or a case's identity
   std::vector<std::string> results;  // files of rows
   bool resume = false;
-  std::string failures;  // the folder for recordings of failures; empty: below /tmp
-  std::string version;   // the version of this program
+  std::string failures;                // the folder for recordings of failures; empty: below /tmp
+  std::string coverage;                // a file
+  std::optional<double> coverage_min;  // per cent of the lines
+  std::string version;                 // the version of this program
 };
 int run_scenarios(ModelList models, const RunArguments& arguments);
 

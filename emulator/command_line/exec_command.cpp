@@ -18,6 +18,7 @@
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/coverage_file.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/serving.h"
@@ -150,6 +151,7 @@ int play(const ExecArguments& arguments, const Serving& serving,
          const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
   const auto timeout = timeout_of(arguments);
   serve::Daemon daemon(serving.bench, serving.options, log_line);
+  ServedCoverage coverage(arguments.serve.coverage, daemon.world());
   for (const auto& port : daemon.ports()) {
     if (serving.group && port->terminal() != nullptr)
       serve::share_port(port->terminal()->path(), *serving.group);
@@ -195,6 +197,7 @@ int play(const ExecArguments& arguments, const Serving& serving,
   daemon.run();
   signals.unwatch(daemon.loop());
   if (lint) print_findings(lint->findings());
+  coverage.write();
   const int scenario_code = side_scenario ? tell_of(*side_scenario, *scenario) : kExitWell;
   if (timed_out) {
     std::fprintf(stderr, "understudy: exec: %s: ended, as it took longer than %s\n",

@@ -20,6 +20,7 @@
 #include "base/state/state_bytes.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/coverage_file.h"
 #include "emulator/command_line/findings.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
@@ -150,6 +151,10 @@ RunFolders folders_of(const RunArguments& arguments) {
           .trace_also = arguments.trace_also};
 }
 
+CoverageWish coverage_of(const RunArguments& arguments) {
+  return {.path = arguments.coverage, .min_percent = arguments.coverage_min};
+}
+
 /// Throws UsageError if a written file is also read, or is written twice. The order of scenarios does not
 /// matter.
 void require_own_files(Known& known, const RunArguments& arguments) {
@@ -166,6 +171,7 @@ void require_own_files(Known& known, const RunArguments& arguments) {
   }
   if (arguments.junit != kStandardOutput) require_output(claims, "--junit", arguments.junit);
   require_output(claims, "--report", arguments.report);
+  require_coverage(claims, coverage_of(arguments));
   for (const std::string& path : arguments.results) require_output(claims, "--results", path);
   require_folders(claims, folders_of(arguments));
   if (!known.trace_error.empty()) throw UsageError(known.trace_error);
@@ -185,10 +191,24 @@ int jobs_of(const RunArguments& arguments) {
   return *arguments.jobs;
 }
 
+void require_flags_that_agree(const RunArguments& arguments) {
+  if (arguments.hash && arguments.real_time) {
+    throw UsageError("--hash: no two runs in real time are the same; expected it without --real-time");
+  }
+  if (arguments.resume && arguments.results.empty()) {
+    throw UsageError("--resume: expected --results FILE as well, which lists the cases that ran");
+  }
+  if (arguments.resume && coverage_of(arguments).is_wanted()) {
+    throw UsageError(
+        "--resume: leaves out cases, whose coverage would be missing; expected it without --coverage");
+  }
+}
+
 /// Runs a scenario with its observers.
 class Stagehand {
  public:
-  Stagehand(const RunArguments& arguments, RunFiles& files) : arguments_(arguments), files_(files) {
+  Stagehand(const RunArguments& arguments, RunFiles& files, CoverageFile& coverage)
+      : arguments_(arguments), files_(files), coverage_(coverage) {
     // Rows of results contain the hash.
     options_.with_hash = arguments.hash || (!arguments.results.empty() && !arguments.real_time);
     if (arguments.lint) {
@@ -206,6 +226,7 @@ class Stagehand {
       // them.
       if (!arguments_.report.empty() && !scenario->which.is_varied) options.observers.push_back(run_logger());
       add(options, files_.observers(*scenario));
+      if (coverage_.is_wanted()) options.observers.push_back(coverage_.observer(*scenario));
       return play::run_scenario(*scenario, options);
     } catch (const FileError& error) {
       return {unreadable(reader, which_case, case_list, error)};
@@ -255,6 +276,7 @@ class Stagehand {
 
   const RunArguments& arguments_;
   RunFiles& files_;
+  CoverageFile& coverage_;
   play::RunOptions options_{};
 };
 
@@ -267,12 +289,7 @@ std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const s
 
 int run_scenarios(ModelList models, const RunArguments& arguments) {
   const int jobs = jobs_of(arguments);
-  if (arguments.hash && arguments.real_time) {
-    throw UsageError("--hash: no two runs in real time are the same; expected it without --real-time");
-  }
-  if (arguments.resume && arguments.results.empty()) {
-    throw UsageError("--resume: expected --results FILE as well, which lists the cases that ran");
-  }
+  require_flags_that_agree(arguments);
   const play::Shard shard = shard_of(arguments);
   play::CaseList case_list(models, {.save_below = arguments.save_below, .seed = arguments.seed});
   Known known;
@@ -281,12 +298,14 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   require_own_files(known, arguments);
   ResultFile junit("--junit", arguments.junit, ContentKind::junit);
   ResultFile report("--report", arguments.report, ContentKind::page);
+  CoverageFile coverage(coverage_of(arguments));
   RunAccount account(arguments);
   RunFiles files(folders_of(arguments), std::move(known.claims), arguments.real_time, arguments.version);
   junit.empty();
   report.empty();
+  coverage.empty();
   account.begin();
-  const Stagehand stagehand(arguments, files);
+  const Stagehand stagehand(arguments, files, coverage);
   play::CaseReader reader(case_list);  // one reader for each thread
   play::CaseReader next_reader(case_list);
   const std::uint64_t total = play::Selection::count(case_list, arguments.filter, shard);
@@ -323,7 +342,10 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
     results->write([&](std::string_view piece) { junit.write(piece); });
   }
   if (report.is_wanted()) report.write(account.report());
-  return account.exit_code();
+  const bool is_enough =
+      !coverage.is_wanted() || coverage.write(arguments.junit == kStandardOutput ? stderr : stdout);
+  const int code = account.exit_code();
+  return code == kExitWell && !is_enough ? static_cast<int>(kExitFailed) : code;
 }
 
 }  // namespace understudy::emulator::command_line

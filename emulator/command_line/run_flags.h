@@ -54,6 +54,9 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
                   "Write a row for each case to this file: FILE.jsonl or FILE.sqlite; can be given twice")
       ->allow_extra_args(false)
       ->check(kNotEmpty);
+  command.add_option("--coverage", run.coverage, kCoverageHelp)->check(kNotEmpty);
+  command.add_option("--coverage-min", run.coverage_min,
+                     "Fail if fewer of the programs' lines have run, in per cent");
   command.add_flag("--resume", run.resume, "Skip cases that have a row in the file of --results already");
   command
       .add_option("--failures", run.failures,

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/coverage_file.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/device/model.h"
@@ -19,6 +20,7 @@ int serve(ModelList models, const ServeArguments& arguments) {
   const Serving serving = make_serving(models, arguments, "serve");
   signal(SIGPIPE, SIG_IGN);  // the reader of the log may end first
   serve::Daemon daemon(serving.bench, serving.options, log_line);
+  ServedCoverage coverage(arguments.coverage, daemon.world());
   for (const auto& port : daemon.ports()) {
     if (serving.group && port->terminal() != nullptr)
       serve::share_port(port->terminal()->path(), *serving.group);
@@ -35,6 +37,7 @@ int serve(ModelList models, const ServeArguments& arguments) {
   daemon.run();
   serve::notify_service_manager("STOPPING=1");
   if (lint) print_findings(lint->findings());
+  coverage.write();
   return kExitWell;
 }
 

@@ -29,6 +29,9 @@ inline const CLI::Validator kSeed(
 inline constexpr const char* kTraceAlsoHelp =
     "Also trace these: registers, or anything else that a condition can name, such as feeder.Cord_A";
 inline constexpr const char* kLintHelp = "At exit, report protocol violations by the host";
+inline constexpr const char* kCoverageHelp =
+    "Write which lines of the controllers' programs have run to this file: FILE.info for lcov, FILE.xml for "
+    "Cobertura";
 
 /// Adds the flags that choose what is served: a bench, or a single device without one.
 inline void add_bench_flags(CLI::App& command, ServeArguments& serving) {
@@ -103,6 +106,7 @@ inline void add_running_flags(CLI::App& command, ServeArguments& serving) {
                   "Write positions and signals over time to this file: FILE.csv, or FILE.vcd for GTKWave")
       ->check(kNotEmpty);
   command.add_option("--trace-also", serving.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
+  command.add_option("--coverage", serving.coverage, kCoverageHelp)->check(kNotEmpty);
   command.add_flag("--lint", serving.lint, kLintHelp);
 }
 

@@ -11,6 +11,7 @@
 
 #include "emulator/device/program_cells.h"
 #include "emulator/device/program_error.h"
+#include "emulator/device/program_parts.h"
 
 namespace understudy::emulator {
 
@@ -66,6 +67,8 @@ class ProgramLanguage {
   /// Returns places in a text that loads but probably does not mean what it says, such as a label defined
   /// twice.
   virtual std::vector<ProgramMistake> warnings(std::string_view, const DeviceSettings&) const { return {}; }
+  /// Returns the parts of a text that loads, for onlookers of the program; of one that does not, none.
+  virtual std::vector<ProgramPart> parts(std::string_view, const DeviceSettings&) const { return {}; }
   virtual std::span<const ProgramControl> controls() const { return {}; }
   virtual const ProgramCells* cells() const { return nullptr; }
 

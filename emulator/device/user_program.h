@@ -11,6 +11,10 @@
 #include "base/simulated_time.h"
 #include "emulator/device/program_error.h"  // IWYU pragma: keep, load_program() throws it
 
+namespace understudy {
+class ProgramWatch;
+}
+
 namespace understudy::emulator {
 
 /// The position of a program at this moment. A device that runs several programs at once has one for each.
@@ -34,6 +38,8 @@ class UserProgram {
   virtual std::string program_text() const = 0;
   /// Returns the positions for observers.
   virtual std::vector<ProgramLocation> program_locations() const { return {}; }
+  /// Sets an onlooker, or none (null). It is not state. Before lines run, it is told a mark of the program.
+  virtual void watch_program(ProgramWatch* /*watch*/) {}
 
  protected:
   ~UserProgram() = default;

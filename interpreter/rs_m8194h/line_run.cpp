@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "base/complete_table.h"
+#include "base/program_watch.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
@@ -35,6 +36,7 @@ class LineRun {
     const Macro& macro = *machine_.macro(name_of_level(run_, level()));
     const Command& command = macro.lines[level().line];
     leads_to_ = macro.leads_to[level().line];
+    if (machine_.watch() != nullptr) begin();
     run_.hold = Hold::nothing;
     const Action action = kActions[command.verb()];
     return action != nullptr ? (this->*action)(command) : carry_out(command);
@@ -42,6 +44,18 @@ class LineRun {
 
  private:
   Level& level() { return run_.levels.back(); }
+  /// Tells an onlooker that the line begins, unless the machine has already made it wait.
+  void begin() {
+    watched_part_ = part_of(name_of_level(run_, level()));
+    watched_line_ = level().line;
+    if (run_.hold != Hold::machine) machine_.watch()->runs(watched_part_, watched_line_, 1);
+  }
+  bool decide(bool outcome) const {
+    if (ProgramWatch* const watch = machine_.watch()) {
+      watch->decides(watched_part_, watched_line_, outcome, 1);
+    }
+    return outcome;
+  }
   Ran go_to(std::size_t line) {
     level().line = static_cast<std::uint16_t>(line);
     return Ran::on;
@@ -51,7 +65,9 @@ class LineRun {
   Ran wait(Hold what, std::int64_t until_ms, std::uint32_t awaited = 0) {
     go_on();
     hold(run_, what, until_ms, awaited);
-    if (!is_over(run_, now_ms_, options_, machine_)) return Ran::waits;
+    const bool is_over_at_once = is_over(run_, now_ms_, options_, machine_);
+    if (what != Hold::timer) decide(is_over_at_once);
+    if (!is_over_at_once) return Ran::waits;
     run_.hold = Hold::nothing;
     return Ran::on;
   }
@@ -108,7 +124,7 @@ class LineRun {
   Ran begin_for(const Command& command) {
     std::int32_t passes = value(command.values[0]);
     if (options_.for_runs_once_at_least) passes = std::max(passes, 1);
-    if (passes <= 0) return go_to(leads_to_);
+    if (!decide(passes > 0)) return go_to(leads_to_);
     level().loops.push_back({level().line, passes});
     return go_on();
   }
@@ -128,7 +144,7 @@ class LineRun {
     } else {
       --loop.left;
     }
-    if (loop.left > 0) return go_to(leads_to_);
+    if (decide(loop.left > 0)) return go_to(leads_to_);
     level().loops.pop_back();
     return go_on();
   }
@@ -144,7 +160,7 @@ class LineRun {
   Ran if_(const Command& command) {
     const ComparisonRow* row = find_comparison(command.values[1]);
     const bool is_true = holds(row->comparison, value(command.values[0]), value(command.values[2]));
-    return is_true ? go_on() : go_to(leads_to_);
+    return decide(is_true) ? go_on() : go_to(leads_to_);
   }
 
   Ran skip(const Command&) { return go_to(leads_to_); }
@@ -165,7 +181,7 @@ class LineRun {
 
   Ran stop_wait(const Command& command) {
     const bool passes = run_.is_isr && options_.isr_never_waits;
-    return passes ? go_on() : wait(Hold::axes, 0, command.values[0]);
+    return passes && decide(true) ? go_on() : wait(Hold::axes, 0, command.values[0]);
   }
 
   Ran frnet_wait(const Command& command) {
@@ -177,7 +193,7 @@ class LineRun {
       resolved.values[3] = static_cast<std::uint32_t>(std::max(time_ms, 0));
     }
     if (resolve(resolved, machine_, options_.command) != Fault::none) return fail(command, Fault::operand);
-    if (run_.is_isr && options_.isr_never_waits) return go_on();
+    if (run_.is_isr && options_.isr_never_waits && decide(true)) return go_on();
     const std::int64_t until_ms =
         resolved.values[3] == 0 ? kNever : now_ms_ + std::int64_t{resolved.values[3]};
     return wait(Hold::frnet, until_ms, packed(resolved.values[0], resolved.values[1], resolved.values[2]));
@@ -232,6 +248,8 @@ class LineRun {
   const RunOptions& options_;
   Machine& machine_;
   std::size_t leads_to_ = 0;
+  int watched_part_ = 0;  // set only if somebody looks on
+  int watched_line_ = 0;
 };
 
 constexpr CompleteTable<Verb, LineRun::Action> LineRun::kActions(

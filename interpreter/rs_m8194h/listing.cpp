@@ -67,6 +67,7 @@ class ListingReader {
     ParsedListing parsed;
     leave_first(errors_);
     if (errors_.empty()) parsed.listing = std::move(listing_);
+    parsed.text_lines = std::move(text_lines_);
     parsed.errors = std::move(errors_);
     parsed.first_trigger = first_trigger_;
     return parsed;
@@ -159,7 +160,11 @@ class ListingReader {
     Closed closed = close(*download_);
     // Of a macro that has an error already the line is not CLOSE's, and may be none that was taken.
     if (closed.fault != Fault::none && is_sound_) fail_structure(places_[download_->line], *download_);
-    if (closed.macro) listing_.macros.push_back({download_->name, std::move(*closed.macro)});
+    if (closed.macro) {
+      listing_.macros.push_back({download_->name, std::move(*closed.macro)});
+      std::vector<int>& lines = text_lines_.emplace_back();
+      for (const Token& place : places_) lines.push_back(place.line);
+    }
     download_.reset();
   }
 
@@ -224,6 +229,7 @@ class ListingReader {
   const CommandOptions& command_options_;
   DownloadOptions download_options_;
   Listing listing_;
+  std::vector<std::vector<int>> text_lines_;
   std::vector<TextError> errors_;
   std::optional<Token> first_trigger_;
   std::optional<Download> download_;

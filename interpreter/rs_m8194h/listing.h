@@ -56,9 +56,10 @@ struct Listing {
 };
 
 struct ParsedListing {
-  Listing listing = {};                     // only if there is no error
-  std::vector<TextError> errors = {};       // the first kMaxMistakes, in the order of the text
-  std::optional<Token> first_trigger = {};  // first word of the first trigger in the text
+  Listing listing = {};                           // only if there is no error
+  std::vector<std::vector<int>> text_lines = {};  // of each macro: where its lines are, from 1
+  std::vector<TextError> errors = {};             // the first kMaxMistakes, in the order of the text
+  std::optional<Token> first_trigger = {};        // first word of the first trigger in the text
 };
 ParsedListing parse_listing(std::string_view text, const CommandOptions& command_options = {},
                             const DownloadOptions& download_options = {});

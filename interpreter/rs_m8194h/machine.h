@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/program_watch.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/macro.h"
@@ -25,7 +26,7 @@ struct ExecutionFault {
 
 /// The interface to the controller. Commands have numbers in place of references, within the ranges of their
 /// rows.
-class Machine {
+class Machine : public Watched {
  public:
   virtual ~Machine() = default;
 

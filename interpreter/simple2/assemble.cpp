@@ -53,6 +53,7 @@ class Assembler {
     Assembly assembly;
     leave_first(errors_);
     if (errors_.empty()) assembly.lines = lines_;
+    assembly.text_lines = text_line_;
     assembly.errors = std::move(errors_);
     return assembly;
   }

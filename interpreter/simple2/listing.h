@@ -13,6 +13,7 @@
 //         .line 0x0A 1 2 7         ; the four cells of a line: CMD DATA1 DATA2 JMP
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,8 +37,9 @@ struct ListingError {
 std::string to_string(const ListingError& error);
 
 struct Assembly {
-  std::optional<Lines> lines;        // only if there is no error
-  std::vector<ListingError> errors;  // the first kMaxMistakes, in the order of the text
+  std::optional<Lines> lines;                // only if there is no error
+  std::array<int, kLineCount> text_lines{};  // where each line comes from, from 1; 0: nowhere
+  std::vector<ListingError> errors;          // the first kMaxMistakes, in the order of the text
 };
 
 Assembly assemble(std::string_view text);

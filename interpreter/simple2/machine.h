@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "base/program_watch.h"
+
 namespace understudy::interpreter::simple2 {
 
 enum class Axis : std::uint8_t { a, b };
@@ -30,7 +32,7 @@ class MachineView {
 
 /// What a program can do. An action is in effect for the next line at once. Only parameter numbers are
 /// unchecked: all other arguments are within the ranges that their comments give.
-class Machine : public MachineView {
+class Machine : public MachineView, public Watched {
  public:
   /// Sets DOUT n to the level of bit n, for each bit 0 to 6 that is set in `which`.
   virtual void set_outputs(std::uint8_t which, std::uint8_t levels) = 0;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/complete_table.h"
+#include "base/program_watch.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/commands.h"
@@ -57,6 +58,7 @@ class LineRun {
   Error run() {
     if (execution_.line >= program_.size()) return end(Ending::past_last_line);
     const StoredLine& line = program_.line(execution_.line);
+    if (machine_.watch() != nullptr) begin();
     if (line.error != Error::none) return fail(line.error);
     const std::optional<Command>& command = line.parsed.command;
     if (!command) return go_on();
@@ -78,6 +80,18 @@ class LineRun {
   Error go_on() { return go_to(execution_.line + 1); }
 
  private:
+  /// Tells an onlooker that the line begins. One that waits has begun already.
+  void begin() {
+    begins_ = execution_.hold == Hold::nothing;
+    if (begins_) machine_.watch()->runs(0, execution_.line, 1);
+  }
+  bool decide(bool outcome) const {
+    if (ProgramWatch* const watch = machine_.watch()) watch->decides(0, execution_.line, outcome, 1);
+    return outcome;
+  }
+  /// A wait decides as it begins.
+  bool decide_wait(bool is_over) const { return begins_ ? decide(is_over) : is_over; }
+
   static bool has_variable_index(const Command& command) {
     return std::ranges::any_of(command.operands, &Operand::index_is_variable);
   }
@@ -102,6 +116,7 @@ class LineRun {
     if (kActions.has(command.verb)) return (this->*kActions[command.verb])(command);
     const Outcome outcome = machine_.carry_out(command);
     if (outcome.error != Error::none) return outcome.error;
+    if (command.verb == Verb::wait_done) decide_wait(!outcome.waits);
     if (outcome.program == Outcome::Program::ends) return end(Ending::exited);
     if (outcome.program == Outcome::Program::forgets_what_it_interrupted) forget_what_was_interrupted();
     return outcome.waits ? hold(Hold::machine) : go_on();
@@ -142,17 +157,19 @@ class LineRun {
     bool holds = false;
     const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
     if (error != Error::none) return error;
-    return holds ? jump_to(command.operands.back()) : go_on();
+    return decide(holds) ? jump_to(command.operands.back()) : go_on();
   }
 
   Error jump_if_within(const Command& command) {
     bool holds = false;
     const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
     if (error != Error::none) return error;
-    if (holds) return jump_to(command.operands.back());
+    if (holds && decide(true)) return jump_to(command.operands.back());
     const auto window_ms = static_cast<std::int64_t>(command.operands[1].number) * options_.window_unit_ms;
     const std::int64_t until_ms = execution_.hold == Hold::window ? execution_.until_ms : now_ms_ + window_ms;
-    return now_ms_ >= until_ms ? go_on() : hold(Hold::window, until_ms);
+    if (now_ms_ < until_ms) return hold(Hold::window, until_ms);
+    decide(false);
+    return go_on();
   }
 
   Error call(const Command& command) {
@@ -179,7 +196,7 @@ class LineRun {
     bool holds = false;
     const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
     if (error != Error::none) return error;
-    return holds ? go_on() : hold(Hold::input);
+    return decide_wait(holds) ? go_on() : hold(Hold::input);
   }
 
   Error wait_time(const Command& command) {
@@ -221,6 +238,7 @@ class LineRun {
   const Program& program_;
   const FlowOptions& options_;
   Machine& machine_;
+  bool begins_ = false;  // set only if somebody looks on
 };
 
 constexpr CompleteTable<Verb, LineRun::Action> LineRun::kActions(

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/program_watch.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/error.h"
 
@@ -26,7 +27,7 @@ inline constexpr Outcome kDone = {};
 inline constexpr Outcome kWaits = {.waits = true};
 constexpr Outcome failed(Error error) { return {.error = error}; }
 
-class Machine {
+class Machine : public Watched {
  public:
   virtual ~Machine() = default;
 

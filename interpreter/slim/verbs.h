@@ -21,6 +21,10 @@ inline constexpr Verb kEditingVerbs[] = {
     Verb::program_insert, Verb::program_delete, Verb::download,
 };
 
+/// Verbs that decide: a jump that is taken or not, or a wait that is over at once or not.
+inline constexpr Verb kDecidingVerbs[] = {Verb::jump_if, Verb::jump_if_within, Verb::wait_input,
+                                          Verb::wait_done};
+
 constexpr bool is_one_of(std::span<const Verb> verbs, Verb verb) {
   return std::ranges::find(verbs, verb) != verbs.end();
 }

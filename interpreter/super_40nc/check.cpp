@@ -312,6 +312,8 @@ class Checker {
         case Fault::Weight::note: checked_.notes.push_back(std::move(diagnostic)); break;
       }
     }
+    std::vector<int>& lines = file_ >= 0 ? checked_.file_lines[file_] : checked_.area_lines[index_of(area_)];
+    for (const Token& place : places_) lines.push_back(place.line);
     if (file_ >= 0) {
       program_.files.emplace(file_, std::move(current_));
     } else {

@@ -51,17 +51,19 @@ class LadderMaker {
   void run() {
     ladder_.steps_.clear();
     int step = base_of(Area::plc, options_);
+    LadderStep end;
     bool is_over = false;  // lines behind END are kept, but never run
     for (std::size_t i = 0; i < ladder_.program_.lines.size(); ++i) {
       const Instruction& line = ladder_.program_.lines[i];
       ladder_.step_numbers_.push_back(step);
       step += steps_of(line);
+      if (line.op == Op::end && !is_over) end.line = static_cast<std::uint16_t>(i);
       is_over |= line.op == Op::end;
       if (is_over || line.op == Op::nop) continue;
       make(line, static_cast<std::uint16_t>(i));
       note_reads(line);
     }
-    ladder_.steps_.push_back({});
+    ladder_.steps_.push_back(end);
     for (const auto& [letter, number] : reads_) ladder_.reads_.push_back({letter, number});
     look_at_timers();
   }

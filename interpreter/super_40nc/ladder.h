@@ -44,12 +44,14 @@ enum class Act : std::uint8_t {
 /// Where a step finds a value or contact.
 enum class Bank : std::uint8_t { cells, constants, special };
 
+inline constexpr std::uint16_t kNoLine = UINT16_MAX;  // the end of a program without END
+
 struct LadderStep {
   Act act = Act::end;
   Bank bank_a = Bank::cells;
   Bank bank_b = Bank::cells;
   std::uint8_t flags = 0;  // kInverted, kFalling, kKept; for a comparison its Relations
-  std::uint16_t line = 0;
+  std::uint16_t line = kNoLine;
   std::uint16_t memory = 0;  // for edges
   std::uint32_t a = 0;       // cell, index into the constants, or number of a special contact or register
   std::uint32_t b = 0;

@@ -12,11 +12,14 @@
 //       END
 #pragma once
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/program.h"
@@ -40,7 +43,10 @@ struct Diagnostic {
 std::string to_string(const Diagnostic& diagnostic);
 
 struct Checked {
-  std::optional<Program> program;    // only if nothing is wrong
+  std::optional<Program> program;  // only if nothing is wrong
+  /// Where the lines of areas and of files are in the text, from 1.
+  std::array<std::vector<int>, kAreaCount> area_lines;
+  std::map<int, std::vector<int>> file_lines;
   std::vector<Diagnostic> errors;    // the first kMaxMistakes, in the order of the text
   std::vector<Diagnostic> warnings;  // loads, but is reported: a duplicate label
   std::vector<Diagnostic> notes;     // loads, and is not reported: a jump whose label is missing

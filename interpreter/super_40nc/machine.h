@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/program_watch.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/named.h"
@@ -37,7 +38,7 @@ enum class Begun : std::uint8_t {
 /// The interface to the device. Any call may start, stop and replace programs, even the one whose line makes
 /// the call (D8000, D8020, D9001). Therefore the current line is a copy, and the caller of a scan keeps its
 /// ladder until the scan is over.
-class Machine {
+class Machine : public Watched {
  public:
   virtual ~Machine() = default;
 

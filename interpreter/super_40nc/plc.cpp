@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "base/program_watch.h"
 #include "interpreter/super_40nc/access.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/ladder.h"
@@ -20,6 +21,7 @@ namespace {
 
 /// Of a timer that no scan has seen since RUN.
 constexpr std::int32_t kNotTimedYet = INT32_MIN;
+constexpr auto kWatchedPart = static_cast<int>(Area::plc);
 
 /// The registers of a scan: cells and constants side by side, blocks and branches as shift registers of bits,
 /// whose bit 0 is the top.
@@ -36,18 +38,27 @@ class Scan {
         a_unit_is_over_(plc.unit_ms + options.scan_ms >= options.timer_unit_ms),
         growth_(options.timer_unit_ms <= 1 ? options.scan_ms : 1) {}
 
+  /// `is_watched`: an onlooker is told of each step.
+  template <bool is_watched>
   void steps(const LadderStep* step) {
     for (;; ++step) {
+      if constexpr (is_watched) begin(*step);
       switch (step->act) {
-        case Act::load: push(contact(*step) != inverted(*step)); break;
-        case Act::series: blocks_ &= ~std::uint64_t{1} | bit(contact(*step) != inverted(*step)); break;
-        case Act::parallel: blocks_ |= bit(contact(*step) != inverted(*step)); break;
-        case Act::load_edge: push(edge(*step)); break;
-        case Act::series_edge: blocks_ &= ~std::uint64_t{1} | bit(edge(*step)); break;
-        case Act::parallel_edge: blocks_ |= bit(edge(*step)); break;
-        case Act::load_comparison: push(holds(*step)); break;
-        case Act::series_comparison: blocks_ &= ~std::uint64_t{1} | bit(holds(*step)); break;
-        case Act::parallel_comparison: blocks_ |= bit(holds(*step)); break;
+        case Act::load: push(told<is_watched>(*step, contact(*step) != inverted(*step))); break;
+        case Act::series:
+          blocks_ &= ~std::uint64_t{1} | bit(told<is_watched>(*step, contact(*step) != inverted(*step)));
+          break;
+        case Act::parallel: blocks_ |= bit(told<is_watched>(*step, contact(*step) != inverted(*step))); break;
+        case Act::load_edge: push(told<is_watched>(*step, edge(*step))); break;
+        case Act::series_edge:
+          blocks_ &= ~std::uint64_t{1} | bit(told<is_watched>(*step, edge(*step)));
+          break;
+        case Act::parallel_edge: blocks_ |= bit(told<is_watched>(*step, edge(*step))); break;
+        case Act::load_comparison: push(told<is_watched>(*step, holds(*step))); break;
+        case Act::series_comparison:
+          blocks_ &= ~std::uint64_t{1} | bit(told<is_watched>(*step, holds(*step)));
+          break;
+        case Act::parallel_comparison: blocks_ |= bit(told<is_watched>(*step, holds(*step))); break;
         case Act::join_series: blocks_ = (blocks_ >> 1) & (~std::uint64_t{1} | blocks_); break;
         case Act::join_parallel: blocks_ = (blocks_ >> 1) | (blocks_ & 1); break;
         case Act::branch: branches_ = (branches_ << 1) | (blocks_ & 1); break;
@@ -92,6 +103,15 @@ class Scan {
   }
 
  private:
+  void begin(const LadderStep& step) const {
+    if (step.line != kNoLine) machine_.watch()->runs(kWatchedPart, step.line, 1);
+  }
+  template <bool is_watched>
+  bool told(const LadderStep& step, bool conducts) const {
+    if constexpr (is_watched) machine_.watch()->decides(kWatchedPart, step.line, conducts, 1);
+    return conducts;
+  }
+
   static std::uint64_t bit(bool value) { return value ? 1 : 0; }
   bool result() const { return (blocks_ & 1) != 0; }
   void push(bool value) { blocks_ = ((blocks_ << 1) & depth_mask_) | bit(value); }
@@ -250,18 +270,43 @@ Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl&
   if (!plc.runs) return {};
   if (plc.memories.size() != ladder.memory_count()) plc.memories.assign(ladder.memory_count(), 0);
   Scan scan(plc, ladder, machine, programs, options);
-  scan.steps(ladder.steps().data());
+  const LadderStep* const first = ladder.steps().data();
+  machine.watch() == nullptr ? scan.steps<false>(first) : scan.steps<true>(first);
   Scanned scanned = scan.ended();
   if (plc.is_first_scan) scanned = {true, 0};
   plc.is_first_scan = false;
   return scanned;
 }
 
+namespace {
+
+/// Whether a contact conducts in scans that change nothing: no edge comes.
+bool conducts_quietly(const Instruction& line, const Access& access) {
+  if (const Relations relations = relations_of(line.op); relations != 0) {
+    return (relation_of(access.value(line.fields[0]), access.value(line.fields[1])) & relations) != 0;
+  }
+  return access.contact(line.fields[0]) != is_inverted(line.op);
+}
+
+void tell_crossed(const Ladder& ladder, const Machine& machine, const Access& access, std::int64_t scans) {
+  for (const LadderStep& step : ladder.steps()) {
+    if (step.line == kNoLine) continue;
+    machine.watch()->runs(kWatchedPart, step.line, scans);
+    if (step.act > Act::parallel_comparison) continue;
+    const bool is_edge = step.act >= Act::load_edge && step.act <= Act::parallel_edge;
+    machine.watch()->decides(kWatchedPart, step.line,
+                             !is_edge && conducts_quietly(ladder.line(step.line), access), scans);
+  }
+}
+
+}  // namespace
+
 void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t scans,
            const Options& options) {
   if (!plc.runs) return;
   const std::span<std::uint32_t> cells = machine.cells();
   const Access access(machine);
+  if (machine.watch() != nullptr) tell_crossed(ladder, machine, access, scans);
   for (const std::uint32_t index : ladder.timers()) {
     const LadderStep& timer = ladder.steps()[index];
     if (plc.memories[timer.memory] == 0 || options.timer_unit_ms > 1) continue;

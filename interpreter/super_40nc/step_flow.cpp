@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/program_watch.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/events.h"
@@ -21,7 +22,24 @@
 
 namespace understudy::interpreter::super_40nc {
 
+/// Tells an onlooker that the line begins. One that waits has begun already.
+void StepPrograms::begin_line(Area area) {
+  const StepState& program = state(area);
+  const bool waits = program.phase == Phase::waiting || program.left_ms > 0;
+  watched_line_ = waits ? -1 : code(area).line_at(program.step);
+  if (!waits) machine_.watch()->runs(static_cast<int>(area), watched_line_, 1);
+}
+
+bool StepPrograms::decide(Area area, bool outcome) {
+  ProgramWatch* const watch = machine_.watch();
+  if (watch != nullptr && watched_line_ >= 0) {
+    watch->decides(static_cast<int>(area), watched_line_, outcome, 1);
+  }
+  return outcome;
+}
+
 StepPrograms::Slice StepPrograms::execute(Area area, const Instruction line) {
+  if (machine_.watch() != nullptr) begin_line(area);
   state(area).owns_pointer = true;
   const Slice slice = carry_out(area, line);
   state(area).owns_pointer = false;
@@ -46,9 +64,10 @@ StepPrograms::Slice StepPrograms::carry_out(Area area, const Instruction& line) 
     access_.reset(line.fields[0]);
   } else if (line.op == Op::end) {
     return end(area);
-  } else if (line.op == Op::jmp || (line.op == Op::cj && holds) || (line.op == Op::cjn && !holds)) {
+  } else if (line.op == Op::jmp || (line.op == Op::cj && decide(area, holds)) ||
+             (line.op == Op::cjn && decide(area, !holds))) {
     return jump_to_label(area);
-  } else if ((line.op == Op::if_ && !holds) || line.op == Op::else_) {
+  } else if ((line.op == Op::if_ && !decide(area, holds)) || line.op == Op::else_) {
     state(area).step = code(area).target_of(code(area).line_at(state(area).step));
     return Slice::goes_on;
   } else if (line.op == Op::cal) {
@@ -56,7 +75,7 @@ StepPrograms::Slice StepPrograms::carry_out(Area area, const Instruction& line) 
   } else if (line.op == Op::ret) {
     return return_(area, line);
   } else if (line.op == Op::wat || line.op == Op::wtn) {
-    return wait(area, line, access_.contact(line.fields[0]) == (line.op == Op::wat));
+    return wait(area, line, decide(area, access_.contact(line.fields[0]) == (line.op == Op::wat)));
   } else if (line.op == Op::tmr) {
     return wait_for_time(area, line);
   }
@@ -167,7 +186,7 @@ StepPrograms::Slice StepPrograms::read_contact(Area area, const Instruction& lin
       relations != 0
           ? (relation_of(access_.value(line.fields[0]), access_.value(line.fields[1])) & relations) != 0
           : access_.contact(line.fields[0]) != is_inverted(line.op);
-  const std::uint64_t bit = is_on ? 1 : 0;
+  const std::uint64_t bit = decide(area, is_on) ? 1 : 0;
   switch (place_of(line.op)) {
     case Place::begins:
       blocks = ((blocks << 1) | bit) & ((std::uint64_t{1} << options_.stack_depth) - 1);

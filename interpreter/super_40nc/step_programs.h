@@ -128,6 +128,8 @@ class StepPrograms : public StepControl {
   // step_flow.cpp
   /// `line` is a copy: the line may replace its own program by another one (D9001).
   Slice execute(Area area, Instruction line);
+  void begin_line(Area area);
+  bool decide(Area area, bool outcome);
   Slice carry_out(Area area, const Instruction& line);
   Slice advance(Area area, const Instruction& line);
   Slice jump(Area area, int step);
@@ -159,6 +161,7 @@ class StepPrograms : public StepControl {
   Access access_;
   Machine& machine_;
   const Options& options_;
+  int watched_line_ = -1;  // by an onlooker; -1: none, or the line has begun before
 };
 
 }  // namespace understudy::interpreter::super_40nc

@@ -30,6 +30,10 @@ constexpr bool begins_block(Op op) {
 }
 constexpr bool is_contact(Op op) { return op <= Op::anf || (op >= Op::ld_equal && op <= Op::or_ge); }
 constexpr bool joins_blocks(Op op) { return op == Op::anb || op == Op::orb; }
+/// Instructions that decide: contacts, jumps and IF by their condition, and waits for a contact.
+constexpr bool decides(Op op) {
+  return is_contact(op) || op == Op::cj || op == Op::cjn || op == Op::if_ || op == Op::wat || op == Op::wtn;
+}
 constexpr bool reads_group(Op op) { return op == Op::cj || op == Op::cjn || op == Op::if_; }
 
 }  // namespace understudy::interpreter::super_40nc

@@ -11,6 +11,7 @@
 
 #include "base/prefetch.h"
 #include "base/simulated_time.h"
+#include "base/state/state_bytes.h"
 #include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
@@ -82,7 +83,7 @@ void Simple2R3::sample_inputs(Tick) {
 }
 
 void Simple2R3::run_interpreters(Tick tick) {
-  if (!setup_.motion_first && program_is_due(state_, tick)) programs().run(tick);
+  if (!setup_.motion_first && program_is_due(state_, tick)) programs().run(tick, program_watch_);
 }
 
 void Simple2R3::step_motion(Tick tick) {
@@ -90,7 +91,7 @@ void Simple2R3::step_motion(Tick tick) {
   state_.touched = false;
   if (setup_.motion_first) {
     set_now(tick);  // what a line starts begins in the next tick
-    if (program_is_due(state_, tick)) programs().run(tick);
+    if (program_is_due(state_, tick)) programs().run(tick, program_watch_);
   }
 }
 

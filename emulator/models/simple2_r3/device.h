@@ -75,6 +75,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   void load_program(std::string_view listing) override { programs().load(listing); }
   std::string program_text() const override;
   std::vector<ProgramLocation> program_locations() const override { return {program_location(state_)}; }
+  void watch_program(ProgramWatch* watch) override { program_watch_ = watch; }
 
   // --- time ----------------------------------------------------------------------------------------
   void sample_inputs(Tick tick) override;
@@ -120,6 +121,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   MapPolicy map_policy_;
   // within one request: whether the EEPROM was being written when the request came
   std::optional<bool> was_saving_;
+  ProgramWatch* program_watch_ = nullptr;
 };
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -12,6 +12,8 @@
 #include "emulator/device/program_cells.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
+#include "emulator/device/program_parts.h"
+#include "interpreter/simple2/execution/decisions.h"
 #include "interpreter/simple2/instructions.h"
 #include "interpreter/simple2/listing.h"
 #include "interpreter/simple2/program.h"
@@ -40,6 +42,12 @@ struct Instructions {
   }
 };
 
+std::string code_of(const lang::Line& line) {
+  std::string code;
+  for (const int cell : {line.command, line.data1, line.data2, line.flag}) code += std::to_string(cell) + ' ';
+  return code;
+}
+
 class Listing final : public ProgramLanguage, public ProgramCells {
  public:
   std::string_view name() const override { return "Simple2-R3 listing"; }
@@ -51,6 +59,18 @@ class Listing final : public ProgramLanguage, public ProgramCells {
   std::span<const std::string_view> operand_cells() const override { return kOperandCells; }
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings&) const override {
     return mistakes_of(lang::assemble(text));
+  }
+  std::vector<ProgramPart> parts(std::string_view text, const DeviceSettings&) const override {
+    const lang::Assembly assembly = lang::assemble(text);
+    if (!assembly.lines) return {};
+    ProgramPart part;
+    for (std::size_t i = 0; i < assembly.lines->size(); ++i) {
+      const lang::Line& line = (*assembly.lines)[i];
+      part.lines.push_back({.text_line = assembly.text_lines[i],
+                            .code = code_of(line),
+                            .decides = lang::decision_of(line.command) != lang::Decision::none});
+    }
+    return {part};
   }
   std::span<const ProgramControl> controls() const override {
     using By = ProgramControl::By;

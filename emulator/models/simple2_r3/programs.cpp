@@ -4,9 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
+#include "base/program_watch.h"
 #include "base/simulated_time.h"
+#include "base/state/state_bytes.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
@@ -106,10 +109,14 @@ void Programs::stop() {
   has_ended();
 }
 
-void Programs::run(Tick tick) {
+void Programs::run(Tick tick, ProgramWatch* watch) {
   if (tick == state_.first_tick && starts_by_itself(state_)) start(0);
   if (!state_.execution.running || tick % interpreter::simple2::kSlotMs != 0) return;
   ProgramMachine machine(state_, setup_, bank_);
+  if (watch != nullptr) {
+    watch->look(hash_of(std::as_bytes(std::span(state_.program.lines()))));
+    machine.set_watch(watch);
+  }
   interpreter::simple2::step(state_.execution, tick, state_.program, setup_.dialect, machine);
   if (!state_.execution.running) has_ended();
 }

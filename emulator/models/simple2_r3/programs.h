@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/program_watch.h"
 #include "base/simulated_time.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/user_program.h"
@@ -30,8 +31,8 @@ class Programs {
   void start(std::uint8_t line);
   void stop();
   void reset_timers();
-  /// Runs one tick in which program_is_due().
-  void run(Tick tick);
+  /// Runs one tick in which program_is_due(). The watch may be null.
+  void run(Tick tick, ProgramWatch* watch);
 
  private:
   void has_ended();

@@ -115,6 +115,11 @@ std::vector<ProgramMistake> Slim::mistakes_in(std::string_view text) const {
   return read_program(setup_, text).mistakes;
 }
 
+std::vector<ProgramPart> Slim::parts_of(std::string_view text) const {
+  const ReadProgram read = read_program(setup_, text);
+  return read.mistakes.empty() ? std::vector{part_of(read)} : std::vector<ProgramPart>{};
+}
+
 double Slim::value(const lang::Operand& operand) const {
   if (operand.kind == lang::Operand::Kind::quantity) return value_named(operand.text).value_or(0);
   return value_of(state_, setup_, operand);
@@ -134,6 +139,7 @@ void Slim::sample_inputs(Tick tick) { slim::sample_inputs(state_, setup_, tick);
 void Slim::run_interpreters(Tick tick) {
   if (program_is_held(state_, setup_)) return;
   failed_module_ = 0;
+  if (watch() != nullptr) watch()->look(mark_of(state_.program));
   const Error error = step(state_.execution, tick, state_.program, setup_.flow, *this);
   if (error == Error::none) return;
   // A program that goes on failing is faster than its line: what has no room is remembered only.

@@ -22,6 +22,7 @@
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/program_parts.h"
 #include "emulator/device/stateful_device.h"
 #include "emulator/device/terminals.h"
 #include "emulator/device/text/text_protocol.h"
@@ -69,6 +70,8 @@ class Slim final : public StatefulDevice<Slim, State>,
   std::vector<ProgramLocation> program_locations() const override;
   /// Returns the mistakes in a program text, for a device with these settings.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
+  std::vector<ProgramPart> parts_of(std::string_view text) const;
+  void watch_program(ProgramWatch* watch) override { set_watch(watch); }
 
   // --- time ---
   void sample_inputs(Tick tick) override;

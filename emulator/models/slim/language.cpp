@@ -22,6 +22,9 @@ class ProgramText final : public ProgramLanguage {
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return Slim(settings).mistakes_in(text);
   }
+  std::vector<ProgramPart> parts(std::string_view text, const DeviceSettings& settings) const override {
+    return Slim(settings).parts_of(text);
+  }
   std::span<const ProgramControl> controls() const override {
     using By = ProgramControl::By;
     static constexpr std::array<ProgramControl, 2> kControls{

@@ -1,12 +1,15 @@
 #include "emulator/models/slim/program_text.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "base/state/state_bytes.h"
 #include "base/text/most_mistakes.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/user_program.h"
@@ -19,6 +22,7 @@
 #include "interpreter/slim/flow.h"
 #include "interpreter/slim/program.h"
 #include "interpreter/slim/unknown_line.h"
+#include "interpreter/slim/verbs.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -38,7 +42,10 @@ ReadProgram read_program(const Setup& setup, std::string_view text) {
     // What a file has for people: empty lines and remarks.
     if (first == std::string::npos || line[first] == ';' || line[first] == '#') continue;
     const Error error = read.program.insert(read.program.size(), line, setup.of_programs());
-    if (error == Error::none) continue;
+    if (error == Error::none) {
+      read.text_lines.push_back(number);
+      continue;
+    }
     const std::string lines_that_fit = std::to_string(setup.of_programs().capacity);
     const std::string what =
         error == Error::buffer_full   ? "the program is full; expected at most " + lines_that_fit + " lines"
@@ -51,6 +58,28 @@ ReadProgram read_program(const Setup& setup, std::string_view text) {
     if (read.mistakes.size() >= kMaxMistakes) break;
   }
   return read;
+}
+
+ProgramPart part_of(const ReadProgram& read) {
+  ProgramPart part;
+  for (int i = 0; i < read.program.size(); ++i) {
+    const lang::StoredLine& line = read.program.line(i);
+    const auto& command = line.parsed.command;
+    part.lines.push_back({.text_line = read.text_lines[static_cast<std::size_t>(i)],
+                          .code = line.text,
+                          .decides = command && lang::is_one_of(lang::kDecidingVerbs, command->verb)});
+  }
+  return part;
+}
+
+std::uint64_t mark_of(const lang::Program& program) {
+  std::uint64_t mark = hash_of({});
+  for (int i = 0; i < program.size(); ++i) {
+    const std::string& text = program.line(i).text;
+    // The null at its end tells lines apart.
+    mark = hash_of(std::as_bytes(std::span(text.c_str(), text.size() + 1)), mark);
+  }
+  return mark;
 }
 
 namespace {

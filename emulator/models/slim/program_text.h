@@ -1,10 +1,12 @@
 // The program of a SLIM: its text, and where it is.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "emulator/device/program_error.h"
+#include "emulator/device/program_parts.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/slim/setup.h"
 #include "emulator/models/slim/state.h"
@@ -15,9 +17,15 @@ namespace understudy::emulator::models::slim {
 /// A program as read: its good lines, and the mistakes.
 struct ReadProgram {
   lang::Program program{};
+  std::vector<int> text_lines{};  // where its lines are, from 1
   std::vector<ProgramMistake> mistakes{};
 };
 ReadProgram read_program(const Setup& setup, std::string_view text);
+
+/// Returns the program as its onlookers count it.
+ProgramPart part_of(const ReadProgram& read);
+/// Returns a number that another program does not have.
+std::uint64_t mark_of(const lang::Program& program);
 
 /// Returns true if PZ holds the program.
 bool program_is_held(const State& state, const Setup& setup);

@@ -64,6 +64,7 @@ class Super40nc final : public StatefulDevice<Super40nc, State>,
   std::vector<ProgramLocation> program_locations() const override {
     return parts_.programs.program_locations();
   }
+  void watch_program(ProgramWatch* watch) override { parts_.programs.set_watch(watch); }
 
   // --- time ----------------------------------------------------------------------------------------
   void sample_inputs(Tick tick) override;

@@ -10,6 +10,7 @@
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
+#include "emulator/device/program_parts.h"
 #include "emulator/models/super_40nc/device.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/instruction_row.h"
@@ -86,6 +87,9 @@ class ProgramListing final : public ProgramLanguage {
   }
   std::vector<ProgramMistake> warnings(std::string_view text, const DeviceSettings& settings) const override {
     return Super40nc(settings).parts().programs.stored().warnings_about(text);
+  }
+  std::vector<ProgramPart> parts(std::string_view text, const DeviceSettings& settings) const override {
+    return Super40nc(settings).parts().programs.stored().parts_of(text);
   }
   /// A key acts when it goes ON, so it is released first.
   std::span<const ProgramControl> controls() const override {

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/program_watch.h"
 #include "interpreter/simple2/dialect.h"
+#include "interpreter/simple2/execution/decisions.h"
 #include "interpreter/simple2/execution/flow.h"
 #include "interpreter/simple2/execution/motion.h"
 #include "interpreter/simple2/execution/step.h"
@@ -77,6 +79,13 @@ bool ends_for_an_operand(const Line& line, const Dialect& dialect) {
          (is_wrong(instruction->data1, line.data1) || is_wrong(instruction->data2, line.data2));
 }
 
+/// Tells what the line has decided.
+void tell_decision(ProgramWatch& watch, int number, const Line& line, Then then) {
+  if (const auto outcome = outcome_of(decision_of(line.command), then)) {
+    watch.decides(0, number, *outcome, 1);
+  }
+}
+
 void execute_line(Execution& execution, std::int64_t now_ms, const Program& program, const Dialect& dialect,
                   Machine& machine) {
   const int number = execution.next_line;
@@ -84,7 +93,9 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
   execution.now_line = static_cast<std::uint8_t>(number);
 
   const Line line = line_to_run(execution, program, dialect);
+  ProgramWatch* const watch = holds(execution) ? nullptr : machine.watch();
   execution.held = {};
+  if (watch != nullptr) watch->runs(0, number, 1);
   const Action action = kActions[line.command];
   if (action == nullptr) {
     if (dialect.unknown_command == Dialect::UnknownCommand::ends) {
@@ -101,6 +112,7 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
             .dialect = dialect,
             .machine = machine};
   const Then then = action(step);
+  if (watch != nullptr) tell_decision(*watch, number, line, then);
   if (then == Then::same_line || execution.phase != Phase::line) execution.held = without_flag(line);
   switch (then) {
     case Then::next_line: return go_on_at(execution, number + 1, dialect);

@@ -16,6 +16,8 @@
 #include "emulator/device/user_program.h"
 #include "emulator/models/models.h"
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/coverage/coverage_report.h"
+#include "emulator/world/coverage/program_coverage.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
@@ -139,8 +141,14 @@ const Language kLanguages[] = {
 
 class Course {
  public:
-  Course(const Language& language, std::uint64_t seed)
-      : language_(language), random_(seed), world_(bench(), {}, {}) {}
+  /// Who looks at its programs, and how its ticks run.
+  enum class Looks { nobody, at_ticks_in_bulk, at_single_ticks };
+
+  Course(const Language& language, std::uint64_t seed, Looks looks = Looks::nobody)
+      : language_(language), random_(seed), world_(bench(), {}, {}) {
+    if (looks != Looks::nobody) coverage_.emplace(world_);
+    world_.set_bulk_ticks(looks != Looks::at_single_ticks);
+  }
 
   /// What it comes to.
   std::string run(int acts) {
@@ -152,6 +160,7 @@ class Course {
     return told_;
   }
   int loaded() const { return loaded_; }
+  CoverageReport coverage() const { return coverage_->report(); }
 
  private:
   int below(int limit) { return static_cast<int>(random_() % static_cast<unsigned>(limit)); }
@@ -276,6 +285,7 @@ class Course {
   const Language& language_;
   std::mt19937_64 random_;
   World world_;
+  std::optional<ProgramCoverage> coverage_;
   std::optional<WorldState> kept_;
   std::string told_;
   int loaded_ = 0;
@@ -301,6 +311,28 @@ TEST_P(ReplacedPrograms, AreTheSameWhateverFreedMemoryHolds) {
     }
   }
   EXPECT_GT(loaded, static_cast<int>(courses) * 9) << "hardly a program is taken";
+}
+
+/// Nothing depends on an onlooker, and ticks that are skipped count as much as others.
+TEST_P(ReplacedPrograms, AreCountedTheSameByAnyTicks) {
+  const Language& language = kLanguages[GetParam()];
+  const std::uint64_t first = seed_or(815);
+  const std::uint64_t courses = is_sanitized() ? 10 : 60;
+  CoverageReport all;
+  for (std::uint64_t seed = first; seed < first + courses; ++seed) {
+    const std::string unseen = Course(language, seed).run(60);
+    Course bulk(language, seed, Course::Looks::at_ticks_in_bulk);
+    ASSERT_EQ(bulk.run(60), unseen) << language.model << ", UNDERSTUDY_SEED=" << seed;
+    Course single(language, seed, Course::Looks::at_single_ticks);
+    ASSERT_EQ(single.run(60), unseen) << language.model << ", UNDERSTUDY_SEED=" << seed;
+    ASSERT_EQ(bulk.coverage(), single.coverage())
+        << language.model << ", UNDERSTUDY_SEED=" << seed << "\n"
+        << lcov_text(bulk.coverage()) << lcov_text(single.coverage());
+    all.add(bulk.coverage());
+  }
+  EXPECT_GT(all.files.size(), courses);
+  EXPECT_GT(all.totals().lines_run, static_cast<std::int64_t>(courses) * 5);
+  EXPECT_LT(all.totals().lines_run, all.totals().lines);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, ReplacedPrograms, testing::Range(0, 4), [](const auto& test) {

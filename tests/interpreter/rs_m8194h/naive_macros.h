@@ -10,10 +10,12 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "interpreter/rs_m8194h/run.h"
 #include "interpreter/rs_m8194h/text.h"
+#include "tests/interpreter/program_counts.h"
 
 namespace understudy::interpreter::rs_m8194h::naive {
 
@@ -42,6 +44,8 @@ struct Node {
   std::vector<Node> body = {};   // of IF and FOR
   std::vector<Node> other = {};  // behind ELSE
   bool has_else = false;
+  std::size_t else_line = 0;
+  std::size_t end_line = 0;  // END_IF, NEXT
 };
 using Nodes = std::vector<Node>;
 
@@ -57,10 +61,10 @@ inline Nodes tree_of(const std::vector<Command>& lines, std::size_t& at) {
       node.body = tree_of(lines, at);
       if (lines[at].verb() == Verb::else_) {
         node.has_else = true;
-        ++at;
+        node.else_line = at++;
         node.other = tree_of(lines, at);
       }
-      ++at;
+      node.end_line = at++;
     }
     nodes.push_back(std::move(node));
   }
@@ -89,6 +93,7 @@ class Evaluator {
   std::array<std::uint8_t, kByteVariableCount> byte_variables{};
   std::vector<std::pair<std::int64_t, int>> isrs;  // when, and which
   std::vector<std::string> log;
+  LineTally counts;
 
   void run(int number) {
     try {
@@ -130,8 +135,18 @@ class Evaluator {
     --left_;
   }
 
-  void wait_for(const std::function<bool()>& condition) {
-    if (condition()) return;
+  LineCount& count(const MacroName& macro, std::size_t line) {
+    return counts[{macro.number + (macro.is_isr ? 157 : 0), static_cast<int>(line)}];
+  }
+  void take_step(const MacroName& macro, std::size_t line) {
+    take_step();
+    ++count(macro, line).runs;
+  }
+
+  void wait_for(const Node& node, const MacroName& macro, const std::function<bool()>& condition) {
+    const bool is_over = condition();
+    if (node.command.verb() != Verb::timer) count(macro, node.line).decide(is_over);
+    if (is_over) return;
     if (in_isr_) {
       do advance();
       while (!condition());
@@ -183,7 +198,7 @@ class Evaluator {
     const Command& command = node.command;
     const auto& values = command.values;
     if (command.row().use.starts_motion) return drive(node, macro);
-    take_step();
+    take_step(macro, node.line);
     switch (command.verb()) {
       case Verb::set_var: variable(values[0]) = value(values[1]); return;
       case Verb::set_rvar:
@@ -204,7 +219,8 @@ class Evaluator {
         if (options_.call_too_deep_ends_macro) throw ExitMacro{};
         return;
       case Verb::timer: return timer(node, macro);
-      case Verb::stop_wait: return wait_for([this, axes = values[0]] { return axes_stand(axes, now_); });
+      case Verb::stop_wait:
+        return wait_for(node, macro, [this, axes = values[0]] { return axes_stand(axes, now_); });
       case Verb::frnet_wait: return frnet_wait(node, macro);
       case Verb::mp_terminate:
         isrs.clear();
@@ -241,26 +257,29 @@ class Evaluator {
     const bool is_true = (says("<") && difference < 0) || (says("<=") && difference <= 0) ||
                          (says(">") && difference > 0) || (says(">=") && difference >= 0) ||
                          (says("==") && difference == 0) || (says("!=") && difference != 0);
+    count(macro, node.line).decide(is_true);
     if (is_true) {
       all_of(node.body, macro, level);
-      take_step();  // its ELSE or its END_IF
+      take_step(macro, node.has_else ? node.else_line : node.end_line);
     } else if (node.has_else) {
       all_of(node.other, macro, level);
-      take_step();  // its END_IF
+      take_step(macro, node.end_line);
     }
   }
 
   void loop(const Node& node, const MacroName& macro, int level) {
-    const std::uint32_t count = node.command.values[0];
-    const bool counts_itself = count >= 0x7FFF0000 && count <= 0x7FFF01FF;
-    std::int32_t left = value(count);
+    const std::uint32_t passes = node.command.values[0];
+    const bool counts_itself = passes >= 0x7FFF0000 && passes <= 0x7FFF01FF;
+    std::int32_t left = value(passes);
+    count(macro, node.line).decide(left > 0);
     try {
       while (left > 0) {
         all_of(node.body, macro, level);
-        take_step();  // its NEXT
+        take_step(macro, node.end_line);
         left =
-            static_cast<std::int32_t>(static_cast<std::uint32_t>(counts_itself ? value(count) : left) - 1U);
-        if (counts_itself) variable(count) = left;
+            static_cast<std::int32_t>(static_cast<std::uint32_t>(counts_itself ? value(passes) : left) - 1U);
+        if (counts_itself) variable(passes) = left;
+        count(macro, node.end_line).decide(left > 0);
       }
     } catch (const ExitFor&) {
     }
@@ -269,7 +288,7 @@ class Evaluator {
   void timer(const Node& node, const MacroName& macro) {
     const std::int32_t time = value(node.command.values[0]);
     if (time < 0 && options_.negative_time_is_error) return fail(node, macro, 16);
-    wait_for([this, until = now_ + std::max(time, 0)] { return now_ >= until; });
+    wait_for(node, macro, [this, until = now_ + std::max(time, 0)] { return now_ >= until; });
   }
 
   void frnet_wait(const Node& node, const MacroName& macro) {
@@ -282,7 +301,7 @@ class Evaluator {
     if (time < 0 && options_.negative_time_is_error) return fail(node, macro, 16);
     if (channel < 0 || channel > 15 || level < 0 || level > 1) return fail(node, macro, 16);
     const std::int64_t until = time > 0 ? now_ + time : INT64_MAX;
-    wait_for([this, group = values[0], channel, level, until] {
+    wait_for(node, macro, [this, group = values[0], channel, level, until] {
       return input_is_on(group, static_cast<std::uint32_t>(channel), now_) == (level == 1) || now_ >= until;
     });
   }
@@ -290,8 +309,13 @@ class Evaluator {
   void drive(const Node& node, const MacroName& macro) {
     const auto& values = node.command.values;
     const bool is_good = value(values[1]) >= -2'000'000'000 && value(values[1]) <= 2'000'000'000;
-    while (left_ == 0 || (is_good && !drive_begins(values[0], now_))) advance();
+    bool has_begun = false;
+    while (left_ == 0 || (is_good && !drive_begins(values[0], now_))) {
+      if (left_ > 0 && !std::exchange(has_begun, true)) ++count(macro, node.line).runs;
+      advance();
+    }
     take_step();
+    if (!has_begun) ++count(macro, node.line).runs;
     if (!is_good) return fail(node, macro, 16);
     Command command = node.command;
     command.values[1] = static_cast<std::uint32_t>(value(values[1]));

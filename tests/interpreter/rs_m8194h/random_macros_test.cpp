@@ -196,6 +196,8 @@ TEST(RsM8194hRandomMacros, RunAsAnotherEvaluatorSays) {
     evaluator.isrs = world.isrs;
     evaluator.run(131);
 
+    ProgramCounts counts;
+    world.set_watch(&counts);
     Execution execution;
     start_mp(execution, 131, 1, world);
     while (execution.mp.is_alive() && world.now_ms < kEnd) {
@@ -207,6 +209,7 @@ TEST(RsM8194hRandomMacros, RunAsAnotherEvaluatorSays) {
     events += world.log.size();
     ASSERT_EQ(world.log, evaluator.log) << "seed " << seed << ", " << budget << " lines a tick\n" << text;
     ASSERT_EQ(world.variables, evaluator.variables) << "seed " << seed << "\n" << text;
+    ASSERT_EQ(counts.lines, evaluator.counts) << "seed " << seed << "\n" << text;
     const ParsedListing again = parse_listing(text);
     ASSERT_TRUE(again.errors.empty()) << text;
     for (const ListedMacro& listed : again.listing.macros)

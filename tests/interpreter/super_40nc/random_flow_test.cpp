@@ -6,6 +6,7 @@
 #include <random>
 #include <sstream>
 
+#include "tests/interpreter/program_counts.h"
 #include "tests/interpreter/super_40nc/running.h"
 
 namespace understudy::interpreter::super_40nc {
@@ -112,6 +113,11 @@ class Naive {
     int budget = 64;
     while (runs) {
       if (budget-- <= 0 && !goes_on_with_contacts()) return;
+      LineCount& count = counts[{1, static_cast<int>(at)}];  // of area X
+      if (!waits_) ++count.runs;
+      const bool begins = !std::exchange(waits_, false);
+      const Words words = lines_[at];
+      if (begins && decides(words[0])) count.decide(decision(words));
       if (!line()) return;
     }
   }
@@ -120,8 +126,21 @@ class Naive {
   int code = 0;
   std::map<std::string, std::int32_t> values;  // of M0.., D0..
   std::size_t at = 0;
+  LineTally counts;
 
  private:
+  static bool decides(const std::string& word) {
+    return word.starts_with("LD") || word == "AND" || word == "ANI" || word == "OR" || word == "ORI" ||
+           word == "CJ" || word == "CJN" || word == "IF" || word == "WAT" || word == "WTN";
+  }
+  bool decision(const Words& words) {
+    const std::string& word = words[0];
+    if (word == "LD>") return value(words[1]) > value(words[2]);
+    if (word == "CJ" || word == "IF") return blocks_.back();
+    if (word == "CJN") return !blocks_.back();
+    const bool wants_off = word == "LDI" || word == "ANI" || word == "ORI" || word == "WTN";
+    return (value(words[1]) == 0) == wants_off;
+  }
   struct Pass {
     std::size_t back;
     std::size_t label;
@@ -207,8 +226,8 @@ class Naive {
     }
     if (word == "CAL") return call(words);
     if (word == "RET") return back();
-    if (word == "WAT" && value(words[1]) == 0) return false;
-    if (word == "WTN" && value(words[1]) != 0) return false;
+    if (word == "WAT" && value(words[1]) == 0) return wait();
+    if (word == "WTN" && value(words[1]) != 0) return wait();
     if (word == "TMR") return time(words);
     return next();
   }
@@ -233,17 +252,22 @@ class Naive {
   bool time(const Words& words) {
     if (until_ == 0) {
       until_ = value(words[1]);
-      if (until_ > 0) return false;
+      if (until_ > 0) return wait();
       until_ = 0;
       return next();
     }
-    return --until_ == 0 ? next() : false;
+    return --until_ == 0 ? next() : wait();
+  }
+  bool wait() {
+    waits_ = true;
+    return false;
   }
 
   std::vector<Words> lines_;
   std::vector<bool> blocks_;
   std::vector<Pass> passes_;
   int until_ = 0;
+  bool waits_ = false;
 };
 
 TEST(Super40ncRandomFlow, EqualsANaiveEvaluator) {
@@ -258,6 +282,8 @@ TEST(Super40ncRandomFlow, EqualsANaiveEvaluator) {
     const Checked checked = check(text);
     ASSERT_TRUE(checked.program) << seed << "\n" << text << to_string(checked.errors.at(0));
     Running running(text);
+    ProgramCounts counts;
+    running.machine.set_watch(&counts);
     Naive naive(lines);
     running.start(Area::x);
     for (int tick = 0; tick < kTicks; ++tick) {
@@ -286,6 +312,7 @@ TEST(Super40ncRandomFlow, EqualsANaiveEvaluator) {
           << where << list(*checked.program);
       break;
     }
+    ASSERT_EQ(counts.lines, naive.counts) << seed << "\n" << list(*checked.program);
     ++endings[naive.runs ? -1 : naive.code];
   }
   for (const int ending : {-1, 0, 3, 5}) EXPECT_GT(endings[ending], kPrograms / 50) << ending;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <random>
 
+#include "tests/interpreter/program_counts.h"
 #include "tests/interpreter/super_40nc/running.h"
 
 namespace understudy::interpreter::super_40nc {
@@ -166,6 +167,34 @@ void change(Random& random, ScriptedMachine& machine) {
   }
 }
 
+/// Whether a contact of a listing conducts, by its words.
+bool conducts(const Instruction& line, ScriptedMachine& machine) {
+  const std::string text = text_of(line);
+  const std::string word = text.substr(0, text.find(' '));
+  const std::size_t sign = word.find_first_of("<>=");
+  if (sign == std::string::npos) return machine.contact(line.fields[0]) == !word.ends_with("I");
+  for (int relation = 0; relation < 6; ++relation) {
+    if (word.substr(sign) == kSigns[relation])
+      return holds(relation, machine.value(line.fields[0]), machine.value(line.fields[1]));
+  }
+  return false;
+}
+
+/// Adds what a scan does to a ladder whose contacts no line switches.
+void count_scan(const AreaProgram& program, ScriptedMachine& machine, LineTally& counts) {
+  for (std::size_t i = 0; i < program.lines.size(); ++i) {
+    const std::string text = text_of(program.lines[i]);
+    if (text == "NOP") continue;
+    LineCount& count = counts[{5, static_cast<int>(i)}];
+    ++count.runs;
+    const std::string word = text.substr(0, 2);
+    const bool is_join = text == "ANB" || text == "ORB";
+    const bool is_contact = word == "LD" || word == "AN" || word == "AD" || word == "OR";
+    if (is_contact && !is_join) count.decide(conducts(program.lines[i], machine));
+    if (text == "END") return;
+  }
+}
+
 TEST(Super40ncRandomLadder, TwoWaysEqualTheExpression) {
   constexpr int kExpressions = 10000;
   int longest = 0;
@@ -178,16 +207,21 @@ TEST(Super40ncRandomLadder, TwoWaysEqualTheExpression) {
     const Checked checked = check(text);
     ASSERT_TRUE(checked.program) << seed << "\n" << text << to_string(checked.errors.at(0));
     Running plc(text);
+    ProgramCounts counts;
+    LineTally expected_counts;
+    plc.machine.set_watch(&counts);
     plc.run_plc();
     longest = std::max(longest, static_cast<int>(std::count(text.begin(), text.end(), '\n')));
     for (int round = 0; round < 8; ++round) {
       change(random, plc.machine);
       const bool expected = truth(*tree, plc.machine);
+      count_scan(*checked.program->area(Area::plc), plc.machine, expected_counts);
       plc.scan();
       ASSERT_EQ(plc.machine.contact(y(20)), expected) << seed << "\n" << list(*checked.program);
       ASSERT_EQ(plc.machine.contact(y(21)), expected) << seed << "\n" << list(*checked.program);
       on += expected ? 1 : 0;
     }
+    ASSERT_EQ(counts.lines, expected_counts) << seed << "\n" << list(*checked.program);
   }
   EXPECT_GT(longest, 80);
   EXPECT_GT(on, kExpressions);

@@ -13,6 +13,7 @@
 #include "emulator/device/program_cells.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
+#include "emulator/device/program_parts.h"
 #include "emulator/models/rs_m8194h/rows/options.h"
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
@@ -104,6 +105,21 @@ class Listing final : public ProgramLanguage, public ProgramCells {
   }
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return mistakes_of(parse(text, settings).errors);
+  }
+  std::vector<ProgramPart> parts(std::string_view text, const DeviceSettings& settings) const override {
+    const lang::ParsedListing parsed = parse(text, settings);
+    std::vector<ProgramPart> parts;
+    for (std::size_t i = 0; i < parsed.listing.macros.size(); ++i) {
+      const auto& [name, macro] = parsed.listing.macros[i];
+      ProgramPart& part = parts.emplace_back(ProgramPart{.number = part_of(name), .name = to_string(name)});
+      for (std::size_t line = 0; line < macro.lines.size(); ++line) {
+        const lang::Command& command = macro.lines[line];
+        part.lines.push_back({.text_line = parsed.text_lines[i][line],
+                              .code = text_of(command),
+                              .decides = lang::is_one_of(command.verb(), lang::kDecidingVerbs)});
+      }
+    }
+    return parts;
   }
   std::span<const ProgramControl> controls() const override {
     using By = ProgramControl::By;

@@ -2,12 +2,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/program_watch.h"
 #include "base/simulated_time.h"
 #include "base/state/shared_text.h"
+#include "base/state/state_bytes.h"
 #include "emulator/device/program_error.h"
 #include "emulator/models/rs_m8194h/chip/interrupts.h"
 #include "emulator/models/rs_m8194h/programs/language.h"
@@ -152,7 +155,21 @@ std::string Programs::text() const {
 
 // --- running ---------------------------------------------------------------------------------------------
 
+/// Tells an onlooker which macros there are.
+void Programs::tell_watch() const {
+  if (acts_on_.watch() == nullptr || !is_alive()) return;
+  std::uint64_t mark = hash_of({});
+  for (const auto& [kind, entries] : memory_.state().blocks.all()) {
+    if (kind != kMpBlocks && kind != kIsrBlocks) continue;
+    for (const auto& [name, text] : entries) {
+      mark = hash_of(std::as_bytes(std::span(name)), mark ^ text.digest() ^ (kind == kIsrBlocks ? 1U : 0U));
+    }
+  }
+  acts_on_.watch()->look(mark);
+}
+
 void Programs::run_tick(Tick tick) {
+  tell_watch();
   const bool ran_isr = isr_runs();
   state_.steps_left = lang::run_tick(state_.execution, tick, language_options().steps_a_tick, state_.paused,
                                      language_options().run, acts_on_);
@@ -171,6 +188,7 @@ void Programs::start_mp(int number) {
   const bool at_once = chose(option("first_line", "on_receipt"));
   lang::start_mp(state_.execution, number, at_once ? now() : now() + 1, acts_on_);
   if (!at_once || !mp_runs()) return;
+  tell_watch();
   state_.steps_left = lang::run_tick(state_.execution, now(), state_.steps_left, state_.paused,
                                      language_options().run, acts_on_);
 }

@@ -96,6 +96,7 @@ class Programs final : public Part {
   }
   void drop_wait() { lang::drop_wait(state_.execution, acts_on_); }
   void run_tick(Tick tick);
+  void set_watch(ProgramWatch* watch) { acts_on_.set_watch(watch); }
   /// Ends a restored execution that no run of these macros can have reached.
   void check_restored();
   /// Returns true if the memory's macros are compiled; forgets what was compiled.
@@ -110,6 +111,7 @@ class Programs final : public Part {
 
  private:
   void compile() const;
+  void tell_watch() const;
 
   ProgramState& state_;
   Memory& memory_;

@@ -62,6 +62,7 @@ void Programs::make_programs_ready() {
   }
   if (state_.table.runs != UserTable::Runs::nothing) put_table_in_place();
   stored_.show_line_counts();
+  tell_watch();
 }
 
 void Programs::load_program(std::string_view text) {

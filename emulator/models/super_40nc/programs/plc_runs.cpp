@@ -60,6 +60,7 @@ void Programs::run_plc() {
   const auto ladder = ladder_;
   if (!ladder->is_empty() && state_.plc.runs) {
     // A scan that changed nothing, and had no new input, is the same again.
+    tell_watch();
     const bool was_told = ground_.state().touched;
     const language::Scanned scanned = language::scan(state_.plc, *ladder, machine, steps, options_);
     state_.plc_quiet_scans = was_told || scanned.has_changed ? 0 : scanned.quiet_scans;
@@ -80,6 +81,7 @@ void Programs::begin_first_scan() {
 
 void Programs::fast_forward(Tick ticks) {
   if (!plc_scans()) return;
+  tell_watch();
   ProgramMachine machine(*this, controls_);
   language::cross(state_.plc, *ladder_, machine, ticks, options_);
   if (state_.plc_quiet_scans != kNever) state_.plc_quiet_scans -= ticks;

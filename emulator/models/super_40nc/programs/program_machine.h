@@ -23,7 +23,9 @@ inline std::int32_t value_of_axis(const language::AxisValues& values, int axis) 
 class ProgramMachine final : public language::Machine, protected Chips {
  public:
   ProgramMachine(Programs& programs, const Controls& controls)
-      : Chips(controls.parts.chips), programs_(programs), controls_(controls) {}
+      : Chips(controls.parts.chips), programs_(programs), controls_(controls) {
+    set_watch(programs.watch());
+  }
 
   language::CellLayout layout() const override;
   std::span<std::uint32_t> cells() override { return ground_.state().image; }

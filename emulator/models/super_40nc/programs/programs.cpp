@@ -4,8 +4,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
 
+#include "base/program_watch.h"
+#include "base/state/state_bytes.h"
 #include "emulator/models/super_40nc/programs/program_machine.h"
+#include "emulator/models/super_40nc/programs/user_table.h"
 #include "emulator/models/super_40nc/rows/options.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/events.h"
@@ -45,9 +51,43 @@ void Programs::path_broken(motion::Cause why) {
   broken({.is_awaited = is_awaited, .why = why});
 }
 
+void Programs::tell_watch() const {
+  if (watch() == nullptr) return;
+  std::uint64_t mark = hash_of({});
+  for (const auto& [name, text] : ready_texts_) {
+    mark = hash_of(std::as_bytes(std::span(name)), mark ^ text.digest());
+  }
+  watch()->look(mark);
+}
+
+namespace {
+
+/// An onlooker of all but C, which runs a user table: nobody has downloaded that.
+class WithoutC final : public ProgramWatch {
+ public:
+  explicit WithoutC(ProgramWatch& watch) : watch_(watch) {}
+  void look(std::uint64_t mark) override { watch_.look(mark); }
+  void runs(int part, int line, std::int64_t times) override {
+    if (part != 0) watch_.runs(part, line, times);
+  }
+  void decides(int part, int line, bool outcome, std::int64_t times) override {
+    if (part != 0) watch_.decides(part, line, outcome, times);
+  }
+
+ private:
+  ProgramWatch& watch_;
+};
+
+}  // namespace
+
 void Programs::run_steps() {
   if (!are_busy()) return;
   ProgramMachine machine(*this, controls_);
+  tell_watch();
+  std::optional<WithoutC> without_c;
+  if (watch() != nullptr && state_.table.runs != UserTable::Runs::nothing) {
+    machine.set_watch(&without_c.emplace(*watch()));
+  }
   language::StepPrograms(state_.steps, codes_, machine, options_).run_slices();
   state_.plc_quiet_scans = 0;  // they may have written what the PLC reads
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/program_watch.h"
 #include "base/simulated_time.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/register_map/register_bank.h"
@@ -35,7 +36,7 @@ struct Controls {
   RegisterBank& bank;
 };
 
-class Programs : protected Chips {
+class Programs : protected Chips, public Watched {
  public:
   Programs(const Controls& controls, ProgramState& state)
       : Chips(controls.parts.chips),
@@ -102,6 +103,8 @@ class Programs : protected Chips {
 
   void give_up_program(Area area);
   void put_table_in_place();
+  /// Tells an onlooker which programs there are.
+  void tell_watch() const;
   void clear_timers();
 
   Controls controls_;

@@ -25,6 +25,7 @@
 #include "interpreter/super_40nc/listing.h"
 #include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/program.h"
+#include "interpreter/super_40nc/structure.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -135,6 +136,34 @@ void StoredPrograms::change_c(std::int32_t number) {
 
 std::vector<ProgramMistake> StoredPrograms::mistakes_in(std::string_view text) const {
   return mistakes_of(check(text));
+}
+
+std::vector<ProgramPart> StoredPrograms::parts_of(std::string_view text) const {
+  const language::Checked checked = check(text);
+  std::vector<ProgramPart> parts;
+  if (!checked.program) return parts;
+  const auto add = [&](const std::string& name, Area area, const language::AreaProgram& program,
+                       const std::vector<int>& text_lines) {
+    ProgramPart& part =
+        parts.emplace_back(ProgramPart{.number = static_cast<int>(area), .name = name, .lines = {}});
+    for (std::size_t i = 0; i < program.lines.size(); ++i) {
+      const language::Instruction& line = program.lines[i];
+      // A PLC steps over a NOP as it is compiled.
+      const bool is_left_out = area == Area::plc && line.op == language::Op::nop;
+      part.lines.push_back({.text_line = is_left_out ? 0 : text_lines[i],
+                            .code = language::text_of(line),
+                            .decides = language::decides(line.op)});
+    }
+  };
+  for (const language::AreaRow& row : language::kAreas) {
+    const std::size_t index = language::index_of(row.area);
+    const auto& program = checked.program->areas[index];
+    if (program) add(std::string(row.name), row.area, *program, checked.area_lines[index]);
+  }
+  for (const auto& [number, program] : checked.program->files) {
+    add("FILE " + std::to_string(number), Area::c, program, checked.file_lines.at(number));
+  }
+  return parts;
 }
 
 std::vector<ProgramMistake> StoredPrograms::warnings_about(std::string_view text) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "emulator/device/program_error.h"
+#include "emulator/device/program_parts.h"
 #include "emulator/models/super_40nc/ground/ground.h"
 #include "emulator/models/super_40nc/programs/program_state.h"
 #include "interpreter/super_40nc/listing.h"
@@ -28,6 +29,8 @@ class StoredPrograms : protected OnGround {
   /// Returns the warnings about `text`: it loads, but something is odd.
   std::vector<ProgramMistake> warnings_about(std::string_view text) const;
   interpreter::super_40nc::Checked check(std::string_view text) const;
+  /// Returns the areas of `text`, and its files as programs of C, for onlookers.
+  std::vector<ProgramPart> parts_of(std::string_view text) const;
   /// Returns the program of an area that is stored so, or nothing.
   std::optional<interpreter::super_40nc::AreaProgram> area(std::string_view kind, std::string_view name,
                                                            Area area) const;

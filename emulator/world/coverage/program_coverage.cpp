@@ -1,0 +1,191 @@
+#include "emulator/world/coverage/program_coverage.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "base/program_watch.h"
+#include "base/state/state_bytes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/device/program_language.h"
+#include "emulator/device/program_parts.h"
+#include "emulator/device/user_program.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+struct LineCounts {
+  std::int64_t runs = 0;
+  std::int64_t yes = 0;
+  std::int64_t no = 0;
+};
+
+/// A program that a device has had.
+struct CountedProgram {
+  std::vector<ProgramPart> parts;
+  std::vector<std::vector<LineCounts>> counts;           // by part, by line
+  std::vector<std::vector<LineCounts>*> by_part_number;  // null: no such part
+
+  explicit CountedProgram(std::vector<ProgramPart> of) : parts(std::move(of)), counts(parts.size()) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      counts[i].resize(parts[i].lines.size());
+      const auto number = static_cast<std::size_t>(parts[i].number);
+      if (by_part_number.size() <= number) by_part_number.resize(number + 1);
+      // Of several with a number, the first is the one that runs: a stored file is a part of C as well.
+      if (by_part_number[number] == nullptr) by_part_number[number] = &counts[i];
+    }
+  }
+
+  LineCounts* find(int part, int line) {
+    if (part < 0 || line < 0 || static_cast<std::size_t>(part) >= by_part_number.size()) return nullptr;
+    std::vector<LineCounts>* const lines = by_part_number[static_cast<std::size_t>(part)];
+    const auto number = static_cast<std::size_t>(line);
+    return lines == nullptr || number >= lines->size() ? nullptr : &(*lines)[number];
+  }
+};
+
+namespace {
+
+/// As seen from the working directory.
+std::string path_for_people(const std::string& path) {
+  const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
+  if (!normal.is_absolute()) return normal.string();
+  std::error_code error;
+  const std::filesystem::path here = std::filesystem::current_path(error);
+  const std::filesystem::path near = error ? normal : normal.lexically_relative(here);
+  return near.empty() || *near.begin() == ".." ? normal.string() : near.string();
+}
+
+void add_part(CoveredLines& lines, const ProgramPart& part, const std::vector<LineCounts>& counts) {
+  for (std::size_t i = 0; i < part.lines.size(); ++i) {
+    if (part.lines[i].text_line == 0) continue;
+    lines[part.lines[i].text_line].add(
+        {.runs = counts[i].runs, .decides = part.lines[i].decides, .yes = counts[i].yes, .no = counts[i].no});
+  }
+}
+
+}  // namespace
+
+class ProgramCoverage::DeviceCounts final : public ProgramWatch {
+ public:
+  explicit DeviceCounts(Device& device) : device_(device) {
+    program_ = &present();
+    device_.user_program()->watch_program(this);
+  }
+  ~DeviceCounts() override { device_.user_program()->watch_program(nullptr); }
+  DeviceCounts(const DeviceCounts&) = delete;
+  DeviceCounts& operator=(const DeviceCounts&) = delete;
+
+  void look(std::uint64_t mark) override {
+    if (mark == mark_) return;
+    const auto [known, is_new] = by_mark_.try_emplace(mark);
+    if (is_new) known->second = &present();
+    mark_ = mark;
+    program_ = known->second;
+  }
+  void runs(int part, int line, std::int64_t times) override {
+    if (LineCounts* const counts = program_->find(part, line)) counts->runs += times;
+  }
+  void decides(int part, int line, bool outcome, std::int64_t times) override {
+    LineCounts* const counts = program_->find(part, line);
+    if (counts != nullptr) (outcome ? counts->yes : counts->no) += times;
+  }
+
+  CoverageReport report(const std::vector<ProgramSource>& sources) {
+    present();  // even if it has never run
+    std::vector<std::pair<std::string, std::vector<ProgramPart>>> known;
+    const DeviceSettings& settings = device_.settings();
+    if (!is_inline(settings)) known.emplace_back(settings.program_name, parts_of(settings.program));
+    for (const ProgramSource& source : sources) {
+      if (source.path != settings.program_name) known.emplace_back(source.path, parts_of(source.text));
+    }
+    CoverageReport report;
+    for (const auto& [text, program] : programs_) {
+      for (std::size_t i = 0; i < program->parts.size(); ++i) {
+        add(report, program->parts[i], program->counts[i], known, text);
+      }
+    }
+    return report;
+  }
+
+ private:
+  static bool is_inline(const DeviceSettings& settings) {
+    return settings.program.empty() || settings.program_name == settings.name + ".program";
+  }
+  std::vector<ProgramPart> parts_of(const std::string& text) const {
+    return device_.model().language->parts(text, device_.settings());
+  }
+
+  /// The counts of the program that the device has now.
+  CountedProgram& present() {
+    const std::string text = device_.user_program()->program_text();
+    std::unique_ptr<CountedProgram>& program = programs_[text];
+    if (program == nullptr) program = std::make_unique<CountedProgram>(parts_of(text));
+    return *program;
+  }
+
+  void add(CoverageReport& report, const ProgramPart& part, const std::vector<LineCounts>& counts,
+           const std::vector<std::pair<std::string, std::vector<ProgramPart>>>& known,
+           const std::string& text) const {
+    bool has_file = false;
+    for (const auto& [path, source_parts] : known) {
+      for (const ProgramPart& source : source_parts) {
+        if (source.number != part.number || source.lines != part.lines) continue;
+        add_part(report.files[path_for_people(path)].lines, source, counts);
+        has_file = true;
+      }
+    }
+    if (has_file || part.lines.empty()) return;
+    CoveredFile& file = report.files[name_of_listing(text)];
+    file.listing = text;
+    add_part(file.lines, part, counts);
+  }
+
+  /// The same for the same program, whoever runs it.
+  std::string name_of_listing(const std::string& text) const {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx",
+                  static_cast<unsigned long long>(hash_of(std::as_bytes(std::span(text)))));
+    return std::string(device_.model().name) + "-" + std::string(digits, 8) +
+           std::string(device_.model().language->file_ending());
+  }
+
+  Device& device_;
+  std::map<std::string, std::unique_ptr<CountedProgram>> programs_;  // by text
+  std::map<std::uint64_t, CountedProgram*> by_mark_;
+  std::optional<std::uint64_t> mark_;  // of the program that runs
+  CountedProgram* program_ = nullptr;
+};
+
+ProgramCoverage::ProgramCoverage(World& world) {
+  for (std::size_t d = 0; d < world.device_count(); ++d) {
+    Device& device = world.device(d);
+    const bool has_program = device.user_program() != nullptr && device.model().language != nullptr;
+    devices_.push_back(has_program ? std::make_unique<DeviceCounts>(device) : nullptr);
+  }
+}
+
+ProgramCoverage::~ProgramCoverage() = default;
+
+CoverageReport ProgramCoverage::report(const std::vector<ProgramSource>& sources) const {
+  CoverageReport report;
+  for (std::size_t d = 0; d < devices_.size(); ++d) report.add(report_of(d, sources));
+  return report;
+}
+
+CoverageReport ProgramCoverage::report_of(std::size_t device,
+                                          const std::vector<ProgramSource>& sources) const {
+  return devices_[device] == nullptr ? CoverageReport{} : devices_[device]->report(sources);
+}
+
+}  // namespace understudy::emulator::world

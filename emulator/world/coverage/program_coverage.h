@@ -1,0 +1,41 @@
+// Counts which lines of the devices' programs run, and what they decide. It looks on: nothing in the world
+// depends on it, and no snapshot brings a count back.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "emulator/world/coverage/coverage_report.h"
+
+namespace understudy::emulator::world {
+
+class World;
+
+/// A file whose program a device may run.
+struct ProgramSource {
+  std::string path;
+  std::string text;
+};
+
+class ProgramCoverage {
+ public:
+  /// Counts from this moment on. The world must outlive it, and no device may have two onlookers.
+  explicit ProgramCoverage(World& world);
+  ~ProgramCoverage();
+  ProgramCoverage(const ProgramCoverage&) = delete;
+  ProgramCoverage& operator=(const ProgramCoverage&) = delete;
+
+  /// Returns the counts of all programs, or of one device's. Each part of a program belongs to the files that
+  /// have the same instructions: of `sources`, and of the bench. If there is none, it belongs to the listing
+  /// that is read back from the device.
+  CoverageReport report(const std::vector<ProgramSource>& sources = {}) const;
+  CoverageReport report_of(std::size_t device, const std::vector<ProgramSource>& sources = {}) const;
+
+ private:
+  class DeviceCounts;
+  std::vector<std::unique_ptr<DeviceCounts>> devices_;  // null for one without programs
+};
+
+}  // namespace understudy::emulator::world
