@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 2> kGaps{
     ("PWM is modelled as its duty (`feeder.A.pwm`), and the form of the pulses as a number "
      "(`feeder.pulse_format`), because the pulse terminals have no levels. A duty does not move a "
      "machine."),
-    ("The lines A and B of an encoder are not terminals: the encoder is modelled as a count of its "
+    ("Lines A and B of an encoder are not terminals: the encoder is modelled as a count of its "
      "edges."),
 };
 
