@@ -322,7 +322,7 @@ TEST_F(ExecWith, IsGivenUpWithTheCommand) {
   const std::string long_wait = "- wait: { until: feeder.A.pulses == 1, within: 1000s }\n";
   const Finished late = with(long_wait, "sleep 60", {"--timeout", "300ms"});
   EXPECT_EQ(late.exit_code, 124);
-  EXPECT_NE(late.errors.find("not played to its end"), std::string::npos) << late.errors;
+  EXPECT_NE(late.errors.find("did not run to its end"), std::string::npos) << late.errors;
   EXPECT_EQ(with(long_wait, "kill -KILL $$").exit_code, 128 + 9);
   // The command is well, but nobody is left to let time go on.
   EXPECT_EQ(with(long_wait, "true", {"--speed", "manual"}).exit_code, 1);

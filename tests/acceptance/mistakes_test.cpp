@@ -238,7 +238,7 @@ TEST_F(Mistakes, OfTheKindOfAFileNameWhatItIs) {
       {{"serve", "@day.csv"}, 2, "@day.csv:1:1: bench: is a trace; expected " + benches},
       {{"serve", "@day.yaml"},
        2,
-       "@day.yaml:1:1: bench: is a scenario; expected a bench (`understudy run` plays scenarios)"},
+       "@day.yaml:1:1: bench: is a scenario; expected a bench (`understudy run` runs scenarios)"},
       {{"serve", "@model.yaml"},
        2,
        "@model.yaml:1:1: bench: is a model file; expected a bench, whose stations name it"},

@@ -226,7 +226,7 @@ TEST(BenchErrors, Devices) {
        "5: lines.a.stations[0].device: no device is called 'x'; there is none"},
       {with_station("{ device: mil }") + mill,
        "5: lines.a.stations[0].device: no device is called 'mil'; the nearest is 'mill'"},
-      {and_then(mill), "7: devices.mill: the device is on no line; expected a station that names it"},
+      {and_then(mill), "7: devices.mill: the device is not on a line; expected a station that names it"},
       {with_station("{ device: mill }\n      - { device: mill, address: 2 }") + mill,
        "6: lines.a.stations[1]: the device is already on a line; expected it on one line"},
       {and_then("devices: [ mill ]\n"), "6: devices: expected a map, as in `key: value`"},
