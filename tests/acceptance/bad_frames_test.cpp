@@ -1,6 +1,6 @@
-// Frames that are wrong, on real ptys: what each controller with tables of its own answers to every
-// function's counts, lengths and byte counts, and to a window that is written in part. After each, the next
-// good frame is served, and what is there is as before.
+// Wrong frames on real ptys: how each controller with its own tables answers every function's wrong counts,
+// lengths and byte counts, and a window that is written in part. After each, the next good frame is served
+// and the contents are unchanged.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 

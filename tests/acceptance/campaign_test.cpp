@@ -1,4 +1,4 @@
-// Campaigns as users run them: killed and gone on with, in shards, at a terminal, with constant memory.
+// Campaigns as users run them: killed and resumed, in shards, at a terminal, with constant memory.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -46,7 +46,7 @@ class Campaign : public testing::Test {
   std::string file(int cases) const { return folder_.write("campaign.yaml", campaign(cases)); }
   std::vector<std::string> rows(const std::string& name) const {
     auto all = lines_of(contents(folder_ / name));
-    // Where recordings are is the only thing that differs between runs.
+    // Only the paths of recordings differ between runs.
     const std::regex recording("\"recording\":(null|\"[^\"]*\")");
     for (std::string& row : all) row = std::regex_replace(row, recording, "");
     return all;

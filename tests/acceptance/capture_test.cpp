@@ -1,4 +1,4 @@
-// What `serve --capture` writes, as an independent reader and tshark see it.
+// The files of `serve --capture`, as an independent reader and tshark see them.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -39,7 +39,7 @@ class Capturing {
     host_.write(bytes);
     EXPECT_TRUE(is_silent(host_));
   }
-  /// What is in the file after SIGTERM.
+  /// Returns the contents of the file after SIGTERM.
   std::string stop() {
     EXPECT_EQ(daemon_.stop(SIGTERM), 0) << daemon_.errors();
     return pty::contents_of(path_);

@@ -1,4 +1,4 @@
-// docs/ci.md: the recipes work as they stand there, in a project such as the page supposes.
+// The recipes of docs/ci.md work as printed, in a project such as the page assumes.
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 

@@ -1,5 +1,5 @@
 // Hosts that claim the port for themselves (TIOCEXCL), as Qt's QSerialPort does at each opening, and are
-// killed. Root may open a claimed port all the same, so daemon and hosts are an ordinary user here.
+// killed. Root can open a claimed port anyway, so daemon and hosts run as an ordinary user here.
 #include <fcntl.h>
 #include <grp.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Bad usage gets one clear line and the documented exit code; what only looks ends well.
+// Bad usage gets one clear line and the documented exit code; commands that only print succeed.
 #include <gtest/gtest.h>
 
 #include <sstream>

@@ -1,4 +1,4 @@
-// `understudy completion`: shells complete every command and flag that --help tells of.
+// `understudy completion`: shells complete every command and flag in --help.
 #include <gtest/gtest.h>
 
 #include <regex>

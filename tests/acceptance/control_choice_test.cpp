@@ -1,5 +1,4 @@
-// Several daemons of one user: each has a control socket of its own, and `ctl` talks to the one that is
-// meant.
+// Several daemons of one user: each has its own control socket, and `ctl` talks to the chosen one.
 #include <gtest/gtest.h>
 #include <signal.h>
 

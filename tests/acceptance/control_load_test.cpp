@@ -1,4 +1,4 @@
-// What clients of the control socket do never makes a host wait: hosts come first.
+// Clients of the control socket never make a host wait: hosts come first.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -34,7 +34,7 @@ class Client {
   }
   bool is_connected() const { return is_connected_; }
   void say(const std::string& text) const { send(socket_.get(), text.data(), text.size(), MSG_NOSIGNAL); }
-  /// How many bytes have come.
+  /// The number of bytes received.
   std::size_t hear() const {
     std::array<char, 65536> bytes;
     const ssize_t count = recv(socket_.get(), bytes.data(), bytes.size(), 0);
@@ -147,7 +147,7 @@ TEST(ControlLoad, ABadSnapshotCostsNoHostAReply) {
   }
 }
 
-/// What the process has computed so far.
+/// Returns the processor time of the process so far.
 std::chrono::milliseconds processor_time(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string text;
@@ -176,7 +176,7 @@ TEST(ControlLoad, WithoutDescriptorsTheDaemonRestsAndServesItsHosts) {
   // Whoever asks again and again takes all it gets, which is more than this on the busiest of machines.
   EXPECT_LT(processor_time(daemon->process().pid()) - before, Wait(50));
   EXPECT_EQ(lost(host, 20), 0);
-  // Who waited is served when the others have gone.
+  // Waiting clients are served when the others have gone.
   const auto last = std::move(clients.back());
   EXPECT_EQ(last->hear(), 0U);
   clients.clear();

@@ -41,7 +41,7 @@ void expect_done(const RunningUnderstudy& daemon, const Words& words) {
   EXPECT_EQ(finished.errors, "");
 }
 
-/// Refused with one line that holds `why`.
+/// Expects a refusal with one line that contains `why`.
 void expect_refused(const RunningUnderstudy& daemon, const Words& words, const std::string& why) {
   const Finished finished = daemon.ctl(words);
   EXPECT_EQ(finished.exit_code, 2) << words.back();

@@ -1,4 +1,4 @@
-// `ctl` as a way to look: names, expressions, frames in words.
+// Inspection with `ctl`: names, expressions, decoded frames.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

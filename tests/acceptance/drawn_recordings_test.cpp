@@ -1,5 +1,5 @@
-// What happened, looked at afterwards: a recording that is run again writes the trace, the capture and the
-// page that it would have had; and `run` writes traces and captures of all it plays.
+// Inspection afterwards: a replayed recording writes the trace, the capture and the page that the run would
+// have written; and `run` writes traces and captures of everything it runs.
 #include <gtest/gtest.h>
 
 #include <csignal>

@@ -1,4 +1,4 @@
-// The examples of examples, run as their pages say, with the tools they are for.
+// The projects in examples/, run as their pages say, with the tools that they are for.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

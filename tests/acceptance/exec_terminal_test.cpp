@@ -1,4 +1,4 @@
-// `understudy exec` at a terminal: the command has it, and Ctrl-C and Ctrl-Z do what they do under a shell.
+// `understudy exec` at a terminal: the command controls it, and Ctrl-C and Ctrl-Z act as in a shell.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// `understudy exec`: a user's command with a bench to talk to.
+// `understudy exec`: a user's command with a bench.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>

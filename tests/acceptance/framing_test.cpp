@@ -1,4 +1,4 @@
-// Where frames end: tolerant of the lumps and pauses of a pty, or by silence alone with --strict-framing.
+// Where frames end: tolerant of bursts and pauses on a pty, or by silence alone with --strict-framing.
 #include <gtest/gtest.h>
 
 #include <thread>

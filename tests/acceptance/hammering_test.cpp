@@ -1,5 +1,5 @@
-// A host that hammers without pause: requests back to back, nothing read for long, noise. The daemon lives,
-// answers what is good, keeps its time and its size.
+// A host that sends without pause: requests back to back, no reads for a long time, noise. The daemon
+// survives, answers good requests, keeps its time and its size.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ Bytes set_speed(int speed) { return frame({1, 0x06, 0x10, 0x02, high(speed), low
 const Bytes kReadSpeed = pty::hex("01 03 10 02 00 01 21 0A");
 Bytes speed_reply(int speed) { return frame({1, 0x03, 2, high(speed), low(speed)}); }
 
-/// All that comes until the line has been silent for a while.
+/// Reads until the line has been silent for a while.
 Bytes read_all(Host& host) { return host.read(SIZE_MAX, kSilenceMs); }
 
 /// Writes `lump` again and again for some time, as much as the pty takes, and ends with a whole one. Returns

@@ -1,4 +1,4 @@
-// Controllers of a user's own: the page as it stands there, the examples, and real hosts that meet them.
+// A user's own controllers: the page as printed, the examples, and real hosts.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

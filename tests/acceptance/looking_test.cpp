@@ -1,4 +1,4 @@
-// Reports, traces, plots and the host's manners, as scripts ask for them.
+// Reports, traces, plots and host checks, as scripts request them.
 #include <gtest/gtest.h>
 
 #include <csignal>

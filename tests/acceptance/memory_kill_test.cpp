@@ -1,5 +1,5 @@
-// kill -9 at random moments (seeded) while controllers write their memories: what the next daemon finds is
-// always an image, and always one that the memory had at some moment.
+// kill -9 at random moments (seeded) while controllers write their memories: the next daemon always finds an
+// image, and always one that the memory contained at some moment.
 #include <gtest/gtest.h>
 #include <signal.h>
 

@@ -40,7 +40,7 @@ void expect_done(const RunningUnderstudy& daemon, const Words& words) {
   EXPECT_EQ(finished.errors, "");
 }
 
-/// Refused with one line that holds `why`.
+/// Expects a refusal with one line that contains `why`.
 void expect_refused(const Finished& finished, const std::string& why) {
   EXPECT_EQ(finished.exit_code, 2) << finished.output << finished.errors;
   EXPECT_EQ(finished.output, "");

@@ -1,5 +1,5 @@
-// What is said of somebody's mistake: one line that quotes what came and says what was expected, by every
-// command.
+// Messages about users' mistakes: every command prints one line that quotes the input and says what was
+// expected.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A line that is reached by Modbus TCP: with libmodbus, mbpoll, pymodbus and raw sockets.
+// A line on Modbus TCP: with libmodbus, mbpoll, pymodbus and raw sockets.
 #include <gtest/gtest.h>
 #include <modbus/modbus.h>
 

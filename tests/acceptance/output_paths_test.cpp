@@ -1,5 +1,5 @@
-// A path that is given for a file to write, but is one that is read, or that something else writes: told in
-// one line, and nothing is lost.
+// A path for an output file that is also read, or that something else writes: the error is one line, and
+// nothing is lost.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -38,7 +38,7 @@ class OutputPaths : public testing::Test {
   }
   std::string at(const std::string& name) const { return folder_ / name; }
 
-  /// All files with what is in them.
+  /// Returns all files with their contents.
   std::string contents() const {
     std::string all;
     std::set<fs::path> paths;

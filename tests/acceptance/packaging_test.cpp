@@ -1,4 +1,5 @@
-// What `cmake --install` and `cpack` make: it runs from where it was put, and says of itself what is true.
+// The results of `cmake --install` and `cpack`: the program runs from where it was installed, and its own
+// statements are true.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/un.h>

@@ -1,4 +1,4 @@
-// `understudy page`, and `serve --page`: as processes, beside a bench that goes on whatever becomes of them.
+// `understudy page` and `serve --page` as processes, next to a bench that continues whatever happens to them.
 #include <gtest/gtest.h>
 #include <signal.h>
 

@@ -1,4 +1,4 @@
-// `understudy poll`, the small Modbus master, against a running daemon.
+// `understudy poll`, the small Modbus master, with a running daemon.
 #include <gtest/gtest.h>
 
 #include "tests/acceptance/running_understudy.h"

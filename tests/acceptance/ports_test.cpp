@@ -1,5 +1,5 @@
-// A device with two ports on two ptys: libmodbus and mbpoll on both, two hosts at once, a capture that tells
-// the lines apart, and what the control socket says.
+// A device with two ports on two ptys: libmodbus and mbpoll on both, two hosts at once, a capture that
+// distinguishes the lines, and the control socket's replies.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-// Programs on the command line, whatever the language: checked, turned into numbers and back. The program
-// here knows the tests' own controller as well.
+// Programs on the command line, in any language: checked, converted to numbers and back. This program also
+// knows the test controller.
 #include <gtest/gtest.h>
 
 #include <filesystem>

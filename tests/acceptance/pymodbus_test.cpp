@@ -1,5 +1,5 @@
-// pymodbus as the host, at 8N1: the programs are in hosts/pymodbus_host.py. What they wrote is looked at
-// through the control socket as well.
+// pymodbus as the host, at 8N1: the programs are in hosts/pymodbus_host.py. What they write is also checked
+// through the control socket.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Qt's Modbus master as the host: it keeps t3.5, and a broadcast is one, sent without waiting for a reply.
-// Qt is heavy to install, so these run where UNDERSTUDY_HEAVY_HOSTS=1 is set (./test then installs it).
+// Qt's Modbus master as the host: it keeps t3.5, and sends a broadcast without waiting for a reply. Qt is
+// heavy to install, so these tests run only with UNDERSTUDY_HEAVY_HOSTS=1 (./test then installs it).
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Hosts that come and go: nothing that one wrote is lost, nothing that it did not read is another's, and one
-// that never reads harms nobody.
+// Hosts that come and go: nothing that a host wrote is lost, no other host gets its unread bytes, and a host
+// that never reads does not affect anyone.
 #include <gtest/gtest.h>
 #include <sched.h>
 

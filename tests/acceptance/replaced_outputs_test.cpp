@@ -1,4 +1,4 @@
-// Every output against everything that may stand in its place: what holds something else is never lost.
+// Every output, with everything that may already exist at its path: a file with other contents is never lost.
 #include <gtest/gtest.h>
 
 #include <filesystem>

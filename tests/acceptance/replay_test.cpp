@@ -1,4 +1,4 @@
-// A day over a real port, recorded, and run again.
+// A day over a real port is recorded and replayed.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>

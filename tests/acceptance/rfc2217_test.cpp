@@ -1,5 +1,5 @@
-// A line that is reached by RFC 2217: with python3-serial (hosts/rfc2217_host.py), through ser2net as a
-// gateway in between, and with raw sockets.
+// A line on RFC 2217: with python3-serial (hosts/rfc2217_host.py), through ser2net as a gateway, and with raw
+// sockets.
 #include <gtest/gtest.h>
 
 #include <filesystem>

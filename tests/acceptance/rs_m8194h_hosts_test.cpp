@@ -1,5 +1,5 @@
-// Real hosts of an RS-M8194H on real ptys: libmodbus, mbpoll and pymodbus at 115200 8N1, and what tshark
-// makes of a capture. Addresses are the wire's: LP_X is holding 90, VAR0 300, the window 8000.
+// Real hosts of an RS-M8194H on real ptys: libmodbus, mbpoll and pymodbus at 115200 8N1, and tshark's view of
+// a capture. Addresses are those on the wire: LP_X is holding 90, VAR0 300, the window 8000.
 #include <gtest/gtest.h>
 #include <signal.h>
 

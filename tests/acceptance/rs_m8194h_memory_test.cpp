@@ -1,5 +1,5 @@
-// What an RS-M8194H keeps, at a daemon with --nv: macros that came through the window and settings of the
-// Initial Table outlive it, and a download that something cuts off leaves the macro that was there.
+// The memory of an RS-M8194H under a daemon with --nv: macros that came through the window and settings of
+// the Initial Table outlive the daemon, and an interrupted download leaves the previous macro.
 #include <gtest/gtest.h>
 #include <signal.h>
 

@@ -1,6 +1,6 @@
-// A day of an RS-M8194H, recorded in the midst of everything and run again: by the same program, on a
-// processor without fused multiplication, and by another build. A power cut comes in the midst of a download
-// and another in the midst of homing and a stream.
+// A day of an RS-M8194H is recorded in the middle of its work and replayed: by the same program, on a
+// processor without fused multiplication, and by another build. One power cut comes during a download,
+// another during homing and a stream.
 #include <gtest/gtest.h>
 #include <signal.h>
 

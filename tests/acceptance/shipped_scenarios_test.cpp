@@ -1,5 +1,5 @@
-// The scenarios that are shipped: each asks a question and passes; what they do is the same in every run, on
-// any machine; and in real time, over real ports with libmodbus, the verdicts are the same.
+// The shipped scenarios: each asks a question and passes. They do the same in every run, on any machine, and
+// have the same verdicts in real time over real ports with libmodbus.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// A limit on the size of files is an error like a full disk, told in one line: no command dies of it.
+// A limit on the size of files is an error like a full disk, reported in one line: it does not end any
+// command abruptly.
 #include <gtest/gtest.h>
 #include <signal.h>
 

@@ -1,4 +1,4 @@
-// Hosts that are elsewhere: a line that is reached by TCP, with raw sockets and python3-serial.
+// Network hosts: a line on TCP, with raw sockets and python3-serial.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

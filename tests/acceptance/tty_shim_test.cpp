@@ -1,5 +1,5 @@
-// The library that lets hosts that insist on parity use a pseudo-terminal: what it turns into success, and
-// what it leaves alone. pymodbus at 8E1 is such a host: it sets its timeouts after it has opened the port.
+// The library that lets hosts that insist on parity use a pseudo-terminal: which calls it makes succeed, and
+// which it leaves alone. pymodbus at 8E1 is such a host: it sets its timeouts after it has opened the port.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <linux/serial.h>

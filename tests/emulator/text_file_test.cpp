@@ -1,4 +1,4 @@
-// Files that are read and replaced as a whole: what is not a regular file is not waited for.
+// Files that are read and replaced as a whole: reading something that is not a regular file does not block.
 #include "base/files/text_file.h"
 #include "emulator/models/models.h"
 

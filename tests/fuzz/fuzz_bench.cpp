@@ -1,5 +1,5 @@
-// What may stand in a bench file: anything. It is refused by an error of one line, or it is a bench, and
-// then the bench as text reads as the same bench.
+// Any text as a bench file is refused with an error of one line, or it is a bench, which as text reads back
+// as the same bench.
 #include <cstdint>
 #include <string>
 

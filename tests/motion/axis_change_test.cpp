@@ -1,4 +1,4 @@
-// Another speed or another distance for a motion under way.
+// A different speed or distance for a running motion.
 #include <gtest/gtest.h>
 
 #include <array>

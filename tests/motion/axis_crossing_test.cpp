@@ -1,4 +1,4 @@
-// Ticks crossed in one step are the ticks one by one: random courses of an axis, with all it may meet.
+// Fast-forwarded ticks equal single ticks: random courses of an axis, with everything that it may meet.
 #include <gtest/gtest.h>
 
 #include "tests/motion/axis_scenario.h"

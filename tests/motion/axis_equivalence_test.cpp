@@ -1,4 +1,4 @@
-// The short way through a tick and the careful one are the same, and so are a copy and its original.
+// The fast and the slow path through a tick give the same result, and so do a copy and its original.
 #include <gtest/gtest.h>
 
 #include <algorithm>

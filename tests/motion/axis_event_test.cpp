@@ -1,4 +1,4 @@
-// What an axis tells of: comparators, the mark, in-position.
+// The events of an axis: comparators, the mark, in-position.
 #include <gtest/gtest.h>
 
 #include <array>

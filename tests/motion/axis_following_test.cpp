@@ -1,5 +1,5 @@
-// An axis that follows a wheel, or is carried along a path with others: the pulses come from elsewhere, and
-// what is met on the way is met all the same.
+// An axis that follows a wheel, or that is carried along a path with others: its pulses come from elsewhere,
+// and it still handles everything on the way.
 #include <gtest/gtest.h>
 
 #include <array>

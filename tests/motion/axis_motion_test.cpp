@@ -1,4 +1,4 @@
-// Moves, endless runs and stops of an axis that nothing is in the way of.
+// Moves, endless runs and stops of an axis without obstacles.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Runs with everything done to them in any order. A failure prints the commands as code.
+// Runs with all operations in random order. A failure prints the commands as code.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Saved, restored, hashed: every type of motion/state.h.
+// Every type of motion/state.h is saved, restored and hashed.
 #include "motion/state.h"
 
 #include <gtest/gtest.h>

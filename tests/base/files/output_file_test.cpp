@@ -1,4 +1,4 @@
-// Which files may be written, and when what was there is gone.
+// Which files may be written, and when their previous contents are lost.
 #include "base/files/output_file.h"
 
 #include <gtest/gtest.h>

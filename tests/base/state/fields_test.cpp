@@ -1,4 +1,4 @@
-// Fields by name: a list is complete or does not compile, and tells where two values differ.
+// Fields by name: an incomplete list does not compile, and a list shows where two values differ.
 #include "base/state/fields.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Bytes by hand: what a value of each kind becomes, what is refused, and the published examples of the codes.
+// Bytes by hand: how a value of each kind is written, what is refused, and the published examples of the
+// codes.
 #include "base/state/state_bytes.h"
 
 #include <gtest/gtest.h>

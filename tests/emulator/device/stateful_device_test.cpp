@@ -1,5 +1,5 @@
-// A device whose state is one value: it is compared, saved, told apart and restored as a whole, as if no tick
-// had been skipped.
+// A device whose state is one value: it is compared, saved, distinguished and restored as a whole, as if no
+// tick had been skipped.
 #include "emulator/device/stateful_device.h"
 
 #include <gtest/gtest.h>

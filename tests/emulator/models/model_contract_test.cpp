@@ -1,6 +1,6 @@
-// What every model promises to whoever runs it, checked for every listed model: a new one needs no entry
-// here. Beside this: restored_states_test.cpp (flipped bytes, changed images), world/sleepers/ (single ticks
-// against long advances).
+// The promises of every model, checked for every listed model: a new one needs no entry here. See also
+// restored_states_test.cpp (flipped bytes, changed images) and world/sleepers/ (single ticks compared with
+// long advances).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Whatever a byte of a snapshot, or a number of a memory's image, becomes: it is refused, and nothing has
-// changed; or it can be lived on, by moves, ticks and writes. For every model. UNDERSTUDY_SEED,
-// UNDERSTUDY_FLIPS: as many a model.
+// Any changed byte of a snapshot, or number of a memory image, is refused without changes, or gives a state
+// that survives moves, ticks and writes. For every model. UNDERSTUDY_SEED; UNDERSTUDY_FLIPS: the number of
+// changes per model.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// The page's server: who gets in, what benches and browsers hear of each other.
+// The page's server: who gets access, and what benches and browsers receive from each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>

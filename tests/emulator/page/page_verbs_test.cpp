@@ -1,4 +1,4 @@
-// What browsers may say.
+// The messages that browsers may send.
 #include "emulator/page/page_verbs.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// What each of the eight functions says to a request that is wrong, and what the device hears of it: each
-// kind of fault beside each function. Nothing of such a request is carried out.
+// The replies of each of the eight functions to wrong requests, and what the device learns of them: each kind
+// of fault with each function. No part of such a request is carried out.
 #include <gtest/gtest.h>
 
 #include <array>

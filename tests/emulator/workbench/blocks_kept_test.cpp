@@ -1,5 +1,5 @@
-// Blocks of text wherever memories go: files that follow them, steps that compare and save them, power that
-// comes and goes; and what is described of them and of ports.
+// Blocks of text everywhere in memories: files that follow them, steps that compare and save them, power
+// cycles; and their description, with that of ports.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
-// Crossing many ticks in one step, for a device that meets edges between ticks: the same world as by single
-// ticks. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
+// Fast-forward of a device that handles edges between ticks: the same world as with single ticks.
+// UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// A device that asks for it meets the switches of its machine at the pulse where they lie, whatever the
-// speed; where an input is not the switch's alone, or pulses are lost, levels count.
+// A device that requests it gets the switches of its machine at their exact pulse, at any speed; if an input
+// does not belong to the switch alone, or pulses are lost, levels count.
 #include <gtest/gtest.h>
 
 #include "emulator/world/bench_file/bench_file.h"

@@ -1,5 +1,5 @@
-// A language that is nobody's but the tests' controller's: checked, loaded, kept, listed, turned into numbers
-// and back, described; wherever programs are read, and all that is wrong with one told with its place.
+// The language of the test controller: checked, loaded, saved, listed, converted to numbers and back,
+// described; everywhere that programs are read, with the places of all errors.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

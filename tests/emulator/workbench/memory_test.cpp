@@ -1,5 +1,5 @@
-// What the controller keeps: an EEPROM with its time, battery RAM beside it, and named texts; in images, in
-// states, and through power cuts.
+// The persistent memory of the test controller: an EEPROM with its time, battery RAM, and named texts; in
+// images, in states, and through power cuts.
 #include "tests/emulator/workbench/memory.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A device with two ports in bench files: what may be written, what may not and where that is told.
+// A device with two ports in bench files: what is allowed, what is not, and where errors are reported.
 #include <gtest/gtest.h>
 
 #include "emulator/world/bench/bench_text.h"

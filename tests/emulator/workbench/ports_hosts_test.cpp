@@ -1,5 +1,5 @@
-// Two hosts at once on the two ports of one device: every answer is the right one, on the right line, and no
-// value is torn. What they do is recorded, played again, saved and restored.
+// Two hosts at once on the two ports of one device: every answer is correct, on the right line, and no value
+// is torn. The run is recorded, replayed, saved and restored.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,5 +1,5 @@
-// Rows that make no sense are refused when a table is built, each with what is wrong with it; and what the
-// words for rows do at their edges.
+// Rows that make no sense are refused when a table is built, each with its error; and corner cases of the
+// vocabulary of rows.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,5 +1,5 @@
-// Names with their table, bits and reals where people give and read them: benches, the control socket, frames
-// in words.
+// Names with their table, bits and reals wherever people write and read them: benches, the control socket,
+// decoded frames.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

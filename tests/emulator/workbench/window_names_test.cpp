@@ -1,4 +1,4 @@
-// Commands by name: what a scenario sends, in free and in real time, and what is told of frames.
+// Commands by name: what a scenario sends, in virtual and in real time, and how frames are described.
 #include <gtest/gtest.h>
 
 #include "emulator/device/command_window.h"

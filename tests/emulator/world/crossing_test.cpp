@@ -1,5 +1,5 @@
-// Many ticks in one step while axes move: the same world as by single ticks, however it is set up. Benches,
-// choices and what happens are drawn at random; UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
+// Many ticks in one step while axes move: the same world as with single ticks, for any setup. Benches,
+// choices and events are drawn at random; UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Who watches a world does not make it take every tick while nothing happens, and sees the same as if it did.
+// A watcher does not force a world to run every tick while nothing happens, and sees the same as if it did.
 // Random, seeded; UNDERSTUDY_SEED overrides.
 #include <gtest/gtest.h>
 

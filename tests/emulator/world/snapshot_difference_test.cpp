@@ -1,4 +1,4 @@
-// Where two snapshots differ is told by path and name, and nothing that differs stays untold.
+// Differences of two snapshots are reported by path and name, and every difference is reported.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,5 +1,5 @@
-// However a world is stepped, the same things from outside at the same times make the same world: bulk
-// ticks or single ones, many small steps or one big one. Random, seeded; UNDERSTUDY_SEED overrides.
+// However a world is stepped, the same events from outside at the same times make the same world: bulk ticks
+// or single ones, many small steps or one big one. Random, seeded; UNDERSTUDY_SEED overrides.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Commands as text and back: without loss, and with a place for what is wrong.
+// Commands as text and back: without loss, and with the places of errors.
 #include "interpreter/rs_m8194h/text.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The instruction table against the manual's list.
+// The instruction table compared with the manual's list.
 #include "interpreter/simple2/instructions.h"
 
 #include <gtest/gtest.h>

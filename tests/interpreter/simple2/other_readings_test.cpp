@@ -1,4 +1,4 @@
-// Flags that cannot be, how timers are compared, waits that are cut short: ours, and the other readings.
+// Impossible flags, comparisons of timers, waits that are cut short: our option, and the others.
 #include "tests/interpreter/simple2/scripted_machine.h"
 
 namespace understudy::interpreter::simple2 {

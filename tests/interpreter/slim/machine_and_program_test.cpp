@@ -1,4 +1,4 @@
-// What a machine, an event or a host means for a program that is not its next line.
+// How a machine, an event or a host affects a program beyond its next line.
 #include <gtest/gtest.h>
 
 #include "tests/interpreter/slim/scripted_machine.h"

@@ -1,4 +1,4 @@
-// Lines that are nearly right: none may do harm, and what is understood reads back from its own text.
+// Lines that are nearly right: none does harm, and an accepted line reads back from its own text.
 #include <gtest/gtest.h>
 
 #include <array>

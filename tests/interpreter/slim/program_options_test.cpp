@@ -1,5 +1,5 @@
-// What a bench may choose otherwise about programs: how fast lines run, how events are looked at, which
-// numbers lines have, what is refused as a line is entered.
+// Options about programs: how fast lines run, how often events are checked, how lines are numbered, what is
+// refused when a line is entered.
 #include <gtest/gtest.h>
 
 #include "interpreter/slim/editor.h"

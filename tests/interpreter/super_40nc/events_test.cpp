@@ -1,5 +1,5 @@
-// What happens to step programs against what they are doing: every cell, for C and for an axis program; by a
-// table that was read out of the manual, not from ours.
+// Each event in each phase of step programs: every cell, for C and for an axis program, compared with a table
+// from the manual, not with ours.
 #include "interpreter/super_40nc/events.h"
 
 #include <gtest/gtest.h>

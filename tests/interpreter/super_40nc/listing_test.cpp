@@ -1,5 +1,4 @@
-// Listings: those that the manual prints, with all their step numbers; what is refused, with its place and
-// code.
+// Listings: those that the manual prints, with all their step numbers; refused ones, with places and codes.
 #include "interpreter/super_40nc/listing.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Random programs, disturbed: pauses of all kinds change nothing but the time; quiet scans and ticks that are
-// crossed are as if they had been run.
+// Random programs with disturbances: pauses of all kinds change only the time; skipped quiet scans and ticks
+// have the same result as if they had run.
 #include <gtest/gtest.h>
 
 #include <random>

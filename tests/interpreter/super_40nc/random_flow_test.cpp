@@ -1,5 +1,5 @@
-// Step programs of random flow against a naive evaluator, which reads the listing's words each time it meets
-// a line and looks for labels and partners by walking through them.
+// Step programs of random flow compared with a naive evaluator, which reads the listing's words at each line
+// and searches for labels and partners.
 #include <gtest/gtest.h>
 
 #include <map>

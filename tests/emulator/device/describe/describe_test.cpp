@@ -1,4 +1,4 @@
-// What `describe` says, against the manual's facts. The columns are promised to scripts.
+// The output of `describe`, compared with the manual's facts. Scripts rely on the columns.
 #include "emulator/device/describe/describe.h"
 #include "emulator/models/models.h"
 

@@ -1,5 +1,5 @@
-// The simulated EEPROM: when what is kept, and what a power cut leaves. Ticks are worked out by hand: what is
-// written after tick n begins with tick n + 1, and is kept at the end of tick n + 1 + its time.
+// The simulated EEPROM: when values are stored, and what a power cut leaves. Ticks are worked out by hand: a
+// write after tick n begins with tick n + 1, and is stored at the end of tick n + 1 + its time.
 #include "emulator/device/memory/eeprom.h"
 
 #include <gtest/gtest.h>

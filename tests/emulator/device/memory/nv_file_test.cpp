@@ -1,4 +1,4 @@
-// NV images on disk: replaced as a whole, whenever the writer dies and whatever the disk says.
+// NV images on disk are replaced as a whole, whenever the writer dies and whatever the disk reports.
 #include "emulator/device/memory/nv_file.h"
 
 #include <fcntl.h>

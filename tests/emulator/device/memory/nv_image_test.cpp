@@ -1,5 +1,5 @@
-// NV images as text: what a device's memory holds comes back, and anything else is refused with one line that
-// says where it went wrong.
+// NV images as text: the contents of a device's memory are read back, and anything else is refused with one
+// line and its position.
 #include "emulator/device/memory/nv_image.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Requests that read, of maps drawn at random: each word and bit is what its row says, whatever stands around
-// it and however much the request brings at once.
+// Read requests on random maps: each word and bit is what its row says, whatever its neighbours are and
+// however much the request reads at once.
 #include <gtest/gtest.h>
 
 #include <array>

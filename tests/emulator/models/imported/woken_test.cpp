@@ -1,5 +1,5 @@
-// What is shown by a relation or a view changes with the pulses of an axis, and whoever goes by it is told in
-// time: a wire from an output, and an axis whose speed is such a register.
+// Registers that show a relation or a view change with the pulses of an axis, and everything that depends on
+// them is updated in time: a wire from an output, and an axis whose speed is such a register.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/model_file/described.h"

@@ -1,4 +1,4 @@
-// Streams that something breaks off (7.4): what is left of them, and what says so.
+// Interrupted streams (7.4): what remains of them, and how it is reported.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// The commands of the window by name, for each code of the manual and in both orders of words.
+// The commands of the window by name, for each code of the manual and in both word orders.
 #include "emulator/models/rs_m8194h/command_names.h"
 
 #include <map>

@@ -1,4 +1,4 @@
-// Every error of a download at the device: what the lines and CLOSE are answered, what inputs 110 to 114 and
+// Every error of a download at the device: the replies to the lines and to CLOSE, what inputs 110 to 114 and
 // 102 then show, and that the old macro stays (5.2, 12.1.13).
 #include <gtest/gtest.h>
 

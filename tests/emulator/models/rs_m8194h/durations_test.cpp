@@ -1,6 +1,6 @@
-// How long moves take, to the tick, by closed forms of the chip's laws (7.1): moves too short for their
-// speed, offsets of the deceleration, constant speeds, both directions; and where whole ones are at every
-// tick.
+// The durations of moves, to the tick, by closed forms of the chip's laws (7.1): moves too short for their
+// speed, offsets of the deceleration, constant speeds, both directions; and the positions of whole moves at
+// every tick.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Edges of EXP+ and EXP- that come in quick succession (3.17): none is lost that the axis could have obeyed.
+// Edges of EXP+ and EXP- in quick succession (3.17): none is lost that the axis could have obeyed.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// The FIFO: its room, what passes it by, what holds it (2.2, 3.2.2, 4.10, 9.9).
+// The FIFO: its capacity, what bypasses it, what holds it (2.2, 3.2.2, 4.10, 9.9).
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"

@@ -1,5 +1,5 @@
-// Homing at the device from everywhere, with each combination of its steps, at three speeds: where it ends,
-// by the closed form of what each step looks for (6.3, 4.8).
+// Homing at the device from everywhere, with each combination of its steps, at three speeds. The end is given
+// by a closed form of what each step looks for (6.3, 4.8).
 #include <gtest/gtest.h>
 
 #include <optional>

@@ -1,5 +1,4 @@
-// What a motion has left to be done, against all that may take it away: every cell of the table in
-// transitions.h.
+// Pending work of a motion, with every event that may discard it: every cell of the table in transitions.h.
 #include <gtest/gtest.h>
 
 #include <functional>

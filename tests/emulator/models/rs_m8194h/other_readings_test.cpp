@@ -1,5 +1,5 @@
-// Options that are not ours, where they meet what else the device does (8.5 of the behaviour; each one alone
-// is told apart by docs/fidelity/proofs/rs-m8194h/).
+// Options other than the default where they interact with the rest of the device (8.5 of the behaviour;
+// docs/fidelity/proofs/rs-m8194h/ shows each one alone).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The frames that the manual prints, each to a fresh box.
+// The frames that the manual prints, each sent to a new device.
 #include <gtest/gtest.h>
 
 #include "interpreter/rs_m8194h/commands.h"

@@ -1,4 +1,4 @@
-// What is refused, with which exception, and the reason that input 102 then shows (2.2, 4.16.2, 12.1.12).
+// Refused requests, with their exceptions, and the reasons that input 102 then shows (2.2, 4.16.2, 12.1.12).
 #include <gtest/gtest.h>
 
 #include "interpreter/rs_m8194h/commands.h"

@@ -1,5 +1,5 @@
-// Where choices meet what else the device does: most of them are told apart by
-// docs/fidelity/proofs/rs-m8194h/.
+// Choices where they interact with the rest of the device; docs/fidelity/proofs/rs-m8194h/ shows most of
+// them.
 #include <gtest/gtest.h>
 
 #include <cstdint>

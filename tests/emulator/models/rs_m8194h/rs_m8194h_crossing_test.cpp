@@ -1,5 +1,5 @@
-// Many ticks in one step are the same as one by one: random courses of drives, paths, homing, comparators,
-// macros, inputs, machines that lose pulses, and power. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
+// Many ticks in one step equal single ticks: random courses of drives, paths, homing, comparators, macros,
+// inputs, machines that lose pulses, and power. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What survives the power, what the Initial Table does, and that a state is whole (8, 3.19, 4.3.1).
+// What survives power-off, what the Initial Table does, and that a state is complete (8, 3.19, 4.3.1).
 #include <gtest/gtest.h>
 
 #include "base/state/state_error.h"

@@ -1,5 +1,5 @@
-// Streams whose segments are shorter than a millisecond's way: they never stop while they are fed, and are
-// never more than half a pulse from their path (7.4.3).
+// Streams whose segments are shorter than a millisecond of travel: they never stop while they get segments,
+// and are never more than half a pulse off their path (7.4.3).
 #include <gtest/gtest.h>
 
 #include <algorithm>

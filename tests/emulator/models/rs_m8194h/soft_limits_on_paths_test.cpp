@@ -1,5 +1,5 @@
-// Soft limits against paths (3.9.1, 7.2, 7.4): every kind of limit meets every kind of path, also one that
-// leaves the allowed room and is back in it before its end. The oracle is the same path without limits.
+// Soft limits and paths (3.9.1, 7.2, 7.4): every kind of limit with every kind of path, also one that leaves
+// the allowed range and returns before its end. The oracle is the same path without limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>

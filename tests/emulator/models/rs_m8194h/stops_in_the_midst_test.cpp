@@ -1,5 +1,5 @@
-// What stops things, while a macro waits, an ISR waits above a suspended macro, and a stream has more to come
-// (7.5, 5.9): event by event, as data.
+// Stops while a macro waits, while an ISR waits above a suspended macro, and while a stream expects more
+// segments (7.5, 5.9): event by event, as data.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"

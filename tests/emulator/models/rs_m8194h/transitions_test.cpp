@@ -1,4 +1,4 @@
-// Every event against everything that an axis can be doing (7.5): the cells of the matrix, one by one.
+// Every event in every activity of an axis (7.5): the cells of the matrix, one by one.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"

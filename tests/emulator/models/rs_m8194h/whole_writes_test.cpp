@@ -1,4 +1,4 @@
-// Writes to the tables that are one message by choice: two words for a group of FRnet outputs, and coils that
+// Writes to the tables that by choice are one message: two words for a group of FRnet outputs, and coils that
 // switch servos.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Outputs: in their turn and at once, pulses, PWM, and by position.
+// Outputs: buffered and immediate, pulses, PWM, and by position.
 #include <gtest/gtest.h>
 
 #include "emulator/device/terminals.h"

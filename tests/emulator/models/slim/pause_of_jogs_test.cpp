@@ -1,4 +1,4 @@
-// TAPZ and TAREDO with jogs and thrust: what a pause stops goes on after it.
+// TAPZ and TAREDO with jogs and thrust: stopped motion continues after the pause.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/slim/one_chain.h"

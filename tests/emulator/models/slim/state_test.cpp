@@ -1,6 +1,5 @@
-// SLIM's state in the middle of programs: saved and restored into another device it goes on alike; spoilt
-// bytes are refused or can be lived on; quiet ticks that are left out make no difference; and what a power
-// cut leaves.
+// SLIM's state during programs: saved and restored into another device, it continues in the same way; damaged
+// bytes are refused or harmless; skipped quiet ticks make no difference; and what a power cut leaves.
 #include <memory>
 #include <vector>
 

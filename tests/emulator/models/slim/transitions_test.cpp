@@ -1,5 +1,4 @@
-// Every cell of transitions.h, brought about from the host, from a program's own line and from an event's
-// routine.
+// Every cell of transitions.h, caused by the host, by a line of a program and by the routine of an event.
 #include "emulator/models/slim/rules/transitions.h"
 #include "emulator/device/terminals.h"
 

@@ -1,5 +1,5 @@
-// Choices of the SUPER-40NC where they meet what else it does; each one alone is told apart by
-// docs/fidelity/proofs/super-40nc/.
+// Choices of the SUPER-40NC where they interact with the rest of it; docs/fidelity/proofs/super-40nc/ shows
+// each one alone.
 #include "emulator/models/super_40nc/rows/choices.h"
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"

@@ -1,5 +1,5 @@
-// Where things meet: what is ON at a start, numbers beyond what the chip or the box has room for, and which
-// line an error tells of.
+// Corner cases: levels that are ON at a start, numbers beyond the capacity of the chip or the controller, and
+// the line that an error names.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
-// What the chip's comparators, its latch and the pins LTC and CLR read, set or stop is of their pulse: the
-// table kind of motion x kind of edge x what is done, at speeds from a pulse in 100 ms to 4,000 in one,
-// against closed forms.
+// The effects of the chip's comparators, its latch and the pins LTC and CLR belong to their pulse: the table
+// kind of motion x kind of edge x effect, at speeds from a pulse in 100 ms to 4,000 in one, compared with
+// closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

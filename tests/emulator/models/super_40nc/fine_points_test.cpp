@@ -1,5 +1,5 @@
-// Fine points that only a careful look shows: each of the panel's parameters, levels that act once,
-// comparators that come late, who moves an axis, pauses within a ramp.
+// Details: each of the panel's parameters, levels that act once, late comparators, who moves an axis, pauses
+// within a ramp.
 #include <gtest/gtest.h>
 
 #include <array>

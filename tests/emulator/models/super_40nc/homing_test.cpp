@@ -1,4 +1,4 @@
-// SUPER-40NC's 13 ways home (《X20.》), to the pulse. The DOG lies from 50,000 to 70,000, the limit at
+// SUPER-40NC's 13 homing modes (《X20.》), to the pulse. The DOG is from 50,000 to 70,000, the limit at
 // 100,000, a C signal at every multiple of 4,000; from 500 rpm the axis slows down within 833 pulses.
 #include <gtest/gtest.h>
 

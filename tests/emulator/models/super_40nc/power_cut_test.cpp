@@ -1,5 +1,5 @@
 // What a power cut leaves of a SUPER-40NC, at random moments of writes, of changes of files and recipes, of
-// loads and of programs at work: a plain model of what is kept says it. UNDERSTUDY_SEED overrides.
+// loads and of running programs, compared with a plain model of its memory. UNDERSTUDY_SEED overrides.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// SUPER-40NC's programs on the machine: pauses in the midst of moves, who resets whom, files, power, and what
-// a snapshot keeps.
+// SUPER-40NC's programs on the machine: pauses during moves, which events reset which programs, files, power,
+// and the contents of a snapshot.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// A PLC that has settled is woken by everything that it reads, whoever changes it: each lamp follows its
-// contact within two scans, also where all stands and time is advanced in one piece.
+// Everything that a settled PLC reads wakes it, whoever changes it: each lamp follows its contact within two
+// scans, also if everything is at rest and time advances in one step.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"

@@ -1,5 +1,5 @@
-// Who writes last in a scan: host, PLC, keys, then C, X, Y, Z and U, and the system behind them. Each pair of
-// writers of a contact and of a register, and what command contacts make of two.
+// The last writer in a scan: host, PLC, keys, then C, X, Y, Z and U, and finally the system. Each pair of
+// writers of a contact and of a register, and the result for command contacts.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/super_40nc/listings.h"

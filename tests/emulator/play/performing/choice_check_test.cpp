@@ -1,4 +1,4 @@
-// What is wrong with the proof of a choice is found.
+// Faults in the proof of a choice are found.
 #include "tests/emulator/play/performing/choice_check.h"
 
 #include <gtest/gtest.h>

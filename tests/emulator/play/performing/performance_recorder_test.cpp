@@ -1,4 +1,4 @@
-// What a play was is in its recording, wherever it went back to an earlier state.
+// A play is recorded completely, also if it goes back to an earlier state.
 #include "emulator/play/performing/performance_recorder.h"
 #include "emulator/models/models.h"
 

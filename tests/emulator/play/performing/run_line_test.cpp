@@ -1,4 +1,4 @@
-// write, expect and send: which requests go over the line, in which order, and what is made of their replies.
+// write, expect and send: which requests go over the line, in which order, and how their replies are judged.
 #include "pty/rtu_crc.h"
 #include "tests/emulator/play/performing/played.h"
 

@@ -1,4 +1,4 @@
-// Inputs, faults, power, programs and memories, as scenarios play them.
+// Inputs, faults, power, programs and memories in scenarios.
 #include <filesystem>
 #include <fstream>
 

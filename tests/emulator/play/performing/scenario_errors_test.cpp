@@ -1,4 +1,4 @@
-// Scenario files that are wrong: each gets one line that says where, what, and what was expected.
+// Wrong scenario files: each error is one line with its place, what is wrong and what was expected.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/play/performing/scenario_folder.h"

@@ -1,5 +1,5 @@
-// What a scenario saves is nothing that it is read from, and no two cases save one file. Refused when the
-// file is read: nothing has run by then.
+// A scenario does not save over the files that it reads, and no two cases save the same file. Such files are
+// refused when they are read, before anything runs.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

@@ -1,4 +1,4 @@
-// Each kind of step, as written and as it is played.
+// Each kind of step, as it is written and as it runs.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/play/performing/scenario_folder.h"

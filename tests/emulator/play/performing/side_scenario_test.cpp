@@ -1,4 +1,4 @@
-// A play beside a daemon whose loop ends: it is given up, and nobody waits for ever.
+// A scenario that runs next to a daemon whose loop ends: it is abandoned, and nobody waits for it.
 #include "emulator/play/performing/side_scenario.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Steps with lines of text, in free time and over a real pty: the same verdicts.
+// Steps with lines of text, in virtual time and over a real pty: the same verdicts.
 #include <gtest/gtest.h>
 
 #include "emulator/models/models.h"

@@ -1,4 +1,4 @@
-// What is wrong with a trace is told with its line; and what a plot is made of.
+// Errors in a trace are reported with their line; and the contents of a plot.
 #include "emulator/play/plot/trace_table.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// `vary`: how many cases there are, in which order, what each is called, and what tells it from all others.
+// `vary`: the number of cases, their order, their names, and their IDs.
 #include <gtest/gtest.h>
 
 #include <set>

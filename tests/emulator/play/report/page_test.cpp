@@ -1,5 +1,5 @@
-// The page as a browser and a reader see it: whole in itself, well formed, with the failing moment where it
-// was.
+// The report as a browser and a reader see it: complete in one file, well formed, with the failure at its
+// moment.
 #include "emulator/play/report/page.h"
 
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// Results as rows: read back by Python's json and sqlite3, which know nothing of us; and gone on with.
+// Results as rows: read back by Python's json and sqlite3, which are independent of this code; and resumed.
 #include "emulator/play/results/results_file.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The schemas suit what the readers take, and refuse what they refuse for its form.
+// The schemas accept what the readers accept, and reject what they reject because of its form.
 #include "emulator/play/schema/json_schema.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Bench files that are wrong: each gets one line that says where, what, and what was expected.
+// Wrong bench files: each error is one line with its place, what is wrong and what was expected.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/world/bench_file/bench_texts.h"

@@ -1,4 +1,5 @@
-// Where the language is C, the C++ compiler is the oracle: each expression is compiled and parsed.
+// For the part of the language that is C, the C++ compiler is the oracle: each expression is compiled and
+// parsed.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/world/expression/bench_of_names.h"

@@ -1,4 +1,4 @@
-// Faults in a world: what they override, several at one place, what is there again when they are cleared.
+// Faults in a world: what they override, several at one place, and what returns when they are cleared.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,5 +1,4 @@
-// What observers are told of faults that act on messages: each kind, on replies and on requests, as a capture
-// has it.
+// What observers see of faults that act on messages: each kind, on replies and on requests, as in a capture.
 #include "emulator/models/models.h"
 #include "emulator/world/faults/kinds.h"
 #include "pty/capture_frames.h"

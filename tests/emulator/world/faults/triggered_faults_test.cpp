@@ -1,4 +1,4 @@
-// Faults of machines and devices with triggers: exactly when they begin and end, and what that does.
+// Faults of machines and devices with triggers: exactly when they begin and end, and their effect.
 #include <gtest/gtest.h>
 
 #include <algorithm>

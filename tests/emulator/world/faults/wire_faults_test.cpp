@@ -1,4 +1,5 @@
-// Every stage on a line with wire time: which frame was hit, and the exact bytes and times that came instead.
+// Every stage on a line with wire time: which frame was hit, and the exact bytes and times that arrive
+// instead.
 #include <gtest/gtest.h>
 
 #include <algorithm>

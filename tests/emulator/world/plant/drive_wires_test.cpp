@@ -1,5 +1,5 @@
-// Wires that lead to a drive, and how its alarm is cleared where the controller has no output for that: on
-// every model.
+// Wires that lead to a drive, and how its alarm is cleared if the controller has no output for that: on every
+// model.
 #include <gtest/gtest.h>
 
 #include "emulator/models/models.h"

@@ -1,4 +1,4 @@
-// A recording that is as large as it may be begins again, and what it was is kept beside it.
+// A recording that reaches its size limit starts again, and its earlier part is kept in another file.
 #include "emulator/world/recording/recording_spool.h"
 #include "emulator/models/models.h"
 

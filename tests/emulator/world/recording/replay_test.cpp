@@ -1,4 +1,4 @@
-// A recording played again says every byte again, or tells the first that differs.
+// A replayed recording sends every byte again, or reports the first that differs.
 #include "emulator/world/recording/replay.h"
 #include "emulator/models/models.h"
 

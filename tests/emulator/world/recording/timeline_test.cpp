@@ -1,4 +1,4 @@
-// Any moment of a recording is what a replay up to it comes to, in whatever order they are visited.
+// Any moment of a recording equals a replay up to it, in whatever order moments are visited.
 #include "emulator/world/recording/timeline.h"
 
 #include <gtest/gtest.h>

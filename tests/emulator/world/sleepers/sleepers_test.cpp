@@ -1,7 +1,6 @@
-// Whoever sleeps is woken by all that matters to it: a world that is brought to its times in long pieces is
-// the same as one that is made to run every tick, whatever makes it do so. Random courses of everything, for
-// each controller; all that can be read is compared at each stop. UNDERSTUDY_SEED and UNDERSTUDY_COURSES
-// override.
+// Everything that matters to a sleeping device wakes it: a world that advances in long steps equals one that
+// must run every tick, for whatever reason. Random courses of everything, for each controller; all readable
+// values are compared at each stop. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// What differs from one protocol to another is asked of one object.
+// One object knows everything that differs from one protocol to another.
 #include "emulator/world/speech/line_protocol.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What stands between a line and a station when something is broken there, without either of them.
+// The faulty wire between a line and a station, tested without either of them.
 #include "emulator/world/stations/faulty_wire.h"
 
 #include <gtest/gtest.h>

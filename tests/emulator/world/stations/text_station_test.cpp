@@ -1,4 +1,4 @@
-// A device that speaks text, on its line: what it hears, what it says, and when.
+// A device that speaks text, on its line: what it receives, what it sends, and when.
 #include "emulator/world/stations/text_station.h"
 
 #include <gtest/gtest.h>
