@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> blocks(const std::string& language) { return page_blocks("ci.md", language); }
 
-/// The project that the page supposes; each scenario says what is expected of a register.
+/// The project that the page assumes; each scenario expects a value of a register.
 class Project {
  public:
   explicit Project(int expected) {

@@ -20,7 +20,7 @@ struct BadUsage {
   friend void PrintTo(const BadUsage& usage, std::ostream* out) { *out << usage.name; }
 };
 
-// Anything that starts by mistake ends with the test, and its files are in the folder that {} stands for.
+// A program that starts by mistake ends with the test, and its files are in the folder that {} stands for.
 const std::vector<BadUsage> kBadUsages = {
     {"NoCommand", {}, "expected"},
     {"UnknownCommand", {"serv"}, "serv"},

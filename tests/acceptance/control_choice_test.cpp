@@ -11,7 +11,7 @@ namespace control_choice_test {
 
 namespace fs = std::filesystem;
 
-/// Daemons that were not told where their sockets are to be, in a runtime folder of their own.
+/// Daemons without a given socket path, in their own runtime folder.
 class SeveralDaemons : public testing::Test {
  protected:
   Environment environment() const {
@@ -35,7 +35,7 @@ class SeveralDaemons : public testing::Test {
     words.insert(words.begin(), "ctl");
     return understudy(words, environment());
   }
-  /// `get power` of the only device that the chosen daemon has tells which one it is.
+  /// `get power` of the only device identifies the chosen daemon.
   void expect_chosen(const Words& flags, const std::string& name) const {
     Words words = flags;
     words.insert(words.end(), {"get", name + ".power"});

@@ -46,8 +46,8 @@ class Client {
   bool is_connected_ = false;
 };
 
-/// So many clients that ask for the status again and again, as many times as their sockets take, while this
-/// lives.
+/// This many clients that request the status repeatedly, as often as their sockets accept, during its
+/// lifetime.
 class Askers {
  public:
   Askers(const std::string& path, std::size_t count) {
@@ -85,7 +85,7 @@ std::unique_ptr<RunningUnderstudy> feeder(const Words& flags = {}) {
       flags);
 }
 
-/// How many of so many requests a host loses, which waits a second for each reply.
+/// Returns how many requests a host loses that waits a second for each reply.
 int lost(ModbusHost& host, int requests) {
   int count = 0;
   for (int i = 0; i < requests; ++i) {
@@ -173,7 +173,8 @@ TEST(ControlLoad, WithoutDescriptorsTheDaemonRestsAndServesItsHosts) {
   ASSERT_TRUE(eventually([&] { return clients.front()->hear() > 0; }));
   const auto before = processor_time(daemon->process().pid());
   std::this_thread::sleep_for(Wait(2'000));
-  // Whoever asks again and again takes all it gets, which is more than this on the busiest of machines.
+  // A client that sends repeatedly takes everything that it gets, which is more than this even on a very busy
+  // machine.
   EXPECT_LT(processor_time(daemon->process().pid()) - before, Wait(50));
   EXPECT_EQ(lost(host, 20), 0);
   // Waiting clients are served when the others have gone.

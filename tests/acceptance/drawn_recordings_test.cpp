@@ -103,7 +103,7 @@ Words names_in(const std::string& folder) {
   return {names.begin(), names.end()};
 }
 
-/// Where time goes back, or a branch begins, files begin anew: as the recordings do, which write the same.
+/// If time goes back, or a branch begins, files start again, as recordings do, which have the same contents.
 TEST(RunFiles, AreWhatTheRecordingsOfThePlaysWrite) {
   const PrivateFolder folder;
   const std::string cases = folder.write("cases.yaml", kTwoCases);

@@ -50,7 +50,7 @@ TEST_F(ExecAtTerminal, LeavesCtrlCToACommandThatWantsIt) {
 TEST_F(ExecAtTerminal, StopsOnCtrlZAndGoesOn) {
   if (run({"bash", "-c", "true"}).exit_code != 0) GTEST_SKIP() << "bash is not installed";
   std::string line;
-  // It forks nothing: a shell that is stopped between vfork() and exec() of a child never tells that it is.
+  // It does not fork: a shell that is stopped between vfork() and exec() of a child never reports that.
   for (const std::string& word :
        exec("echo re''ady; trap 'echo go''ne; exit 4' INT; while :; do read -r x; done")) {
     std::string quoted = "'";

@@ -169,7 +169,7 @@ TEST(ControlProgram, LoadsAListingRunsItAndPrintsIt) {
   for (const char* line : {"Out DOUT_3 ON", "Delay_mSec 100", "Out DOUT_3 OFF"})
     EXPECT_NE(text.find(line), std::string::npos) << text;
   EXPECT_EQ(json(daemon, {"program", "device"})["text"], text);
-  // What it prints can be loaded, and is the same program.
+  // Its output can be loaded, and is the same program.
   EXPECT_EQ(obeyed(daemon, {"program", "device", daemon.folder().write("again.lst", text)}), "");
   EXPECT_EQ(obeyed(daemon, {"program"}), text);
 

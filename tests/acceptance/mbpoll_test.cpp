@@ -30,7 +30,7 @@ class Mbpoll : public testing::TestWithParam<int> {
     words.insert(words.end(), {"--", value});
     return run(words);
   }
-  /// The value that mbpoll prints, as it prints it.
+  /// Returns the value as mbpoll prints it.
   std::string value(const std::string& type, int address) const {
     const Finished finished = read(type, address);
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;

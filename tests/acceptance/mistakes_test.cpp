@@ -41,7 +41,7 @@ class Mistakes : public testing::Test {
       expect(understudy(words), mistake);
     }
   }
-  /// As words of `ctl`.
+  /// Returns the words of `ctl`.
   void expect_all_of(const RunningUnderstudy& daemon, const std::vector<Mistake>& mistakes) const {
     for (const Mistake& mistake : mistakes) {
       Words words;
@@ -201,7 +201,7 @@ TEST_F(Mistakes, OfProgramsAreToldWithTheirFile) {
   EXPECT_NE(finished.errors.find(" more)\n"), std::string::npos) << finished.errors;
 }
 
-// What fails before a pipe leaves an empty text, which is no wish to lose the program.
+// A command that fails before a pipe leaves an empty text, which must not remove the program.
 TEST_F(Mistakes, AnEmptyProgramIsRefused) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   folder_.write("some.lst", "Out 4 1\nEND\n");

@@ -29,7 +29,7 @@ struct Port {
 constexpr Port kPc{"/P", 115200, 'E'};
 constexpr Port kHmi{"/P.HMI", 19200, 'N'};
 
-/// As `serve --model workbench --link P` would have it.
+/// Like `serve --model workbench --link P`.
 class ServedOnTwoPorts : public testing::Test {
  protected:
   ServedOnTwoPorts() {
@@ -78,7 +78,7 @@ class ServedOnTwoPorts : public testing::Test {
     bool is_connected = false;
   };
 
-  /// What it printed for the address; a write prints nothing.
+  /// Returns what it printed for the address; a write prints nothing.
   std::string mbpoll(const Port& port, const std::string& type, int address, const Words& written) const {
     Words words{"mbpoll",
                 "-m",

@@ -9,7 +9,7 @@
 namespace understudy::acceptance {
 namespace pymodbus_test {
 
-// Debian's packages are for this interpreter; another one earlier in PATH does not know them.
+// Debian's packages belong to this interpreter; another one earlier in PATH does not find them.
 constexpr const char* kPython = "/usr/bin/python3";
 constexpr const char* kPackages = "/usr/lib/python3/dist-packages";
 
@@ -25,7 +25,7 @@ class Pymodbus : public testing::TestWithParam<int> {
 
   static std::string baud() { return std::to_string(GetParam()); }
 
-  /// Runs the case against `daemon`, which must hear it without a warning.
+  /// Runs the case with `daemon`, which must receive it without a warning.
   static void expect_well(const RunningUnderstudy& daemon, const std::string& name) {
     const Finished finished =
         run({kPython, std::string(TEST_FACTS) + "/hosts/pymodbus_host.py", daemon.port(), baud(), name});

@@ -18,7 +18,7 @@ struct QtSetup {
   }
 };
 
-/// Three stations of a line, with addresses from one end of the switch to the other.
+/// Three stations of a line, with addresses at both ends of the switch.
 std::string three_stations(int baud, const std::string& timing) {
   return "understudy: 1\nlines:\n  rs485:\n    baud: " + std::to_string(baud) + "\n    timing: " + timing +
          R"(
@@ -42,7 +42,7 @@ class Qt5SerialBus : public testing::TestWithParam<QtSetup> {
     ASSERT_EQ(built.exit_code, 0) << built.output << built.errors;
   }
 
-  /// What became of each request, sent in one opening of the port.
+  /// The result of each request, sent while the port was open once.
   std::vector<std::string> send(const RunningUnderstudy& daemon, const Words& requests) const {
     Words command{build_ + "/qt5_serialbus_host", daemon.port(), std::to_string(GetParam().baud),
                   std::string(1, GetParam().parity)};

@@ -27,7 +27,7 @@ struct GateState {
   bool operator==(const GateState&) const = default;
 };
 
-/// Opens at most three times. It notes a tick only when it is run.
+/// Opens at most three times. It records a tick only when it is run.
 class Gate final : public StatefulDevice<Gate, GateState> {
  public:
   using StatefulDevice::StatefulDevice;

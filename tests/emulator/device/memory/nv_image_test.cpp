@@ -25,7 +25,7 @@ const NvImage kExample{.model = "simple2-r3",
                                      {"PROG_MEM31", 2147483647},
                                      {"Aaxis_SVON_Polarity", 0}}};
 
-/// What is wrong with a text; empty if nothing is.
+/// Returns the error of a text; empty if there is none.
 std::string diagnostic(const std::string& text) {
   try {
     parse_nv_image(text);
@@ -88,7 +88,7 @@ TEST(NvImage, TornAnywhereIsRefusedWithTheLineOfTheTear) {
 }
 
 TEST(NvImage, ATailOfAnotherImageBehindItIsRefused) {
-  // What a file that was written in place would be after a shorter image replaced a longer one.
+  // The contents of a file that was overwritten in place by a shorter image.
   const std::string longer = to_json(kExample);
   NvImage shorter = kExample;
   shorter.registers.resize(2);
