@@ -14,7 +14,7 @@ using namespace understudy;
 using fuzzing::require;
 
 constexpr std::size_t kLongest = 4096;
-const std::string kFolder = "/nonexistent";  // what it names by a path is not there
+const std::string kFolder = "/nonexistent";  // files that it names by path do not exist
 
 }  // namespace
 

@@ -81,7 +81,7 @@ void check_state(const emulator::world::WorldState& state, bool is_checked_wholl
   try {
     world.advance_to(world.now() + 20ms);
   } catch (const std::exception&) {
-    // A plausible state that no world comes to: told, and the world is not used any more.
+    // A plausible state that no world reaches: it is reported, and the world is not used any more.
   }
 }
 

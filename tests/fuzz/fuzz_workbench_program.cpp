@@ -24,7 +24,7 @@ DeviceSettings settings() {
   return made;
 }
 
-/// The same one again and again, put back into the state that it had.
+/// The same device repeatedly, restored to its initial state.
 workbench::Workbench& fresh_device() {
   static const std::unique_ptr<Device> device = make_device(workbench::model(), settings());
   static const workbench::WorkbenchState fresh = static_cast<workbench::Workbench&>(*device).state;

@@ -50,7 +50,7 @@ struct Case {
   int reason = 0;
 };
 
-/// A write of one value again and again: the request's head, and so many bytes 0x01 behind it.
+/// Repeated writes of one value: the request's head, followed by this many bytes 0x01.
 std::string with_bytes(const std::string& head, int bytes) {
   std::string text = head;
   for (int i = 0; i < bytes; ++i) text += " 01";

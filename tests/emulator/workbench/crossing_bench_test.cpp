@@ -61,7 +61,7 @@ class Course {
     return made;
   }
 
-  /// Something that happens to both.
+  /// An event that both get.
   std::function<void(World&)> act() {
     const auto number = static_cast<std::size_t>(between(0, 1));
     const auto axis = [number](World& world) -> motion::Axis& {

@@ -199,7 +199,7 @@ TEST(WorldCrossing, RandomCoursesAreTheSameInBulkAndByTicks) {
     run += plain.ticks_run();
     single += twin.ticks_run();
   }
-  // Worth something only if much is crossed, and axes move.
+  // The test is meaningful only if many ticks are skipped, and axes move.
   EXPECT_LT(run * 3, single);
   EXPECT_GT(crossed, 10'000u);
 }

@@ -201,7 +201,7 @@ void apply(World& world, const Event& event) {
   }
 }
 
-/// The sequences are worth something only if much happens in them.
+/// The sequences are meaningful only if much happens in them.
 struct Lively {
   std::uint64_t crossed = 0;
   std::uint64_t run = 0;

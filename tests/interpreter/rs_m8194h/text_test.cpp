@@ -59,7 +59,7 @@ TEST(RsM8194hText, OfEveryPrintedFrameIsReadBack) {
   }
 }
 
-/// Whatever the registers are: what decode() takes is read back from its text.
+/// For any registers: what decode() accepts is read back from its text.
 TEST(RsM8194hText, OfRandomCommandsIsReadBack) {
   std::mt19937 random(20);  // NOLINT(cert-msc51-cpp): the same every time
   const auto allowed = printed::allowed();

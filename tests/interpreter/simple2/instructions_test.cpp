@@ -12,7 +12,7 @@ namespace instructions_test {
 
 std::vector<Fact> facts() { return read_facts(std::string(TEST_FACTS) + "/simple2/instructions.csv"); }
 
-/// What the manual calls an operand, by the beginning of its wording.
+/// The manual's words for an operand, by their beginning.
 Operand operand_of(const std::string& wording) {
   const std::vector<std::pair<std::string, Operand>> wordings = {
       {"N/A", Operand::none},

@@ -16,7 +16,7 @@ using Words = std::vector<std::string>;
 
 int below(Random& random, int limit) { return static_cast<int>(random() % static_cast<unsigned>(limit)); }
 
-/// What a program may do, over M0 to M7, D0 to D7 and four labels and subroutines.
+/// The possible lines of a program, over M0 to M7, D0 to D7 and four labels and subroutines.
 class Writer {
  public:
   explicit Writer(Random& random) : random_(random) {}
@@ -148,7 +148,7 @@ class Naive {
     ++at;
     return true;
   }
-  /// The line of a label; past the end if there is none.
+  /// Returns the line of a label; past the end if there is none.
   std::size_t label(const std::string& name) const {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (lines_[i][0] == "LAB" && lines_[i][1] == name) return i;
@@ -170,7 +170,7 @@ class Naive {
     }
   }
 
-  /// False: the slice is over.
+  /// Returns false if the slice is over.
   bool line() {
     const Words& words = lines_[at];
     const std::string& word = words[0];

@@ -32,7 +32,7 @@ Running steps(const std::string& name, Area area) {
   return running;
 }
 
-/// What it has asked of the machine, starts, ends and positions too.
+/// Its requests to the machine, including starts, ends and positions.
 std::string asked(const Running& running) {
   std::string text;
   for (const std::string& line : running.machine.log) {

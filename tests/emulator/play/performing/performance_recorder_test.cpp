@@ -62,7 +62,7 @@ TEST(PerformanceRecorder, ARecordingLeadsToTheSameEnd) {
   const Again replayed = again(result);
   EXPECT_EQ(replayed.result.reached, result.failure->at);
   EXPECT_EQ(replayed.pulses, 32000);
-  // Said were: two writes done (8 bytes each), one read of a word (7) of two, and one of two words (9).
+  // The bytes sent: two writes done (8 bytes each), one read of a word (7) of two, and one of two words (9).
   EXPECT_EQ(replayed.result.bytes_said, 8U + 8U + 7U + 9U);
   EXPECT_EQ(replayed.header.snapshot, "");
 }

@@ -122,7 +122,7 @@ TEST(BenchErrors, Lines) {
       {"understudy: 1\nlines: a\n", "2: lines: expected a map, as in `key: value`"},
       {"understudy: 1\nlines:\n  a.b: { " + kStation + " }\n",
        "3: lines.a.b: 'a.b' is not a name; expected letters, digits, _ and -"},
-      // No file can be called so: ports and memories are named after them.
+      // No file can have this name: ports and memories are named after devices.
       {"understudy: 1\nlines:\n  " + std::string(101, 'a') + ": { " + kStation + " }\n",
        "3: lines." + std::string(101, 'a') + ": has a name of 101 characters; expected at most 100"},
       {"understudy: 1\nlines:\n  a: { link: /tmp/" + std::string(201, 'p') + ", " + kStation + " }\n",

@@ -4,7 +4,7 @@
 
 #include "tests/emulator/world/expression/bench_of_names.h"
 
-// What compilers warn of is the point here.
+// Compilers warn about these expressions, which are the subject of this test.
 #pragma GCC diagnostic ignored "-Wparentheses"
 #ifdef __clang__
 #pragma GCC diagnostic ignored "-Wconstant-logical-operand"

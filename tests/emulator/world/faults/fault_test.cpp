@@ -196,7 +196,7 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
 }
 
 TEST(FaultForm, HasEveryKindAndField) {
-  // What editors are told is what the reader takes.
+  // Editors get the same fields that the reader accepts.
   std::vector<std::string> known;
   for (const FaultKindRow& kind : fault_kinds()) known.emplace_back(kind.name);
   for (const FaultKindRow& kind : fault_kinds()) {

@@ -42,7 +42,7 @@ PlantSetup random_setup(Random& random) {
   return setup;
 }
 
-/// What comes from outside: held until it changes.
+/// Levels from outside, held until they change.
 struct Outside {
   DriveInputs inputs;
   MachineFaults faults;  // but for slips

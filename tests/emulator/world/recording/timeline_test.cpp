@@ -71,7 +71,7 @@ TEST(Timeline, ComesToWhatAReplayComesTo) {
   }
 }
 
-/// What led to a moment is seen as well: by one keyframe more, where they are not too far apart.
+/// Events before the moment are visible as well, by one more keyframe, if it is not too far away.
 TEST(Timeline, BeginsAtTheKeyframeBeforeTheLast) {
   using namespace std::chrono_literals;
   const struct {

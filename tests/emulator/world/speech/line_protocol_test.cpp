@@ -59,7 +59,7 @@ TEST(LineProtocol, IsRefusedWhereTheWorldHasNone) {
   EXPECT_EQ(diagnostic, "chief: no line of a world carries smoke signs");
 }
 
-/// What it is spoken to in, it does not speak.
+/// It does not speak the protocol in which it is addressed.
 class Mute final : public Device {
  public:
   using Device::Device;
