@@ -1,6 +1,6 @@
-// What may be typed at a SLIM: anything, at any moment. Whatever it was, lines are answered in whole lines,
-// ticks that are left out are not to be seen, a state that is saved is one that is taken back, and whoever
-// leaves what is going on (ESC, an empty line, EXIT) is answered again.
+// Any lines typed at a SLIM, at any moment, are answered in whole lines. Skipped ticks make no difference, a
+// saved state is accepted back, and a host that leaves the current dialogue (ESC, an empty line, EXIT) gets
+// replies again.
 //
 // An input is a byte of options, a byte that mixes all other choices (0: ours), then what is typed. Two
 // values stand for what is not a typing:

@@ -23,7 +23,7 @@ using Saved = testing::Types<Axis, Coordinated, ExternalDrive, Follower, PathRun
                              Environment, SyncTable>;
 TYPED_TEST_SUITE(State, Saved);
 
-/// Whether bytes are refused as they should be: by name, and without a trace.
+/// Checks that bytes are refused as they should be: by name, and without a trace.
 template <class T>
 bool refuses(T value, std::span<const std::byte> bytes) {
   const T before = value;

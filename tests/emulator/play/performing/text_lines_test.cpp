@@ -118,8 +118,8 @@ TEST(TextSteps, FailInFreeTimeWithWhatCame) {
   }
 }
 
-/// Over a pty the clock on the wall counts: on a machine that stands still for a moment a pause ends a reply,
-/// and a power cut comes later into what is being said. So a verdict that differs gets two more attempts.
+/// Over a pty the wall clock counts: on a machine that stands still for a moment a pause ends a reply, and a
+/// power cut comes later into what is being said. So a verdict that differs gets two more attempts.
 Outcome play_really(const std::string& steps, const std::string& expected_why) {
   Outcome outcome;
   for (int attempt = 0; attempt < 3; ++attempt) {
