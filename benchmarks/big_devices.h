@@ -1,4 +1,5 @@
-// What the benchmarks of the two big controllers do alike: worlds of many of them, their ticks, their memory.
+// The common parts of the benchmarks of the two large controllers: worlds of many of them, their ticks, their
+// memory.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +20,8 @@ emulator::Value get(emulator::Device& device, std::string_view name);
 
 inline constexpr std::size_t kStationsALine = 15;
 
-/// So many devices of a model, each with four machines, fifteen stations a line on the device's port `port`.
-/// `finish` gets the setup of each, and its number.
+/// Makes this many devices of a model, each with four machines, with fifteen stations on a line at the
+/// device's port `port`. `finish` gets the setup of each, and its number.
 std::unique_ptr<emulator::world::World> make_devices(
     std::size_t devices, std::string_view model, const std::string& program, std::size_t port,
     const std::function<void(emulator::world::DeviceSetup&, std::size_t)>& finish);

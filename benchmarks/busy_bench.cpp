@@ -19,7 +19,7 @@ constexpr std::size_t kStationsALine = 15;
 constexpr std::uint16_t kFirstCell = 0x4000;
 constexpr std::size_t kWordsARequest = 120;
 
-// What a program does besides motion: it counts, reckons, looks at STATUS and inputs, switches an output.
+// The work of a program besides motion: it counts, calculates, reads STATUS and inputs, switches an output.
 constexpr std::string_view kWork =
     "work:   Counter_Increase 1\n"
     "        VAR_Add VAR32 Cord_A\n"

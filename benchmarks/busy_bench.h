@@ -9,7 +9,7 @@
 
 namespace understudy::benchmarks {
 
-/// What both axes of every device do, until the world ends.
+/// The motion of both axes of every device, until the world ends.
 enum class Activity {
   positions,  // long position moves to and fro, begun anew by the program
   velocity,   // velocity mode, up and down a ramp
@@ -24,7 +24,7 @@ std::string_view name_of(Activity activity);
 /// an encoder on both axes, except where the encoders are turned by hand. Throws CannotRun.
 std::unique_ptr<emulator::world::World> make_busy_world(std::size_t devices, Activity activity);
 
-/// In a world of one idle device: an hour at 267 pulses a second.
+/// A world of one idle device: an hour at 267 pulses a second.
 void begin_hour_long_move(emulator::world::World& world);
 
 /// Turns the encoders of Activity::sync to where they are at `tick`.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a case of a campaign costs, and whether memory grows with their number.
+"""Measures what a case of a campaign costs, and whether memory use grows with the number of cases.
 
 benchmarks/campaign.py UNDERSTUDY [CASES [ROUNDS]]
 
@@ -14,13 +14,13 @@ import tempfile
 
 SCENARIO = pathlib.Path(__file__).resolve().parents[1] / "examples/campaign/move.yaml"
 ALL = 100_000
-PROCESSOR_S = 240.0  # of all cases: two minutes on two cores
+PROCESSOR_S = 240.0  # for all cases: two minutes on two cores
 RESULTS_BAR = 1.25
 MEMORY_BAR = 1.25
 
 
 def play(understudy, cases, *flags):
-    """Processor seconds, and the greatest memory in KiB."""
+    """Returns the processor time in seconds, and the peak memory in KiB."""
     command = [understudy, "run", str(SCENARIO), "--jobs", "2", "--shard", f"1/{ALL // cases}", *flags]
     with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
         _, status, usage = os.wait4(process.pid, 0)

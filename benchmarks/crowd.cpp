@@ -56,7 +56,7 @@ Slice run_slice(EventLoop& loop, Work work) {
   return slice;
 }
 
-/// Processor time of a device's tick, while its world goes on by so many, one at a time.
+/// Returns the processor time of a device's tick, while its world advances by this many ticks, one at a time.
 double tick_ns(World& world, Tick& done, Tick ticks) {
   const Nanoseconds before = processor_time_here();
   for (const Tick end = done + ticks; done < end;) world.advance_to(time_of(++done));
@@ -64,8 +64,7 @@ double tick_ns(World& world, Tick& done, Tick ticks) {
   return took / static_cast<double>(ticks) / static_cast<double>(world.device_count());
 }
 
-/// What a device's tick costs among the others and alone: to be in the processor's caches makes all the
-/// difference.
+/// Compares a device's tick among others and alone; it depends mostly on the processor's caches.
 void compare_with_one(World& all, Tick& done) {
   const std::unique_ptr<World> one = make_busy_world(1, Activity::positions);
   Tick done_by_one = kWarmUp;

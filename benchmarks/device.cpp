@@ -63,7 +63,7 @@ class Contestant {
 
   Activity activity() const { return activity_; }
   const std::vector<double>& samples() const { return samples_; }
-  /// So many of the ticks were run, and not crossed in bulk.
+  /// The number of ticks that were run, not fast-forwarded.
   double share_run() const {
     const auto run = static_cast<double>(world_->ticks_run());
     return run / (run + static_cast<double>(world_->ticks_skipped()));

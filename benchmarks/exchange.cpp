@@ -40,7 +40,7 @@ Frame completed(Frame frame) {
   return frame;
 }
 
-/// What is asked, over and over.
+/// The request that is sent repeatedly.
 struct Question {
   const char* name;
   const char* model;

@@ -1,4 +1,4 @@
-// What a benchmark makes of its samples, and how it says so.
+// Evaluates the samples of a benchmark, and prints the results.
 #pragma once
 
 #include <algorithm>

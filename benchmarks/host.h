@@ -1,4 +1,4 @@
-// A bare Modbus host: a descriptor, a write, a read. It costs the same whoever answers.
+// A bare Modbus host: a descriptor, a write, a read. It costs the same for every server.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class Host {
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
-  /// Writes the request, reads until the reply is full, and tells how long both took. Throws CannotRun,
+  /// Writes the request, reads until the reply is complete, and returns how long both took. Throws CannotRun,
   /// also if a signal interrupts it.
   Nanoseconds exchange(std::span<const std::uint8_t> request, std::span<std::uint8_t> reply) const;
 

@@ -1,4 +1,4 @@
-"""What a step of 1 ms in lockstep costs from Python: UNDERSTUDY_PROGRAM=... PYTHONPATH=python python3 benchmarks/lockstep.py
+"""Measures what a step of 1 ms in lockstep costs from Python:
 
 Prints the median of twenty rounds in microseconds; `limit` is what it may cost.
 """

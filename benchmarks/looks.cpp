@@ -25,7 +25,7 @@ using emulator::serve::Daemon;
 
 constexpr int kStations = 15;
 constexpr int kRounds = 200;
-// Of a piece's time the rest is its last step, which may be begun just before its time is over.
+// The rest of a piece's time is its last step, which may begin just before the limit.
 constexpr double kBar = 2.0;
 
 struct Folder {
@@ -54,7 +54,7 @@ std::string bench_text(const std::string& folder) {
   return text;
 }
 
-/// What the live page asks thirty times a second.
+/// The request that the live page sends thirty times a second.
 std::string names_of_a_page() {
   std::string names;
   for (int i = 1; i <= kStations; ++i) {

@@ -1,4 +1,5 @@
-// What motion costs: planning a move, an axis's tick beside the bare arithmetic of one, a coordinated path.
+// Measures motion: planning a move, an axis's tick compared with the bare arithmetic of one, a coordinated
+// path.
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -57,7 +58,7 @@ double bare_tick(std::size_t axes) {
         const double position = axis.p + t * (axis.v + t * (0.5 * axis.a + t * (axis.j * (1.0 / 6.0))));
         if (position >= axis.low && position <= axis.high) axis.count = static_cast<std::int64_t>(position);
       }
-      // One axis after another, as devices step them: not many at once in wide registers.
+      // Steps one axis after another, as devices do, instead of many at once in wide registers.
       asm volatile("" ::: "memory");
     }
     keep(all);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the live page costs a bench of fifteen stations, and how soon it tells of a change.
+"""Measures what the live page costs a bench of fifteen stations, and how soon it reports a change.
 
 usage: page.py UNDERSTUDY [ROUNDS [SECONDS]]
 
@@ -56,7 +56,7 @@ class Host:
 
 
 class Browser:
-    """A WebSocket with what the page needs of it (RFC 6455)."""
+    """The part of a WebSocket that the page needs (RFC 6455)."""
 
     def __init__(self, address):
         place, self.token = address.split("/#")
@@ -119,7 +119,7 @@ def processor_seconds(pid):
 
 
 class Visit:
-    """A page, and a browser at it that watches everything."""
+    """A page with a browser that watches everything."""
 
     def __init__(self, program, control):
         self.page = subprocess.Popen([program, "page", "--control", control], stdout=subprocess.PIPE, text=True)
@@ -166,7 +166,7 @@ def end_bench(daemon, host):
 
 
 def lateness_us(control):
-    """Median, 99th percentile and worst of the daemon's last wakes."""
+    """Returns the median, the 99th percentile and the maximum of the daemon's recent wake-up delays."""
     with socket.socket(socket.AF_UNIX) as wire:
         wire.connect(control)
         wire.sendall(b'{"do":"status"}\n')
@@ -244,7 +244,7 @@ def main():
     for name, rank in (("median", 0), ("99th percentile", 1), ("worst", 2)):
         line(f"lateness of ticks, {name}, us", *(statistics.median(half[rank] for half in late[works]) for works in (True, False)))
     print(f"{looks} looks at the browser")
-    # A change that was never told counts as later than all others.
+    # A change that was never reported counts as later than all others.
     ranked = sorted(delays) + [float("inf")] * lost
     print(f"change to event at the browser: median {ranked[len(ranked) // 2] * 1000:.1f} ms, 99th percentile "
           f"{ranked[int(len(ranked) * 0.99)] * 1000:.1f} ms, of {len(ranked)}, {lost} never told (bar: median below 50 ms)")

@@ -1,4 +1,4 @@
-// A process to measure: started on a processor of its own choosing, watched from outside.
+// A process to measure: started on a chosen processor, and observed from outside.
 #pragma once
 
 #include <sys/types.h>
@@ -45,7 +45,7 @@ class Process {
 
   /// Processor time of all its threads so far.
   Nanoseconds processor_time() const;
-  /// One line of its standard output, without its end. Throws CannotRun if it ends before.
+  /// Returns one line of its standard output, without the line end. Throws CannotRun if it ends before.
   std::string read_line();
 
   void stop() const;       // it takes no processor time until

@@ -1,4 +1,4 @@
-// What scenarios cost: a whole suite in free time, getting one going, recording it, saving and restoring the
+// Measures scenarios: a whole suite in virtual time, starting one, recording it, saving and restoring the
 // state of a busy world.
 #include <chrono>
 #include <cstdio>

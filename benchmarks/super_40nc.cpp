@@ -103,7 +103,7 @@ void measure_settled() {
   print_verdict("20,000 simulated seconds a second against those", kSettledBar / simulated, 1.00);
 }
 
-/// As many path files and recipes as there are, full.
+/// Fills all path files and recipes.
 std::string full_files() {
   std::string text;
   for (int file = 1; file < 20; ++file) {

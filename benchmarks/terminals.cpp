@@ -1,5 +1,5 @@
-// What terminals cost that rest: a tick of the tests' controller with its 320 grouped terminals, beside the
-// same controller without them, while its motors run and its hand wheel turns.
+// Measures terminals at rest: a tick of the tests' controller with its 320 grouped terminals, compared with
+// the same controller without them, while its motors run and its hand wheel turns.
 #include <chrono>
 #include <cstdio>
 #include <memory>

@@ -1,6 +1,6 @@
-# Outside libraries of which there is an archive become part of the program: each that the loader has to find and to
-# bind adds a fifth of what /bin/true takes to every start, and a program that scripts ask for one value starts often.
-#   understudy_archive(NAME TARGET ARCHIVE): the interface NAME, which is ARCHIVE where it is installed, else TARGET
+# Outside libraries are linked statically if an archive is installed. Each shared library adds a fifth of the run time of
+# /bin/true to every start, and scripts often start a program to ask for one value.
+#   understudy_archive(NAME TARGET ARCHIVE): the interface NAME is ARCHIVE if it is installed, else TARGET
 function(understudy_archive name target archive)
   find_library(archive_of_${name} ${archive})
   add_library(${name} INTERFACE)
@@ -21,9 +21,8 @@ if(archive_of_outside_sqlite)
   target_link_libraries(outside_sqlite INTERFACE m ${CMAKE_DL_LIBS})
 endif()
 
-# A program that starts as fast as it can. It stands at an address of its own: with one that the loader chooses, half a
-# megabyte of tables would have to be told where it is, which takes as long as /bin/true does. Sanitizers choose their
-# own way.
+# Makes a program start as fast as possible. It has a fixed address: otherwise the loader would have to relocate half a
+# megabyte of tables, which takes as long as /bin/true runs. Sanitizers choose their own address.
 function(start_fast target)
   if(UNDERSTUDY_SANITIZERS)
     return()

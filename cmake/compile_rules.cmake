@@ -20,15 +20,15 @@ endif()
 # reordering of floating point, and no -march beyond the baseline.
 add_compile_options(-ffp-contract=off -fno-fast-math)
 
-# A key that a JSON object has not got stops the program in release as well: without this it reads on in any memory.
+# In release builds, too, a missing key of a JSON object stops the program; otherwise it would read arbitrary memory.
 add_compile_options("-DJSON_ASSERT(x)=((x)?void(0):__builtin_trap())")
 
 if(UNDERSTUDY_SANITIZERS)
   add_compile_options(-fsanitize=${UNDERSTUDY_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${UNDERSTUDY_SANITIZERS})
-  add_compile_definitions(_GLIBCXX_ASSERTIONS)  # so that an index beyond the end is told, wherever it points
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)  # so an index beyond the end is reported, wherever it points
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # With sanitizers g++ takes the standard library's own variants for uninitialized (GCC bug 105562).
+    # With sanitizers, g++ thinks that variants in the standard library are uninitialized (GCC bug 105562).
     add_compile_options(-Wno-maybe-uninitialized)
   else()
     add_compile_options(-fno-sanitize=function)  # with it clang 14 cannot compile coroutines
@@ -37,8 +37,8 @@ endif()
 
 find_program(UNDERSTUDY_CCACHE ccache)
 if(UNDERSTUDY_CCACHE)
-  # Without the sloppiness it does not keep what is compiled with precompiled headers. By the compiler's own list of
-  # headers it need not read all of them once more for what it has not got yet.
+  # Without this sloppiness, ccache does not store results that use precompiled headers. CCACHE_DEPEND uses the
+  # compiler's own list of headers, so ccache does not read all headers once more for a new file.
   set(CMAKE_CXX_COMPILER_LAUNCHER
       ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros ${UNDERSTUDY_CCACHE})
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)

@@ -5,15 +5,15 @@ set(UNDERSTUDY_MAINTAINER "Understudy maintainers <maintainers@understudy.invali
     "Whom the Debian package names as its maintainer")
 set(UNDERSTUDY_DEBIAN_REVISION 1)
 
-# The package holds this component. The texts of licences are one of their own: Debian has ours already, and those of
-# the vendored libraries are in the package's `copyright`.
+# The package contains this component. The texts of licences are another component: Debian already has ours, and those
+# of the vendored libraries are in the package's `copyright`.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME understudy)
 
 set(packaging ${CMAKE_CURRENT_LIST_DIR}/../packaging)
 set(scenarios_folder ${CMAKE_INSTALL_DATADIR}/understudy/scenarios)
 
 install(TARGETS understudy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-# The program looks for it in lib/understudy, whatever the libraries' folder is called.
+# The program looks for it in lib/understudy, whatever the name of the libraries' folder is.
 install(TARGETS understudy_tty_shim LIBRARY DESTINATION lib/understudy)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/ DESTINATION ${scenarios_folder} USE_SOURCE_PERMISSIONS
   PATTERN "*.port" EXCLUDE)
@@ -22,13 +22,13 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples ${PROJECT_SOURCE_DIR}/recipes
   PATTERN "__pycache__" EXCLUDE PATTERN ".pytest_cache" EXCLUDE PATTERN "*.port" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
         ${PROJECT_SOURCE_DIR}/SECURITY.md ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
-# What the pages lead to stands beside them as in the source: links from a page to it hold.
+# Files that pages link to are installed at the same relative paths as in the source, so the links work.
 foreach(linked benchmarks/README.md emulator/play/README.md third_party/README.md cmake/rooms.cmake)
   cmake_path(GET linked PARENT_PATH folder)
   install(FILES ${PROJECT_SOURCE_DIR}/${linked} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()
 
-# link_installed(PLACE FOLDER): below the prefix, a link at PLACE to the FOLDER that is installed elsewhere.
+# link_installed(PLACE FOLDER): makes a link, below the prefix, at PLACE to the FOLDER that is installed elsewhere.
 function(link_installed place folder)
   cmake_path(GET place PARENT_PATH parent)
   cmake_path(GET place FILENAME name)
@@ -42,7 +42,7 @@ set(shared ${CMAKE_INSTALL_DATADIR}/understudy)
 link_installed(${CMAKE_INSTALL_DOCDIR}/scenarios ${scenarios_folder})
 link_installed(${CMAKE_INSTALL_DOCDIR}/examples ${shared}/examples)
 link_installed(${CMAKE_INSTALL_DOCDIR}/recipes ${shared}/recipes)
-link_installed(${shared}/docs ${CMAKE_INSTALL_DOCDIR}/docs)  # a scenario's page leads to ../docs
+link_installed(${shared}/docs ${CMAKE_INSTALL_DOCDIR}/docs)  # scenarios/README.md links to ../docs
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 file(GLOB licences CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/third_party/*/LICENSE)
 foreach(licence IN LISTS licences)
@@ -50,7 +50,7 @@ foreach(licence IN LISTS licences)
   install(FILES ${PROJECT_SOURCE_DIR}/${licence} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT licence)
 endforeach()
 
-# Pages, pictures and proofs only; install(DIRECTORY) would leave empty folders where there are none.
+# Pages, pictures and proofs only; install(DIRECTORY) would create empty folders.
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
      ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.svg ${PROJECT_SOURCE_DIR}/docs/*.png
      ${PROJECT_SOURCE_DIR}/docs/fidelity/proofs/*.yaml ${PROJECT_SOURCE_DIR}/docs/fidelity/proofs/*.json)
@@ -59,7 +59,7 @@ foreach(page IN LISTS pages)
   install(FILES ${PROJECT_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()
 
-# What names the prefix, which is known at the installation only.
+# Files that contain the prefix, which is known only at the installation.
 install(CODE "
   set(PACKAGING [[${packaging}]])
   set(STAGING [[${PROJECT_BINARY_DIR}/packaging]])
@@ -73,7 +73,7 @@ install(CODE "
   set(COMPLETIONS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR})
   set(SCHEMAS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/understudy/schemas)
   set(SCENARIOS \${CMAKE_INSTALL_PREFIX}/${scenarios_folder})
-  # systemd looks here below /usr and /usr/local, whatever the libraries' folder is called.
+  # systemd looks here below /usr and /usr/local, whatever the name of the libraries' folder is.
   set(UNITS \${CMAKE_INSTALL_PREFIX}/lib/systemd/system)")
 install(SCRIPT ${packaging}/install_generated.cmake)
 

@@ -28,33 +28,33 @@ function(understudy_room folder)
   refuse_stray_includes(${folder} "${ROOM_KNOWS}" "${ROOM_SEES}")
 endfunction()
 
-# Several sources of a target are one for the compiler, which reads the headers once for all of them: a build from
-# nothing takes half the time or less. So a name in an anonymous namespace is its room's: no two files may use it
-# for different things. The preset `tidy` compiles each file alone: it sees that each includes what it needs.
+# The compiler gets several sources of a target as one, so it reads the headers once for all of them: a build from
+# scratch takes half the time or less. Therefore, no two files of a room may use one name in their anonymous namespaces
+# for different things. The preset `tidy` compiles each file alone: it checks that each includes what it needs.
 set(UNDERSTUDY_TOGETHER 32)  # sources
 function(compile_together target)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD "${UNDERSTUDY_UNITY}" UNITY_BUILD_BATCH_SIZE ${UNDERSTUDY_TOGETHER})
 endfunction()
 
-# For rooms in which nothing is hot: to optimize them would take longer than it ever saves.
+# For rooms without hot code: optimizing them would take longer than it ever saves.
 function(compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # So optimized, g++ 12 sees std::string's operator+ overstep bounds (GCC bug 105651).
+    # At this level, g++ 12 thinks that std::string's operator+ exceeds bounds (GCC bug 105651).
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
   endif()
 endfunction()
 
-# An include of a file of the house that is in none of the `known` folders, its own, nor one of the `seen` files. A
-# room inside its folder is another room.
+# Refuses each include of a project file that is not in one of the `known` folders, in its own folder, or among the
+# `seen` files. A room inside this folder is another room.
 function(refuse_stray_includes folder known seen)
   list(JOIN known "|" folders)
   list(JOIN seen "|" files)
   string(REGEX REPLACE "([.+])" "\\\\\\1" files "${files}")
   set(allowed "^#include \"((${folder}|${folders})/|(${files})\")")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.h ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
-  get_property(inner GLOBAL PROPERTY understudy_rooms)  # those inside this one have rules of their own
+  get_property(inner GLOBAL PROPERTY understudy_rooms)  # rooms inside this one have their own rules
   set_property(GLOBAL APPEND PROPERTY understudy_rooms ${folder})
   list(FILTER inner INCLUDE REGEX "^${folder}/")
   set(unknown ${inner})

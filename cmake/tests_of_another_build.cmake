@@ -1,7 +1,7 @@
-# Tests that another build has compiled, linked with this build's rooms. For sanitizers: what they look at is the product.
-# To compile and run the tests' own code under them as well would take longer than all the rest.
+# Links tests that another build has compiled with this build's rooms. For sanitizers, which check the product:
+# compiling and running the tests' own code under them as well would take longer than everything else.
 
-# Rooms that a room is linked with, and itself.
+# The rooms that a room is linked with, and the room itself.
 function(rooms_of out)
   set(found ${ARGN})
   set(left ${ARGN})
@@ -19,7 +19,7 @@ function(rooms_of out)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
-# The folder of the other build is UNDERSTUDY_TESTS_OF. It is configured if it was not.
+# UNDERSTUDY_TESTS_OF is the folder of the other build. It is configured if it was not.
 function(configure_other_build)
   if(NOT EXISTS ${UNDERSTUDY_TESTS_OF}/compile_commands.json)
     cmake_path(GET UNDERSTUDY_TESTS_OF FILENAME preset)
@@ -46,7 +46,8 @@ function(link_tests_of_another_build target)
   add_executable(${target} ${objects})
   set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
   add_dependencies(${target} ${target}_compiled)
-  # All of the rooms comes before the tests: what both have compiled (templates, inline functions) is taken from here.
+  # All rooms come before the tests, so code that both have compiled (templates, inline functions) is taken from the
+  # rooms.
   rooms_of(rooms ${ARGN})
   set(files)
   foreach(room IN LISTS rooms)

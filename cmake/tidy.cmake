@@ -1,5 +1,5 @@
-# clang-tidy with the checks of .clang-tidy, for the preset `tidy`. Version 19 brings misc-include-cleaner as we use it; a newer
-# one is taken where 19 is not installed, and may find more.
+# clang-tidy with the checks of .clang-tidy, for the preset `tidy`. Version 19 has misc-include-cleaner as we use it. If
+# it is not installed, a newer one is used, which may find more.
 if(NOT UNDERSTUDY_TIDY)
   return()
 endif()

@@ -1,4 +1,4 @@
-// Some things are forbidden to ordinary users alone, so they cannot be seen as the administrator.
+// Some things are forbidden only to ordinary users, so they cannot be tested as the administrator.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 
 namespace understudy {
 
-/// While it lives this process is an ordinary user (nobody) in all its threads, if it was the administrator.
-/// What is in `folder`, and the folder, belongs to that user from then on.
+/// While this object exists, the process is an ordinary user (nobody) in all its threads, if it was the
+/// administrator. `folder` and its contents then belong to that user.
 class OrdinaryUser {
  public:
   explicit OrdinaryUser(const std::string& folder) : was_(geteuid()), was_group_(getegid()) {

@@ -1,4 +1,4 @@
-// What nearly every test includes, compiled once. Tests include what they use all the same.
+// The headers that nearly every test includes, compiled once. Tests still include what they use.
 #pragma once
 
 #include <gtest/gtest.h>

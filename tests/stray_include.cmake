@@ -1,4 +1,4 @@
-# A file that includes what its room may not know is refused by cmake/rooms.cmake; without it nothing is.
+# Tests that cmake/rooms.cmake refuses a file that includes what its room may not know, and accepts the rest.
 # Run as a script: cmake -DPROJECT=... -P stray_include.cmake
 string(RANDOM LENGTH 12 name)
 set(house /tmp/understudy-stray-${name})

@@ -36,7 +36,7 @@ steps:
 
 
 class Shown:
-    """A command of the program that shows a page, and a browser at it."""
+    """A command of the program that shows a page, with a browser."""
 
     def __init__(self, program, words, folder, height):
         self.process = subprocess.Popen([program, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,

@@ -374,7 +374,8 @@ int control(const ControlArguments& arguments) {
     return accepted ? kExitWell : kExitBadInput;
   } catch (const Json::exception&) {
     throw serve::ControlError(
-        path + ": what answers is not an understudy; expected the control socket of `understudy serve`");
+        path +
+        ": this is not the socket of an understudy; expected the control socket of `understudy serve`");
   }
 }
 

@@ -131,8 +131,7 @@ std::optional<serve::WallTime> timeout_of(const ExecArguments& arguments) {
 /// Prints the verdicts of the scenario and returns its exit code.
 int tell_of(const play::SideScenario& side_scenario, const play::Scenario& scenario) {
   if (side_scenario.was_given_up()) {
-    std::fprintf(stderr, "understudy: exec: %s: was not played to its end\n",
-                 one_line(scenario.file).c_str());
+    std::fprintf(stderr, "understudy: exec: %s: did not run to its end\n", one_line(scenario.file).c_str());
     return kExitFailed;
   }
   int code = kExitWell;
@@ -200,7 +199,7 @@ int play(const ExecArguments& arguments, const Serving& serving,
   coverage.write();
   const int scenario_code = side_scenario ? tell_of(*side_scenario, *scenario) : kExitWell;
   if (timed_out) {
-    std::fprintf(stderr, "understudy: exec: %s: ended, as it took longer than %s\n",
+    std::fprintf(stderr, "understudy: exec: %s: was ended because it took longer than %s\n",
                  one_line(arguments.command[0]).c_str(), arguments.timeout.c_str());
     return kExitTimedOut;
   }

@@ -42,8 +42,8 @@ std::uint32_t mask_of(const Spot& spot) {
   return spot.is_whole() ? ~0U : bits(spot.bit, "", spot.width).mask();
 }
 
-/// Of a condition, or a relation, that has none of the signs it may have: what people write for something
-/// else.
+/// Reports a condition or relation without any of its possible signs, and names the sign that people often
+/// write instead.
 void require_known_sign(const YamlFields& field, const std::string& text,
                         std::initializer_list<std::string_view> known, std::string_view expected,
                         std::string_view example) {
@@ -114,7 +114,7 @@ Condition Binder::condition(const YamlFields& field) const {
     field.fail(understudy::quoted(number) + " is not a number; expected one, as in COMMAND == 2");
   const ListedRegister& row = listed(made.spot);
   TypeLimits limits = limits_of(row.type);
-  // What is shown may be beyond the list's range, and so may what is stored as it comes.
+  // Shown values may be beyond the list's range, and so may values that are stored unchecked.
   const bool is_kept_in_range =
       row.ranged && row.access != Access::read && map_.policy().out_of_range != MapPolicy::OutOfRange::stored;
   if (is_kept_in_range)

@@ -145,7 +145,7 @@ class ModelReader {
     });
     read("line", [&](const YamlFields& field) { read_line(field, made_.line, diagnostics_); });
     if (list_is_whole_) diagnostics_.attempt([&] { read_bindings(); });
-    // Only what has been found good: an alias may be inside of what it names.
+    // Only if everything is correct: an alias may be inside the node that it names.
     if (diagnostics_.count() == 0) made_.text = whole_text(root_, list_);
     return std::move(made_);
   }

@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::size_t kMaxRegisters = 20'000;
 
-/// What is taken already, and in which line.
+/// The names and addresses that are taken, and the lines that took them.
 class Taken {
  public:
   void require_free(const ListRow& row, const ListedRegister& listed) const {

@@ -41,7 +41,7 @@ class UnderstudyBench {
   UnderstudyBench(const UnderstudyBench&) = delete;
   UnderstudyBench& operator=(const UnderstudyBench&) = delete;
 
-  /// What a host opens: the port of that line, or of the first one.
+  /// Returns the port that a host opens: the one of that line, or the first one.
   const std::string& port(const std::string& line = "") const {
     return line.empty() ? first_port_ : ports_.at(line);
   }
@@ -63,7 +63,7 @@ class UnderstudyBench {
     for (const std::string& word : words) message += " " + word;
     throw std::runtime_error(message + " failed");
   }
-  /// One register, bit or terminal, past the line.
+  /// Reads one register, bit or terminal, without using the line.
   long get(const std::string& name) const {
     const std::string line = ctl({"get", name});  // "feeder.Cord_A 3200"
     return std::stol(line.substr(line.rfind(' ')));

@@ -1,4 +1,4 @@
-"""A host's course of moves and faults, and the least of it that goes wrong.
+"""Finds the shortest course of moves and faults for which a host goes wrong.
 
 The host below believes the controller's counter. Hypothesis finds a course after which the machine is elsewhere, and
 shrinks it: this test fails on purpose. One bench serves all courses; each begins with a restored snapshot.
@@ -9,7 +9,7 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, 
 
 
 class Host:
-    """What would be your program: it talks to the controller, and keeps a position of its own."""
+    """This part would be your program: it talks to the controller, and keeps its own position."""
 
     def __init__(self, bench):
         self.bench = bench
@@ -56,11 +56,11 @@ class Course(RuleBasedStateMachine):
         assert self.bench.eval("A.position") == self.host.position_pulses
 
 
-@pytest.mark.understudy(model="simple2-r3", record=None)  # what is recorded cannot go back
+@pytest.mark.understudy(model="simple2-r3", record=None)  # a bench that is being recorded cannot go back
 def test_course(bench):
     bench.snapshot("begin")
     Course.bench = bench
-    # The simulation is exact, so what failed once fails again: nothing here is left to chance.
+    # The simulation is deterministic, so a failing course fails again.
     machine = Course.TestCase
     machine.settings = settings(max_examples=100, stateful_step_count=10, deadline=None, derandomize=True, database=None)
     machine().runTest()

@@ -1,5 +1,6 @@
-"""Reads register 0x0001 of station 1 through labgrid's SerialDriver: `read_code.py [CONFIGURATION]`. Beside it serves
-`understudy serve --model simple2-r3 --link ./feeder.port`, for network.yaml with `--listen rtu://127.0.0.1:5020`.
+"""Reads register 0x0001 of station 1 through labgrid's SerialDriver: `read_code.py [CONFIGURATION]`. Meanwhile
+`understudy serve --model simple2-r3 --link ./feeder.port` serves the controller (for network.yaml with `--listen
+rtu://127.0.0.1:5020`).
 """
 import os
 import sys

@@ -1,11 +1,12 @@
 #!/bin/sh
-# A host in a shell script: one revolution of axis A, and a look whether it arrived. Its exit code says so.
+# A host in a shell script: it moves axis A by one revolution, and checks that it arrived. Its exit code shows the
+# result.
 set -eu
 
-# Registers of 16 bits, a decimal each.
+# Reads 16-bit registers, each as a decimal number.
 read_word() { mbpoll -q -m rtu -b 19200 -P even -a 1 -0 -r "$1" -1 "$UNDERSTUDY_PORT" | sed -n 's/^\[.*\]:[[:space:]]*\([0-9]*\).*/\1/p'; }
 write_word() { mbpoll -q -m rtu -b 19200 -P even -a 1 -0 -r "$1" "$UNDERSTUDY_PORT" -- "$2" >/dev/null; }
-# Registers of 32 bits, the low word first, as this controller has them.
+# Reads 32-bit registers, low word first, as this controller stores them.
 read_long() { mbpoll -q -m rtu -b 19200 -P even -a 1 -0 -t 4:int -r "$1" -1 "$UNDERSTUDY_PORT" | sed -n 's/^\[.*\]:[[:space:]]*\(-\{0,1\}[0-9]*\).*/\1/p'; }
 write_long() { mbpoll -q -m rtu -b 19200 -P even -a 1 -0 -t 4:int -r "$1" "$UNDERSTUDY_PORT" -- "$2" >/dev/null; }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A host with pymodbus: one revolution of axis A there and back, and a look whether it arrived.
+"""A host with pymodbus: it moves axis A one revolution forth and back, and checks that it arrived.
 
 Written for pymodbus 3.0 of Debian 12. The port is that of `understudy exec`.
 """
@@ -23,7 +23,7 @@ def require(reply):
 
 
 def write_long(client, address, value):
-    """A register of 32 bits: its low word first."""
+    """Returns the words of a 32-bit register, the low word first."""
     builder = BinaryPayloadBuilder(byteorder=Endian.Big, wordorder=Endian.Little)
     builder.add_32bit_int(value)
     require(client.write_registers(address, builder.to_registers(), slave=STATION))
@@ -43,8 +43,8 @@ def move_by(client, pulses):
             sys.exit("feed.py: axis A does not stop; expected it within 5 s")
 
 
-# As the controller wants it: 19200 baud, even parity. pymodbus sets the parity after opening and takes a
-# pseudo-terminal's refusal for an error; `understudy exec --tty-shim` takes care of that.
+# The controller needs 19200 baud and even parity. pymodbus sets the parity after opening, and treats a
+# pseudo-terminal's refusal as an error; `understudy exec --tty-shim` prevents that.
 client = ModbusSerialClient(os.environ["UNDERSTUDY_PORT"], baudrate=19200, parity="E", timeout=1)
 for pulses, target in ((3200, 3200), (-3200, 0)):
     if not client.connect():

@@ -26,14 +26,15 @@ std::size_t place_of(const CommandRow& row, std::string_view name) {
   return kMaxParameters;
 }
 
-/// A parameter of the same command that decides whether another is used; nothing while it is a variable.
+/// Returns a parameter of the same command that decides whether another one is used; nothing if it is a
+/// variable.
 std::optional<std::uint32_t> deciding(const Command& command, std::string_view name) {
   const std::size_t place = place_of(command.row(), name);
   if (is_reference(command, place)) return std::nullopt;
   return command.values[place];
 }
 
-/// A segment of a mixed stream: lines have an end, circles a centre, arcs both.
+/// Returns true if a segment of a mixed stream uses a point: lines have an end, circles a centre, arcs both.
 bool uses_point(const Command& command, std::string_view point) {
   const std::optional<std::uint32_t> shape = deciding(command, "nType");
   if (!shape) return false;
@@ -83,7 +84,7 @@ bool is_good(const Command& command, std::size_t parameter, const CommandOptions
   return false;
 }
 
-/// The radius of a rectangle whose corners are longer than its sides.
+/// Returns the index of a rectangle's radius if it exceeds half a side.
 std::optional<std::size_t> bad_radius(const Command& command) {
   const std::size_t radius = place_of(command.row(), "Rp");
   if (is_reference(command, radius)) return std::nullopt;
@@ -93,7 +94,8 @@ std::optional<std::size_t> bad_radius(const Command& command) {
   return std::nullopt;
 }
 
-/// Ends that are printed as numbers, whatever MAX_V is (3.4, 3.17, 7.1): what the device else clamps.
+/// Limits that are printed as numbers, whatever MAX_V is (3.4, 3.17, 7.1). Otherwise the device clamps the
+/// values.
 struct SpeedEnds {
   Verb verb;
   std::int64_t least;
@@ -128,7 +130,7 @@ std::optional<std::size_t> beyond_ends(const Command& command, std::size_t param
   return parameter;
 }
 
-/// Whose sections say that a variable may stand for a constant (5.2.1, 9.3 to 9.8).
+/// Commands whose sections say that a variable may replace a constant (5.2.1, 9.3 to 9.8).
 constexpr Verb kSayReferences[] = {Verb::frnet_out, Verb::set_var, Verb::var_calculate,
                                    Verb::for_,      Verb::if_,     Verb::timer};
 
@@ -139,7 +141,7 @@ std::optional<std::size_t> first_reference(const Command& command) {
   return std::nullopt;
 }
 
-/// What only some options refuse.
+/// Returns the first parameter that only some options refuse.
 std::optional<std::size_t> bad_by_choice(const Command& command, const CommandOptions& options) {
   const Verb verb = command.verb();
   if (options.speeds_have_ends) {
@@ -231,7 +233,7 @@ std::string expected_of(const Command& command, std::size_t parameter) {
     case Kind::point_if_used: break;
   }
   if (row.width == Width::real) return "a real number";
-  // Good by itself: it is the sides that it does not fit.
+  // The radius itself is in range, but does not fit the sides.
   const bool is_radius = command.verb() == Verb::rectangle && row.name == "Rp";
   if (is_radius && row.lists(command.number(parameter)) && bad_radius(command)) {
     return "at most half of Lp and of Wp";

@@ -67,7 +67,7 @@ std::optional<std::size_t> bad_parameter(const Command& command, const CommandOp
 
 /// Returns the first wrong operator of IF, or the first wrong operand or operator of VAR_CALCULATE.
 std::optional<std::size_t> bad_operand(const Command& command);
-/// Like bad_operand(), as Fault::comparison or Fault::operand, for which the download has codes of their own.
+/// Like bad_operand(), as Fault::comparison or Fault::operand, which have their own codes in the download.
 Fault operand_fault(const Command& command);
 
 /// Returns what is expected of a parameter: "1 to 7", "an axis mask (X to XYZU)", "VAR0 to VAR511".

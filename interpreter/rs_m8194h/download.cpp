@@ -21,7 +21,7 @@ bool is_label(const Command& command, std::uint32_t number) {
   return command.verb() == Verb::label && command.values[0] == number;
 }
 
-/// What is wrong with a line by the block it stands in, the innermost one.
+/// The fault of a line in each kind of block; the innermost block counts.
 struct BlockRule {
   Verb verb;
   Fault outside;
@@ -34,7 +34,7 @@ constexpr auto kBlockRules = std::to_array<BlockRule>({
     {Verb::next, Fault::next_outside, Fault::next_outside, Fault::none},
     {Verb::label, Fault::none, Fault::label_in_if, Fault::label_in_for},
 });
-/// And by how many blocks of its kind are open, innermost or not.
+/// The fault of a line by how many blocks of its kind are open, innermost or not.
 struct DepthRule {
   Verb verb;
   Verb opener;
@@ -95,7 +95,7 @@ void fail(Download& download, Fault fault, std::uint16_t code, std::size_t line,
   download.line = static_cast<std::uint16_t>(line);
 }
 
-/// A GOTO to a label that has not come.
+/// Returns a GOTO whose label did not come, or null.
 const Command* lost_jump(const std::vector<Command>& lines) {
   const auto lost = std::ranges::find_if(lines, [&lines](const Command& jump) {
     return jump.verb() == Verb::goto_ && std::ranges::none_of(lines, [&jump](const Command& command) {

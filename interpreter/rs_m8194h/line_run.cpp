@@ -21,7 +21,7 @@
 namespace understudy::interpreter::rs_m8194h {
 namespace {
 
-/// What FRNET_WAIT waits for, in one number.
+/// Packs what FRNET_WAIT waits for into one number.
 constexpr std::uint32_t packed(std::uint32_t group, std::uint32_t channel, std::uint32_t level) {
   return (level << 16U) | (group << 8U) | channel;
 }
@@ -61,7 +61,7 @@ class LineRun {
     return Ran::on;
   }
   Ran go_on() { return go_to(level().line + std::size_t{1}); }
-  /// The line is done; what it waits for is looked at from now on.
+  /// Completes the line. From now on the run checks whether the wait is over.
   Ran wait(Hold what, std::int64_t until_ms, std::uint32_t awaited = 0) {
     go_on();
     hold(run_, what, until_ms, awaited);
@@ -165,7 +165,7 @@ class LineRun {
 
   Ran skip(const Command&) { return go_to(leads_to_); }
 
-  /// Labels stand outside all blocks.
+  /// Labels are outside of all blocks.
   Ran go_to_label(const Command&) {
     level().loops.clear();
     return go_to(leads_to_);
@@ -238,7 +238,7 @@ class LineRun {
     return go_on();
   }
 
-  /// What the machine is not asked to carry out.
+  /// The lines that the interpreter executes itself.
   using Action = Ran (LineRun::*)(const Command&);
   static const CompleteTable<Verb, Action> kActions;
 

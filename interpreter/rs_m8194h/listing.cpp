@@ -147,7 +147,7 @@ class ListingReader {
     }
   }
 
-  /// The first error of a macro is the one that counts: those behind it may come from it.
+  /// Reports only the first error of a macro, because it may cause the later ones.
   void fail_structure(const Token& place, const Download& download) {
     if (is_sound_) {
       fail(place, std::string(name_of(download.code)) + ": " + std::string(row_of(download.fault).meaning));
@@ -158,7 +158,7 @@ class ListingReader {
   void end_macro() {
     if (!download_) return;
     Closed closed = close(*download_);
-    // Of a macro that has an error already the line is not CLOSE's, and may be none that was taken.
+    // After an earlier error, the line may not be CLOSE's, or may not be one that was accepted.
     if (closed.fault != Fault::none && is_sound_) fail_structure(places_[download_->line], *download_);
     if (closed.macro) {
       listing_.macros.push_back({download_->name, std::move(*closed.macro)});

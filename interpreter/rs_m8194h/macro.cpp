@@ -15,7 +15,7 @@
 namespace understudy::interpreter::rs_m8194h {
 namespace {
 
-/// What a line does to the blocks that are open before it. Lines that close what is not open do nothing.
+/// Updates the open blocks for a line. A line that closes a block that is not open does nothing.
 void advance(Blocks& blocks, const Command& command, std::size_t line) {
   const Verb verb = command.verb();
   const bool is_in_if = !blocks.empty() && blocks.back().opener == Verb::if_;

@@ -20,12 +20,12 @@ bool is_at_end(const Run& run, const Machine& machine) {
   return macro == nullptr || level.line >= macro->size();
 }
 
-/// Leaves levels whose macro has no more lines. A wait in the last line comes to its end first.
+/// Leaves levels whose macro has no more lines. A wait in the last line ends first.
 void leave_ended(Run& run, const Machine& machine) {
   while (run.is_alive() && run.hold == Hold::nothing && is_at_end(run, machine)) run.levels.pop_back();
 }
 
-/// What has ended is gone.
+/// Removes runs that have ended.
 void settle(Execution& execution, Machine& machine) {
   for (Run& isr : execution.isrs) leave_ended(isr, machine);
   std::erase_if(execution.isrs, [](const Run& isr) { return !isr.is_alive(); });
@@ -36,7 +36,7 @@ void settle(Execution& execution, Machine& machine) {
   machine.mp_ended();
 }
 
-/// Waits are watched while an ISR is at work, too.
+/// Checks waits, also while an ISR runs.
 void watch(Execution& execution, std::int64_t now_ms, const RunOptions& options, Machine& machine) {
   const auto look = [&](Run& run) {
     const bool is_watched = run.hold != Hold::nothing && run.hold != Hold::machine;
@@ -72,7 +72,7 @@ Run started(bool is_isr, int number, std::int64_t first_ms) {
   return run;
 }
 
-/// The loops of a level are those that its next line stands in.
+/// Returns true if the loops of a level are those around its next line.
 bool is_sound_level(const Run& run, const Level& level, const Machine& machine) {
   const MacroName name = name_of_level(run, level);
   const Macro* macro = exists(name) ? machine.macro(name) : nullptr;

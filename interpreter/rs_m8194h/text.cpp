@@ -54,7 +54,7 @@ std::string text_of_axes(std::uint32_t mask, bool takes_initial) {
   return is_initial ? "INITIAL_" + letters_of(mask & kAllAxes) : std::to_string(mask);
 }
 
-/// What is not a number is written as its bits.
+/// Formats a real. NaN and infinity are written as their bits.
 std::string text_of_real(std::uint32_t bits) {
   const auto real = std::bit_cast<float>(bits);
   if (!std::isfinite(real)) return hexadecimal(bits);
@@ -158,7 +158,7 @@ std::optional<std::int64_t> variable_of(std::string_view text, bool is_byte) {
   return *number + (is_byte ? kByteVariable0 : kVariable0);
 }
 
-/// The registers' value; whether it is in its range is checked later.
+/// Returns the value for the registers; the range is checked later.
 std::optional<std::int64_t> value_of(std::string_view text, const Parameter& row, bool is_macro_line) {
   if (row.width == Width::real) return real_of(text);
   switch (row.kind) {
@@ -188,7 +188,7 @@ std::optional<std::int64_t> value_of(std::string_view text, const Parameter& row
   return parse_integer(text);
 }
 
-/// What the registers of a parameter can hold.
+/// Returns true if the registers of a parameter can hold the value.
 bool fits(std::int64_t value, Width width) {
   switch (width) {
     case Width::byte: return value >= 0 && value <= 0xFFFF;
@@ -232,8 +232,8 @@ std::optional<std::uint16_t> code_of(std::string_view name) {
   return found->second;
 }
 
-/// Without its beginning a name is a whole one still; and as all names share theirs, what lies behind it is
-/// compared. One that has the word in it is nearer than one that is spelt alike.
+/// Returns the nearest names. All names share their beginning, so a name without it is still complete, and
+/// only the rest is compared. A name that contains the word is nearer than one with a similar spelling.
 std::string nearest_names(const std::string& word) {
   constexpr std::string_view kBeginnings[] = {"RSM_MACRO_", "RSM_ABS_MACRO_", "RSM_ABS_", "RSM_"};
   std::string_view own = word;
@@ -313,7 +313,7 @@ ParsedCommand parse_command(std::span<const Token> tokens, const CommandOptions&
   }
   if (const std::optional<std::size_t> bad = bad_parameter(command, options)) {
     if (bad_parameter(command)) return misfit(*bad);
-    // Its range is not the reason.
+    // A choice refuses it, not its range.
     return failed(tokens[*bad + 1], "parameter " + std::string(row.parameters[*bad].name) + ": " +
                                         quoted(tokens[*bad + 1].text) +
                                         " is refused by a choice of the bench; expected " +

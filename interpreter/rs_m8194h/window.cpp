@@ -55,7 +55,8 @@ bool has_two_orders(const ComparisonRow& row) {
   return row.text.size() == 2 && row.comparison != Comparison::equal;
 }
 
-/// The operator of IF in its usual form. What an option does not take becomes no operator at all.
+/// Returns the operator of IF in its usual form. A form that the options do not accept becomes an invalid
+/// operator.
 std::uint32_t comparison_of(std::uint32_t sent, const CommandOptions& options) {
   const ComparisonRow* const row = find_comparison(sent);
   if (row == nullptr) return sent;
@@ -69,7 +70,7 @@ std::uint32_t comparison_of(std::uint32_t sent, const CommandOptions& options) {
   return is_other || (is_single && options.single_signs_are_refused) ? 0 : row->codes[0];
 }
 
-/// The other way round: the form that the options take.
+/// The reverse: returns the form that the options accept.
 std::uint32_t sent_as(std::uint32_t comparison, const CommandOptions& options) {
   const ComparisonRow* const row = find_comparison(comparison);
   const bool is_other = row != nullptr && comparison == row->codes[0] && has_two_orders(*row) &&

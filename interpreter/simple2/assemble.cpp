@@ -1,5 +1,5 @@
-// Two rounds over a listing: the first reads lines and puts cells in their places, the second gives labels
-// their flags and fills them in.
+// Assembles a listing in two passes: the first reads lines and stores cells, the second assigns flags to
+// labels and fills them in.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -30,7 +30,7 @@ std::string lower_case(std::string_view name) {
   return text;
 }
 
-/// "JMP7" and "@7" name a cell's value themselves.
+/// Returns the digits of "JMP7" or "@7", which give a cell's value directly.
 std::string_view digits_of_flag(std::string_view text) {
   if (text.starts_with('@')) return text.substr(1);
   const std::string_view digits = after_prefix(text, "JMP");
@@ -59,7 +59,7 @@ class Assembler {
   }
 
  private:
-  /// When all of the text was read.
+  /// Called after the whole text was read.
   void look_at_labels() {
     if (pending_.mark)
       fail(*pending_.mark, "label", quoted(pending_.mark->text) + " does not mark a line", "an instruction");
@@ -67,7 +67,7 @@ class Assembler {
     fill_in_flags();
   }
 
-  /// What stands before an instruction, or alone on the lines of text above it.
+  /// The marks before an instruction, or alone on the lines above it.
   struct Marks {
     std::vector<Token> names;         // labels that get a flag of their own
     std::optional<Token> mark;        // the first of them
@@ -85,7 +85,7 @@ class Assembler {
     errors_.push_back({token.line, token.column, std::move(field), std::move(what), std::move(expected)});
   }
 
-  // --- first round -----------------------------------------------------------------------------
+  // --- first pass ------------------------------------------------------------------------------
 
   void read(const std::vector<Token>& tokens) {
     std::size_t at = 0;
@@ -215,7 +215,8 @@ class Assembler {
     return text;
   }
 
-  /// What is meant by a word of another language, or the nearest one by its letters, if one is near.
+  /// Returns the equivalent of another language's word, or the nearest instruction by spelling, if one is
+  /// near.
   static std::string expected_instruction(std::string_view word) {
     struct ForeignWord {
       std::string_view word;
@@ -242,7 +243,7 @@ class Assembler {
     return nearest ? "an instruction (nearest: '" + *nearest + "')" : "an instruction, such as Delay_mSec";
   }
 
-  /// Puts a line in its place with the marks before it, and says which it is.
+  /// Stores a line with the marks before it, and returns its number.
   int put(const Token& word, const Line& code) {
     const int number = next_++;
     const Marks marks = std::exchange(pending_, {});
@@ -264,7 +265,7 @@ class Assembler {
     return number;
   }
 
-  // --- second round ----------------------------------------------------------------------------
+  // --- second pass -----------------------------------------------------------------------------
 
   void give_flags() {
     std::array<bool, 256> is_taken{};
@@ -300,7 +301,7 @@ class Assembler {
     check_that_flags_lead_to_labels();
   }
 
-  /// Of several lines with a flag the last one has it: a label on another would lead astray.
+  /// The last of several lines with a flag has it, so a label on another line would mislead.
   void check_that_flags_lead_to_labels() {
     std::array<std::size_t, 256> last{};
     for (std::size_t place = 0; place < lines_.size(); ++place) last[lines_[place].flag] = place;

@@ -25,7 +25,7 @@ struct Dialect {
   /// When "No LOOP inside a LOOP" ends the program: when a Loop is reached while one around it counts, or
   /// already when the outer Loop is reached for the first time (0x04).
   enum class LoopNesting : std::uint8_t { when_met, when_outer_starts } loop_nesting = LoopNesting::when_met;
-  /// What a command does that is not in the list.
+  /// What an unknown command does.
   enum class UnknownCommand : std::uint8_t {
     does_nothing,
     ends
@@ -49,7 +49,7 @@ struct Dialect {
     never_jumps,
     always_jumps
   } timer1_defect = Timer1Defect::never_jumps;
-  /// What an input, output, STATUS bit, counter or timer does that does not exist: it is OFF or 0 and has no
+  /// What an input, output, STATUS bit, counter or timer that does not exist does: it is OFF or 0 and has no
   /// effect, or it ends the program.
   enum class UndefinedOperand : std::uint8_t {
     harmless,
@@ -66,7 +66,7 @@ struct Dialect {
     ignored,
     ends
   } read_only_parameter = ReadOnlyParameter::ignored;
-  /// How an operand is read that should be 1 for ON or 0 for OFF, and is neither: as ON, or by its lowest
+  /// How an operand that should be 1 for ON or 0 for OFF, but is neither, is read: as ON, or by its lowest
   /// bit.
   enum class Logic : std::uint8_t { not_zero_is_on, lowest_bit } logic = Logic::not_zero_is_on;
   /// What happens to a value that a register, a delay or a command cannot hold.
@@ -74,14 +74,14 @@ struct Dialect {
     clamped,
     low_16_bits
   } value_out_of_range = ValueOutOfRange::clamped;
-  /// What happens to a result beyond 32 bits with a sign.
+  /// What happens to a result beyond signed 32 bits.
   enum class Overflow : std::uint8_t { wraps, saturates } overflow = Overflow::wraps;
   /// In which direction a quotient is rounded; the remainder follows from it.
   enum class Division : std::uint8_t { towards_zero, downwards } division = Division::towards_zero;
   /// What happens to a counter that is counted or set beyond 0 to 65535.
   enum class CounterOverflow : std::uint8_t { wraps, saturates } counter_overflow = CounterOverflow::wraps;
 
-  /// What a jump or a Loop does with flag 0, or with a flag beyond the last: as with a flag that no line has,
+  /// What a jump or a Loop to flag 0, or to a flag beyond the last, does: it acts as if no line had the flag,
   /// or the line has no effect.
   enum class UndefinedFlag : std::uint8_t { line_0, line_void } undefined_flag = UndefinedFlag::line_0;
   /// How Jump_Timer*_GE compares 32 bits.
@@ -90,8 +90,8 @@ struct Dialect {
     with_sign
   } timer_compare = TimerCompare::without_sign;
 
-  /// What a line does whose move is cut short while it waits: the line is over, or it waits until a later
-  /// move is complete, or the program ends.
+  /// What a waiting line does if its move is cut short: it is over, or it waits until a later move is
+  /// complete, or the program ends.
   enum class WaitCutShort : std::uint8_t {
     line_is_over,
     waits_on,

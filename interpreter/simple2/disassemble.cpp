@@ -13,7 +13,7 @@ namespace understudy::interpreter::simple2 {
 namespace {
 
 constexpr std::size_t kLabelWidth = 8;
-/// `.at` steps over at least this many lines of nothing but zeros.
+/// `.at` replaces at least this many lines of zeros.
 constexpr int kLongGap = 4;
 
 std::string padded(std::string text) {
@@ -21,7 +21,7 @@ std::string padded(std::string text) {
   return text;
 }
 
-/// "Loop JMP1 3", or nothing if a cell holds what this form cannot say.
+/// Returns "Loop JMP1 3", or nothing if this form cannot express a cell.
 std::optional<std::string> instruction_text(const Line& line) {
   const Instruction* const instruction = find_instruction(line.command);
   if (instruction == nullptr) return std::nullopt;
@@ -53,7 +53,7 @@ std::string cells_text(const Line& line) {
   return text;
 }
 
-/// The line that has its flag for good is labelled with it; others that carry it too only show their cell.
+/// Labels the line that has the flag; other lines with the same flag only show their cell.
 std::string mark_text(const Program& program, int number) {
   const std::uint8_t flag = program.line(number).flag;
   if (flag == 0) return {};

@@ -18,7 +18,7 @@ struct NumberedNames {
   std::string_view prefix;
 };
 
-// The manual's aliases carry the number of the parameter.
+// The manual's aliases contain the parameter number.
 constexpr NumberedNames kNumbered[] = {
     {0, 31, "MEM"},
     {32, 63, "VAR"},

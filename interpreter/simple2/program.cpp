@@ -56,7 +56,7 @@ void Program::flag_written(int number, std::uint8_t flag_before) {
   if (is_flag(flag_before) && line_of_flag_[flag_before] == number) find_flag(flag_before);
   const std::uint8_t flag = line(number).flag;
   if (!is_flag(flag) || is_behind_end(number)) return;
-  // The order of writes is known of this line alone: of the others the last one counts in any case.
+  // The order of writes is known only for this line. Among the others, the last line counts in any case.
   std::int16_t& counts = line_of_flag_[flag];
   const bool is_last_written = rules_.several == FlagRules::Several::last_written;
   if (is_last_written || number > counts) counts = static_cast<std::int16_t>(number);

@@ -10,7 +10,8 @@
 namespace understudy::interpreter::slim {
 namespace {
 
-// For rows without columns: what makes sense in a program only, and what makes sense typed only.
+// For rows without columns: commands that make sense only in a program, and commands that make sense only if
+// typed.
 constexpr Verb kForPrograms[] = {
     Verb::jump,    Verb::jump_if,    Verb::jump_if_within, Verb::call,
     Verb::return_, Verb::wait_input, Verb::wait_time,      Verb::wait_done,
@@ -21,11 +22,11 @@ constexpr Verb kForHosts[] = {
     Verb::download,     Verb::exit,           Verb::list_parameters, Verb::reboot,
 };
 
-/// What a host does to a memory; some machines have their programs do it, too.
+/// Commands with which a host changes the memory; in some machines the programs do it, too.
 constexpr Verb kSaves[] = {Verb::save_data, Verb::save_parameters, Verb::save_program,
                            Verb::default_parameters};
 
-/// What a host needs although the column 外部 does not print it: to look, and to get out of a pause.
+/// Commands that a host needs although the column 外部 does not print them, such as those that end a pause.
 constexpr Verb kLetThrough[] = {
     Verb::resume_all,   Verb::abandon_all,    Verb::pause,        Verb::redo,          Verb::clear_buffer,
     Verb::set_port_now, Verb::clear_port_now, Verb::servo_on_now, Verb::servo_off_now,
@@ -43,7 +44,7 @@ bool is_variable_schema(const CommandRow& row) { return row.slots[0] == Slot::re
 
 bool is_allowed(const Command& command, Place place, const Columns& columns) {
   const CommandRow& row = kCommands[static_cast<std::size_t>(command.row)];
-  // What is typed has nobody to wait for a number.
+  // A typed command cannot wait for a number.
   if (place != Place::program && asks_host(command)) return false;
   switch (place) {
     case Place::program:
@@ -54,7 +55,7 @@ bool is_allowed(const Command& command, Place place, const Columns& columns) {
       if (row.immediate == Printed::yes) return true;
       return columns.variable_forms == Columns::VariableForms::typed_too && is_variable_schema(row);
     case Place::external:
-      // It leaves a running program: nowhere else has it a meaning.
+      // EXIT leaves a running program; it has no meaning elsewhere.
       if (row.external == Printed::yes || row.verb == Verb::exit) return true;
       if (row.verb == Verb::reset) return columns.external == Columns::External::with_reset;
       return columns.external != Columns::External::strict && is_let_through(row);

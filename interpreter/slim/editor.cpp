@@ -17,7 +17,7 @@ namespace {
 
 constexpr char kEscape = '\x1B';
 
-/// From 0; -1 for line 0 where lines have numbers from 1.
+/// Returns the line number from 0; -1 for line 0 if lines are numbered from 1.
 int line_named_by(const Command& command, const ProgramOptions& options) {
   return static_cast<int>(command.operands.at(0).number) - options.first_number;
 }
@@ -30,7 +30,7 @@ bool is_end(Editor::Mode mode, std::string_view text, const ProgramOptions& opti
   return word.empty() && options.empty_line == ProgramOptions::EmptyLine::ends_editing;
 }
 
-/// What a command begins to edit with.
+/// What an editing command starts with.
 struct Desk {
   Editor& editor;
   Program& program;
@@ -78,7 +78,7 @@ constexpr CompleteTable<Verb, Beginning> kBeginnings(kEditingVerbs, kBeginningRo
 
 Error begin_edit(Editor& editor, Program& program, const Command& command, const ProgramOptions& options) {
   if (!kBeginnings.has(command.verb)) return Error::syntax;
-  // Without a number behind it the command names no line.
+  // The command names no line if no number follows it.
   const int line = command.operands.empty() ? 0 : line_named_by(command, options);
   return kBeginnings[command.verb]({editor, program, options, line});
 }
@@ -89,7 +89,7 @@ Error enter_line(Editor& editor, Program& program, std::string_view text, const 
     editor = {};
     return Error::none;
   }
-  // Ignored where empty lines end nothing; a file sent by a terminal may have them.
+  // Ignored if empty lines do not end the editing; a file sent by a terminal may contain them.
   if (without_blanks(text).empty()) return Error::none;
   const auto one_line = [&](Error error) {
     const bool is_over =

@@ -16,8 +16,8 @@ struct EventOptions {
   /// Whether an event fires whose condition is already true when it becomes complete (SET EV and ON EV) or
   /// when the program starts, or waits until the condition has been false.
   enum class AtArming : std::uint8_t { fires, waits_for_change } at_arming = AtArming::fires;
-  /// Whether an event fires that came during another event's routine, and whose condition is false again at
-  /// its RET.
+  /// Whether an event that occurs during another event's routine fires if its condition is false again at the
+  /// RET.
   enum class Held : std::uint8_t { fires, is_dropped } held = Held::fires;
   /// Conditions are checked in the milliseconds that this divides; changes in between are not seen.
   int look_every_ms = 1;

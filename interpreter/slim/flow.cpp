@@ -32,7 +32,7 @@ void finish(Execution& execution, Ending ending, Error error = Error::none) {
   execution = {.ending = ending, .error = error, .line = execution.line, .events = std::move(events)};
 }
 
-/// Whether GETI or GETR stands in the line, and which of them.
+/// Returns which of GETI and GETR the line contains, if any.
 std::optional<Kind> asked_of_host(const Command& command) {
   if (command.verb == Verb::get_integer) return Kind::get_integer;
   if (command.verb == Verb::get_real) return Kind::get_real;
@@ -42,7 +42,7 @@ std::optional<Kind> asked_of_host(const Command& command) {
   return asking->kind;
 }
 
-/// The first moment of those that `every_ms` divides which is not before `ms`.
+/// Returns the first multiple of `every_ms` that is not before `ms`.
 std::int64_t moment_from(std::int64_t ms, int every_ms) {
   const std::int64_t past_ms = ms % every_ms;
   return past_ms == 0 ? ms : ms + (every_ms - past_ms);
@@ -96,7 +96,7 @@ class LineRun {
     return std::ranges::any_of(command.operands, &Operand::index_is_variable);
   }
 
-  /// With the host's number and with indices in place of what asks for them.
+  /// Runs the command with the host's number and with indices in place of the operands that need them.
   Error run_changed(const Command& asking) {
     const std::optional<Kind> asked = asked_of_host(asking);
     if (asked && !execution_.has_number) return hold(Hold::number);
@@ -122,7 +122,7 @@ class LineRun {
     return outcome.waits ? hold(Hold::machine) : go_on();
   }
 
-  /// The routine of an event goes on to its RET, behind which the program is over.
+  /// Lets the routine of an event continue to its RET, after which the program is over.
   void forget_what_was_interrupted() {
     for (Frame& frame : execution_.stack) {
       if (frame.of_event) frame = {.line = program_.size(), .of_event = true};
@@ -139,7 +139,7 @@ class LineRun {
     return run_command(command);
   }
 
-  /// An event keeps its variable index: it is read anew at every look.
+  /// Returns the line as written: an event keeps its variable index, which is read again at every check.
   const Command& original() const { return *program_.line(execution_.line).parsed.command; }
 
   Condition condition_of(const Command& command) const {
@@ -216,7 +216,7 @@ class LineRun {
     return Error::none;
   }
 
-  /// A program ends at once behind its last line.
+  /// Continues at a line. A program ends at once after its last line.
   Error go_to(int line) {
     hold(Hold::nothing);
     if (line >= program_.size()) return end(Ending::past_last_line);
@@ -229,7 +229,7 @@ class LineRun {
     return Error::none;
   }
 
-  /// What the machine is not asked for.
+  /// The commands that the interpreter executes itself.
   using Action = Error (LineRun::*)(const Command&);
   static const CompleteTable<Verb, Action> kActions;
 
@@ -256,9 +256,10 @@ constexpr CompleteTable<Verb, LineRun::Action> LineRun::kActions(
                     {Verb::get_real, &LineRun::take_bare_number},
                 }));
 
-/// Goes to the routine of the event whose turn it is, if any.
+/// Enters the routine of the event whose turn it is, if any.
 Error serve_events(Execution& execution, const Program& program, const FlowOptions& options) {
-  // A line that has its number from the host is carried out first: the routine would take the number.
+  // A line that has received its number from the host runs first; otherwise the routine would take the
+  // number.
   if (in_event_routine(execution) || execution.has_number) return Error::none;
   const std::optional<Operand> address = take_event(execution.events);
   if (!address) return Error::none;
@@ -272,7 +273,7 @@ Error serve_events(Execution& execution, const Program& program, const FlowOptio
   return Error::none;
 }
 
-/// A number in a form and range that GETI or GETR takes.
+/// Reads a number in a form and range that GETI or GETR accepts.
 Error read_number(std::string_view text, Kind asked, const Dialect& dialect, double& number) {
   const std::optional<Operand> read = parse_number(text);
   if (!read) return Error::syntax;
@@ -286,7 +287,8 @@ Error read_number(std::string_view text, Kind asked, const Dialect& dialect, dou
   return number >= -kMax && number <= kMax ? Error::none : Error::range;
 }
 
-/// The first tick after `done_ms` in which a line may do anything, or the next event has its turn.
+/// Returns the first tick after `done_ms` in which a line may do anything, or in which the next event has its
+/// turn.
 std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
                           const FlowOptions& options, const Machine& machine) {
   const std::int64_t next_ms = moment_from(done_ms + 1, options.lines_every_ms);
@@ -315,7 +317,7 @@ std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, cons
   return next_ms;
 }
 
-/// The routine of an event while no program runs: it is one, from the next tick on.
+/// Starts the routine of an event while no program runs: from the next tick on, the routine is a program.
 Error run_lonely_event(Execution& execution, std::int64_t now_ms, const Program& program,
                        const FlowOptions& options, const Machine& machine) {
   if (options.events_need_program) return Error::none;
@@ -371,7 +373,7 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
   if (!execution.running) return run_lonely_event(execution, now_ms, program, options, machine);
   LineRun line(execution, now_ms, program, options, machine);
   const bool is_lines_turn = now_ms % options.lines_every_ms == 0;
-  // A wait that is over is over before an event can make it begin again.
+  // A wait that is over ends before an event can restart it.
   if (is_lines_turn && execution.hold == Hold::timer && now_ms >= execution.until_ms) line.go_on();
   if (!execution.running) return Error::none;
   Error event_error = Error::none;

@@ -25,14 +25,14 @@ using Kind = Operand::Kind;
 ParseResult refused(Error error) { return {.error = error}; }
 ParseResult understood(Command command) { return {.line = {.command = std::move(command)}}; }
 
-/// The first word of a row's name, as it stands behind a prefix.
+/// Returns the first word of a row's name, as it follows a prefix.
 constexpr std::string_view head_of(const CommandRow& row) {
   std::string_view head = row.command;
   if (head.starts_with("Tp")) head.remove_prefix(2);
   return head.substr(0, head.find(' '));
 }
 
-/// What a word of a line is compared with, row by row.
+/// The part of a row that a word of a line is compared with.
 struct RowKey {
   enum class Schema : std::uint8_t { plain, assignment, query };
   Schema form = Schema::plain;
@@ -46,7 +46,7 @@ struct RowKey {
         takes_module(row.takes_module()),
         head(row.is_query() ? row.command.substr(1) : head_of(row)) {}
 
-  /// By a word in capitals.
+  /// Compares with a word in upper case.
   constexpr bool is_called(std::string_view word) const {
     return std::equal(head.begin(), head.end(), word.begin(), word.end(),
                       [](char a, char b) { return capital(a) == b; });
@@ -59,14 +59,15 @@ constexpr auto keys_of(std::index_sequence<i...>) {
 }
 constexpr auto kRowKeys = keys_of(std::make_index_sequence<kCommands.size()>());
 
-/// A word with its `Tn` taken off.
+/// A word without its prefix `Tn`.
 struct Prefixed {
   bool has_prefix = false;
   int module = -1;
   std::string word;
 };
 
-/// A digit directly behind the T, or two (T15, of sixteen): TX, TM and TAPZ have none.
+/// Splits off a prefix: one digit directly after the T, or two (T15, for sixteen modules). TX, TM and TAPZ
+/// have none.
 Prefixed split_prefix(std::string word) {
   const bool has_prefix = word.size() >= 2 && word[0] == 'T' && is_digit(word[1]);
   if (!has_prefix) return {.word = std::move(word)};
@@ -78,7 +79,7 @@ bool is_no_module(const Prefixed& name) { return name.has_prefix && name.module 
 
 bool is_variable_word(std::string_view word) { return is_numbered(word, "N") || is_numbered(word, "R"); }
 
-/// Letters, then letters and digits; not what names a variable or a map of axes.
+/// Returns true for letters followed by letters and digits, except names of variables and axis maps.
 bool is_parameter_name(std::string_view word) {
   static constexpr std::array<std::string_view, 9> kOthers{"TX", "TY", "TZ", "TW", "AIN",
                                                            "N",  "R",  "NS", "RS"};
@@ -89,7 +90,7 @@ bool is_parameter_name(std::string_view word) {
   return true;
 }
 
-/// The best of what several rows make of the same operands.
+/// Keeps the better result of several rows for the same operands.
 void keep_better(ParseResult& best, bool is_first, Error error) {
   if (is_first || error == Error::range) best.error = error;
 }
@@ -122,7 +123,7 @@ ParseResult parse_plain(const Prefixed& name, std::string_view rest, const Diale
   return best;
 }
 
-/// Behind the "=" of a row that has a name of its own, or of any parameter.
+/// Parses the part after "=", for a row with its own name or for any parameter.
 ParseResult assign(const Prefixed& name, int row_number, std::string_view data, const Dialect& dialect) {
   const CommandRow& row = kCommands[static_cast<std::size_t>(row_number)];
   const std::array<std::string_view, 1> items{without_blanks(data)};
@@ -131,12 +132,12 @@ ParseResult assign(const Prefixed& name, int row_number, std::string_view data, 
   Command command{.verb = row.verb, .row = row_number, .module = name.module};
   command.operands = std::move(operands.operands);
   if (row.verb == Verb::set_parameter) command.name = name.word;
-  // AIN=N0: the variable is what receives.
+  // In AIN=N0, the variable receives the value.
   if (row.verb == Verb::set_variable) command.operands.push_back({.kind = Kind::analog});
   return understood(std::move(command));
 }
 
-/// What is not a variable is taken for R#: its error is found elsewhere.
+/// Returns the row of a variable. Anything else is taken for R#: its error is found elsewhere.
 int row_of_variable(Kind kind, bool is_query) {
   if (is_query) return holds_integer(kind) ? row_of("?N#") : row_of("?R#");
   if (is_array(kind)) return holds_integer(kind) ? row_of("NS(i)=data") : row_of("RS(i)=data");
@@ -174,7 +175,7 @@ ParseResult parse_assignment(const Prefixed& name, std::string_view data, const 
   return assign(name, name.has_prefix ? row_of("Tp<name>=data") : row_of("<name>=data"), data, dialect);
 }
 
-/// The row that the query has without a prefix; -1 for a parameter.
+/// Returns the row of a query without a prefix; -1 for a parameter.
 int find_query(std::string_view word) {
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     if (kRowKeys[i].form == RowKey::Schema::query && kRowKeys[i].is_called(word)) return static_cast<int>(i);

@@ -16,13 +16,13 @@
 namespace understudy::interpreter::slim {
 namespace {
 
-/// As a line of a program, it would cut the program off when that is sent back with DLP.
+/// Returns true if the line would end the transfer of its program with DLP.
 bool ends_transfer(std::string_view text) {
   const std::string word = in_capitals(text);
   return word == "END" || word == "EXIT" || text.find('\x1B') != std::string_view::npos;
 }
 
-/// `$A NONSENSE` is a place to jump to all the same.
+/// Returns the label of a line. `$A NONSENSE` is still a valid target of jumps.
 std::string label_of(std::string_view text) {
   if (!text.starts_with('$')) return {};
   return parse_line(text.substr(0, text.find_first_of(" \t"))).line.label;
@@ -30,13 +30,13 @@ std::string label_of(std::string_view text) {
 
 }  // namespace
 
-/// A line that fails as it runs is stored with its error; its label is a place to jump to all the same.
+/// Stores a line that fails when it runs, with its error; its label is still a valid target of jumps.
 Program::Checked Program::failing(Checked checked, std::string_view text) {
   if (checked.error == Error::none) return checked;
   return {.line = {.text = std::string(text), .parsed = {.label = label_of(text)}, .error = checked.error}};
 }
 
-/// The line that `text` makes, whatever the others are.
+/// Checks the line of `text` alone, without the other lines.
 Program::Checked Program::check_alone(std::string_view text, const ProgramOptions& options) {
   ParseResult result = parse_line(text, options.dialect);
   if (result.error != Error::none) return {.error = result.error};
@@ -69,8 +69,8 @@ Program::Checked Program::check(std::string_view text, int replaced, const Progr
   return checked;
 }
 
-/// With Check::as_run: which of the lines with this label fail follows from the lines alone, not from the
-/// order in which they were entered, so that a program that is saved and read again is the same.
+/// With Check::as_run, the lines alone decide which of those with this label fail, not the order in which
+/// they were entered, so a program is the same after it is saved and loaded.
 void Program::judge_label(const std::string& label, const ProgramOptions& options) {
   if (label.empty() || options.check != ProgramOptions::Check::as_run ||
       options.same_label != ProgramOptions::SameLabel::refused) {

@@ -31,7 +31,7 @@ struct Range {
 constexpr Range kNoNegatives{0, std::numeric_limits<std::int32_t>::max()};
 constexpr Range kAnyReal{-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
 
-/// Of an integer variable.
+/// The range of an integer variable.
 constexpr Range integer_range(const Dialect& dialect) {
   return {static_cast<double>(dialect.integer_least), kIntegerMost};
 }
@@ -46,7 +46,7 @@ Error in_range(double number, Range range) {
 
 Error check_whole(const Operand& operand, Range range) {
   if (operand.kind == Kind::integer) return in_range(operand.number, range);
-  // Digits beyond what a whole number holds are a wrong value, a fraction is another kind of thing.
+  // A whole number that is too large is a wrong value; a fraction is a different kind of operand.
   const bool is_huge = operand.kind == Kind::real && std::abs(operand.number) >= 0x1p53;
   return is_huge ? Error::range : Error::syntax;
 }
@@ -83,7 +83,7 @@ Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
   return Error::syntax;
 }
 
-/// What an assignment gives. A real variable takes integers, too; a parameter takes any number.
+/// Checks the value of an assignment. A real variable takes integers, too; a parameter takes any number.
 Error check_data(Operand& operand, const Operand* target, const Dialect& dialect) {
   const bool is_number = is_constant(operand) || (operand.kind == Kind::quantity && dialect.quantities) ||
                          is_variable(operand.kind) || operand.kind == Kind::analog ||
@@ -98,12 +98,13 @@ Error check_data(Operand& operand, const Operand* target, const Dialect& dialect
   return is_constant(operand) ? check_typed(operand, false, dialect) : Error::none;
 }
 
-/// Syntax weighs more than range: what is not a command at all has no value that could be wrong.
+/// Adds an error. Syntax errors take precedence over range errors, because the values of an invalid command
+/// do not matter.
 void add_error(Error& sum, Error error) {
   if (sum == Error::none || error == Error::syntax) sum = error;
 }
 
-/// One after the other, until a syntax error.
+/// Matches items with slots one after the other, until a syntax error.
 class Matching {
  public:
   Matching(const CommandRow& row, std::span<const std::string_view> items, const Operand* target,
@@ -124,7 +125,7 @@ class Matching {
   static constexpr bool rules_are_in_order();
 
  private:
-  /// How the operand of a slot is read, and checked if nothing but itself matters.
+  /// How the operand of a slot is read, and how it is checked if other operands do not matter.
   struct Rule {
     Slot slot;
     void (Matching::*take)(Slot) = &Matching::take_one;
@@ -243,7 +244,7 @@ class Matching {
       items_ = items_.subspan(1);
     }
   }
-  /// Its word is in the same item as the event; what follows is checked like the operands of a jump.
+  /// The condition's word is in the same item as the event; the rest is checked like the operands of a jump.
   void take_condition(Slot /*slot*/) {
     const auto word = std::ranges::find(kConditionWords, in_capitals(condition_));
     items_ = items_.subspan(1);
@@ -264,7 +265,7 @@ class Matching {
   void take_comparison() {
     take(Slot::comparand);
     const Kind kind = result_.operands.back().kind;
-    // An event is looked at every tick; it cannot wait for the host.
+    // An event is checked every tick, so it cannot wait for the host.
     if (asks_host(kind)) add_error(result_.error, Error::syntax);
     take(Slot::variable);
   }

@@ -16,7 +16,7 @@
 namespace understudy::interpreter::slim {
 namespace {
 
-/// What the parser makes of the command's text again.
+/// Returns true if the parser makes the same command from the command's text.
 bool reads_back(const Command& command, const Dialect& dialect) {
   const ParseResult result = parse_line(text_of(command), dialect);
   return result.error == Error::none && result.line.command == command;
@@ -31,7 +31,7 @@ bool is_sound(const Event& event, int number, const Dialect& dialect) {
     command.operands.push_back({.kind = Operand::Kind::condition, .index = word});
     command.operands.insert(command.operands.end(), event.operands.begin(), event.operands.end());
     const bool has_known_kinds = std::ranges::none_of(event.operands, [](const Operand& operand) {
-      // No condition has one, and their text needs a right index.
+      // No condition contains these kinds, whose text needs a valid index.
       return operand.kind >= Operand::Kind::event && operand.kind != Operand::Kind::quantity;
     });
     if (!has_known_kinds || !reads_back(command, dialect)) return false;

@@ -18,7 +18,7 @@ namespace lang = interpreter::slim;
 
 namespace {
 
-/// Holds whatever any device may hold.
+/// The options under which a program can hold everything that any device can hold.
 constexpr lang::ProgramOptions kAnyProgram{
     .dialect = lang::kWidestDialect, .capacity = 4000, .check = lang::ProgramOptions::Check::as_run};
 
@@ -37,7 +37,7 @@ void StateOf<lang::Operand>::check(const lang::Operand& operand) {
 }
 
 void StateOf<lang::Event>::check(const lang::Event& event) {
-  // As many operands as its condition looks at.
+  // The number of operands depends on the condition.
   const bool compares = event.condition >= lang::Condition::equal;
   require_state(!event.has_condition || event.operands.size() == (compares ? 2U : 1U),
                 "an event looks at something else");

@@ -34,7 +34,7 @@ constexpr ForeignWord kForeign[] = {{"GOTO", "JP addr"},
                                     {"HOME", "H"},
                                     {"MOVE", "MA x or MR x"}};
 
-/// Behind a label, in capitals: "T1MA", and as the table has it, "TpMA".
+/// Returns the word after the label, in upper case: "T1MA", and as the table has it, "TpMA".
 std::string word_of(std::string_view line) {
   if (line.starts_with('$')) line = without_blanks(line.substr(std::min(line.find(' '), line.size())));
   std::string word = take_word(line);
@@ -43,7 +43,7 @@ std::string word_of(std::string_view line) {
   return word;
 }
 
-/// "SET" of "SET EV".
+/// Returns "SET" for "SET EV".
 std::string first_word(std::string_view command) { return std::string(command.substr(0, command.find(' '))); }
 
 }  // namespace

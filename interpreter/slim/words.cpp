@@ -28,7 +28,7 @@ constexpr double kExactWhole = 9007199254740992.0;  // 2^53: beyond, a double do
 Item wrong(Error error) { return {.error = error}; }
 Item right(Operand operand) { return {.operand = std::move(operand)}; }
 
-/// Digits alone; a number too long to matter is a large one.
+/// Reads digits only; a number that is too long becomes a large one.
 std::optional<int> whole_number(std::string_view digits) {
   if (digits.empty()) return std::nullopt;
   int number = 0;
@@ -82,7 +82,7 @@ Item parse_name(const std::string& word) {
     if (index < form.least || index > form.most) return wrong(Error::range);
     return right({.kind = form.kind, .index = index});
   }
-  // Whether there is such a thing, and whether it may stand there, is another question.
+  // Other code checks whether the name exists and is allowed here.
   const bool is_word = !word.empty() && is_letter(word.front()) &&
                        std::ranges::all_of(word, [](char c) { return is_letter(c) || is_digit(c); });
   return is_word ? right({.kind = Kind::quantity, .text = word}) : wrong(Error::syntax);
@@ -91,7 +91,7 @@ Item parse_name(const std::string& word) {
 // U+201C, U+201D and U+FF02.
 constexpr std::array<std::string_view, 3> kWideQuotes{"\xE2\x80\x9C", "\xE2\x80\x9D", "\xEF\xBC\x82"};
 
-/// The position of the first full-width quote.
+/// Returns the position of the first full-width quote.
 std::size_t find_wide_quote(std::string_view text) {
   std::size_t first = std::string_view::npos;
   for (const std::string_view quote : kWideQuotes) first = std::min(first, text.find(quote));
@@ -143,7 +143,7 @@ std::optional<Operand> parse_number(std::string_view text) {
     text.remove_prefix(1);
     if (text.starts_with('-')) return std::nullopt;
   }
-  // from_chars() takes "inf" and "nan" too, so the form is judged here.
+  // from_chars() also accepts "inf" and "nan", so this code checks the form.
   std::size_t at = text.starts_with('-') ? 1 : 0;
   const std::size_t whole_digits = count_digits(text, at);
   at += whole_digits;
@@ -167,7 +167,7 @@ std::optional<Operand> parse_number(std::string_view text) {
 
   Operand operand{.kind = Kind::real};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), operand.number);
-  // Too large for a double, or too small: from_chars() leaves the number alone then.
+  // The number is too large or too small for a double; from_chars() then does not change it.
   if (error == std::errc::result_out_of_range) {
     const std::size_t exponent = text.find_first_of("eE");
     const bool is_small = exponent != std::string_view::npos && text.substr(exponent + 1).starts_with('-');

@@ -322,7 +322,7 @@ class Checker {
     }
   }
 
-  /// A label that an area before has as well.
+  /// Looks for labels that an earlier area has as well.
   void look_at_common_labels() {
     std::map<std::int32_t, std::pair<std::size_t, int>> first;  // area, step
     for (const AreaRow& row : kAreas) {

@@ -60,7 +60,7 @@ inline constexpr auto kForeignWords = std::to_array<ForeignWord>({
     {"GOTO", "JMP"},
 });
 
-/// What a letter is elsewhere that begins no operand here.
+/// The meaning in other languages of a letter that does not begin an operand here.
 struct ForeignLetter {
   char letter;
   std::string_view what;      // "an index register"
@@ -81,7 +81,7 @@ bool is_of_data(std::string_view word) {
   return row != nullptr && row->group == Group::data;
 }
 
-/// LDD=, ANDD>, DADD: with a D where 32 bits are meant. Empty if it is none of these.
+/// Removes the D of 32-bit instructions (LDD=, ANDD>, DADD). Returns an empty text for other words.
 std::string without_width(const std::string& word) {
   std::string narrow = word.starts_with('D') ? word.substr(1) : word;
   const std::size_t relation = word.find_first_of("=<>");

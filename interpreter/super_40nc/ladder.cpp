@@ -30,7 +30,7 @@ constexpr bool is_edge_contact(Op op) {
 constexpr bool is_falling(Op op) { return op == Op::ldf || op == Op::orf || op == Op::anf; }
 constexpr bool is_plain(Operand operand) { return !is_special(operand); }
 
-/// Those that have a step of their own, if what they switch or write is plain.
+/// Instructions that have their own kind of step, if the device that they switch or write is a plain one.
 constexpr std::pair<Op, Act> kActs[] = {
     {Op::anb, Act::join_series},  {Op::orb, Act::join_parallel}, {Op::mps, Act::branch},
     {Op::mrd, Act::branch_again}, {Op::mpp, Act::branch_last},   {Op::inv, Act::invert},
@@ -148,7 +148,7 @@ class LadderMaker {
     step.flags = is_kept(bit) ? kKept : 0;
   }
 
-  /// b: the preset; c: the value. The contact is in a.
+  /// Makes the step of a timer or counter: a is the contact, b the preset, c the value.
   void make_count(const Instruction& line, LadderStep& step) {
     const Operand what = line.fields[0];
     const bool is_timer = what.letter == Letter::t;
@@ -195,7 +195,8 @@ class LadderMaker {
     if (line.op == Op::fmv) note(second, third.letter == Letter::k ? third.number : INT32_MAX);
   }
 
-  /// A timer may be left to run only if nobody sees it do so, and if it is alone.
+  /// Marks timers whose value is read, or that another instruction uses as well: these must not run
+  /// unobserved.
   void look_at_timers() {
     std::set<std::uint32_t> seen = timers_read_;
     for (const std::uint32_t index : ladder_.timers_) {

@@ -25,7 +25,7 @@ constexpr std::int32_t wrapped(std::int64_t value) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(value));
 }
 
-/// The register behind another one of its block; unset at its end.
+/// Returns the register after another one of its block; unset at the end of the block.
 Operand next_to(Operand reg) {
   const Block* const block = block_of(reg);
   if (block == nullptr || reg.number == block->last) return {};
@@ -55,7 +55,7 @@ Calculated divide(const Instruction& line, Access& access, const Options& option
   return result;
 }
 
-/// FMV: registers in ascending order, so that each of them acts in its turn.
+/// FMV: writes registers in ascending order, so each write takes effect in its turn.
 Calculated fill(const Instruction& line, Access& access, const Options& options) {
   const std::int64_t count = access.value(line.fields[2]);
   const Block* const block = block_of(line.fields[1]);
@@ -72,7 +72,7 @@ Calculated fill(const Instruction& line, Access& access, const Options& options)
   return result;
 }
 
-/// ZRST. The higher end stands first only where that is chosen.
+/// ZRST. The higher end comes first only if a choice allows it.
 Calculated clear(const Instruction& line, Access& access, const Options& options) {
   const auto [first, last] = std::minmax(line.fields[0].number, line.fields[1].number);
   const bool is_alone =

@@ -19,7 +19,7 @@
 namespace understudy::interpreter::super_40nc {
 namespace {
 
-/// Of a timer that no scan has seen since RUN.
+/// The memory of a timer that no scan has seen since RUN.
 constexpr std::int32_t kNotTimedYet = INT32_MIN;
 constexpr auto kWatchedPart = static_cast<int>(Area::plc);
 
@@ -139,7 +139,7 @@ class Scan {
     return (relation_of(first, second) & step.flags) != 0;
   }
 
-  /// Whether the bit has just come to be ON, or OFF.
+  /// Returns true at the bit's rising or falling edge.
   bool edge(const LadderStep& step) {
     const bool is_on = contact(step);
     const bool was_on = remember(step.memory, is_on);
@@ -160,7 +160,7 @@ class Scan {
     if ((flags & kKept) != 0) machine_.kept_cell_written(cell);
   }
 
-  /// Its value is 0 in the scan that turns it ON, and grows with each later one.
+  /// Runs a timer. Its value is 0 in the scan that turns it ON, and grows in each later one.
   void time(const LadderStep& step) {
     const bool is_on = result();
     const bool was_on = remember(step.memory, is_on);
@@ -198,7 +198,7 @@ class Scan {
     if (plc_.timed.size() <= step.memory) plc_.timed.resize(std::size_t{step.memory} + 1, kNotTimedYet);
     return plc_.timed[step.memory];
   }
-  /// What somebody else has made of its value, where that does not count.
+  /// Undoes a write to the timer's value, if a choice ignores such writes.
   void take_back(const LadderStep& step) {
     if (!options_.timers_ignore_writes || timed(step) == kNotTimedYet) return;
     put(step.c, static_cast<std::uint32_t>(timed(step)), step.flags);
@@ -248,7 +248,7 @@ void run(PlcState& plc, const Ladder& ladder, Machine& machine, const Options& o
     const bool sees_present = !options.contacts_rise_at_run;
     if (is_edge && sees_present)
       plc.memories[step.memory] = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
-    // A timer goes on if it is still ON.
+    // A timer that is still ON continues.
     if (step.act == Act::timer) plc.memories[step.memory] = machine.cells()[step.c] != 0 ? 1 : 0;
   }
   if (options.modes_stay_at_run && std::exchange(plc.has_modes, true)) return;
@@ -314,7 +314,7 @@ void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t s
     const std::int64_t present = static_cast<std::int32_t>(cells[timer.c]);
     if (present >= preset) continue;
     const bool is_kept = (timer.flags & kKept) != 0;
-    // The memory tells how often it has changed: of a latched timer, as often as scan by scan.
+    // A retentive value is saved once for each scan, so it is counted scan by scan.
     for (std::int64_t scan = is_kept ? 1 : scans; scan <= scans; ++scan) {
       cells[timer.c] = static_cast<std::uint32_t>(present + scan);
       if (is_kept) machine.kept_cell_written(timer.c);

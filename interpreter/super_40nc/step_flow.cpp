@@ -82,7 +82,7 @@ StepPrograms::Slice StepPrograms::carry_out(Area area, const Instruction& line) 
   return advance(area, line);  // LAB, ENDI, NOP; CJ, CJN and IF that do not jump
 }
 
-/// Unless what the line did has stopped its program, or has moved the pointer elsewhere.
+/// Advances to the next line, unless the line has stopped its program or moved the pointer.
 StepPrograms::Slice StepPrograms::advance(Area area, const Instruction& line) {
   StepState& program = state(area);
   if (!program.owns_pointer) return Slice::goes_on;
@@ -150,13 +150,13 @@ StepPrograms::Slice StepPrograms::wait(Area area, const Instruction& line, bool 
   return Slice::is_over;
 }
 
-/// Whether it waits by a register that is read in each scan.
+/// Returns true if the line waits for a time in a register that is read in each scan.
 bool StepPrograms::follows_register(Area area) const {
   const int line = code(area).line_at(state(area).step);
   return options_.waits_follow_registers && line >= 0 && code(area).line(line).fields[0].letter == Letter::d;
 }
 
-/// Reads its time once. It goes on so many ticks after the one that has reached it.
+/// Reads the time once, and waits that many ticks after the one that has reached the line.
 StepPrograms::Slice StepPrograms::wait_for_time(Area area, const Instruction& line) {
   StepState& program = state(area);
   if (program.left_ms > 0) {
@@ -197,7 +197,7 @@ StepPrograms::Slice StepPrograms::read_contact(Area area, const Instruction& lin
   return advance(area, line);
 }
 
-/// Whether the next line belongs to the contacts before it: all of them are read at once.
+/// Returns true if the next line belongs to the contacts before it, which are all read at once.
 bool StepPrograms::is_in_group(Area area) const {
   const int line = code(area).line_at(state(area).step);
   if (state(area).phase != Phase::executing || line < 0) return false;
@@ -205,7 +205,7 @@ bool StepPrograms::is_in_group(Area area) const {
   return (is_contact(op) && !begins_block(op)) || joins_blocks(op) || reads_group(op);
 }
 
-/// STP, STR: in every program their fields are X, Y, Z, U; no field is set: C.
+/// STP, STR: in every program their fields are X, Y, Z, U. If no field is set, they mean C.
 StepPrograms::Slice StepPrograms::control(Area area, const Instruction& line) {
   const AxisValues values = axis_values(line, access_);
   const AxisSet axes = chosen_axes(values);

@@ -26,7 +26,7 @@ Plane StepPrograms::plane() const {
   return static_cast<Plane>(std::clamp(machine_.special_register(named::kPlane), 0, 2));
 }
 
-/// What does not move anything by itself.
+/// Executes instructions that do not move anything themselves.
 StepPrograms::Slice StepPrograms::set_mode(Area area, const Instruction& line) {
   StepState& program = state(area);
   if (has(row_of(line.op).void_in, area)) {
@@ -56,7 +56,7 @@ StepPrograms::Slice StepPrograms::set_mode(Area area, const Instruction& line) {
   return advance(area, line);
 }
 
-/// Of an axis program only the first field counts, and means its own axis.
+/// In an axis program, only the first field counts, and it means the program's own axis.
 AxisValues StepPrograms::values_of(Area area, const Instruction& line) const {
   if (area == Area::c) return axis_values(line, access_);
   AxisValues values;
@@ -67,7 +67,7 @@ AxisValues StepPrograms::values_of(Area area, const Instruction& line) const {
   return values;
 }
 
-/// Whether the program goes on without them.
+/// Removes the axes that the program may not move. Returns true if the program continues without them.
 bool StepPrograms::drop_what_it_may_not_move(Area area, AxisValues& values) {
   bool is_void = false;
   for (int axis = 0; axis < kAxisCount; ++axis) {
@@ -85,7 +85,8 @@ bool StepPrograms::drop_what_it_may_not_move(Area area, AxisValues& values) {
   return false;
 }
 
-/// D9005: a LIN or an arc that another one follows is not waited for: they are run through.
+/// D9005: the program does not wait for a LIN or an arc that is followed by another one, so the corner is run
+/// through.
 bool StepPrograms::goes_on_by_path(Area area, const Instruction& line) const {
   const auto is_path = [](Op op) { return op >= Op::lin && op <= Op::ccwr; };
   if (!options_.joins_paths || !is_path(line.op) || is_single_step(area)) return false;
@@ -162,7 +163,7 @@ StepPrograms::Slice StepPrograms::move(Area area, const Instruction& line) {
   return begin_motion(area, line, Drive{values, program.targets, program.rpm, waits}, waits);
 }
 
-/// Both axes of the plane have to be C's.
+/// Begins an arc. Both axes of the plane must belong to C.
 StepPrograms::Slice StepPrograms::begin_arc(Area area, const Instruction& line) {
   const StepState& program = state(area);
   const auto field = [&](std::size_t i) {

@@ -18,7 +18,7 @@ void StepPrograms::report(Area area, Code code) {
   machine_.report(code, area, base_of(area, options_) + state(area).step);
 }
 
-/// An error that stops the program.
+/// Reports an error that stops the program.
 void StepPrograms::fail(Area area, Code code) {
   report(area, code);
   forget(area);
@@ -28,7 +28,7 @@ void StepPrograms::fail(Area area, Code code) {
 
 void StepPrograms::take(Event event, Area area) {
   const Reaction reaction = reaction_of(event, state(area).phase);
-  // A pause that is due when its motion is over is called off.
+  // A start cancels a pause that would begin when the motion is over.
   const bool runs_on = event == Event::start && reaction == Reaction::nothing;
   if (runs_on && !machine_.is_held_in_reset(area)) set_contact(area, true);
   switch (reaction) {
@@ -72,7 +72,7 @@ void StepPrograms::start(Area area) {
   take(Event::start, area);
 }
 
-/// Starts, or goes on.
+/// Starts or continues the program.
 void StepPrograms::begin(Area area, Reaction how) {
   StepState& program = state(area);
   if (machine_.is_held_in_reset(area)) return set_contact(area, false);
@@ -99,7 +99,7 @@ void StepPrograms::resume(Area area) {
   StepState& program = state(area);
   program.waits_to_resume = false;
   program.phase = std::exchange(program.resumes, Phase::executing);
-  // What cannot go on any more, because of a limit, resets it.
+  // A motion that cannot continue because of a limit resets the program.
   if (std::exchange(program.machine_holds, false)) machine_.go_on(area);
 }
 
@@ -118,7 +118,7 @@ void StepPrograms::load_modes(Area area) {
   machine_.set_special_register(named::kPlane, machine_.parameter_in_force(named::kDefaultPlane));
 }
 
-/// As at power-up, but for its modes and speeds.
+/// Resets the state as at power-up, except for the modes and speeds.
 void StepPrograms::clear(Area area) {
   StepState& program = state(area);
   StepState cleared;
@@ -166,7 +166,7 @@ void StepPrograms::freeze(Area area) {
   set_contact(area, false);
 }
 
-/// C goes on at the same step; a wait for the same goes on.
+/// C continues at the same step; a wait for the same condition continues.
 void StepPrograms::change_file(Area area) {
   StepState& program = state(area);
   if (program.phase != Phase::waiting || program.waits_to_resume) return;
@@ -175,7 +175,7 @@ void StepPrograms::change_file(Area area) {
   if (line < 0 || code(area).line(line).op != Op::tmr) program.left_ms = 0;
 }
 
-/// Of a program that runs: behind its motion, or at once.
+/// Moves the pointer of a running program: after its motion, or at once.
 void StepPrograms::move_pointer(StepState& program, int step) {
   program.owns_pointer = false;
   if (program.phase == Phase::moving || program.phase == Phase::homing) {
@@ -245,7 +245,7 @@ void StepPrograms::run_slice(Area area) {
   }
 }
 
-/// Whether an instruction begins at its step; else the program is over.
+/// Returns true if an instruction begins at the program's step; otherwise the program is over.
 bool StepPrograms::finds_line(Area area) {
   StepState& program = state(area);
   if (code(area).line_at(program.step) >= 0) return true;

@@ -90,14 +90,14 @@ class Structure {
     }
   }
 
-  /// In step programs look_at_group() does it.
+  /// Requires a block before the line. In step programs, look_at_group() checks this.
   void require_block() {
     if (blocks_ == 0 && area_ == Area::plc) fault(Code::logic, "has no condition", "a block before it");
   }
 
   bool is_loose_allowed() const { return options_.loose_groups == Options::LooseGroups::take_last_result; }
 
-  /// In step programs contacts are for the jump behind them.
+  /// In step programs, contacts belong to the jump after them.
   void look_at_group(Op op) {
     if (is_loose_allowed()) return;
     const bool goes_on = is_contact(before_) || joins_blocks(before_) || reads_group(before_);

@@ -1,4 +1,4 @@
-"""What a process has left behind."""
+"""Looks for what a process has left behind."""
 import os
 import time
 
@@ -11,7 +11,7 @@ def gone(still, within_s=15):
 
 
 def mentioned(text):
-    """The processes whose command line has it."""
+    """Returns the processes whose command line contains the text."""
     found = []
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:

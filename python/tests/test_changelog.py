@@ -1,4 +1,4 @@
-"""packaging/changelog.py: what it refuses, and what it makes of fragments."""
+"""Tests packaging/changelog.py: what it refuses, and what it makes from fragments."""
 import pathlib
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""The client against the program, UNDERSTUDY_PROGRAM."""
+"""Tests the client with the program in UNDERSTUDY_PROGRAM."""
 import os
 import pathlib
 import re
@@ -21,7 +21,7 @@ MOVE = {"Aaxis_SVON": 1, "Aaxis_Pulse": 1000, "Aaxis_Speed": 60, "Aaxis_AccTime"
 
 @pytest.fixture
 def folders():
-    """For the folders of benches: a longer path would not be taken."""
+    """A longer path would not be accepted for the folders of benches."""
     made = tempfile.mkdtemp(prefix="client-")
     yield pathlib.Path(made)
     shutil.rmtree(made)
@@ -145,7 +145,7 @@ def test_another_protocol_is_refused_and_ends(monkeypatch, folders, needed):
 
 
 class Answering:
-    """Stands in for the connection to a program that is not this one: it answers `identify` alone."""
+    """Replaces the connection to another version of the program: it answers only `identify`."""
 
     def __init__(self, **versions):
         self.versions, self.is_closed = versions, False
@@ -259,7 +259,7 @@ def test_what_is_looked_at(bench):
 
 
 def answers(control):
-    """A socket is there a moment before somebody listens."""
+    """A socket exists for a moment before the program listens on it."""
     try:
         understudy.attach(control).close()
     except understudy.NotThere:
@@ -373,7 +373,7 @@ def test_bits_and_inputs_may_be_true(bench):
 
 
 class Number:
-    """As numpy's, which JSON does not know."""
+    """A number like numpy's, which JSON does not know."""
 
     def __init__(self, value):
         self.value = value

@@ -1,4 +1,4 @@
-"""tests/growth.py and what it is made of: what counts as a member, a table, a call, and what it refuses."""
+"""Tests tests/growth.py and its parts: what counts as a member, a table or a call, and what is refused."""
 import pathlib
 import sys
 
@@ -13,7 +13,7 @@ import outline  # noqa: E402
 
 
 def edges(**sources):
-    """Of files whose names have `_h` and `_cpp` for `.h` and `.cpp`."""
+    """Reads files whose names have `_h` and `_cpp` for `.h` and `.cpp`."""
     outlines = {name.replace("_h", ".h").replace("_cpp", ".cpp"): outline.Outline(text)
                 for name, text in sources.items()}
     return {here: sorted(others) for here, others in member_calls.calls_of(outlines).items() if others}
@@ -137,7 +137,7 @@ def test_the_calls_of_a_circle_can_be_shown(tmp_path, capsys):
 
 @pytest.fixture
 def project(tmp_path, monkeypatch):
-    """A model with a circle of four files, a class of 61 members, and functions of 61 and 62 lines."""
+    """Makes a model with a circle of four files, a class of 61 members, and functions of 61 and 62 lines."""
     for rule in growth.RULES:
         monkeypatch.setattr(rule, "exceptions", {})
     folder = tmp_path / "emulator/models/m"

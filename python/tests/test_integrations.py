@@ -1,4 +1,4 @@
-"""What CI systems and labgrid are given: their commands are run, as far as no service is needed."""
+"""Tests the files for CI systems and labgrid: their commands are run, as far as they need no service."""
 import importlib.util
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""The wheel, and the package of Debian that is made of it."""
+"""Tests the wheel, and the Debian package that is made from it."""
 import importlib.util
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""The snippets of the pages run as they stand there."""
+"""Runs the code blocks of the pages as they are printed."""
 import os
 import pathlib
 import re
@@ -52,7 +52,7 @@ def test_pytest_page(pytester):
 
 
 def test_a_snippet_that_is_wrong_fails(pytester):
-    """They are run, and not only read: another number in one is noticed."""
+    """The blocks are really run: a wrong number in one is noticed."""
     right = snippets("python.md")[0]
     wrong = right.replace('bench["Cord_A"] == 1000', 'bench["Cord_A"] == 1001')
     assert wrong != right

@@ -1,4 +1,4 @@
-"""tests/plain_words.py: what it finds on a page and in strings, with its line, and what it lets pass."""
+"""Tests tests/plain_words.py: what it finds on a page and in strings, at which line, and what it accepts."""
 import pathlib
 import sys
 

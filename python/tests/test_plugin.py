@@ -1,4 +1,4 @@
-"""The plugin, by test runs within a test."""
+"""Tests the plugin by test runs within a test."""
 import os
 import pathlib
 import re
@@ -171,9 +171,9 @@ def test_a_failing_course_shrinks_to_its_least(pytester):
     example = pathlib.Path(__file__).parents[2] / "examples/hypothesis/test_course.py"
     result = pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--basetemp=kept", str(example))
     result.assert_outcomes(failed=1)
-    # In the traceback alone: in a CI pytest's summary repeats it.
+    # Look only in the traceback, because pytest's summary repeats it in a CI.
     course = [line.partition("state.")[2] for line in result.outlines if re.match(r"E\s+state\.(?!machine_is)", line)]
-    # One pulse in 20 is lost: with fewer than 20 none is.
+    # One pulse in 20 is lost, so fewer than 20 lose none.
     assert course == ["lose_steps(one_in=20)", "move(pulses=20)", "teardown()"]
 
 

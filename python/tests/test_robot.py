@@ -1,4 +1,5 @@
-"""The library for Robot Framework, by Robot where it is installed, and by a stand-in that knows what the example uses."""
+"""Tests the library for Robot Framework, by Robot if it is installed, and by a substitute that knows what the example
+uses."""
 import fnmatch
 import importlib.util
 import inspect
@@ -19,7 +20,8 @@ def keywords():
 
 
 class StandIn:
-    """Robot's rules: cells apart by two spaces, `name=value` for what the method takes by name, `${x} =`."""
+    """Splits a line by Robot's rules: two spaces separate cells, `name=value` passes an argument by name, and `${x} =`
+    assigns."""
 
     def __init__(self, text):
         self.tables = {}

@@ -7,7 +7,7 @@ from .connection import Connection
 from .daemon import Daemon
 from .errors import NotThere, Refused, WrongVersion
 
-NEEDED = (1, 0)  # protocol of the control socket: this major, and at least this minor
+NEEDED = (1, 0)  # protocol of the control socket: exactly this major version, at least this minor one
 Value = Union[int, float]
 
 
@@ -33,7 +33,7 @@ class Bench:
 
     @property
     def port(self) -> str:
-        """The path of the first line's port."""
+        """Returns the path of the first line's port."""
         return next(iter(self.ports.values()))
 
     def __enter__(self) -> "Bench":
@@ -43,7 +43,7 @@ class Bench:
         self.close()
 
     def close(self) -> None:
-        """Leaves the bench; ends it, if we started it."""
+        """Disconnects from the bench, and ends it if this client started it."""
         self._connection.close()
         if self._daemon is not None:
             self._daemon.stop()
@@ -59,7 +59,7 @@ class Bench:
         self.ask("set", values={name: value})
 
     def set(self, values: Dict[str, Value]) -> None:
-        """As a host's writes would, in this order; all are checked before the first is written."""
+        """Writes values as a host does, in this order. All are checked before the first is written."""
         self.ask("set", values=values)
 
     def eval(self, expression: str) -> Any:
@@ -75,7 +75,7 @@ class Bench:
         self.ask("command", text=text, **_of(device))
 
     def program(self, text: Optional[str] = None, device: Optional[str] = None) -> Optional[str]:
-        """Writes a program; without a text reads the one that is there."""
+        """Writes a program. Without a text, returns the present one."""
         if text is None:
             return str(self.ask("program", **_of(device))["text"])
         try:
@@ -88,22 +88,22 @@ class Bench:
         return None
 
     def inject(self, fault: Dict[str, Any]) -> int:
-        """A fault as a bench file has it; its number."""
+        """Injects a fault, described as in a bench file, and returns its number."""
         return int(self.ask("inject", fault=fault)["number"])
 
     def clear(self, number: Optional[int] = None) -> None:
-        """Mends one fault, or all."""
+        """Clears one fault, or all."""
         self.ask("clear", **({} if number is None else {"number": number}))
 
     def faults(self) -> List[Dict[str, Any]]:
         return cast(List[Dict[str, Any]], self.ask("list")["faults"])
 
     def advance(self, by: str) -> int:
-        """Simulated time in nanoseconds, once it is there."""
+        """Advances simulated time, and returns the new time in nanoseconds."""
         return int(self.ask("advance", by=by)["simulated_time_ns"])
 
     def run_until(self, condition: str, within: str = "1h") -> bool:
-        """Whether the condition came true."""
+        """Runs until the condition is true. Returns False if it did not become true within the time."""
         return bool(self.ask("run-until", condition=condition, within=within)["reached"])
 
     def step(self, ticks: int = 1) -> int:
@@ -116,35 +116,35 @@ class Bench:
         return int(self.ask("resume")["simulated_time_ns"])
 
     def speed(self, to: str) -> None:
-        """`real`, a factor, `free` or `manual`."""
+        """Sets the speed of simulated time: `real`, a factor, `free` or `manual`."""
         self.ask("speed", to=to)
 
     def status(self) -> Dict[str, Any]:
         return cast(Dict[str, Any], self.ask("status")["status"])
 
     def turn(self, values: Dict[str, int], within: Optional[str] = None) -> None:
-        """A handwheel's counts, at once or evenly within a time."""
+        """Turns handwheels by these counts, at once or evenly within a time."""
         self.ask("turn", values=values, **({} if within is None else {"in": within}))
 
     def events(self, last: int = 100) -> List[Dict[str, Any]]:
         return cast(List[Dict[str, Any]], self.ask("events", last=last)["events"])
 
     def lockstep(self, by: str, steps: int) -> Iterator[int]:
-        """A control loop: at each turn the time in nanoseconds, and after it, before the next, time advances."""
+        """Runs a control loop: yields the time in nanoseconds, then advances time before the next turn."""
         now = int(self.advance("0ns"))
         for _ in range(steps):
             yield now
             now = self.advance(by)
 
     def save(self, file: str) -> None:
-        """A snapshot into a file; the program's folder is not ours, so the path is made whole."""
+        """Saves a snapshot to a file. The path is made absolute, because the program runs in another folder."""
         self.ask("snapshot", file=os.path.abspath(file))
 
     def load(self, file: str) -> None:
         self.ask("restore", file=os.path.abspath(file))
 
     def snapshot(self, name: str) -> None:
-        """Kept by the daemon, 16 at most."""
+        """Takes a snapshot that the daemon keeps under a name (16 at most)."""
         self.ask("snapshot", name=name)
 
     def restore(self, name: str) -> None:
@@ -154,17 +154,17 @@ class Bench:
         return cast(List[Dict[str, Any]], self.ask("frames", last=last)["frames"])
 
     def where(self, device: Optional[str] = None) -> List[Dict[str, Any]]:
-        """Where each program stands, and what it waits for."""
+        """Returns where each program is, and what it waits for."""
         return cast(List[Dict[str, Any]], self.ask("where", **_of(device))["programs"])
 
     def scope(self, *names: str, when: Optional[str] = None, before: Optional[str] = None,
               after: Optional[str] = None) -> Optional[Dict[str, Any]]:
-        """Arms the oscilloscope for these names; without a name tells how it is, None where it is off."""
+        """Arms the oscilloscope for these names. Without names, returns its state, or None if it is off."""
         asked = {"names": list(names) or None, "condition": when, "before": before, "after": after}
         return cast(Optional[Dict[str, Any]], self.ask("scope", **_given(asked))["scope"])
 
     def samples(self) -> Dict[str, List[Any]]:
-        """What the oscilloscope has kept: each name's values, a tick apart; nothing while it is off."""
+        """Returns the oscilloscope's samples: the values of each name, one a tick. Empty if it is off."""
         kept: Dict[str, List[Any]] = {}
         begin: Optional[int] = 0
         while begin is not None:
@@ -179,7 +179,7 @@ class Bench:
         self.ask("scope", off=True)
 
     def send(self, said: Union[bytes, str, Iterable[int]], line: Optional[str] = None, checksum: bool = False) -> int:
-        """Bytes, or a text, on a line as a host's; the number that its first frame will have among the frames."""
+        """Sends bytes or text on a line as a host. Returns the number that its first frame gets."""
         what: Dict[str, Any] = {"text": said} if isinstance(said, str) else {"bytes": _bytes_of(said).hex(" ")}
         if checksum:
             what["checksum"] = True
@@ -187,21 +187,21 @@ class Bench:
 
     def look(self, *names: str, frames: Optional[int] = None, events: Optional[int] = None,
              status: bool = False) -> Dict[str, Any]:
-        """All that an observer wants at once: values in the names' order, frames and events from these numbers on."""
+        """Returns values in the order of the names, and frames and events from these numbers on."""
         asked = {"names": list(names) or None, "frames": frames, "events": events, "status": status or None}
         return self.ask("look", **_given(asked))
 
     def registers(self, device: Optional[str] = None, section: Optional[int] = None,
                   find: Optional[str] = None) -> List[Dict[str, Any]]:
-        """A device's registers as `describe` has them."""
+        """Returns a device's registers as `describe` prints them."""
         return self._pages("registers", "registers", {"device": device, "section": section, "find": find})
 
     def choices(self, device: Optional[str] = None) -> List[Dict[str, Any]]:
-        """What the manual leaves open and how this device decides it."""
+        """Returns the questions that the manual leaves open, and the device's choices."""
         return self._pages("choices", "choices", {"device": device})
 
     def timeline(self) -> Dict[str, Any]:
-        """Of a recording: `begin_ns`, `end_ns`, `at_ns`, and all its marks."""
+        """Returns `begin_ns`, `end_ns`, `at_ns` and all marks of a recording."""
         whole: Dict[str, Any] = {}
         begin: Optional[int] = 0
         while begin is not None:
@@ -213,7 +213,7 @@ class Bench:
         return whole
 
     def seek(self, to_ns: Optional[int] = None, by: Optional[str] = None, steps: int = 1) -> int:
-        """In a recording: to a time, or that many of `tick`, `frame`, `event` on or back."""
+        """Moves a recording to a time, or by a number of steps of `tick`, `frame` or `event`, forwards or backwards."""
         if (to_ns is None) == (by is None):
             raise ValueError("expected either a time, or a number of ticks, frames or events")
         how: Dict[str, Any] = {"to_ns": to_ns} if by is None else {"by": by, "steps": steps}
@@ -257,7 +257,7 @@ def _given(fields: Dict[str, Any]) -> Dict[str, Any]:
 def start(bench: Optional[str] = None, *flags: str, model: Optional[str] = None, firmware: Optional[str] = None,
           choices: Optional[Mapping[str, object]] = None, speed: str = "manual", record: Optional[str] = None,
           program: Optional[str] = None) -> Bench:
-    """A bench file, or one device of a model, its firmware and choices; further flags are `serve`'s."""
+    """Starts a bench file, or one device of a model with its firmware and choices. Further flags go to `serve`."""
     if (bench is None) == (model is None):
         raise ValueError("expected either a bench file or a model")
     if bench is not None and (firmware is not None or choices):
@@ -282,7 +282,7 @@ def start(bench: Optional[str] = None, *flags: str, model: Optional[str] = None,
 
 
 def attach(control: Optional[str] = None) -> Bench:
-    """A bench that runs already: by its control socket, or the one that `exec` names."""
+    """Attaches to a running bench by its control socket, or by the one that `exec` sets."""
     control = control or os.environ.get("UNDERSTUDY_CONTROL")
     if not control:
         raise NotThere("no control socket was given, and UNDERSTUDY_CONTROL is not set")

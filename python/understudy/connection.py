@@ -1,4 +1,4 @@
-"""One line of JSON there, one back: docs/control.md."""
+"""The connection to the control socket: each message and each reply is one line of JSON (docs/control.md)."""
 import json
 import operator
 import socket
@@ -7,11 +7,11 @@ from typing import Any, Dict, Optional
 
 from .errors import NotThere, Refused
 
-MOST_REPLY_BYTES = 16 << 20  # messages are at most 4 MiB; a reply that does not end is not waited for
+MOST_REPLY_BYTES = 16 << 20  # messages have at most 4 MiB; do not wait for a reply that does not end
 
 
 def _plain(value: Any) -> Any:
-    """Numbers of other packages, such as numpy's, are numbers as well."""
+    """Accepts numbers of other packages, such as numpy's."""
     try:
         return operator.index(value)
     except TypeError:
@@ -21,7 +21,7 @@ def _plain(value: Any) -> Any:
     raise TypeError(f"{value!r} is neither a number nor a text; expected one of these, or a list or dict of them")
 
 
-# Made once: a control loop asks at every millisecond.
+# Created once, because a control loop sends a message every millisecond.
 _encode = json.JSONEncoder(separators=(",", ":"), default=_plain).encode
 
 
@@ -36,7 +36,8 @@ class Connection:
         self._socket = socket.socket(socket.AF_UNIX)
         self._rest = b""
         if self._timeout_s is not None:
-            # The kernel's own timeouts: with `settimeout` Python asks `poll` before each call. One of 0 would be none.
+            # Uses the kernel's own timeouts: with `settimeout`, Python calls `poll` before each read. A timeout of 0
+            # would mean none.
             time = struct.pack("@ll", int(self._timeout_s), max(1, int(self._timeout_s % 1 * 1e6)))
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, time)
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, time)
@@ -47,7 +48,7 @@ class Connection:
             raise NotThere(f"{self._path}: {error.strerror or error}") from error
 
     def ask(self, do: str, **fields: Any) -> Dict[str, Any]:
-        """The reply to a message; raises Refused with the program's words."""
+        """Sends a message and returns its reply. Raises Refused with the program's error."""
         message = _encode({"do": do, **fields}).encode() + b"\n"
         if self._interrupted:
             self._interrupted = False

@@ -1,4 +1,4 @@
-"""A `serve` of our own: it ends with our process, however that ends, and leaves nothing behind."""
+"""A `serve` that belongs to this process: it ends with this process, however that ends, and leaves no files behind."""
 import os
 import re
 import select
@@ -12,8 +12,8 @@ from typing import IO, List, Optional, Sequence
 
 from .errors import BadSetup, NotThere
 
-# A shell makes the folder and is the program's parent, so at no moment is either there without it. It reads the pipe
-# from us: its end says that we are done, or gone. The program holds the pipe to us: its end says that it is gone.
+# A shell creates the folder and is the program's parent, so neither ever exists without it. When our pipe to the shell
+# closes, we are done or gone. When the program's pipe to us closes, the program has ended.
 GUARD = """program=$1 folders=$2 bench=$3
 shift 3
 folder=$(mktemp -d "$folders/understudy-py-XXXXXXXX") || exit
@@ -40,11 +40,11 @@ code=$?
 rm -rf "$folder"
 exit $code
 """
-BAD_SETUP = 2  # the program's exit code for flags and files that it does not take
+BAD_SETUP = 2  # the program's exit code for flags and files that it rejects
 
 
 class Daemon:
-    """The program and its guard. A process that is forked from ours has no part in them."""
+    """The program and its guard. A process that is forked from this one does not own them."""
 
     def __init__(self, arguments: Sequence[str], program: Optional[str] = None, ready_within_s: float = 30.0,
                  bench_text: str = "") -> None:
@@ -73,16 +73,17 @@ class Daemon:
             raise
 
     def said(self) -> str:
-        """What the program printed."""
+        """Returns the program's output."""
         with open(os.path.join(self.folder, "log"), encoding="utf-8", errors="replace") as log:
             return log.read()
 
     def stop(self) -> None:
-        """Ends the program as SIGTERM does (its links go, its recording is whole), and its folder."""
+        """Ends the program as SIGTERM does (it removes its links and completes its recording), and removes its
+        folder."""
         self._end()
 
     def _end(self) -> Optional[int]:
-        """The program's exit code; None where nobody knows it any more."""
+        """Returns the program's exit code, or None if it is unknown."""
         if self._guard is None:
             return None
         guard, self._guard = self._guard, None
@@ -96,7 +97,7 @@ class Daemon:
         return guard.returncode
 
     def forget(self) -> None:
-        """In a forked process: what is our parent's to end is not held open by us."""
+        """Releases the pipes in a forked process, so that it does not keep the parent's program running."""
         self._guard = None
         for end in (self._to_guard, self._from_program):
             end.close()
@@ -116,7 +117,7 @@ class Daemon:
             over = bool(select.select([self._from_program], [], [], 0.003)[0])
             said = self.said()
             if over:
-                # Of a bench that was made of a model and choices nobody knows the file.
+                # The bench was made from a model and choices, so the user does not know the file.
                 made_up = re.escape(self.folder) + r"/bench\.yaml:\d+:\d+: lines\.line\.stations\[0\]\.?"
                 why = re.sub(made_up, "", self.said()).strip() or f"{program} ended without a message"
                 raise BadSetup(why) if self._end() == BAD_SETUP else NotThere(why)
@@ -127,7 +128,7 @@ class Daemon:
 
 
 def _folders() -> str:
-    """Where folders are made; a socket's path has at most 107 bytes, and build systems have long ones."""
+    """Returns where folders are created: a socket's path has at most 107 bytes, and build systems use long paths."""
     folders = tempfile.gettempdir()
     return folders if len(os.fsencode(folders)) <= 70 else "/tmp"
 

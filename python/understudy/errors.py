@@ -1,20 +1,20 @@
-"""What can go wrong, in the program's own words."""
+"""The errors of this package, with the program's own words."""
 
 
 class UnderstudyError(Exception):
-    """Whatever this package raises by itself."""
+    """The base of all errors that this package raises."""
 
 
 class Refused(UnderstudyError):
-    """The message was refused, and changed nothing."""
+    """The program refused the message, which changed nothing."""
 
 
 class NotThere(UnderstudyError):
-    """The program could not be started, or does not answer any more."""
+    """The program could not be started, or no longer answers."""
 
 
 class BadSetup(NotThere):
-    """The program does not take the bench, a flag or a choice that it was to be started with."""
+    """The program rejected the bench, a flag or a choice at its start."""
 
 
 class WrongVersion(UnderstudyError):

@@ -30,8 +30,8 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, Any, None]:
     outcome = yield
     report = outcome.get_result()
     item.stash[FAILED] = item.stash.get(FAILED, False) or report.failed
-    # The benches are closed by now, so their recordings are whole. pytest shows what a teardown says beside the failure
-    # if the section's name says so.
+    # The benches are closed by now, so their recordings are complete. pytest shows a section of the teardown next to
+    # the failure if its name contains "teardown".
     if report.when == "teardown" and item.stash[FAILED]:
         lines = [line for folder in item.stash.get(KEPT, []) for line in draw(folder)]
         if lines:
@@ -39,7 +39,7 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, Any, None]:
 
 
 def draw(folder: Path) -> List[str]:
-    """Draws the report and the frames out of the recording; what there is then, and what went wrong."""
+    """Makes the report and the frames from the recording. Returns which files exist then, and what went wrong."""
     recording, page, frames = folder / "understudy.rec", folder / "report.html", folder / "frames.txt"
     program = os.environ.get("UNDERSTUDY_PROGRAM") or "understudy"
     said = []
@@ -55,7 +55,7 @@ def draw(folder: Path) -> List[str]:
 
 
 def require_known(arguments: Mapping[str, Any]) -> None:
-    """Of a misspelt word the test's author is told, not a reader of this file."""
+    """Reports a misspelt argument at the author's test, not in this file."""
     known = [name for name, it in inspect.signature(start).parameters.items() if it.kind is not it.VAR_POSITIONAL]
     for name in arguments:
         if name not in known:
@@ -66,7 +66,7 @@ def require_known(arguments: Mapping[str, Any]) -> None:
 
 @pytest.fixture
 def bench_factory(request: pytest.FixtureRequest, tmp_path: Path) -> Generator[Callable[..., Bench], None, None]:
-    """Starts benches as `understudy.start` does, each with a folder and a recording."""
+    """Starts benches like `understudy.start`, each with its own folder and recording."""
     benches: List[Bench] = []
     kept = request.node.stash.setdefault(KEPT, [])
     speed = "real" if request.config.getoption("--understudy-real-time") else "manual"
@@ -89,7 +89,8 @@ def bench_factory(request: pytest.FixtureRequest, tmp_path: Path) -> Generator[C
 
 @pytest.fixture
 def bench(request: pytest.FixtureRequest, bench_factory: Callable[..., Bench]) -> Bench:
-    """What the marker `understudy` names; an indirect parameter's entries come over it; a Simple2-R3 without either."""
+    """Starts the bench that the marker `understudy` describes. The entries of an indirect parameter override it.
+    Without both, it is a Simple2-R3."""
     marker = request.node.get_closest_marker("understudy")
     positional = list(marker.args) if marker else []
     given = getattr(request, "param", {})
@@ -105,5 +106,5 @@ def bench(request: pytest.FixtureRequest, bench_factory: Callable[..., Bench]) -
 
 @pytest.fixture
 def port(bench: Bench) -> str:
-    """The path of the bench's first port."""
+    """Returns the path of the bench's first port."""
     return bench.port

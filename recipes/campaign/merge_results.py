@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts the results of shards together, and says how the campaign went.
+"""Merges the results of shards, and prints how the campaign went.
 
 merge_results.py ALL.sqlite SHARD.sqlite...
 
@@ -9,11 +9,11 @@ import os
 import sqlite3
 import sys
 
-ID = 0x55535459  # of databases that `understudy run --results` has made
+ID = 0x55535459  # of databases that `understudy run --results` makes
 
 
 def require_own(path):
-    """Only a database of results is replaced; another file of that name may be there by mistake."""
+    """Replace only a database of results; another file of that name may be there by mistake."""
     with open(path, "rb") as there:
         head = there.read(100)
     if head and (head[:16] != b"SQLite format 3\0" or int.from_bytes(head[68:72], "big") != ID):
@@ -24,7 +24,7 @@ def merge(target, sources):
     if os.path.lexists(target):
         require_own(target)
         os.remove(target)
-    # The first brings the tables along.
+    # The first shard provides the tables.
     with sqlite3.connect(f"file:{sources[0]}?mode=ro", uri=True) as first, sqlite3.connect(target) as whole:
         first.backup(whole)
     whole = sqlite3.connect(target, isolation_level=None)
@@ -50,7 +50,7 @@ def main(arguments):
     counts = dict(whole.execute("SELECT verdict, count(*) FROM results GROUP BY verdict"))
     seconds = whole.execute("SELECT coalesce(sum(simulated_s), 0) FROM results").fetchone()[0]
     for kind, count, first, recording in whole.execute(
-        # SQLite takes the name from the row that has the greatest recording.
+        # SQLite takes the name from the row with the longest recording.
         "SELECT kind, count(*), name, max(recording) FROM results WHERE kind IS NOT NULL GROUP BY kind ORDER BY 2 DESC"
     ):
         print(f"{count} failed alike: {kind}\n    such as {first}\n    recorded in {recording}")

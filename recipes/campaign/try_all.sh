@@ -13,7 +13,7 @@ recipes=("$@")
 here=$(realpath "$(dirname "$0")")
 work=$(mktemp -d)
 started=()
-cluster=  # not empty: a Slurm was started here
+cluster=  # not empty if a Slurm was started here
 finish() {
   local pid
   if [ -n "$cluster" ]; then  # if this ends early, jobs still run, and the daemons would wait for them
@@ -32,7 +32,7 @@ trap finish EXIT
 mkdir "$work/bin" "$work/project"
 ln -s "$understudy" "$work/bin/understudy"
 export PATH=$work/bin:$PATH
-# A hundred cases, one of ten of which fails: what is not a multiple of ten stands where it should.
+# A hundred cases, one in ten of which fails, so that a misplaced case is noticed.
 cat >"$work/project/campaign.yaml" <<'YAML'
 understudy: 1
 name: a campaign
@@ -46,7 +46,7 @@ YAML
 mkdir -p "$work/project/tests/campaign" "$work/project/third_party"
 cp "$work/project/campaign.yaml" "$work/project/tests/campaign/"
 cp "$here/merge_results.py" "$work/project/third_party/"
-# What a recipe should come to: a line for each case, in the order of identities.
+# The expected results of a recipe: a line for each case, sorted by identity.
 rows="SELECT case_id, verdict, hash FROM results ORDER BY case_id"
 listed() { python3 -c 'import sqlite3, sys
 for row in sqlite3.connect(sys.argv[1]).execute(sys.argv[2]): print(*row)' "$1" "$rows"; }
@@ -57,7 +57,7 @@ understudy run campaign.yaml --results "$work/whole.sqlite" --failures "$work/fa
 listed "$work/whole.sqlite" >"$work/expected"
 [ "$(wc -l <"$work/expected")" -eq 100 ]
 
-# judge RECIPE: its results are those of the whole, and its shards do not overlap.
+# judge RECIPE: its results must equal those of the whole campaign, and its shards must not overlap.
 judge() {
   status=0
   python3 "$here/merge_results.py" all.sqlite results/*.sqlite >"$work/merged" || status=$?
@@ -92,7 +92,7 @@ try_slurm() {
   mkdir -p "$slurm/state" "$slurm/spool"
   dd if=/dev/urandom of="$slurm/munge.key" bs=1024 count=1 status=none
   chmod 600 "$slurm/munge.key"
-  # --force: munged would not have its files below /tmp
+  # --force: otherwise munged rejects files below /tmp
   munged --foreground --force --key-file="$slurm/munge.key" --socket="$slurm/munge.socket" \
     --pid-file="$slurm/munge.pid" --log-file="$slurm/munge.log" --seed-file="$slurm/munge.seed" 2>"$slurm/munge.err" &
   started+=($!)
@@ -134,7 +134,7 @@ CONF
     tail "$slurm"/*.log >&2
     return 1
   }
-  # Some fail, as they should; the script's exit code is the worst of them.
+  # Some fail, as they should; the script exits with the worst exit code.
   sbatch --wait --array=1-7:2 --output="$work/slurm-%a.log" "$here/slurm_array.sh" campaign.yaml || true
   cat "$work"/slurm-*.log
   judge "Slurm $(slurmctld -V | cut -d' ' -f2), an array of 4"
@@ -148,7 +148,7 @@ try_parallel() {
   judge "GNU parallel, 6 shards"
 }
 
-# commands FILE PYTHON: what the jobs of a file do, a line each; `file` is the file as data.
+# commands FILE PYTHON: prints the commands of a file's jobs, one a line; `file` is the parsed file.
 commands() { python3 -c 'import sys, yaml
 file = yaml.safe_load(open(sys.argv[1]))
 for script in '"$2"': print(script)' "$1"; }

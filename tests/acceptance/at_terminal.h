@@ -1,4 +1,4 @@
-// A program at a terminal, and somebody who types and looks.
+// A program at a terminal, with a user who types and reads.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,13 +12,13 @@
 
 namespace understudy::acceptance {
 
-/// Of a terminal's window.
+/// The size of a terminal's window.
 struct WindowSize {
   unsigned short rows = 24;
   unsigned short columns = 80;
 };
 
-/// A program at a terminal of its own, at which somebody sits.
+/// A program at its own terminal, with a user.
 class AtTerminal {
  public:
   explicit AtTerminal(const Words& command, const Environment& environment = {}, WindowSize size = {}) {
@@ -49,7 +49,7 @@ class AtTerminal {
     const winsize window{size.rows, size.columns, 0, 0};
     ASSERT_EQ(ioctl(master_.get(), TIOCSWINSZ, &window), 0);
   }
-  /// Whether this has been, or is within kPatience, on the screen since the last time.
+  /// Returns true if this text has appeared on the screen since the last call, or appears within kPatience.
   bool shows(const std::string& text) {
     return eventually([&] {
       char part[512];

@@ -1,6 +1,6 @@
-// Frames that are wrong, on real ptys: what each controller with tables of its own answers to every
-// function's counts, lengths and byte counts, and to a window that is written in part. After each, the next
-// good frame is served, and what is there is as before.
+// Wrong frames on real ptys: how each controller with its own tables answers every function's wrong counts,
+// lengths and byte counts, and a window that is written in part. After each, the next good frame is served
+// and the contents are unchanged.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -47,8 +47,8 @@ std::string bytes_of(int count) {
   return text;
 }
 
-/// Of the MODBUS Application Protocol V1.1b3: counts and lengths are judged before addresses (exception 3),
-/// addresses before values, a function that is not there before all (exception 1).
+/// The order of the MODBUS Application Protocol V1.1b3: counts and lengths are checked before addresses
+/// (exception 3), addresses before values, and an unknown function before everything (exception 1).
 std::vector<Case> cases_of(const Subject& subject) {
   std::vector<Case> cases;
   const std::string at = subject.first;
@@ -95,7 +95,7 @@ std::vector<Case> cases_of(const Subject& subject) {
   return cases;
 }
 
-/// A window that takes 16 words at least; a move of four words, and its first word alone.
+/// A window that takes at least 16 words; a move of four words, and its first word alone.
 std::vector<Case> cases_of_window(const std::string& move, int beyond_it) {
   const std::string more = " 00 00";
   return {{"a window in part", "10 1F 40 00 03 06 " + move.substr(0, 17), 3},
@@ -143,7 +143,7 @@ class BadFrames : public testing::TestWithParam<Subject> {
     host_->write(frame);
   }
   Bytes receive(std::size_t size) { return host_->read(size); }
-  /// What stands in its words and coils, and that the line is as good as before.
+  /// Checks the contents of its words and coils, and that the line works as before.
   Bytes asked() {
     send(joined("03", GetParam().first, "00 0A"));
     Bytes all = receive(5 + 20);

@@ -1,4 +1,4 @@
-// Campaigns as users run them: killed and gone on with, in shards, at a terminal, with constant memory.
+// Campaigns as users run them: killed and resumed, in shards, at a terminal, with constant memory.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -27,8 +27,7 @@ std::string contents(const std::string& path) {
   return text.str();
 }
 
-/// As many cases as are wanted; of the speeds every tenth fails at one step, and every fiftieth at another
-/// one.
+/// Any number of cases; every tenth speed fails at one step, and every fiftieth at another one.
 std::string campaign(int cases) {
   return "understudy: 1\nname: speeds\n"
          "bench: { lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } } }\n"
@@ -46,7 +45,7 @@ class Campaign : public testing::Test {
   std::string file(int cases) const { return folder_.write("campaign.yaml", campaign(cases)); }
   std::vector<std::string> rows(const std::string& name) const {
     auto all = lines_of(contents(folder_ / name));
-    // Where recordings are is the only thing that differs between runs.
+    // Only the paths of recordings differ between runs.
     const std::regex recording("\"recording\":(null|\"[^\"]*\")");
     for (std::string& row : all) row = std::regex_replace(row, recording, "");
     return all;
@@ -92,7 +91,7 @@ TEST_F(Campaign, OnlyTheFirstFailureOfEachKindIsKept) {
   EXPECT_EQ(
       sqlite("all.sqlite", "SELECT min(speed), max(speed), count(*) FROM cases WHERE verdict = 'failed'"),
       "10 100 10\n");
-  // The case that a failure names can be played alone.
+  // The case that a failure names can be run alone.
   const std::regex alone("understudy run (\\S+) --filter ([0-9a-f]{16})");
   std::smatch found;
   ASSERT_TRUE(std::regex_search(finished.output, found, alone)) << finished.output;
@@ -179,12 +178,12 @@ TEST_F(Campaign, OneThatIsKilledGoesOn) {
       Words words{UNDERSTUDY_BINARY};
       words.insert(words.end(), command.begin(), command.end());
       Process process(words);
-      // In the midst: some are there, and not yet all.
+      // In the middle: some are present, but not all.
       const auto played = [&] { return fs::exists(results) ? fs::file_size(results) : 0; };
       const auto before = played();
       const auto more = kind == "jsonl" ? random() % 100'000 : 1;  // a database grows by what is committed
       eventually([&] { return played() >= before + more || process.wait(Wait(0)); }, Wait(20'000));
-      // What makes a database grow is being committed.
+      // A database grows when it is committed.
       if (kind == "sqlite") std::this_thread::sleep_for(std::chrono::milliseconds(20 + random() % 40));
       process.send(SIGKILL);
       if (process.wait(kPatience) == 128 + SIGKILL) ++killed;
@@ -224,7 +223,7 @@ TEST_F(Campaign, WhatHasChangedIsPlayedAgain) {
   Words seeded = command;
   seeded.insert(seeded.end(), {"--seed", "9"});
   EXPECT_NE(understudy(seeded).output.find("18 passed, 2 failed; "), std::string::npos);
-  // And more cases are only those that are new.
+  // If there are more cases, only new ones run.
   folder_.write("campaign.yaml", campaign(20));
   EXPECT_NE(understudy(command).output.find("20 skipped"), std::string::npos);
 }
@@ -254,7 +253,7 @@ TEST_F(Campaign, ACaseThatCannotBeReadIsToldAndTheOthersArePlayed) {
   EXPECT_NE(contents(folder_ / "rows.xml").find("failures=\"0\" errors=\"1\""), std::string::npos);
 }
 
-/// What /usr/bin/time would say, in KiB, by Python.
+/// The peak memory in KiB, like /usr/bin/time, measured by Python.
 long most_memory(const Words& arguments) {
   Words command{"python3", "-c",
                 "import resource, subprocess, sys\nsubprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL)\n"

@@ -1,4 +1,4 @@
-// docs/campaigns.md: what stands there works as it stands there.
+// The commands of docs/campaigns.md work as printed.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

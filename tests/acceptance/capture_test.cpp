@@ -1,4 +1,4 @@
-// What `serve --capture` writes, as an independent reader and tshark see it.
+// The files of `serve --capture`, as an independent reader and tshark see them.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -25,7 +25,7 @@ const Bytes kSetFiveReply = pty::hex("01 10 10 00 00 05 04 CA");
 constexpr std::uint32_t kInbound = 1;
 constexpr std::uint32_t kOutbound = 2;
 
-/// A daemon that captures, and its one host.
+/// A daemon that captures, with one host.
 class Capturing {
  public:
   explicit Capturing(const std::string& name, const Words& flags = {})
@@ -39,7 +39,7 @@ class Capturing {
     host_.write(bytes);
     EXPECT_TRUE(is_silent(host_));
   }
-  /// What is in the file after SIGTERM.
+  /// Returns the contents of the file after SIGTERM.
   std::string stop() {
     EXPECT_EQ(daemon_.stop(SIGTERM), 0) << daemon_.errors();
     return pty::contents_of(path_);
@@ -217,7 +217,7 @@ TEST(CaptureRefusals, TwoRunsNeverWriteOneFile) {
   EXPECT_NE(second.errors.find("another program is writing it"), std::string::npos) << second.errors;
 }
 
-/// What tshark, with the one flag that docs/wire.md gives, prints of these fields for each packet.
+/// Returns tshark's output for these fields of each packet, with the one flag from docs/wire.md.
 std::vector<std::string> tshark(const std::string& path, const Words& fields) {
   Words command{"tshark", "-r", path, "-o", "mbrtu.tcp.port:19200", "-T", "fields", "-E", "separator=|"};
   for (const std::string& field : fields) command.insert(command.end(), {"-e", field});

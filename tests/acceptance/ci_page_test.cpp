@@ -1,4 +1,4 @@
-// docs/ci.md: the recipes work as they stand there, in a project such as the page supposes.
+// The recipes of docs/ci.md work as printed, in a project such as the page assumes.
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> blocks(const std::string& language) { return page_blocks("ci.md", language); }
 
-/// The project that the page supposes; each scenario says what is expected of a register.
+/// The project that the page assumes; each scenario expects a value of a register.
 class Project {
  public:
   explicit Project(int expected) {

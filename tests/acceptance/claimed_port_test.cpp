@@ -1,5 +1,5 @@
 // Hosts that claim the port for themselves (TIOCEXCL), as Qt's QSerialPort does at each opening, and are
-// killed. Root may open a claimed port all the same, so daemon and hosts are an ordinary user here.
+// killed. Root can open a claimed port anyway, so daemon and hosts run as an ordinary user here.
 #include <fcntl.h>
 #include <grp.h>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ void become_ordinary() {
   if (setgroups(0, nullptr) != 0 || setgid(kNobody) != 0 || setuid(kNobody) != 0) _exit(99);
 }
 
-/// Runs `act` in a process of an ordinary user: what it returns, or 128 + the signal that ended it.
+/// Runs `act` in a process of an ordinary user. Returns its result, or 128 + the signal that ended it.
 template <typename Act>
 int as_ordinary_user(const Act& act) {
   const pid_t child = fork();
@@ -41,7 +41,8 @@ int as_ordinary_user(const Act& act) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// 0 if a host gets the hardware code; it may have to wait for the daemon to see the one before go.
+/// Returns 0 if a host gets the hardware code; it may have to wait until the daemon notices that the previous
+/// host is gone.
 int ask_for_hardware_code(const std::string& port) {
   int descriptor = -1;
   for (int attempt = 0; attempt < 100 && descriptor < 0; ++attempt) {
@@ -82,7 +83,7 @@ class ClaimedPort : public testing::Test {
 
   std::string port() const { return folder_ / "port"; }
   const Process& daemon() const { return *daemon_; }
-  /// Of the daemon's life so far, in hundredths of a second.
+  /// The daemon's processor time so far, in hundredths of a second.
   long processor_time() const {
     std::ifstream file("/proc/" + std::to_string(daemon_->pid()) + "/stat");
     std::string text;
@@ -138,8 +139,8 @@ TEST_F(ClaimedPort, StaysClaimedWhileItsHostIsThere) {
   expect_idle();
 }
 
-// The daemon has to let go of the line for a moment to see who is there; here it finds it claimed when it
-// wants it back.
+// The daemon must release the line for a moment to see who is there; here it finds it claimed when it takes
+// it back.
 TEST_F(ClaimedPort, IsServedAnewWhenTheDaemonWasKeptOut) {
   const std::filesystem::path first = std::filesystem::read_symlink(port());
   ASSERT_EQ(chmod(first.c_str(), 0666), 0);
@@ -158,14 +159,14 @@ TEST_F(ClaimedPort, IsServedAnewWhenTheDaemonWasKeptOut) {
       other->close();
       usleep(2'000);
     }
-    // Without a slave of its own the daemon serves on.
+    // Without its own slave, the daemon continues to serve.
     if (exchange(host, kReadHardwareCode, kHardwareCodeReply.size()) != kHardwareCodeReply) return 3;
     is_over = true;
     claiming.join();
     ioctl(host.descriptor(), TIOCEXCL);
     return kill(getpid(), SIGKILL);
   };
-  // Who comes first in that moment is the scheduler's choice.
+  // The scheduler decides who comes first at that moment.
   constexpr int kMaxAttempts = 12;
   for (int attempt = 0; attempt < kMaxAttempts && !is_anew(); ++attempt) {
     ASSERT_EQ(as_ordinary_user(claim_all_the_time), 128 + SIGKILL);

@@ -1,4 +1,4 @@
-// Bad usage gets one clear line and the documented exit code; what only looks ends well.
+// Bad usage gets one clear line and the documented exit code; commands that only print succeed.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -20,7 +20,7 @@ struct BadUsage {
   friend void PrintTo(const BadUsage& usage, std::ostream* out) { *out << usage.name; }
 };
 
-// Anything that starts by mistake ends with the test, and its files are in the folder that {} stands for.
+// A program that starts by mistake ends with the test, and its files are in the folder that {} stands for.
 const std::vector<BadUsage> kBadUsages = {
     {"NoCommand", {}, "expected"},
     {"UnknownCommand", {"serv"}, "serv"},

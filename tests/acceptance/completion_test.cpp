@@ -1,4 +1,4 @@
-// `understudy completion`: shells complete every command and flag that --help tells of.
+// `understudy completion`: shells complete every command and flag in --help.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -12,7 +12,7 @@ bool is_here(const std::string& program) { return run({"which", program}).exit_c
 
 class Completion : public testing::Test {
  protected:
-  /// The script of that shell, in a file.
+  /// Writes the script of that shell to a file.
   std::string script(const std::string& shell) const {
     const Finished made = understudy({"completion", shell});
     EXPECT_EQ(made.exit_code, 0) << made.errors;
@@ -21,7 +21,7 @@ class Completion : public testing::Test {
   PrivateFolder folder_;
 };
 
-/// What --help of a command lists in that section: its first words.
+/// Returns the first words of a section of a command's --help.
 Words listed(Words command, const std::string& section) {
   command.emplace_back("--help");
   Words words;
@@ -76,7 +76,7 @@ TEST_F(Completion, OfZshIsAScriptWithEveryCommandAndFlag) {
     EXPECT_NE(text.find("'" + flag + ":"), std::string::npos) << flag;
   }
   if (!is_here("zsh")) GTEST_SKIP() << "zsh is not installed";
-  // What it would offer, without a terminal.
+  // Returns what it would offer, without a terminal.
   const Finished offered = run({"zsh", "-fc",
                                 "compdef() { : }; source " + script("zsh") +
                                     "; _describe() { print -rl -- ${(P)@[-1]%%:*} }; "

@@ -1,5 +1,4 @@
-// Several daemons of one user: each has a control socket of its own, and `ctl` talks to the one that is
-// meant.
+// Several daemons of one user: each has its own control socket, and `ctl` talks to the chosen one.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -12,7 +11,7 @@ namespace control_choice_test {
 
 namespace fs = std::filesystem;
 
-/// Daemons that were not told where their sockets are to be, in a runtime folder of their own.
+/// Daemons without a given socket path, in their own runtime folder.
 class SeveralDaemons : public testing::Test {
  protected:
   Environment environment() const {
@@ -36,7 +35,7 @@ class SeveralDaemons : public testing::Test {
     words.insert(words.begin(), "ctl");
     return understudy(words, environment());
   }
-  /// `get power` of the only device that the chosen daemon has tells which one it is.
+  /// `get power` of the only device identifies the chosen daemon.
   void expect_chosen(const Words& flags, const std::string& name) const {
     Words words = flags;
     words.insert(words.end(), {"get", name + ".power"});

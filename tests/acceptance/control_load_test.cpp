@@ -1,4 +1,4 @@
-// What clients of the control socket do never makes a host wait: hosts come first.
+// Clients of the control socket never make a host wait: hosts come first.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -34,7 +34,7 @@ class Client {
   }
   bool is_connected() const { return is_connected_; }
   void say(const std::string& text) const { send(socket_.get(), text.data(), text.size(), MSG_NOSIGNAL); }
-  /// How many bytes have come.
+  /// The number of bytes received.
   std::size_t hear() const {
     std::array<char, 65536> bytes;
     const ssize_t count = recv(socket_.get(), bytes.data(), bytes.size(), 0);
@@ -46,8 +46,8 @@ class Client {
   bool is_connected_ = false;
 };
 
-/// So many clients that ask for the status again and again, as many times as their sockets take, while this
-/// lives.
+/// This many clients that request the status repeatedly, as often as their sockets accept, during its
+/// lifetime.
 class Askers {
  public:
   Askers(const std::string& path, std::size_t count) {
@@ -85,7 +85,7 @@ std::unique_ptr<RunningUnderstudy> feeder(const Words& flags = {}) {
       flags);
 }
 
-/// How many of so many requests a host loses, which waits a second for each reply.
+/// Returns how many requests a host loses that waits a second for each reply.
 int lost(ModbusHost& host, int requests) {
   int count = 0;
   for (int i = 0; i < requests; ++i) {
@@ -147,7 +147,7 @@ TEST(ControlLoad, ABadSnapshotCostsNoHostAReply) {
   }
 }
 
-/// What the process has computed so far.
+/// Returns the processor time of the process so far.
 std::chrono::milliseconds processor_time(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string text;
@@ -173,10 +173,11 @@ TEST(ControlLoad, WithoutDescriptorsTheDaemonRestsAndServesItsHosts) {
   ASSERT_TRUE(eventually([&] { return clients.front()->hear() > 0; }));
   const auto before = processor_time(daemon->process().pid());
   std::this_thread::sleep_for(Wait(2'000));
-  // Whoever asks again and again takes all it gets, which is more than this on the busiest of machines.
+  // A client that sends repeatedly takes everything that it gets, which is more than this even on a very busy
+  // machine.
   EXPECT_LT(processor_time(daemon->process().pid()) - before, Wait(50));
   EXPECT_EQ(lost(host, 20), 0);
-  // Who waited is served when the others have gone.
+  // Waiting clients are served when the others have gone.
   const auto last = std::move(clients.back());
   EXPECT_EQ(last->hear(), 0U);
   clients.clear();

@@ -15,7 +15,7 @@ namespace control_test {
 
 using Json = nlohmann::json;
 
-/// The reply of `ctl --json WORDS`, which must be one object on one line.
+/// Returns the reply of `ctl --json WORDS`, which must be one object on one line.
 Json json(const RunningUnderstudy& daemon, Words words) {
   words.insert(words.begin(), "--json");
   const Finished finished = daemon.ctl(words);
@@ -41,7 +41,7 @@ void expect_done(const RunningUnderstudy& daemon, const Words& words) {
   EXPECT_EQ(finished.errors, "");
 }
 
-/// Refused with one line that holds `why`.
+/// Expects a refusal with one line that contains `why`.
 void expect_refused(const RunningUnderstudy& daemon, const Words& words, const std::string& why) {
   const Finished finished = daemon.ctl(words);
   EXPECT_EQ(finished.exit_code, 2) << words.back();
@@ -80,7 +80,8 @@ TEST(ControlStatus, TellsTimeLinesStationsAndLateness) {
     EXPECT_NE(plain.output.find(word), std::string::npos) << word << " in\n" << plain.output;
 }
 
-/// Simulated time passes `factor` times as fast as a clock around the two looks, or between them.
+/// Checks that simulated time passes `factor` times as fast as a clock around the two requests, or between
+/// them.
 void expect_pace(const RunningUnderstudy& daemon, double factor) {
   using Clock = std::chrono::steady_clock;
   const auto ns = [](Clock::duration time) {
@@ -209,7 +210,7 @@ TEST(ManualSpeed, KeepsARequestThatIsStillOnTheWire) {
   EXPECT_EQ(host.read(kHardwareCodeReply.size()), kHardwareCodeReply);
 }
 
-// 0x41 is of a length that only silence tells, and by the simulated clock there is none.
+// Only silence shows the length of 0x41, and by the simulated clock there is no silence.
 TEST(ManualSpeed, ServesWhatOnlySilenceEnds) {
   const RunningUnderstudy daemon({"--speed", "manual", "--timing", "instant"});
   Host host(daemon.port());

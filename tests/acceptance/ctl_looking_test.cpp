@@ -1,4 +1,4 @@
-// `ctl` as a way to look: names, expressions, frames in words.
+// Inspection with `ctl`: names, expressions, decoded frames.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -55,7 +55,7 @@ TEST(CtlWatch, ShowsJustWhatIsNamed) {
             "'HW_Code'\n");
 }
 
-// At a terminal: what does not fit the window is reached by keys, and a wide window is used.
+// At a terminal, keys scroll to what does not fit the window, and a wide window is used.
 TEST(CtlWatch, ScrollsInASmallWindow) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   AtTerminal screen({UNDERSTUDY_BINARY, "ctl", "--control", daemon.control(), "watch", "--every", "50ms"},
@@ -198,7 +198,7 @@ TEST(CtlProgram, LoadsAFullDeviceAndGivesItBack) {
     const Finished again = daemon->ctl({"program", "device", folder.write("again", given_back)});
     EXPECT_EQ(again.exit_code, 0) << model << " " << again.errors;
     EXPECT_EQ(daemon->ctl({"program"}).output, given_back) << model;
-    // Numbers that stand in no other line.
+    // Numbers that do not occur in another line.
     const std::string last = model == std::string("super-40nc") ? "LIN K79 K369" : "VAR1 511\nEND";
     EXPECT_NE(given_back.find(last), std::string::npos) << given_back.substr(0, 500);
   }

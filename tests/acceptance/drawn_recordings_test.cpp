@@ -1,5 +1,5 @@
-// What happened, looked at afterwards: a recording that is run again writes the trace, the capture and the
-// page that it would have had; and `run` writes traces and captures of all it plays.
+// Inspection afterwards: a replayed recording writes the trace, the capture and the page that the run would
+// have written; and `run` writes traces and captures of everything it runs.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -103,7 +103,7 @@ Words names_in(const std::string& folder) {
   return {names.begin(), names.end()};
 }
 
-/// Where time goes back, or a branch begins, files begin anew: as the recordings do, which write the same.
+/// If time goes back, or a branch begins, files start again, as recordings do, which have the same contents.
 TEST(RunFiles, AreWhatTheRecordingsOfThePlaysWrite) {
   const PrivateFolder folder;
   const std::string cases = folder.write("cases.yaml", kTwoCases);

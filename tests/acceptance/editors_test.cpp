@@ -24,7 +24,7 @@ constexpr const char* kBad =
     "  - write: { feeder.Aaxis_Sped: 1 }\n"
     "  - advance: 5 parsecs\n";
 
-/// A folder with a good bench, a scenario with two mistakes, and a file that is none.
+/// A folder with a good bench, a scenario with two mistakes, and a file of neither kind.
 struct Files {
   PrivateFolder folder;
   std::string bench = folder.write("bench.yaml", kBench);
@@ -68,13 +68,13 @@ TEST(CheckFormat, GithubGetsOneLineForEachMistake) {
   EXPECT_EQ(finished.exit_code, 2);
   const auto lines = lines_of(finished.output);
   ASSERT_EQ(lines.size(), 4U) << finished.output;
-  // In a property a comma, a colon and a percent sign are written by their codes, in the text only the last.
+  // In a property, a comma, a colon and a percent sign are escaped; in the text only the percent sign.
   EXPECT_EQ(lines[0],
             "::error file=" + (files.folder / "bad%2C 100%25.yaml") +
                 ",line=4,col=33,title=understudy check%3A scenario::steps[0].write.feeder.Aaxis_Sped: "
                 "feeder: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'");
   EXPECT_EQ(understudy({"check", "--format", "github", files.bench}).output, "");
-  // A path with "./" in it matches none in a repository.
+  // A path with "./" in it does not match any path in a repository.
   const Finished below = understudy({"check", "--format", "github", files.folder / "."});
   EXPECT_EQ(lines_of(below.output), (Words{lines[0], lines[1], lines[2]})) << below.output;
 }
@@ -134,7 +134,7 @@ TEST(Init, WritesWhatChecksAndPlaysForEveryModel) {
     const Finished played = understudy({"run", made + "/first_move.yaml"});
     EXPECT_EQ(played.exit_code, 0) << played.output << played.errors;
     EXPECT_NE(played.output.find("a first move"), std::string::npos) << played.output;
-    // The modelines name the schemas that lie beside the files.
+    // The modelines name the schemas next to the files.
     for (const auto& [file, schema] : {std::pair{"/bench.yaml", "./bench.schema.json"},
                                        std::pair{"/first_move.yaml", "./scenario.schema.json"}}) {
       std::ifstream text(made + file);
@@ -159,7 +159,7 @@ TEST(Init, OverwritesNothing) {
 
 TEST(Init, WritesAllOrNothing) {
   const PrivateFolder folder;
-  // No file may have more than a few blocks: the schemas do not fit.
+  // No file may exceed a few blocks, so the schemas do not fit.
   const Finished finished =
       run({"sh", "-c", "trap '' XFSZ; ulimit -f 8; exec " UNDERSTUDY_BINARY " init " + folder.path()});
   EXPECT_EQ(finished.exit_code, 3);
@@ -181,7 +181,7 @@ TEST(SchemaOfABench, ListsItsNames) {
   EXPECT_EQ(understudy({"schema", "scenario", "--bench", files.torn}).exit_code, 2);
 }
 
-/// The first bench that somebody serves: what its switches are wired to, the controller uses.
+/// In a user's first bench, the controller uses the inputs that its switches are wired to.
 struct FirstBench {
   const char* bench;  // of scenarios/; "": what `init` writes
   const char* steps;

@@ -1,4 +1,4 @@
-// The examples of examples, run as their pages say, with the tools they are for.
+// The projects in examples/, run as their pages say, with the tools that they are for.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,9 +12,9 @@ namespace examples_test {
 
 namespace fs = std::filesystem;
 
-constexpr Wait kBuilding{180'000};  // of a small program, on a machine that is busy
+constexpr Wait kBuilding{180'000};  // for a small program on a busy machine
 
-/// In the example's folder, with this understudy on PATH.
+/// Runs in the example's folder, with this understudy in PATH.
 Finished in_example(const std::string& name, const std::string& command, Wait patience = kPatience) {
   const std::string folder = std::string(PROJECT_FOLDER) + "/examples/" + name;
   const char* const path = std::getenv("PATH");
@@ -26,7 +26,7 @@ Finished in_example(const std::string& name, const std::string& command, Wait pa
   return {exit_code, process.output(), process.errors()};
 }
 
-/// The command after "$ " or without it must be on the example's page, or the page tells another story.
+/// The command after "$ ", or without it, must be on the example's page; otherwise the page is wrong.
 void expect_on_page(const std::string& name, const std::string& command) {
   std::ifstream file(std::string(PROJECT_FOLDER) + "/examples/" + name + "/README.md");
   std::ostringstream page;
@@ -68,7 +68,7 @@ TEST(Examples, APythonScriptWithPymodbus) {
   EXPECT_EQ(fed.output, "feed.py: axis A is at 3200\nfeed.py: axis A is at 0\n");
 }
 
-/// Builds a project of CMake in a folder of its own, and runs its tests.
+/// Builds a CMake project in its own folder, and runs its tests.
 void expect_project_passes(const std::string& name, int tests) {
   const PrivateFolder folder;
   const std::string ctest = (fs::path(CMAKE_PROGRAM).parent_path() / "ctest").string();

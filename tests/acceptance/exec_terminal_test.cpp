@@ -1,4 +1,4 @@
-// `understudy exec` at a terminal: the command has it, and Ctrl-C and Ctrl-Z do what they do under a shell.
+// `understudy exec` at a terminal: the command controls it, and Ctrl-C and Ctrl-Z act as in a shell.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -50,7 +50,7 @@ TEST_F(ExecAtTerminal, LeavesCtrlCToACommandThatWantsIt) {
 TEST_F(ExecAtTerminal, StopsOnCtrlZAndGoesOn) {
   if (run({"bash", "-c", "true"}).exit_code != 0) GTEST_SKIP() << "bash is not installed";
   std::string line;
-  // It forks nothing: a shell that is stopped between vfork() and exec() of a child never tells that it is.
+  // It does not fork: a shell that is stopped between vfork() and exec() of a child never reports that.
   for (const std::string& word :
        exec("echo re''ady; trap 'echo go''ne; exit 4' INT; while :; do read -r x; done")) {
     std::string quoted = "'";

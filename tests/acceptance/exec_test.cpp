@@ -1,4 +1,4 @@
-// `understudy exec`: a user's command with a bench to talk to.
+// `understudy exec`: a user's command with a bench.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -31,7 +31,7 @@ class Exec : public testing::Test {
  protected:
   const std::string& bench() const { return bench_; }
   const PrivateFolder& folder() const { return folder_; }
-  /// For scripts: this program.
+  /// This program, for scripts.
   static Environment known() { return {{"U", UNDERSTUDY_BINARY}}; }
 
   Finished exec(const Words& flags, const Words& command) const {
@@ -81,7 +81,7 @@ TEST_F(Exec, LeavesTheCommandsWordsAsTheyAre) {
 }
 
 TEST_F(Exec, LeavesItsInputAndItsSignalsAsTheyWere) {
-  // SIGPIPE (13) is ignored by whoever serves, and SIGTERM (15), SIGINT, SIGHUP, SIGCHLD are blocked.
+  // A serving process ignores SIGPIPE (13), and blocks SIGTERM (15), SIGINT, SIGHUP, SIGCHLD.
   const Finished finished = script("grep -E '^Sig(Blk|Ign)' /proc/self/status");
   const Finished plain = run({"grep", "-E", "^Sig(Blk|Ign)", "/proc/self/status"});
   EXPECT_EQ(finished.output, plain.output);
@@ -284,8 +284,8 @@ constexpr const char* kMove =
     "eval $P Aaxis_Speed=200 && eval $P Aaxis_Move_INC=1";
 
 TEST_F(ExecWith, LooksAtWhatTheCommandDoes) {
-  // 200 RPM: one revolution of 3200 pulses in 300 ms. AccTime and DecTime 0 are as 1, 10 ms: half of both
-  // more.
+  // 200 RPM: one revolution of 3200 pulses in 300 ms. AccTime and DecTime of 0 count as 1 (10 ms), which adds
+  // half of both.
   const Finished finished = with(
       "- never: feeder.A.pulses > 3200\n"
       "- wait: { until: feeder.Aaxis_SVON == 1, within: 60s }\n"
@@ -322,9 +322,9 @@ TEST_F(ExecWith, IsGivenUpWithTheCommand) {
   const std::string long_wait = "- wait: { until: feeder.A.pulses == 1, within: 1000s }\n";
   const Finished late = with(long_wait, "sleep 60", {"--timeout", "300ms"});
   EXPECT_EQ(late.exit_code, 124);
-  EXPECT_NE(late.errors.find("not played to its end"), std::string::npos) << late.errors;
+  EXPECT_NE(late.errors.find("did not run to its end"), std::string::npos) << late.errors;
   EXPECT_EQ(with(long_wait, "kill -KILL $$").exit_code, 128 + 9);
-  // The command is well, but nobody is left to let time go on.
+  // The command succeeds, but nobody is left to advance time.
   EXPECT_EQ(with(long_wait, "true", {"--speed", "manual"}).exit_code, 1);
 }
 

@@ -1,4 +1,4 @@
-// `understudy ctl` breaks and mends things in a running daemon: faults, power, programs, inputs.
+// `understudy ctl` changes a running daemon: faults, power, programs, inputs.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 constexpr int kAdcA = 0xFF00;
 
-/// Obeyed; what it printed.
+/// Expects success, and returns what it printed.
 std::string obeyed(const RunningUnderstudy& daemon, const Words& words) {
   const Finished finished = daemon.ctl(words);
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
@@ -26,7 +26,7 @@ Json json(const RunningUnderstudy& daemon, Words words) {
   return Json::parse(obeyed(daemon, words));
 }
 
-/// Refused with exactly this line.
+/// Expects a refusal with exactly this line.
 void expect_refused(const RunningUnderstudy& daemon, const Words& words, const std::string& line) {
   const Finished finished = daemon.ctl(words);
   EXPECT_EQ(finished.exit_code, 2) << line;
@@ -169,7 +169,7 @@ TEST(ControlProgram, LoadsAListingRunsItAndPrintsIt) {
   for (const char* line : {"Out DOUT_3 ON", "Delay_mSec 100", "Out DOUT_3 OFF"})
     EXPECT_NE(text.find(line), std::string::npos) << text;
   EXPECT_EQ(json(daemon, {"program", "device"})["text"], text);
-  // What it prints can be loaded, and is the same program.
+  // Its output can be loaded, and is the same program.
   EXPECT_EQ(obeyed(daemon, {"program", "device", daemon.folder().write("again.lst", text)}), "");
   EXPECT_EQ(obeyed(daemon, {"program"}), text);
 

@@ -40,7 +40,8 @@ class Traffic {
     for (Registers& registers : known_) registers = Registers(5, 0);
   }
 
-  /// Something with each station, in an order of its own; in between a broadcast or an absent station.
+  /// Exchanges something with each station, in random order, with a broadcast or an absent station in
+  /// between.
   void round(int number) {
     std::array<int, kStations> order{};
     std::iota(order.begin(), order.end(), 1);
@@ -58,7 +59,7 @@ class Traffic {
     for (int station = 1; station <= kStations; ++station) expect_known(station);
   }
 
-  /// The daemon counted what was sent and what must have been answered, and not a byte more.
+  /// The daemon must have counted what was sent and what must have been answered, and not a byte more.
   void expect_counted(const Json& line) const {
     EXPECT_EQ(line["bytes_in"], bytes_in_);
     EXPECT_EQ(line["bytes_out"], bytes_out_);
@@ -133,7 +134,7 @@ class Traffic {
     EXPECT_TRUE(host_->write(kAaxisPulse, known(station))) << modbus_strerror(host_->error());
   }
 
-  /// libmodbus takes an exception only from the station that it asked.
+  /// libmodbus accepts an exception only from the station that it addressed.
   void refuse(int station) {
     const bool hole = pick(2) == 0;
     count(station, 8, 5);
@@ -210,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(On, FifteenStations,
 
 class FifteenMoves : public testing::Test {
  protected:
-  /// Writes to address 0; libmodbus waits for a reply all the same.
+  /// Writes to address 0; libmodbus still waits for a reply.
   void broadcast(int address, int value) {
     host_.set_station(0);
     host_.set_patience(Wait(30));
@@ -246,7 +247,7 @@ TEST_F(FifteenMoves, StartTogetherAndEndEachAtItsOwn) {
   const auto until = std::chrono::steady_clock::now() + kPatience;
   for (int still = 0; still < kStations && !HasFailure();) {
     ASSERT_LT(std::chrono::steady_clock::now(), until) << still << " have arrived";
-    // They go at one speed, so the nearest end comes first: when one is still, all below it are.
+    // They run at one speed, so the nearest end comes first: when one stops, all below it have stopped.
     for (int station = kStations; station > still; --station) {
       const std::int32_t at = position(station);
       EXPECT_GE(at, last[static_cast<std::size_t>(station)]) << "station " << station;

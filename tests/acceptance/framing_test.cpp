@@ -1,4 +1,4 @@
-// Where frames end: tolerant of the lumps and pauses of a pty, or by silence alone with --strict-framing.
+// Where frames end: tolerant of bursts and pauses on a pty, or by silence alone with --strict-framing.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -9,8 +9,8 @@
 namespace understudy::acceptance {
 namespace framing_test {
 
-/// Sends the request in two parts, 5 ms apart, some times; how many were answered. A busy machine may turn
-/// a pause into a longer one, or hide it: the tests ask for the greater part.
+/// Sends the request in two parts, 5 ms apart, several times. Returns how many were answered. A busy machine
+/// may lengthen or hide a pause, so the tests require the greater part.
 constexpr int kTimes = 7;
 int answers_to_paused_requests(const RunningUnderstudy& daemon) {
   Host host(daemon.port());
@@ -18,7 +18,7 @@ int answers_to_paused_requests(const RunningUnderstudy& daemon) {
   int answers = 0;
   for (int time = 0; time < kTimes; ++time) {
     host.write(Bytes(kReadHardwareCode.begin(), kReadHardwareCode.begin() + 2));
-    // The two characters are on the wire for 1.1 ms; the pause begins when they are over.
+    // The two characters are on the wire for 1.1 ms; the pause begins after them.
     std::this_thread::sleep_for(std::chrono::microseconds(1100 + 5000));
     host.write(Bytes(kReadHardwareCode.begin() + 2, kReadHardwareCode.end()));
     if (host.read(kHardwareCodeReply.size(), 60) == kHardwareCodeReply) ++answers;

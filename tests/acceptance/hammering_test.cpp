@@ -1,5 +1,5 @@
-// A host that hammers without pause: requests back to back, nothing read for long, noise. The daemon lives,
-// answers what is good, keeps its time and its size.
+// A host that sends without pause: requests back to back, no reads for a long time, noise. The daemon
+// survives, answers good requests, keeps its time and its size.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,11 +38,11 @@ Bytes set_speed(int speed) { return frame({1, 0x06, 0x10, 0x02, high(speed), low
 const Bytes kReadSpeed = pty::hex("01 03 10 02 00 01 21 0A");
 Bytes speed_reply(int speed) { return frame({1, 0x03, 2, high(speed), low(speed)}); }
 
-/// All that comes until the line has been silent for a while.
+/// Reads until the line has been silent for a while.
 Bytes read_all(Host& host) { return host.read(SIZE_MAX, kSilenceMs); }
 
-/// Writes `lump` again and again for some time, as much as the pty takes, and ends with a whole one. Returns
-/// how many there were.
+/// Writes `lump` repeatedly for some time, as much as the pty accepts, and ends with a whole one. Returns how
+/// many there were.
 std::size_t flood(Host& host, const Bytes& lump, Wait duration) {
   std::size_t sent = 0;
   const auto until = Clock::now() + duration;
@@ -64,13 +64,13 @@ Json status(const RunningUnderstudy& daemon) {
   return Json::parse(finished.output)["status"];
 }
 
-/// The first line has taken so many bytes of its host, and the wire has brought them.
+/// Waits until the first line has taken this many bytes from its host, and the wire has carried them.
 void expect_taken(const RunningUnderstudy& daemon, std::size_t bytes) {
   EXPECT_TRUE(eventually([&] { return status(daemon)["lines"].at(0)["bytes_in"] == bytes; })) << bytes;
   std::this_thread::sleep_for(Wait(120));  // 1,024 bytes at 115200 baud take 98 ms
 }
 
-/// Simulated time goes on with the clock while this lives, without a slip.
+/// Checks that simulated time follows the clock during its lifetime, without a slip.
 class KeepsTime {
  public:
   explicit KeepsTime(const RunningUnderstudy& daemon) : daemon_(daemon), earliest_(Clock::now()) {
@@ -99,7 +99,7 @@ class KeepsTime {
   std::chrono::nanoseconds first_{0};
 };
 
-/// A field of /proc/PID/status, in KiB: VmRSS is what it holds now, VmHWM the most it ever did.
+/// Returns a field of /proc/PID/status, in KiB: VmRSS is the present memory, VmHWM the peak.
 long memory(const RunningUnderstudy& daemon, const std::string& field) {
   std::ifstream file("/proc/" + std::to_string(daemon.process().pid()) + "/status");
   for (std::string line; std::getline(file, line);) {
@@ -125,7 +125,7 @@ TEST_P(Hammering, RequestsBackToBackAreAnsweredInOrder) {
     append(replies, speed % 2 == 0 ? set_speed(speed) : speed_reply(speed - 1));
   }
   host.write(requests);
-  // Nothing is read before all is served, and then some: on the wire the last replies are still on their way.
+  // Reads nothing until everything is served, plus some time: the last replies are still on the wire.
   EXPECT_TRUE(eventually([&] { return daemon_.requests() == kRequests; }));
   EXPECT_EQ(host.read(replies.size()), replies);
   EXPECT_TRUE(is_silent(host));
@@ -195,7 +195,7 @@ TEST_P(Hammering, NoiseGetsNoReplyAndAGoodRequestAfterItDoes) {
 
 TEST_P(Hammering, AFloodOfNoiseHarmsNobody) {
   std::mt19937 random(20240608);
-  // No address that is on the line: what is right by chance gets no reply either.
+  // It is not an address of the line, so a request that is correct by chance gets no reply either.
   Bytes noise(20'000);
   for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(2 + random() % 254);
   Host host(daemon_.port());
@@ -243,9 +243,9 @@ TEST_P(Hammering, HostsThatWriteAndGoDoNotPileUp) {
     std::this_thread::sleep_for(Wait(2));
   }
   EXPECT_LT(memory(daemon_, "VmRSS") - before, 1024);
-  // Only what the pty holds is left, 2 s of the wire.
+  // Only the contents of the pty are left, 2 s of the wire.
   ModbusHost host(daemon_.port(), {.baud = 115200, .patience = kPatience});
-  // While the pty is full, a write is refused (EAGAIN): the daemon has not yet got round to what was left.
+  // While the pty is full, a write is refused (EAGAIN), because the daemon has not yet read what was left.
   EXPECT_TRUE(eventually([&] { return host.read(kHardwareCode) == Registers{0xC001}; }))
       << modbus_strerror(host.error());
 }
@@ -275,7 +275,8 @@ TEST_P(Hammering, AMoveTakesItsTimeUnderRequestsWithoutAPause) {
 INSTANTIATE_TEST_SUITE_P(With, Hammering, testing::Values("wire", "instant"),
                          [](const auto& parameter) { return std::string(parameter.param) + "Timing"; });
 
-// Who talks to the next station before the last one has replied hears what it deserves; the line recovers.
+// A host that addresses the next station before the last one has replied causes a collision; the line
+// recovers.
 TEST(HammeringFifteenStations, LeavesAllOfThemAlive) {
   for (const char* timing : {"wire", "instant"}) {
     const auto daemon = RunningUnderstudy::of_bench(fifteen_stations(115200, timing));
@@ -292,7 +293,8 @@ TEST(HammeringFifteenStations, LeavesAllOfThemAlive) {
       expect_taken(*daemon, lumps * lump.size());
       read_all(host);
       for (const Json& station : status(*daemon)["lines"].at(0)["stations"]) {
-        // Two of its own and two broadcasts. On the wire a request is spoilt by the reply to the one before.
+        // Two of its own, and two broadcasts. On the wire, the reply to the previous request damages a
+        // request.
         EXPECT_GT(station["requests"], 0) << station;
         EXPECT_LE(station["requests"], 4 * lumps) << station;
         if (std::string(timing) == "wire") continue;

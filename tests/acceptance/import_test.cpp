@@ -1,4 +1,4 @@
-// Controllers of a user's own: the page as it stands there, the examples, and real hosts that meet them.
+// A user's own controllers: the page as printed, the examples, and real hosts.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -184,7 +184,7 @@ TEST(ImportCommand, WritesWhatCanBeServedAndNothingOver) {
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_EQ(again.errors, folder / "a-pump.yaml: file: already exists; expected a folder without it\n");
   EXPECT_EQ(contents(folder / "a-pump.yaml"), before);
-  // Elsewhere, and under another name.
+  // In another folder, and under another name.
   fs::create_directory(folder / "models");
   EXPECT_EQ(understudy({"import", list, "-o", folder / "models/p.yaml", "--name", "pump"}).exit_code, 0);
   EXPECT_EQ(understudy({"check", folder / "models"}).exit_code, 0);

@@ -53,8 +53,8 @@ class LargeMessages : public testing::Test {
     }
     return exchange;
   }
-  /// Where the message took long a host has waited for a part of it at most. A busy machine may make it wait
-  /// for a part of a second by itself.
+  /// If the message took long, a host has waited for a part of it at most. A busy machine may itself make it
+  /// wait for a part of a second.
   static void expect_served(const Exchange& exchange, const std::string& what) {
     if (exchange.took < std::chrono::seconds(1)) return;
     EXPECT_LT(exchange.longest_wait, exchange.took / 2) << what;
@@ -148,7 +148,7 @@ TEST_F(LargeMessages, ThatNameTooMuchAreRefused) {
   }
 }
 
-// A program that fits goes in, however it came.
+// A program that fits is accepted, however it was sent.
 TEST_F(LargeMessages, OfAProgramThatFitsAreTaken) {
   const std::string comment = "# " + times("why ", 8'000) + "\n";
   EXPECT_EQ(

@@ -1,4 +1,4 @@
-// A daemon's beginning and end: links, signals, readiness, and what it costs while nothing happens.
+// The beginning and the end of a daemon: links, signals, readiness, and its cost while nothing happens.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/socket.h>

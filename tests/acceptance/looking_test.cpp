@@ -1,4 +1,4 @@
-// Reports, traces, plots and the host's manners, as scripts ask for them.
+// Reports, traces, plots and host checks, as scripts request them.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -194,7 +194,7 @@ TEST(Plot, TellsInALineWhatIsWrong) {
             "directory\n");
 }
 
-/// The daemon's count of times when it left simulated time out.
+/// The daemon's count of stalls that it left out of simulated time.
 std::string slips_of(const RunningUnderstudy& daemon) {
   const std::string status = daemon.ctl({"--json", "status"}).output;
   const std::size_t at = status.find("\"slips\":");

@@ -1,4 +1,4 @@
-// mbpoll, as a user types it: 8E1, and a process for each request, so that every one reopens the port.
+// mbpoll, as a user calls it: 8E1, and a process for each request, so each one reopens the port.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -30,7 +30,7 @@ class Mbpoll : public testing::TestWithParam<int> {
     words.insert(words.end(), {"--", value});
     return run(words);
   }
-  /// The value that mbpoll prints, as it prints it.
+  /// Returns the value as mbpoll prints it.
   std::string value(const std::string& type, int address) const {
     const Finished finished = read(type, address);
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;

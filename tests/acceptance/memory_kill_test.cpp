@@ -1,5 +1,5 @@
-// kill -9 at random moments (seeded) while controllers write their memories: what the next daemon finds is
-// always an image, and always one that the memory had at some moment.
+// kill -9 at random moments (seeded) while controllers write their memories: the next daemon always finds an
+// image, and always one that the memory contained at some moment.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -23,9 +23,9 @@ constexpr int kRegisters = 8;
 constexpr std::int64_t kFirst = 65'530;  // soon the high words change as well
 constexpr std::uint64_t kSeed = 81'004;
 
-/// Brings MEM1 to MEM7 up to MEM0 one by one, counts MEM0 up, and begins again. A pair takes 10 ms to be
-/// kept, so each write is kept before the next one is made: the memory is at every moment MEM0 to some
-/// register with the new count, and the others with the one before.
+/// Sets MEM1 to MEM7 to MEM0 one by one, increments MEM0, and starts again. Storing a pair takes 10 ms, so
+/// each write is stored before the next one: at every moment, MEM0 and the registers up to some MEMn have the
+/// new count, and the others the previous one.
 std::string program() {
   std::string listing = "again:";
   for (int i = 1; i < kRegisters; ++i) {
@@ -44,7 +44,7 @@ std::vector<std::int64_t> counts(const NvImage& image) {
   return found;
 }
 
-/// Whether the writes up to some one of them, and no other, make this.
+/// Returns true if the writes up to some one of them, and no others, lead to this state.
 bool is_some_moment(const std::vector<std::int64_t>& counts) {
   for (std::size_t i = 1; i < counts.size(); ++i) {
     if (counts[i] > counts[i - 1]) return false;
@@ -75,7 +75,7 @@ class KilledDaemon {
                                         folder_.path(), "--speed", "5x", "--control", folder_ / "control"});
   }
 
-  /// What it left is judged; returns how far it has counted.
+  /// Checks what it left, and returns how far it has counted.
   std::int64_t kill_and_look(int number) {
     process_->send(SIGKILL);
     EXPECT_EQ(process_->wait(kPatience), 128 + SIGKILL) << process_->errors();
@@ -101,7 +101,7 @@ TEST(MemoryKill, AtRandomMomentsLeavesAlwaysAnImageThatThereWas) {
   std::mt19937_64 random(kSeed);
   std::vector<KilledDaemon> daemons(kDaemons);
   for (int round = 0; round < kKillsOfEach; ++round) {
-    // All of them at once, each for its own time.
+    // All of them at once, each for a different time.
     std::vector<std::pair<Wait, std::size_t>> ends;
     for (std::size_t i = 0; i < daemons.size(); ++i) {
       daemons[i].start();
@@ -115,7 +115,7 @@ TEST(MemoryKill, AtRandomMomentsLeavesAlwaysAnImageThatThereWas) {
     }
     if (HasFailure()) FAIL() << "seed " << kSeed;
   }
-  // It is worth something only if they got to count.
+  // The test is meaningful only if they counted.
   std::int64_t counted = 0;
   for (KilledDaemon& daemon : daemons) {
     daemon.start();

@@ -40,7 +40,7 @@ void expect_done(const RunningUnderstudy& daemon, const Words& words) {
   EXPECT_EQ(finished.errors, "");
 }
 
-/// Refused with one line that holds `why`.
+/// Expects a refusal with one line that contains `why`.
 void expect_refused(const Finished& finished, const std::string& why) {
   EXPECT_EQ(finished.exit_code, 2) << finished.output << finished.errors;
   EXPECT_EQ(finished.output, "");
@@ -49,7 +49,7 @@ void expect_refused(const Finished& finished, const std::string& why) {
   EXPECT_NE(finished.errors.find("; "), std::string::npos) << finished.errors;
 }
 
-/// `serve` that must not start.
+/// Runs `serve`, which must not start.
 Finished serve(Words words) {
   words.insert(words.begin(), "serve");
   return understudy(words);
@@ -113,7 +113,7 @@ TEST(Memory, IsOnTheDiskSoonAfterTheEepromHasItAlsoWithoutAnEnd) {
 }
 
 TEST(Memory, DoesNotHoldWhatStillWaitedWhenTheDaemonEnded) {
-  // The clock stands: the EEPROM never gets to it, and the end of the emulator is a power cut.
+  // The clock is stopped, so the EEPROM never stores it, and the end of the emulator is a power cut.
   const PrivateFolder kept;
   {
     RunningUnderstudy daemon({"--nv", kept.path(), "--timing", "instant", "--speed", "manual"});
@@ -259,7 +259,7 @@ TEST(Program, IsLoadedAndPrintedBackAsItWas) {
   const Finished printed = daemon.ctl({"program", "device"});
   EXPECT_EQ(printed.exit_code, 0) << printed.errors;
   EXPECT_EQ(printed.output, kListing);
-  // What is printed, assembled, is what the wire reads.
+  // The printed text, assembled, is what the wire reads.
   const std::string cells = understudy({"asm", folder.write("again.lst", printed.output)}).output;
   ModbusHost host(daemon.port());
   std::string read;

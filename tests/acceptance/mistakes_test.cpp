@@ -1,5 +1,5 @@
-// What is said of somebody's mistake: one line that quotes what came and says what was expected, by every
-// command.
+// Messages about users' mistakes: every command prints one line that quotes the input and says what was
+// expected.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -41,7 +41,7 @@ class Mistakes : public testing::Test {
       expect(understudy(words), mistake);
     }
   }
-  /// As words of `ctl`.
+  /// Returns the words of `ctl`.
   void expect_all_of(const RunningUnderstudy& daemon, const std::vector<Mistake>& mistakes) const {
     for (const Mistake& mistake : mistakes) {
       Words words;
@@ -201,7 +201,7 @@ TEST_F(Mistakes, OfProgramsAreToldWithTheirFile) {
   EXPECT_NE(finished.errors.find(" more)\n"), std::string::npos) << finished.errors;
 }
 
-// What fails before a pipe leaves an empty text, which is no wish to lose the program.
+// A command that fails before a pipe leaves an empty text, which must not remove the program.
 TEST_F(Mistakes, AnEmptyProgramIsRefused) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   folder_.write("some.lst", "Out 4 1\nEND\n");
@@ -238,7 +238,7 @@ TEST_F(Mistakes, OfTheKindOfAFileNameWhatItIs) {
       {{"serve", "@day.csv"}, 2, "@day.csv:1:1: bench: is a trace; expected " + benches},
       {{"serve", "@day.yaml"},
        2,
-       "@day.yaml:1:1: bench: is a scenario; expected a bench (`understudy run` plays scenarios)"},
+       "@day.yaml:1:1: bench: is a scenario; expected a bench (`understudy run` runs scenarios)"},
       {{"serve", "@model.yaml"},
        2,
        "@model.yaml:1:1: bench: is a model file; expected a bench, whose stations name it"},

@@ -1,4 +1,4 @@
-// libmodbus as the host: what many real programs are. And the registers of a Simple2-R3 that tests use.
+// libmodbus as the host, as in many real programs; and the registers of a Simple2-R3 that tests use.
 #pragma once
 
 #include <errno.h>
@@ -42,7 +42,7 @@ struct HostSetup {
 using Registers = std::vector<std::uint16_t>;
 using Bits = std::vector<std::uint8_t>;  // 0 or 1 each
 
-/// A libmodbus context, connected. What fails gives no registers or false, and leaves its errno in error().
+/// A connected libmodbus context. A failure returns no registers or false, and leaves its errno in error().
 class ModbusHost {
  public:
   explicit ModbusHost(const std::string& port, const HostSetup& setup = {})
@@ -52,7 +52,7 @@ class ModbusHost {
     connected_ = note(modbus_connect(context_.get())) == 0;
   }
 
-  /// What is asked so gets no reply, and is not waited for long.
+  /// Sends a request that gets no reply, so it does not wait long.
   template <class Ask>
   auto in_vain(const Ask& ask, std::chrono::milliseconds patience = std::chrono::milliseconds(200)) {
     set_patience(patience);
@@ -75,7 +75,7 @@ class ModbusHost {
   Registers read_input(int address, int count = 1) {
     return read_with(modbus_read_input_registers, address, count);
   }
-  /// Coils, or discrete inputs.
+  /// Reads coils or discrete inputs.
   Bits read_coils(int address, int count = 1) { return read_bits_with(modbus_read_bits, address, count); }
   Bits read_inputs(int address, int count = 1) {
     return read_bits_with(modbus_read_input_bits, address, count);
@@ -94,8 +94,8 @@ class ModbusHost {
   bool write_bit(int address, bool on) {
     return note(modbus_write_bit(context_.get(), address, on ? 1 : 0)) == 1;
   }
-  /// A request of any shape (station, function, data; the checksum is added). Returns whether the reply
-  /// was not an exception; error() tells which it was.
+  /// Sends any request (station, function, data; the checksum is added). Returns true if the reply is not an
+  /// exception; error() tells which one it is.
   bool request(std::vector<std::uint8_t> bytes) {
     if (note(modbus_send_raw_request(context_.get(), bytes.data(), static_cast<int>(bytes.size()))) < 0)
       return false;
@@ -105,7 +105,7 @@ class ModbusHost {
     return error_ == 0;
   }
 
-  /// 32 bits, low word first, as a Simple2-R3 has them.
+  /// Reads 32 bits, low word first, as a Simple2-R3 stores them.
   std::int32_t read_long(int address) {
     const Registers words = read(address, 2);
     if (words.size() != 2) throw std::runtime_error(std::string("no reply: ") + modbus_strerror(error_));

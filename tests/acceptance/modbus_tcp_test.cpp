@@ -1,4 +1,4 @@
-// A line that is reached by Modbus TCP: with libmodbus, mbpoll, pymodbus and raw sockets.
+// A line on Modbus TCP: with libmodbus, mbpoll, pymodbus and raw sockets.
 #include <gtest/gtest.h>
 #include <modbus/modbus.h>
 
@@ -94,7 +94,7 @@ TEST(ModbusTcpLine, LetsGoWhoSpeaksSomethingElse) {
   EXPECT_EQ(client.read(kReply.size()), kReply);
 }
 
-// Whoever reaches the port can send this, without knowing a station.
+// Anyone who reaches the port can send this, without knowing a station.
 TEST(ModbusTcpLine, OutlivesLengthsThatNoRequestHas) {
   const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
   for (const char* header : {"00 00 00 00 00 00", "00 00 00 00 00 01", "00 00 00 00 01 2C"}) {
@@ -128,7 +128,7 @@ TEST(ModbusTcpLine, ForgetsTheRequestsOfAClientThatHasGone) {
   EXPECT_EQ(modbus_read_registers(host.get(), 1, 1, &value), 1) << modbus_strerror(errno);
 }
 
-// The request and the end of its client come at once.
+// The request and the end of its client arrive together.
 TEST(ModbusTcpLine, ServesTheRequestOfAClientThatHasGone) {
   const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
   TcpClient(listened_port(served)).write(pty::hex("00 01 00 00 00 06 00 06 10 02 00 C8"));
@@ -165,7 +165,7 @@ TEST(ModbusTcpLine, IsReadByPymodbus) {
   EXPECT_EQ(host.output, "False [77]\n") << host.errors;
 }
 
-// libmodbus asks for unit 255 where nobody has told it another.
+// libmodbus addresses unit 255 unless another one is set.
 TEST(ModbusTcpLine, IsReadByLibmodbusWithoutAUnit) {
   const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
   const Libmodbus host = connected(listened_port(served), MODBUS_TCP_SLAVE);
@@ -186,7 +186,7 @@ TEST(ModbusTcpLine, ServesSeveralMastersAtOnce) {
   }
 }
 
-// A master that waits for half a second is told in time, and its next request gets its own reply.
+// A master that waits for half a second is informed in time, and its next request gets its own reply.
 TEST(ModbusTcpLine, TellsOfAnAbsentStationAsSoonAsItIsToldTo) {
   const RunningUnderstudy served({"--listen", "modbus-tcp://:0?timeout=50ms", "--timing", "instant"});
   const Libmodbus host = connected(listened_port(served), 9);

@@ -1,5 +1,5 @@
-// A path that is given for a file to write, but is one that is read, or that something else writes: told in
-// one line, and nothing is lost.
+// A path for an output file that is also read, or that something else writes: the error is one line, and
+// nothing is lost.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -38,7 +38,7 @@ class OutputPaths : public testing::Test {
   }
   std::string at(const std::string& name) const { return folder_ / name; }
 
-  /// All files with what is in them.
+  /// Returns all files with their contents.
   std::string contents() const {
     std::string all;
     std::set<fs::path> paths;
@@ -70,7 +70,7 @@ TEST_F(OutputPaths, AreRefusedWhereSomethingWouldBeLost) {
       {{"run", "@play.yaml", "--junit", "@x.jsonl", "--record", "@."},
        "--record: @.: holds x.jsonl, which is what --junit writes; expected another folder"},
       {{"run", "@save.yaml", "--junit", "@kept.json"}, "--junit: @kept.json: is what @save.yaml saves"},
-      // What is left out of this run is read all the same.
+      // Files that this run leaves out are still read.
       {{"run", "@play.yaml", "@save.yaml", "--filter", "play", "--junit", "@save.yaml"},
        "--junit: @save.yaml: is the scenario itself"},
       {{"run", "@save.yaml", "@save.yaml"}, "@save.yaml: save: @kept.json is what @save.yaml saves"},
@@ -121,7 +121,7 @@ TEST_F(OutputPaths, OfSnapshotsAreNoneOfTheDaemonsOwn) {
     EXPECT_EQ(finished.errors,
               "understudy: ctl snapshot: " + at(name) + ": file: is " + what + "; expected another path\n");
   }
-  // Over an older snapshot is well.
+  // Overwriting an older snapshot is allowed.
   for (int time = 0; time < 2; ++time) EXPECT_EQ(daemon.ctl({"snapshot", at("now")}).exit_code, 0);
 }
 
@@ -211,7 +211,7 @@ TEST_F(OutputPaths, TellAtOnceWhatCannotBeWritten) {
     EXPECT_NE(finished.errors.find("it is a pipe; expected a regular file, or a free path"),
               std::string::npos)
         << finished.errors;
-    // A disk that is full, as a limit on the size of files; what it has to say goes through a pipe.
+    // A full disk, simulated by a limit on the size of files; messages go through a pipe.
     const Finished full = run({"bash", "-c", "(ulimit -f 0; exec \"$@\") 2>&1 | cat; exit ${PIPESTATUS[0]}",
                                "bash", UNDERSTUDY_BINARY, "serve", at("bench.yaml"), flag, at("new.csv")});
     EXPECT_EQ(full.exit_code, 3) << flag;
@@ -219,7 +219,7 @@ TEST_F(OutputPaths, TellAtOnceWhatCannotBeWritten) {
   }
 }
 
-/// The folder that a `run` has locked; empty before it has.
+/// Returns the folder that a `run` has locked; empty before that.
 std::string spool_of(const Process& process) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator("/proc/" + std::to_string(process.pid()) + "/fd", error)) {

@@ -1,4 +1,5 @@
-// What `cmake --install` and `cpack` make: it runs from where it was put, and says of itself what is true.
+// The results of `cmake --install` and `cpack`: the program runs from where it was installed, and its own
+// statements are true.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -49,7 +50,7 @@ void collect_commands(const Words& command, std::vector<Words>& all) {
   }
 }
 
-/// All its tests run in one process and look at one installation, which takes seconds to make.
+/// All tests of this suite run in one process and use one installation, which takes seconds to make.
 class Installation : public testing::Test {
  protected:
   static void SetUpTestSuite() { shared_folder = std::make_unique<PrivateFolder>(); }
@@ -93,7 +94,7 @@ TEST_F(Installation, BringsBenchesThatAreValidAndPagesThatReadmeLinksTo) {
   EXPECT_TRUE(fs::exists(documentation + "copyright"));
 }
 
-/// Relative links of all pages below a folder, those of folders that are links themselves included.
+/// Returns the relative links of all pages below a folder, including folders that are links themselves.
 Words dead_links_below(const std::string& folder) {
   Words dead;
   const std::regex link("\\]\\(([^)#\\s]+)[^)]*\\)");
@@ -106,7 +107,8 @@ Words dead_links_below(const std::string& folder) {
       const std::string target = (*it)[1];
       if (target.find("://") != std::string::npos) continue;
       ++links;
-      // As the system follows it, and as a browser does, to which a link to a folder is that folder.
+      // Follows a link as the system does, and as a browser does, for which a link to a folder is that
+      // folder.
       const fs::path followed = file.path().parent_path() / target;
       if (!fs::exists(followed) || !fs::exists(followed.lexically_normal()))
         dead.push_back(file.path().string() + ": " + target);
@@ -129,8 +131,7 @@ Words vendored() {
   return folders;
 }
 
-/// Whether the file that Debian calls `copyright` has a paragraph for each of them, and the text that it
-/// names.
+/// Checks that Debian's `copyright` file has a paragraph for each of them, and the text that it names.
 void expect_licences_in(const std::string& copyright) {
   for (const std::string& folder : vendored()) {
     const std::regex paragraph("\nFiles: third_party/" + folder + "/\\*\nCopyright: .+\nLicense: (\\S+)\n");
@@ -229,7 +230,7 @@ TEST_F(Installation, HasAManPageForEachCommand) {
   }
 }
 
-/// A relative link and none at all: the folder of the bench may be one that a user cannot write to.
+/// A relative link, and none: a user may not be able to write to the bench's folder.
 TEST_F(Installation, ServesAShippedBenchWithItsLinksElsewhere) {
   fs::create_directory(folder() / "links");
   Process daemon({program(), "serve", prefix() + "/share/understudy/scenarios/quickstart.yaml", "--links",
@@ -238,7 +239,7 @@ TEST_F(Installation, ServesAShippedBenchWithItsLinksElsewhere) {
   EXPECT_EQ(ModbusHost(folder() / "links/quickstart.port").read(kHardwareCode), Registers{0xC001});
 }
 
-/// What systemd does with the unit, in short: the specifiers, the variables, the words.
+/// Imitates systemd's use of the unit: the specifiers, the variables, the words.
 Words start_command(const std::string& unit,
                     const std::vector<std::pair<std::string, std::string>>& replaced) {
   std::smatch found;
@@ -286,7 +287,7 @@ lines:
   EXPECT_EQ(ModbusHost(port).read(kHardwareCode), Registers{0xC001});
 }
 
-/// With nothing on PATH but these programs.
+/// With only these programs in PATH.
 Finished with_programs(const Words& programs, const std::string& script) {
   const PrivateFolder folder;
   for (const std::string& program : programs) {
@@ -307,7 +308,7 @@ TEST(DebianPackages, AreListedWhereTheyCannotBeInstalled) {
   EXPECT_EQ(listed.errors, "");
 }
 
-/// An ordinary user can ask what is installed, too.
+/// An ordinary user can also query what is installed.
 TEST(DebianPackages, ThatAreThereAreNotListed) {
   if (!is_here("dpkg-query")) GTEST_SKIP() << "this is not Debian";
   const std::string user = "id() { echo 1000; }; apt-get() { false; }; ";
@@ -319,7 +320,7 @@ TEST(DebianPackages, ThatAreThereAreNotListed) {
   EXPECT_EQ(with_programs({"dpkg-query"}, user + "install_missing dpkg bash").output, "");
 }
 
-/// The two scripts around a project that is built in a moment.
+/// The two scripts with a project that builds in a moment.
 class RunScript : public testing::Test {
  protected:
   RunScript() {
@@ -335,7 +336,7 @@ class RunScript : public testing::Test {
   }
   std::string project() const { return folder_ / "a project"; }
   Finished in(const std::string& project, const Words& words = {}) const {
-    // Nothing is installed by a test.
+    // Tests do not install anything.
     Words command = {"env",  "-C",
                      "/",    "bash",
                      "-c",   "id() { echo 1000; }; sudo() { false; }; export -f id sudo; exec \"$@\"",
@@ -385,7 +386,7 @@ TEST(ReferenceTimer, TellsABusyMachineFromAQuietOne) {
   EXPECT_NE(judged(busy).find("in 2.0 % of its rounds more than 50 ms"), std::string::npos) << judged(busy);
 }
 
-/// A machine that does nothing else for a second: its process stands.
+/// Simulates a machine that stands still for a second: its process is stopped.
 TEST(ReferenceTimer, NoticesThatItStoodStill) {
   Process timer({"/usr/bin/python3", std::string(PROJECT_FOLDER) + "/tests/reference_timer.py"});
   ASSERT_TRUE(eventually([&] { return timer.errors() == "begins\n"; })) << timer.errors();
@@ -397,7 +398,7 @@ TEST(ReferenceTimer, NoticesThatItStoodStill) {
   EXPECT_NE(timer.output().find("too busy to judge"), std::string::npos) << timer.output();
 }
 
-/// What ./test begins with needs no git: a tarball is enough, on a machine that has none.
+/// The first checks of ./test do not need git: a tarball is enough, on a machine without git.
 TEST(HouseStyle, IsJudgedWithoutGit) {
   if (!is_here("clang-format")) GTEST_SKIP() << "clang-format is not installed";
   const PrivateFolder folder;
@@ -443,7 +444,7 @@ TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
   for (const char* library : {"libc6", "libmodbus5"})
     EXPECT_NE(needed.find(library), std::string::npos) << needed;
   EXPECT_EQ(run({"dpkg-deb", "-f", package, "Package"}).output, "understudy\n");
-  // The pages name them all, where the package was made for the Debian that they tell of.
+  // The pages name them all, if the package was built for the Debian release that they describe.
   if (needed.find("libmodbus5 (") != std::string::npos) {
     const std::regex name("([a-z][-a-z0-9.+]*) \\(");
     for (std::sregex_iterator it(needed.begin(), needed.end(), name), end; it != end; ++it) {

@@ -1,4 +1,4 @@
-// The blocks of a page of docs/ in one language: what a reader pastes.
+// The code blocks of a page of docs/ in one language, which readers paste.
 #pragma once
 
 #include <fstream>

@@ -1,5 +1,5 @@
 // The live page in real browsers, with mbpoll as the host beside it. Browsers are heavy to install, so this
-// runs where UNDERSTUDY_HEAVY_HOSTS=1 is set (./test then installs them).
+// runs only with UNDERSTUDY_HEAVY_HOSTS=1 (./test then installs them).
 #include <gtest/gtest.h>
 
 #include <algorithm>

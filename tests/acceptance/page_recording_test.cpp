@@ -26,7 +26,7 @@ steps:
   - expect: { feeder.Cord_A: 3201 }
 )";
 
-/// The page over the recording of a scenario that failed.
+/// The page with the recording of a failed scenario.
 class PageOfAFailure : public testing::Test {
  protected:
   void SetUp() override {
@@ -125,7 +125,7 @@ TEST_F(PageOfAFailure, TellsWhatLedToEachMoment) {
   EXPECT_EQ(told("events"), events);
 }
 
-/// It shows what happened: whoever could change that would show something else to all who look.
+/// It shows what happened; if someone could change that, everyone would see something else.
 TEST_F(PageOfAFailure, RefusesWhateverActs) {
   const std::int64_t end = ask({{"do", "timeline"}})["timeline"]["end_ns"].get<std::int64_t>();
   position_at(end / 2);
@@ -160,7 +160,7 @@ TEST_F(PageOfAFailure, RefusesWhateverActs) {
     const TestJson reply = ask(message);
     EXPECT_EQ(reply["ok"], false) << message.dump();
     EXPECT_NE(reply.value("error", "").find("recording"), std::string::npos) << reply.dump();
-    // By the control socket it is the same.
+    // The control socket gives the same.
     const std::string word = message["do"];
     if (word == "power") {
       EXPECT_EQ(understudy({"ctl", "--control", folder_ / "control", "power", "off"}).exit_code, 2);

@@ -1,4 +1,4 @@
-// `understudy page`, and `serve --page`: as processes, beside a bench that goes on whatever becomes of them.
+// `understudy page` and `serve --page` as processes, next to a bench that continues whatever happens to them.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -161,7 +161,7 @@ TEST(Page, ARecordingShowsWhereItsScenarioFailed) {
   EXPECT_EQ(timeline["marks"][1]["time_ns"], timeline["end_ns"]);
   EXPECT_FALSE(timeline.contains("marks_left_out"));
   EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", timeline["end_ns"]}})["simulated_time_ns"], timeline["end_ns"]);
-  // What led there is told anew, once: the request of 1.7 s before and its answer.
+  // What led to this moment is sent again, once: the request 1.7 s before, and its answer.
   browser->say({{"do", "watch"}, {"bench", 0}, {"frames", true}});
   const TestJson look = browser->hear_one("look");
   EXPECT_EQ(look.value("frames", TestJson::array()).size(), 2U) << look;

@@ -43,7 +43,7 @@ std::vector<Block> blocks_of(const std::string& page) {
   return found;
 }
 
-/// Blocks of commands that are not played here, by how they begin, and why.
+/// Blocks of commands that do not run here, by their beginnings, and the reasons.
 struct Left {
   std::string page;
   std::string begin;
@@ -74,7 +74,7 @@ bool is_left(const std::string& page, const Block& block) {
   });
 }
 
-/// What a command needs that may not be here: the word that tells of it, and where it would be.
+/// Requirements of commands that may be missing here: the word that indicates them, and where they would be.
 const std::vector<std::pair<std::string, std::string>> kNeeded = {
     {"mbpoll", "/usr/bin/mbpoll"},
     {"tshark", "/usr/bin/tshark"},
@@ -83,7 +83,7 @@ const std::vector<std::pair<std::string, std::string>> kNeeded = {
     {"from pymodbus", "/usr/lib/python3/dist-packages/pymodbus"},
 };
 
-/// What the page's shell knows besides.
+/// Additional definitions of the page's shell.
 const std::string kShell = std::string(TEST_FACTS) + "/hosts/page_shell.sh";
 
 constexpr const char* kRun = R"(#!/bin/sh
@@ -135,7 +135,7 @@ std::vector<std::string> values_of(const std::string& comment) {
   return values;
 }
 
-/// A page as a script, and what it must have printed.
+/// A page as a script, and its expected output.
 class Script {
  public:
   explicit Script(const std::vector<Block>& blocks) : text_(". " + kShell + "\n") {
@@ -267,7 +267,7 @@ INSTANTIATE_TEST_SUITE_P(Pasted, Page, testing::ValuesIn(all_pages()), [](const 
   return std::regex_replace(page.param, std::regex("[^A-Za-z0-9]"), "_");
 });
 
-/// So that none is left out by how it is written.
+/// This ensures that no block is missed because of its form.
 TEST(PageBlocks, SayThatTheyAreCommandsAndWhatIsAValue) {
   const std::regex command("^(understudy|\\./run|mbpoll|\\$ ).*");
   const std::regex number_without_arrow(".*\\s# [0-9].*");
@@ -297,7 +297,7 @@ TEST(PageBlocks, ThatAreNotPlayedAreStillThere) {
   }
 }
 
-/// Rows of a table that `describe` prints, those that fit.
+/// Returns the matching rows of a table that `describe` prints.
 long rows_of(const Words& table, const std::regex& fits = std::regex(".*")) {
   Words words = {"describe"};
   words.insert(words.end(), table.begin(), table.end());
@@ -347,7 +347,7 @@ TEST(PageCounts, AreWhatTheTablesHold) {
   }
 }
 
-/// The player itself notices what is wrong.
+/// The runner itself notices errors.
 TEST(PageBlocks, WithAnotherValueWouldBeNoticed) {
   const auto is_printed = [](const std::string& printed, const std::string& value) {
     return std::regex_search(printed, pattern_of(value, false));

@@ -1,4 +1,4 @@
-// `understudy poll`, the small Modbus master, against a running daemon.
+// `understudy poll`, the small Modbus master, with a running daemon.
 #include <gtest/gtest.h>
 
 #include "tests/acceptance/running_understudy.h"
@@ -87,7 +87,7 @@ TEST_F(Poll, TellsWhoWasAskedWhereAndHow) {
       before + "1 did not answer within 100ms at 9600 8N2\n");
   EXPECT_EQ(poll({"0x0003"}).errors, "understudy: poll: 0x0003: " + daemon_.port() +
                                          ": station 1 answered exception 2 (Illegal data address)\n");
-  // The daemon knows why, and says it once.
+  // The daemon knows the reason, and reports it once.
   poll({"--station", "9", "--timeout", "100ms", "2"});
   EXPECT_TRUE(eventually([&] {
     return daemon_.errors().find(

@@ -1,5 +1,5 @@
-// A device with two ports on two ptys: libmodbus and mbpoll on both, two hosts at once, a capture that tells
-// the lines apart, and what the control socket says.
+// A device with two ports on two ptys: libmodbus and mbpoll on both, two hosts at once, a capture that
+// distinguishes the lines, and the control socket's replies.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -29,7 +29,7 @@ struct Port {
 constexpr Port kPc{"/P", 115200, 'E'};
 constexpr Port kHmi{"/P.HMI", 19200, 'N'};
 
-/// As `serve --model workbench --link P` would have it.
+/// Like `serve --model workbench --link P`.
 class ServedOnTwoPorts : public testing::Test {
  protected:
   ServedOnTwoPorts() {
@@ -78,7 +78,7 @@ class ServedOnTwoPorts : public testing::Test {
     bool is_connected = false;
   };
 
-  /// What it printed for the address; a write prints nothing.
+  /// Returns what it printed for the address; a write prints nothing.
   std::string mbpoll(const Port& port, const std::string& type, int address, const Words& written) const {
     Words words{"mbpoll",
                 "-m",

@@ -1,5 +1,5 @@
-// Programs on the command line, whatever the language: checked, turned into numbers and back. The program
-// here knows the tests' own controller as well.
+// Programs on the command line, in any language: checked, converted to numbers and back. This program also
+// knows the test controller.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -31,7 +31,7 @@ TEST(ProgramTexts, AreCheckedInTheLanguageOfAModel) {
   EXPECT_EQ(both.output, good + ": workbench program with 4 lines\n");
   EXPECT_EQ(both.errors, mistakes + (folder / "none.wb") +
                              ": cannot be read (No such file or directory); expected a file\n");
-  // Of a folder, the files with the language's ending.
+  // Returns the files of a folder with the language's ending.
   folder.write("other.lst", "NOP\n");
   EXPECT_EQ(with_workbench({"check", "--model", "workbench", folder / "."}).errors.find("other"),
             std::string::npos);
@@ -48,11 +48,11 @@ TEST(ProgramTexts, WarningsDoNotCountAsMistakes) {
   EXPECT_EQ(checked.exit_code, 0);
   EXPECT_EQ(checked.output, loads + ": SUPER-40NC listing with 5 lines\n");
   EXPECT_EQ(checked.errors, twice + missing);
-  // Beside a mistake, that alone is told.
+  // If there is a mistake, only the mistake is reported.
   const Finished refused = understudy({"check", "--model", "super-40nc", odd});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.errors, odd + ":3:1: CJN K2 has no condition; expected contacts before it\n");
-  // As a choice, a mistake.
+  // By choice, it is a mistake.
   EXPECT_EQ(
       understudy({"check", "--model", "super-40nc", "--choice", "duplicate_label=refused_at_load", loads})
           .exit_code,
@@ -104,7 +104,7 @@ TEST(ProgramTexts, BecomeNumbersAndTextAgain) {
   const std::string wrong = folder.write("wrong.cells", "0 2561 0 -1000\n0 4 7\n0 99\n");
   EXPECT_EQ(with_workbench({"disasm", "--model", "workbench", wrong}).errors,
             wrong + ":3: is not a step; expected an area, a code and its operands\n");
-  // Without --model it is the listing of Simple2-R3.
+  // Without --model, it is the listing of Simple2-R3.
   const std::string listing = folder.write("a.lst", "END\n");
   EXPECT_EQ(with_workbench({"asm", listing}).output, "255 0 0 0\n");
   EXPECT_EQ(with_workbench({"asm", "--model", "simple2-r3", listing}).output, "255 0 0 0\n");
@@ -129,7 +129,8 @@ TEST(ProgramTexts, AreDescribed) {
   EXPECT_NE(with_workbench({"models"}).output.find("workbench  a controller for tests"), std::string::npos);
 }
 
-/// However a program comes to a device: of check each file has its own, run and serve tell each once.
+/// However a program is loaded, `check` reports its warnings for each file, and `run` and `serve` report each
+/// once.
 TEST(ProgramTexts, WarningsOfBenchesAndScenariosAreTold) {
   const PrivateFolder folder;
   const std::string listing = folder.write("lab.lst", "AREA C\nLAB K1\nLAB K1\nJMP K2\nEND\n");

@@ -1,5 +1,5 @@
-// pymodbus as the host, at 8N1: the programs are in hosts/pymodbus_host.py. What they wrote is looked at
-// through the control socket as well.
+// pymodbus as the host, at 8N1: the programs are in hosts/pymodbus_host.py. What they write is also checked
+// through the control socket.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 namespace understudy::acceptance {
 namespace pymodbus_test {
 
-// Debian's packages are for this interpreter; another one earlier in PATH does not know them.
+// Debian's packages belong to this interpreter; another one earlier in PATH does not find them.
 constexpr const char* kPython = "/usr/bin/python3";
 constexpr const char* kPackages = "/usr/lib/python3/dist-packages";
 
@@ -25,7 +25,7 @@ class Pymodbus : public testing::TestWithParam<int> {
 
   static std::string baud() { return std::to_string(GetParam()); }
 
-  /// Runs the case against `daemon`, which must hear it without a warning.
+  /// Runs the case with `daemon`, which must receive it without a warning.
   static void expect_well(const RunningUnderstudy& daemon, const std::string& name) {
     const Finished finished =
         run({kPython, std::string(TEST_FACTS) + "/hosts/pymodbus_host.py", daemon.port(), baud(), name});

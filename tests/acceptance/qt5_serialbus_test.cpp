@@ -1,5 +1,5 @@
-// Qt's Modbus master as the host: it keeps t3.5, and a broadcast is one, sent without waiting for a reply.
-// Qt is heavy to install, so these run where UNDERSTUDY_HEAVY_HOSTS=1 is set (./test then installs it).
+// Qt's Modbus master as the host: it keeps t3.5, and sends a broadcast without waiting for a reply. Qt is
+// heavy to install, so these tests run only with UNDERSTUDY_HEAVY_HOSTS=1 (./test then installs it).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -18,7 +18,7 @@ struct QtSetup {
   }
 };
 
-/// Three stations of a line, with addresses from one end of the switch to the other.
+/// Three stations of a line, with addresses at both ends of the switch.
 std::string three_stations(int baud, const std::string& timing) {
   return "understudy: 1\nlines:\n  rs485:\n    baud: " + std::to_string(baud) + "\n    timing: " + timing +
          R"(
@@ -42,7 +42,7 @@ class Qt5SerialBus : public testing::TestWithParam<QtSetup> {
     ASSERT_EQ(built.exit_code, 0) << built.output << built.errors;
   }
 
-  /// What became of each request, sent in one opening of the port.
+  /// The result of each request, sent while the port was open once.
   std::vector<std::string> send(const RunningUnderstudy& daemon, const Words& requests) const {
     Words command{build_ + "/qt5_serialbus_host", daemon.port(), std::to_string(GetParam().baud),
                   std::string(1, GetParam().parity)};

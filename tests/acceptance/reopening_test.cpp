@@ -1,5 +1,5 @@
-// Hosts that come and go: nothing that one wrote is lost, nothing that it did not read is another's, and one
-// that never reads harms nobody.
+// Hosts that come and go: nothing that a host wrote is lost, no other host gets its unread bytes, and a host
+// that never reads does not affect anyone.
 #include <gtest/gtest.h>
 #include <sched.h>
 
@@ -16,7 +16,7 @@ namespace reopening_test {
 
 using Clock = std::chrono::steady_clock;
 
-/// The daemon has seen its last host go.
+/// Waits until the daemon has noticed that its last host has gone.
 bool is_free(const RunningUnderstudy& daemon) {
   return daemon.ctl({"status"}).output.find("host closed") != std::string::npos;
 }
@@ -82,8 +82,8 @@ TEST(HostThatStopsInsideARequest, DoesNotSpoilTheNextOnes) {
 
 // --- hosts that follow each other closely ----------------------------------------------------------
 
-/// Two processors for the daemon and its host while it lives, so that the daemon meets the next host while
-/// it still deals with the end of the one before.
+/// Keeps two processors for the daemon and its host during its lifetime, so that the daemon meets the next
+/// host while it still handles the end of the previous one.
 class OnTwoProcessors {
  public:
   explicit OnTwoProcessors(pid_t daemon) {
@@ -169,7 +169,7 @@ TEST_P(Flood, OfRequestsWhoseRepliesNobodyReadsHarmsNobody) {
   }
   EXPECT_GT(written, 10'000U);
   EXPECT_LT(resident_kilobytes(daemon.process().pid()) - before, 2048);
-  // What the flood left in the pty has yet to cross the wire: 20 KiB take 2 s at this speed.
+  // The data that the flood left in the pty must still cross the wire: 20 KiB take 2 s at this speed.
   EXPECT_TRUE(eventually([&] {
     ModbusHost next(daemon.port(), {.baud = 115200, .patience = std::chrono::milliseconds(200)});
     return next.read(kHardwareCode) == Registers{0xC001} && next.read(kAaxisPulse, 3) == Registers{0, 0, 0};

@@ -1,4 +1,4 @@
-// Every output against everything that may stand in its place: what holds something else is never lost.
+// Every output, with everything that may already exist at its path: a file with other contents is never lost.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,7 +23,7 @@ constexpr const char* kFails =
 constexpr const char* kSaves =
     "understudy: 1\nname: play\nbench: bench.yaml\nsteps: [ save: { feeder: out.json } ]\n";
 
-/// An output: what writes it (files begin with @), which file it is, and the exit code where it is refused.
+/// An output: the command that writes it (files begin with @), the file, and the exit code if it is refused.
 struct Output {
   std::string name;
   Words words;
@@ -74,7 +74,7 @@ const std::vector<Output> kOutputs = {
     {"replay --report", {"replay", "@day.jsonl", "--report", "@out.html"}, "out.html", Kind::page},
 };
 
-/// What may stand there, and which kind it is of; nothing: an output of the same may replace it.
+/// What may exist there, and its kind; without a kind, an output of the same kind may replace it.
 struct There {
   std::string what;
   std::optional<std::string> text;
@@ -151,7 +151,7 @@ TEST_F(ReplacedOutputs, OfTheSameKindAreReplacedAgain) {
     for (int time = 0; time < 2; ++time) {
       const Finished finished = understudy(with_paths(output.words));
       EXPECT_EQ(finished.exit_code, output.well) << output.name << ": " << finished.errors;
-      // Of rows that took long it is said.
+      // A message mentions rows that took long.
       const bool is_said =
           finished.errors.find("replacing the rows of an earlier run; --resume continues it") !=
           std::string::npos;

@@ -1,4 +1,4 @@
-// A day over a real port, recorded, and run again.
+// A day over a real port is recorded and replayed.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@
 namespace understudy::acceptance {
 namespace replay_test {
 
-/// The recording of a host that moved axis A by 3200 pulses and watched it until it stood.
+/// Makes the recording of a host that moved axis A by 3200 pulses and watched it until it stopped.
 class RecordedDay : public testing::Test {
  protected:
   RecordedDay() {
@@ -51,7 +51,7 @@ TEST_F(RecordedDay, RunsAgainInFreeTime) {
 
 TEST_F(RecordedDay, TellsTheFirstByteThatDiffers) {
   std::string day = text();
-  // Somebody asked for 3201 pulses: 0C81 hex instead of 0C80. The request's checksum is wrong then, so nobody
+  // The host requests 3201 pulses: 0C81 hex instead of 0C80. The request's checksum is then wrong, so nobody
   // answers.
   const std::size_t at = day.find("0c80");
   ASSERT_NE(at, std::string::npos) << day.substr(0, 2000);
@@ -77,7 +77,7 @@ TEST_F(RecordedDay, StopsWhereItIsToldAndLetsOneLookAround) {
   const Finished there = ctl({"run-until", "device.STATUS.4 == 0", "--within", "1s"});
   EXPECT_EQ(there.exit_code, 0) << there.errors;
   EXPECT_EQ(ctl({"get", "Cord_A"}).output, "Cord_A 3200\n");
-  // Its port is one of its own, and serves.
+  // Its port is a new one, and serves.
   const auto lines = lines_of(replay.output());
   const auto ready = std::find_if(lines.begin(), lines.end(),
                                   [](const std::string& line) { return line.starts_with("ready "); });

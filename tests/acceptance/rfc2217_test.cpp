@@ -1,5 +1,5 @@
-// A line that is reached by RFC 2217: with python3-serial (hosts/rfc2217_host.py), through ser2net as a
-// gateway in between, and with raw sockets.
+// A line on RFC 2217: with python3-serial (hosts/rfc2217_host.py), through ser2net as a gateway, and with raw
+// sockets.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@ constexpr const char* kPyserial = "/usr/lib/python3/dist-packages/serial";
 constexpr const char* kSer2net = "/usr/sbin/ser2net";
 
 const Words kListens{"--listen", "rfc2217://:0"};
-// What is said to a client that comes: what telnet would like, in 15 bytes.
+// The telnet options that each new client gets, 15 bytes.
 constexpr std::size_t kGreeting = 15;
 
 std::string url_of(const RunningUnderstudy& served) {
@@ -84,7 +84,7 @@ TEST_F(Rfc2217ByPyserial, PassesThroughSer2netAsAGateway) {
                                           gate + "\n  connector: telnet(rfc2217),tcp,127.0.0.1," +
                                           std::to_string(listened_port(served)) + "\n")});
   ASSERT_TRUE(eventually([&] { return TcpClient(std::stoi(gate)).is_connected; })) << ser2net.errors();
-  // The client that asked whether it is there has to be gone at both ends.
+  // The client that tested whether it listens must be gone at both ends.
   ASSERT_TRUE(
       eventually([&] { return served.ctl({"status"}).output.find("host closed") != std::string::npos; }));
   expect_case("rfc2217://127.0.0.1:" + gate, "settings");
@@ -112,7 +112,7 @@ TEST(Rfc2217Line, ServesAClientThatSetsNothing) {
   EXPECT_EQ(client.read(kHardwareCodeReply.size()), kHardwareCodeReply);
 }
 
-// What it does not take waits within bounds; the daemon goes on, and so does the next client.
+// Data that it does not accept waits within limits; the daemon continues, and so does the next client.
 TEST(Rfc2217Line, OutlivesAClientThatNeverReads) {
   const RunningUnderstudy served({"--listen", "rfc2217://:0", "--listen", "rtu://:0", "--timing", "instant"});
   const int port = listened_port(served);
@@ -135,7 +135,7 @@ TEST(Rfc2217Line, OutlivesAClientThatNeverReads) {
   EXPECT_EQ(next.read(kHardwareCodeReply.size()), kHardwareCodeReply);
 }
 
-// A client that closes its sending half counts as gone, and what it sent last is served.
+// A client that closes its sending half counts as gone, and its last bytes are served.
 TEST(Rfc2217Line, ServesWhatAGoneClientHasSent) {
   for (const char* scheme : {"rfc2217://:0", "rtu://:0"}) {
     const RunningUnderstudy served({"--listen", scheme});
@@ -183,7 +183,7 @@ TEST(Rfc2217Line, RefusesAClientWhileThePseudoTerminalIsOpen) {
   EXPECT_EQ(exchange(early, kReadHardwareCode, kHardwareCodeReply.size()), kHardwareCodeReply);
 }
 
-// What is written there is not served later either.
+// Data that was written there is not served later either.
 TEST(Rfc2217Line, DoesNotHearAPseudoTerminalBesideAClient) {
   const RunningUnderstudy served({"--listen", "rtu://:0"});
   const auto client = std::make_unique<TcpClient>(listened_port(served));

@@ -1,5 +1,5 @@
-// Real hosts of an RS-M8194H on real ptys: libmodbus, mbpoll and pymodbus at 115200 8N1, and what tshark
-// makes of a capture. Addresses are the wire's: LP_X is holding 90, VAR0 300, the window 8000.
+// Real hosts of an RS-M8194H on real ptys: libmodbus, mbpoll and pymodbus at 115200 8N1, and tshark's view of
+// a capture. Addresses are those on the wire: LP_X is holding 90, VAR0 300, the window 8000.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -151,7 +151,7 @@ class RsM8194hMbpoll : public testing::Test {
     words.push_back(daemon_->port());
     return words;
   }
-  /// What it prints, value by value.
+  /// Returns what it prints, value by value.
   std::string values(const std::string& type, int address, int count = 1, const Words& order = {}) const {
     Words rest{"-1", "-c", std::to_string(count)};
     rest.insert(rest.end(), order.begin(), order.end());
@@ -185,7 +185,7 @@ TEST_F(RsM8194hMbpoll, ReadsAndWritesItsFourTypes) {
   EXPECT_EQ(values("3:hex", kDiAllX), "0x03E0");
   EXPECT_EQ(values("3", kFreeBlocks), "30");
   write("4", kWordOrder, {"0"});
-  // -B: the high word first, as the box has it.
+  // -B: the high word first, as in this controller.
   write("4:int", kVar0, {"-70000"}, {"-B"});
   EXPECT_EQ(values("4:int", kVar0, 1, {"-B"}), "-70000");
   EXPECT_EQ(values("4:hex", kVar0, 2), "0xFFFE 0xEE90");

@@ -1,5 +1,5 @@
-// What an RS-M8194H keeps, at a daemon with --nv: macros that came through the window and settings of the
-// Initial Table outlive it, and a download that something cuts off leaves the macro that was there.
+// The memory of an RS-M8194H under a daemon with --nv: macros that came through the window and settings of
+// the Initial Table outlive the daemon, and an interrupted download leaves the previous macro.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -71,7 +71,7 @@ TEST_F(RsM8194hKept, WhatCameThroughTheWindowOutlivesTheDaemon) {
   ModbusHost host(daemon->port(), kAsItComes);
   EXPECT_EQ(host.read(kMd3, 2), (Registers{0xFFFF, 0xFFFB}));
   expect_mp7_sets(host, 42);
-  // X and Y are told 12000 PPS; X goes by its MAX_V, Y by the factory's.
+  // X and Y are set to 12000 PPS; X uses its MAX_V, Y the factory value.
   EXPECT_TRUE(host.write(kWindow, Registers{0x0A47, 3, 0, 12000}));  // SV
   EXPECT_TRUE(host.write(kWindow, Registers{0x0A48, 3, 0, 12000}));  // V
   EXPECT_TRUE(host.write(kWindow, Registers{0x0A50, 3, 0, 12000}));  // CONTINUE_MOVE
@@ -82,8 +82,7 @@ TEST_F(RsM8194hKept, WhatCameThroughTheWindowOutlivesTheDaemon) {
 }
 
 TEST_F(RsM8194hKept, AKillInADownloadLeavesTheMacroThatWas) {
-  // After its opening, after a line, and after the close, when the new one is there as soon as it is in the
-  // file.
+  // After OPEN, after a line, and after CLOSE, when the new one is present as soon as it is in the file.
   struct Case {
     const char* when;
     std::vector<Registers> sent;
@@ -132,7 +131,7 @@ TEST_F(RsM8194hKept, APowerCutInADownloadLeavesTheMacroThatWas) {
       << "a box without power is silent";
   EXPECT_EQ(daemon->ctl({"power", "cell", "on"}).exit_code, 0);
   EXPECT_TRUE(eventually([&] { return host.read_input(kRsmState) == Registers{0}; }));
-  // It is out of the download: a macro line is refused, a command is taken.
+  // It has left the download: a macro line is refused, a command is accepted.
   EXPECT_FALSE(host.write(kWindow, set_var1(43)));
   EXPECT_EQ(host.error(), EMBXILVAL);
   EXPECT_TRUE(host.write(kWindow, Registers{0x0A48, 1, 0, 2000}));

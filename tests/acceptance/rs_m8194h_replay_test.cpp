@@ -1,6 +1,6 @@
-// A day of an RS-M8194H, recorded in the midst of everything and run again: by the same program, on a
-// processor without fused multiplication, and by another build. A power cut comes in the midst of a download
-// and another in the midst of homing and a stream.
+// A day of an RS-M8194H is recorded in the middle of its work and replayed: by the same program, on a
+// processor without fused multiplication, and by another build. One power cut comes during a download,
+// another during homing and a stream.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -87,11 +87,11 @@ class RsM8194hReplay : public testing::Test {
     };
     begin();
     EXPECT_TRUE(host.write(kVar1, Registers{0, 5}));
-    // The cut comes in the midst of an ISR and of homing.
+    // The power cut comes during an ISR and during homing.
     EXPECT_TRUE(eventually([&] { return host.read_input(kModuleState, 1) == Registers{kInAnIsr}; }));
     EXPECT_EQ(host.read_input(kHomeStateZ, 1), Registers{kInStep1});
     expect_done({"power", "cell", "cycle"});
-    // A download that the power ends, and one that ends well.
+    // A download that a power cut ends, and one that succeeds.
     send({0x0AC9, 42});
     send({0x0CD2, 0x7FFF, 9, 0, 3});
     expect_done({"power", "cell", "cycle"});

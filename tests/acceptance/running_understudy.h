@@ -1,5 +1,5 @@
-// Real processes: a running `understudy serve`, and programs that run to their end. Every wait is bounded,
-// and what was started is gone when its owner is, also when the test dies.
+// Real processes: a running `understudy serve`, and programs that run to their end. Every wait is bounded.
+// Processes end with their owner, also if the test crashes.
 #pragma once
 
 #include <sys/types.h>
@@ -21,12 +21,12 @@ using Words = std::vector<std::string>;
 using Environment = std::vector<std::pair<std::string, std::string>>;  // added to the test's own
 using Wait = std::chrono::milliseconds;                                // by the wall clock
 
-inline constexpr Wait kPatience{60'000};  // of a test that fails; one that passes waits for events only
+inline constexpr Wait kPatience{60'000};  // for a failing test; a passing one waits only for events
 
-/// Asks again and again until `holds` does; false if it never did.
+/// Polls until `holds` is true. Returns false if it never was.
 bool eventually(const std::function<bool()>& holds, Wait patience = kPatience);
 
-/// A folder of the test's own, removed with all that is in it.
+/// A temporary folder of the test, which is removed with its contents.
 class PrivateFolder {
  public:
   PrivateFolder();
@@ -52,9 +52,9 @@ class Process {
 
   pid_t pid() const { return pid_; }
   void send(int signal_number) const;
-  /// Its exit code, or 128 + n if signal n ended it; nothing while it runs.
+  /// Returns its exit code, or 128 + n if signal n ended it; nothing while it runs.
   std::optional<int> wait(Wait patience);
-  /// What it has printed so far.
+  /// Returns what it has printed so far.
   std::string output() const;
   std::string errors() const;
 
@@ -76,14 +76,14 @@ Finished understudy(Words arguments, const Environment& environment = {});
 
 std::vector<std::string> lines_of(const std::string& text);
 
-/// `understudy serve`, ready. At the end of the test it is asked to stop, and must end well.
+/// A running `understudy serve`. At the end of the test it is asked to stop, and must exit with 0.
 class RunningUnderstudy {
  public:
-  /// One Simple2-R3 on a line called "line" with the link folder()/port. `flags` are added.
+  /// Serves one Simple2-R3 on a line called "line" with the link folder()/port. `flags` are added.
   explicit RunningUnderstudy(const Words& flags = {}, const Environment& environment = {});
-  /// One device of another model, as above.
+  /// Serves one device of another model, as above.
   static std::unique_ptr<RunningUnderstudy> of_model(const std::string& model, const Words& flags = {});
-  /// What a bench file says, written into folder(). `flags` are added.
+  /// Serves a bench file, written to folder(). `flags` are added.
   static std::unique_ptr<RunningUnderstudy> of_bench(const std::string& yaml, const Words& flags = {});
   ~RunningUnderstudy();
   RunningUnderstudy(const RunningUnderstudy&) = delete;
@@ -101,11 +101,11 @@ class RunningUnderstudy {
   const Process& process() const { return *process_; }
   std::string errors() const { return process_->errors(); }
 
-  /// `understudy ctl WORDS` with this one's socket.
+  /// Runs `understudy ctl WORDS` with this one's socket.
   Finished ctl(const Words& words) const;
-  /// Requests that its first station has served, by `ctl status`.
+  /// Returns how many requests its first station has served, by `ctl status`.
   int requests() const;
-  /// Sends the signal and returns the exit code, which is then the caller's to judge.
+  /// Sends the signal and returns the exit code, which the caller checks.
   std::optional<int> stop(int signal_number);
 
  private:

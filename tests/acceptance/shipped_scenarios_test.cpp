@@ -1,5 +1,5 @@
-// The scenarios that are shipped: each asks a question and passes; what they do is the same in every run, on
-// any machine; and in real time, over real ports with libmodbus, the verdicts are the same.
+// The shipped scenarios: each asks a question and passes. They do the same in every run, on any machine, and
+// have the same verdicts in real time over real ports with libmodbus.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,8 +45,8 @@ const Words& all() {
   return files;
 }
 
-/// Those that tell the options of a choice apart, of all models. A test in the emulator's room has more of
-/// them.
+/// The scenarios that distinguish the options of a choice, for all models. A test in the emulator's room has
+/// more checks.
 const Words& of_choices() {
   static const Words files = [] {
     Words found;
@@ -110,10 +110,10 @@ TEST(ShippedScenarios, EachAsksAQuestionAndThePageKnowsIt) {
 
 // --- in free time ------------------------------------------------------------------------------------------
 
-/// Everything that a run prints, with the hashes of all that the devices said and did.
+/// Returns everything that a run prints, with the hashes of everything that the devices sent and did.
 std::string printed(const Words& flags = {}, const Environment& environment = {},
                     const std::string& program = UNDERSTUDY_BINARY) {
-  // More than a thousand scenarios: with sanitizers beside another test they took 12 s.
+  // More than a thousand scenarios: with sanitizers and another test beside them they took 12 s.
   const Finished finished =
       run(Words{program, "run", "--hash"} + flags + all() + of_choices(), environment, 8 * kPatience);
   EXPECT_EQ(finished.exit_code, 0) << finished.output << finished.errors;
@@ -139,11 +139,12 @@ TEST(ShippedScenarios, PassInFreeTimeAndDoTheSameInTwentyRuns) {
 }
 
 TEST(ShippedScenarios, DoDifferentThings) {
-  // Those of choices may do what another row's do; within a row the emulator's own tests compare them.
+  // Scenarios of choices may do the same as those of another row; the emulator's own tests compare them
+  // within a row.
   const Words hashes = hashes_in(understudy(Words{"run", "--hash"} + all()).output);
   EXPECT_GE(hashes.size(), all().size());
-  // Two pairs are the same on purpose: a program that is loaded in two ways, an override at its highest and
-  // beyond.
+  // Two pairs are the same on purpose: a program that is loaded in two ways, and an override at its maximum
+  // and beyond.
   EXPECT_EQ(std::set<std::string>(hashes.begin(), hashes.end()).size(), hashes.size() - 2)
       << "scenarios do the same, or nothing is hashed";
 }
@@ -164,7 +165,7 @@ TEST(ShippedScenarios, DoTheSameOnAProcessorWithoutFusedMultiplication) {
   EXPECT_EQ(printed({}, {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2"}}), printed());
 }
 
-/// Programs that change the file which stands under them, in each scan and in each area.
+/// Programs that replace the file that they run from, in each scan and in each area.
 const char* const kChangesItsFiles = R"(understudy: 1
 name: files are changed by their own lines
 bench:
@@ -207,7 +208,7 @@ steps:
   - advance: 300ms
 )";
 
-/// Freed memory is filled with something else in each run, and none of it is kept back.
+/// Freed memory is filled with a different value in each run, and none of it is held back.
 TEST(ShippedScenarios, DoTheSameWhateverFreedMemoryHolds) {
   const PrivateFolder folder;
   const std::string path = folder.write("files.yaml", kChangesItsFiles);
@@ -290,7 +291,7 @@ double simulated_seconds(const std::string& output) {
   return at == std::string::npos ? -1 : std::strtod(line.c_str() + at + 2, nullptr);
 }
 
-/// Of all models, but for those that take four seconds and more: the clock on the wall has to pass.
+/// Scenarios of all models, except those that take four seconds and more, because they run in real time.
 Words short_ones() {
   const std::set<std::string> long_ones{
       "rs-m8194h/stop_lock.yaml",      "super-40nc/home_in_order.yaml",
@@ -317,8 +318,8 @@ TEST(ShippedScenariosInRealTime, HaveTheSameVerdicts) {
   EXPECT_GT(simulated_seconds(free.output), 10) << last_line_of(free.output);
   EXPECT_LE(simulated_seconds(free.output), kSimulated) << last_line_of(free.output);
 
-  // A machine that stands still for half a second makes any host's timeouts run out. What was hit by that,
-  // and nothing else, is played again, without others beside it.
+  // If the machine stops for half a second, any host's timeouts expire. The scenarios that were affected run
+  // again, alone.
   std::string output;
   std::map<std::string, std::string> verdicts;
   Words left = files;
@@ -339,7 +340,7 @@ TEST(ShippedScenariosInRealTime, HaveTheSameVerdicts) {
   }
   EXPECT_EQ(verdicts, expected) << output;
 
-  // Each of these plays, over a pty and by the wall clock, runs again in free time to the byte.
+  // Each of these plays, over a pty and in real time, replays in virtual time to the byte.
   std::size_t recordings = 0;
   for (const auto& entry : fs::directory_iterator(folder / "recordings")) {
     const Finished again = understudy({"replay", entry.path().string()});
@@ -374,7 +375,7 @@ const std::string kFails =
     "      well: [ expect: { feeder.Aaxis_SVON: 1 } ]\n"
     "      ill: [ expect: { feeder.Aaxis_SVON: 0 } ]\n";
 
-/// The command that a failed run prints; empty if it prints none.
+/// Returns the command that a failed run prints; empty if it prints none.
 std::string replay_command(const std::string& output) {
   const std::string word = "to run this again: ";
   for (const std::string& line : lines_of(output)) {
@@ -397,7 +398,7 @@ TEST(RunRecordings, OneOfAFailureIsKeptAndRunsAgain) {
     const Finished again = understudy({"replay", path});
     EXPECT_EQ(again.exit_code, 0) << again.errors;
     EXPECT_NE(again.output.find(": the same: "), std::string::npos) << again.output;
-    // Of the three plays one has failed; --record keeps the others as well.
+    // One of the three plays fails; --record keeps the others as well.
     const auto kept = std::distance(fs::directory_iterator(fs::path(path).parent_path()), {});
     const bool all_are_kept = path.starts_with(folder.path());
     EXPECT_EQ(kept, all_are_kept ? 3 : 1);

@@ -1,4 +1,5 @@
-// A limit on the size of files is an error like a full disk, told in one line: no command dies of it.
+// A limit on the size of files is an error like a full disk, reported in one line: it does not end any
+// command abruptly.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -33,7 +34,7 @@ class SizeLimits : public testing::Test {
     folder_.write("list.csv", list);
   }
   std::string at(const std::string& name) const { return folder_ / name; }
-  /// Where no file may have more than so many kilobytes. What is said goes through pipes.
+  /// Runs with a limit of this many kilobytes for each file. Messages go through pipes.
   Finished limited(int kilobytes, const Words& words) const {
     Words command{"bash", "-c", "ulimit -f " + std::to_string(kilobytes) + "; exec \"$@\"", "bash",
                   UNDERSTUDY_BINARY};
@@ -77,7 +78,7 @@ TEST_F(SizeLimits, AreToldByEveryCommandThatWrites) {
     EXPECT_EQ(finished.exit_code, 3) << what;
     EXPECT_NE(finished.errors.find(c.says), std::string::npos) << what;
   }
-  // What was written stays whole, and the run goes on there.
+  // What was written stays complete, and the run continues there.
   const std::string rows = content("rows.jsonl");
   ASSERT_FALSE(rows.empty());
   EXPECT_EQ(rows.back(), '\n');
@@ -99,7 +100,7 @@ TEST_F(SizeLimits, DoNotStopDevicesThatRun) {
       << finished.errors;
 }
 
-// Whoever we start has the limit's own signal, as if we had not been there.
+// Programs that we start have the limit's own signal, as if we had not changed it.
 TEST_F(SizeLimits, AreTheCommandsOwnBehindExec) {
   const Finished finished = limited(
       64, {"exec", "@bench.yaml", "--", "dd", "if=/dev/zero", "of=" + at("large"), "bs=1024", "count=100"});

@@ -1,5 +1,5 @@
-// In real time, fifty times as fast: the daemon sleeps until something is due, and what a sleeping controller
-// goes by wakes it.
+// In real time, fifty times as fast: the daemon sleeps until something is due, and the inputs of a sleeping
+// controller wake it.
 #include <gtest/gtest.h>
 
 #include "tests/acceptance/running_understudy.h"

@@ -12,7 +12,7 @@
 namespace understudy::acceptance {
 namespace slim_hosts_test {
 
-// Debian's packages are for this interpreter; another one earlier in PATH does not know them.
+// Debian's packages belong to this interpreter; another one earlier in PATH does not find them.
 constexpr const char* kPython = "/usr/bin/python3";
 constexpr const char* kPyserial = "/usr/lib/python3/dist-packages/serial";
 constexpr const char* kExpect = "/usr/bin/expect";
@@ -23,7 +23,7 @@ std::unique_ptr<RunningUnderstudy> served(const Words& flags = {}) {
   return RunningUnderstudy::of_model("slim", words);
 }
 
-/// The host must be content, and the daemon must have had nothing to warn of.
+/// The host must succeed, and the daemon must not have printed warnings.
 void expect_well(const RunningUnderstudy& daemon, const Words& host) {
   const Finished finished = run(host);
   EXPECT_EQ(finished.exit_code, 0) << finished.output << finished.errors;

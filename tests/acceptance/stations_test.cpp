@@ -1,4 +1,4 @@
-// Who answers on a line: addresses, broadcast, rotary switch 0, several stations.
+// Which stations answer on a line: addresses, broadcast, rotary switch 0, several stations.
 #include <gtest/gtest.h>
 
 #include "tests/acceptance/modbus_host.h"

@@ -32,7 +32,7 @@ constexpr int kHole = 2128;
 constexpr const char* kProgram =
     "AREA X\nINC D0\nRPM K3000\nDRV K100\nDRV K0\nEND\nAREA PLC\nLD X3\nOUT Y0\nEND\n";
 
-/// A bench of one on both its ports, at a station and with a program of X.
+/// A bench with one on both its ports, at a station and with a program of X.
 std::unique_ptr<RunningUnderstudy> serve(int station, const Words& flags = {},
                                          const std::string& timing = "wire") {
   std::string program;
@@ -100,7 +100,7 @@ TEST(Super40ncHosts, LibmodbusIsServedAtAnother) {
   const auto daemon = serve(5);
   ModbusHost host(pc_port(*daemon), {.station = 5});
   expect_served(host, *daemon);
-  // The number changes behind its own reply.
+  // The number changes after its own reply.
   EXPECT_TRUE(host.write(kD9000, 0));
   host.set_station(0);
   EXPECT_EQ(host.read_long(kD9000), 0);
@@ -126,7 +126,7 @@ TEST(Super40ncHosts, UnderstudyPollReadsAndWritesAtStation0) {
   const Finished read = poll({"D53", "M5", "D9000"});
   EXPECT_EQ(read.exit_code, 0) << read.errors;
   EXPECT_EQ(read.output, "D53 -7\nM5 1\nD9000 0\n");
-  // Nobody answers there while the number is another one.
+  // Nobody answers there while the number is different.
   EXPECT_EQ(poll({"D9000=3"}).exit_code, 0);
   EXPECT_EQ(poll({"--timeout", "200ms", "D53"}).exit_code, 1);
 }
@@ -214,7 +214,7 @@ INSTANTIATE_TEST_SUITE_P(Case, Super40ncPymodbus,
                          testing::Values("types", "refusals", "program", "both_ports", "asynchronous"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
-/// A checksum as the manual's C++ example makes it, but for its damaged table: the byte tables are computed.
+/// A checksum as in the manual's C++ example, except for its damaged table: the byte tables are computed.
 Bytes with_checksum(Bytes frame) {
   std::uint16_t crc = 0xFFFF;
   for (const std::uint8_t byte : frame) {
@@ -241,7 +241,7 @@ TEST(Super40ncHosts, TheManualsOwnProgramGetsItsReply) {
   }
 }
 
-/// All that the manual prints with a checksum, as a terminal program would send it.
+/// Everything that the manual prints with a checksum, as a terminal program would send it.
 TEST(Super40ncHosts, PrintedFramesAreAnsweredOnPtys) {
   const auto daemon = serve(0);
   Host host(pc_port(*daemon));

@@ -1,4 +1,4 @@
-// A day of a SUPER-40NC, recorded in the midst of everything and run again: by the same program, on a
+// A day of a SUPER-40NC is recorded in the middle of its work and replayed: by the same program, on a
 // processor without fused multiplication, and by another build.
 #include <gtest/gtest.h>
 #include <signal.h>

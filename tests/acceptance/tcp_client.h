@@ -16,7 +16,7 @@
 
 namespace understudy::acceptance {
 
-/// Where it listens, as its log says; 0: nowhere.
+/// Returns the port where it listens, from its log; 0 if there is none.
 inline int listened_port(const RunningUnderstudy& served) {
   std::smatch found;
   const std::string errors = served.errors();
@@ -25,7 +25,7 @@ inline int listened_port(const RunningUnderstudy& served) {
              : 0;
 }
 
-/// A port of this machine at which nobody listens, now.
+/// Returns a port of this machine on which nobody listens now.
 inline int free_port() {
   const Descriptor held(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   sockaddr_in where{};
@@ -38,7 +38,7 @@ inline int free_port() {
   return ntohs(where.sin_port);
 }
 
-/// A TCP client of this machine.
+/// A TCP client on this machine.
 class TcpClient {
  public:
   explicit TcpClient(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -51,7 +51,7 @@ class TcpClient {
   void write(const Bytes& bytes) const {
     EXPECT_EQ(send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL), ssize_t(bytes.size()));
   }
-  /// As much as is taken without waiting long.
+  /// Sends as much as the other side accepts without a long wait.
   void write_what_goes(const Bytes& bytes) const {
     std::size_t gone = 0;
     for (pollfd wait{socket_.get(), POLLOUT, 0}; gone < bytes.size() && poll(&wait, 1, 200) == 1;) {
@@ -61,7 +61,7 @@ class TcpClient {
       gone += std::size_t(count);
     }
   }
-  /// Fewer if the other side closes, or says nothing for the test's patience.
+  /// Returns fewer bytes if the other side closes, or sends nothing for the test's patience.
   Bytes read(std::size_t count) const {
     Bytes bytes;
     while (bytes.size() < count && is_readable()) {

@@ -1,4 +1,4 @@
-// Hosts that are elsewhere: a line that is reached by TCP, with raw sockets and python3-serial.
+// Network hosts: a line on TCP, with raw sockets and python3-serial.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -57,7 +57,7 @@ TEST(TcpDoor, IsOpenToPythonSerial) {
   EXPECT_EQ(host.output, "010302c0012984\n") << host.errors;
 }
 
-// socat makes a port of the address where the host is.
+// socat makes a port of the address on the host's side.
 TEST(TcpDoor, IsAPortElsewhereBySocat) {
   if (access("/usr/bin/socat", X_OK) != 0) GTEST_SKIP() << "socat is not installed";
   const RunningUnderstudy served({"--listen", "rtu://:0"});
@@ -72,8 +72,8 @@ TEST(TcpDoor, IsAPortElsewhereBySocat) {
   }
 }
 
-/// A host without a last word, behind a link that is gone: in network namespaces, where they are allowed. It
-/// waits for half a minute, so it runs where UNDERSTUDY_HEAVY_HOSTS=1 is set.
+/// A host that disappears without a final message, behind a removed link: in network namespaces, if they are
+/// allowed. It waits for half a minute, so it runs only with UNDERSTUDY_HEAVY_HOSTS=1.
 TEST(TcpDoor, NoticesThatAHostHasVanished) {
   const char* wanted = getenv("UNDERSTUDY_HEAVY_HOSTS");
   if (wanted == nullptr || std::string(wanted) != "1") GTEST_SKIP() << "UNDERSTUDY_HEAVY_HOSTS=1 is not set";

@@ -1,4 +1,4 @@
-// What is for people at a terminal only.
+// Output that is only for people at a terminal.
 #include <gtest/gtest.h>
 
 #include "tests/acceptance/at_terminal.h"

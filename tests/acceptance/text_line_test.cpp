@@ -1,4 +1,4 @@
-// A device that speaks text behind a real pty, met by a host that opens it, writes lines and reads.
+// A device that speaks text on a real pty, and a host that opens it, writes lines and reads.
 #include <gtest/gtest.h>
 
 #include <future>

@@ -1,5 +1,5 @@
-// The library that lets hosts that insist on parity use a pseudo-terminal: what it turns into success, and
-// what it leaves alone. pymodbus at 8E1 is such a host: it sets its timeouts after it has opened the port.
+// The library that lets hosts that insist on parity use a pseudo-terminal: which calls it makes succeed, and
+// which it leaves alone. pymodbus at 8E1 is such a host: it sets its timeouts after it has opened the port.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <linux/serial.h>
@@ -43,7 +43,7 @@ class TtyShim : public testing::Test {
     if (library_ != nullptr) dlclose(library_);
   }
 
-  /// What was set, with more flags.
+  /// The settings, with more flags.
   termios with(tcflag_t set, tcflag_t cleared = 0) const {
     termios asked = plain_;
     asked.c_cflag = (asked.c_cflag & ~cleared) | set;
@@ -54,7 +54,7 @@ class TtyShim : public testing::Test {
     errno = 0;
     return through_shim_(descriptor, TCSANOW, &asked) == 0 ? 0 : errno;
   }
-  /// The same of an ioctl.
+  /// The same for an ioctl.
   int control(int descriptor, unsigned long request, void* argument) const {
     errno = 0;
     return ioctl_(descriptor, request, argument) == 0 ? 0 : errno;
@@ -205,7 +205,7 @@ TEST(TtyShimWithPymodbus, IsWhatItTakesAt8E1) {
   EXPECT_EQ(with.output, "[49153]\n[49153]\n[49153]\n");  // C001 hex
 }
 
-/// What runs under `exec`, with the shim or without.
+/// A program that runs under `exec`, with or without the shim.
 Finished run_host(const char* script, bool with_shim) {
   const PrivateFolder folder;
   const std::string bench = folder.write(
@@ -274,7 +274,7 @@ TEST(TtyShimHint, IsToldToPersonsWhoseLineHasParity) {
                       "--link",          folder / "port", "--control", folder / "c"};
     std::string command;
     for (const std::string& word : serve) command += word + " ";
-    // `script` gives it a terminal of its own.
+    // `script` gives it its own terminal.
     const Process on_terminal({"script", "-qfec", command, "/dev/null"});
     EXPECT_TRUE(eventually([&] { return on_terminal.output().find("ready ") != std::string::npos; }));
     const bool is_told = on_terminal.output().find("LD_PRELOAD=$(understudy tty-shim)") != std::string::npos;

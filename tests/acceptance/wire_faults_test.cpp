@@ -1,4 +1,4 @@
-// A real host, libmodbus on a real pty, meets what `understudy ctl` and a bench have broken on its line.
+// A real host, libmodbus on a real pty, with faults on its line from `understudy ctl` and from a bench.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
-// How long an exchange takes by the host's clock. The fastest of many counts: a busy machine can only make an
-// exchange longer, and none may ever be faster than the line.
+// How long an exchange takes by the host's clock. The fastest of many counts: a busy machine can only slow an
+// exchange down, and no exchange may be faster than the line.
 #include <gtest/gtest.h>
 
 #include <algorithm>

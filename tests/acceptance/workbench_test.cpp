@@ -21,7 +21,7 @@ namespace workbench = emulator::workbench;
 
 const ListedModel kModels[] = {&workbench::model()};
 
-/// The controller behind a link, in a folder of its own.
+/// The controller behind a link, in its own folder.
 class ServedWorkbench : public testing::Test {
  protected:
   ServedWorkbench() {
@@ -43,7 +43,7 @@ class ServedWorkbench : public testing::Test {
     std::filesystem::remove_all(folder_);
   }
   std::string port() const { return folder_ + "/port"; }
-  /// What was captured until now; nothing more is served.
+  /// Returns what was captured so far; nothing more is served.
   std::string capture() {
     daemon_.reset();
     return folder_ + "/capture.pcapng";
@@ -143,7 +143,7 @@ TEST_F(ServedWorkbench, IsCapturedAsTsharkReadsIt) {
   std::vector<std::string> lines;
   std::istringstream output(finished.output);
   for (std::string line; std::getline(output, line);) lines.push_back(line);
-  // A query and a response each; of bits that are read, their numbers and what they are.
+  // A query and a response for each; for bits that are read, their numbers and values.
   const char* const wanted[] = {
       "   Query: Unit:   1, Func:   5: Write Single Coil|5|",
       "Response: Unit:   1, Func:   5: Write Single Coil|5|",
@@ -219,7 +219,7 @@ TEST_F(ServedWorkbench, AnswersPollByTableAndType) {
   EXPECT_EQ(poll({"--function", "1", "0x0009=1", "0x0008:3"}), "0x0008 0\n0x0009 1\n0x000A 0\n");
   EXPECT_EQ(poll({"--function", "2", "17"}), "17 1\n");
   EXPECT_EQ(poll({"--function", "4", "20"}), "20 68\n");
-  // It takes the low word for the first one, so this controller is told to do the same.
+  // It takes the low word first, so this controller is set to do the same.
   EXPECT_EQ(poll({"0x0031=1"}), "");
   EXPECT_EQ(poll({"--type", "f32", "0x0020=2.25", "0x0020:2"}), "0x0020 2.25\n0x0022 1.5\n");
   const Finished refused =
@@ -275,12 +275,12 @@ TEST_F(ServedWorkbench, IsAskedByPollForItsOrderOfWords) {
   EXPECT_EQ(polled({"--type", "s32", "0x10"}), "0x10 70000\n");
   EXPECT_EQ(polled({"--command", "MOVE Z 65538", "Run=1"}), "");
   EXPECT_TRUE(eventually([&] { return polled({"holding.Position_Z"}) == "holding.Position_Z 65538\n"; }));
-  // What it writes itself counts from then on.
+  // What it writes itself is used from then on.
   EXPECT_EQ(polled({"Word_Order=0", "holding.Position_Y=7", "holding.Position_Y", "Word_Order=1",
                     "holding.Position_Y"}),
             "holding.Position_Y 7\nholding.Position_Y 7\n");
   EXPECT_EQ(polled({"holding.Position_Y"}), "holding.Position_Y 7\n");
-  // Or it is said: what the device has is not asked.
+  // Or the order is given: then the device is not asked.
   EXPECT_EQ(polled({"--word-order", "high", "holding.Position_Z"}), "holding.Position_Z 131073\n");
   EXPECT_EQ(polled({"--word-order", "low", "holding.Position_Z"}), "holding.Position_Z 65538\n");
   EXPECT_NE(polled({"--word-order", "middle", "holding.Position_Z"}).find("expected low or high"),

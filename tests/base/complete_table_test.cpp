@@ -18,7 +18,7 @@ constexpr HandlerRow<Verb, int> kSome[] = {{Verb::stop, 2}};
 constexpr HandlerRow<Verb, int> kOthers[] = {{Verb::go, 1}};
 constexpr CompleteTable<Verb, int> kTable(kVerbs, kSome, kOthers);
 
-/// What a constexpr table of these rows would be refused for by the compiler.
+/// The reason why the compiler would refuse a constexpr table of these rows.
 std::string refusal(const Rows& rows, const Rows& more = {}) {
   try {
     const CompleteTable<Verb, int> table(kVerbs, rows, more);

@@ -1,4 +1,4 @@
-// A queue beside the library's, and as a part of a state.
+// A queue compared with the library's, and as a part of a state.
 #include "base/queue.h"
 
 #include <gtest/gtest.h>

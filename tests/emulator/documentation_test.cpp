@@ -1,4 +1,4 @@
-// The documentation that is made from tables is what the tables say today.
+// The generated documentation matches the tables of today.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// Files that are read and replaced as a whole: what is not a regular file is not waited for.
+// Files that are read and replaced as a whole: reading something that is not a regular file does not block.
 #include "base/files/text_file.h"
 #include "emulator/models/models.h"
 
@@ -61,7 +61,7 @@ TEST_F(TextFile, IsReadByteForByte) {
 }
 
 TEST_F(TextFile, WhatIsNoRegularFileIsRefusedAtOnce) {
-  // Nobody writes to the pipe, and /dev/zero has no end: each would be waited for for ever.
+  // Nobody writes to the pipe, and /dev/zero has no end: reading either would never end.
   for (const std::string& file : {path("pipe"), path("link"), path(""), std::string("/dev/zero"),
                                   std::string("/dev/null"), std::string("/dev/tty0")}) {
     if (!fs::exists(file)) continue;
@@ -169,7 +169,7 @@ TEST_F(TextFile, WhatReplacesAFileHasItsOwner) {
   EXPECT_EQ(status.st_gid, 23456U);
 }
 
-// What is kept beside a memory may be somebody's own: only what a writer leaves goes, and nothing that is
+// Files next to a memory may belong to someone: only leftovers of a writer are removed, and nothing that is
 // being written.
 TEST_F(TextFile, WhatAKilledWriterHasLeftIsRemoved) {
   const std::string image = R"({"understudy":1,"kind":"nv-image","model":"slim"})";

@@ -1,5 +1,5 @@
-// What may stand in a bench file: anything. It is refused by an error of one line, or it is a bench, and
-// then the bench as text reads as the same bench.
+// Any text as a bench file is refused with an error of one line, or it is a bench, which as text reads back
+// as the same bench.
 #include <cstdint>
 #include <string>
 
@@ -14,7 +14,7 @@ using namespace understudy;
 using fuzzing::require;
 
 constexpr std::size_t kLongest = 4096;
-const std::string kFolder = "/nonexistent";  // what it names by a path is not there
+const std::string kFolder = "/nonexistent";  // files that it names by path do not exist
 
 }  // namespace
 

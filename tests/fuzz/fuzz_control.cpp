@@ -1,6 +1,6 @@
-// What may come over the control socket: lines of anything. Each that is answered gets one line of JSON, and
-// the daemon stays as it was where it was refused. A line that would write or read a file is left out: a
-// search shall not touch the machine that it runs on.
+// Any lines on the control socket: each reply is one line of JSON, and a refusal leaves the daemon unchanged.
+// Lines that would write or read a file are left out, because a search must not touch the machine that it
+// runs on.
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <sstream>

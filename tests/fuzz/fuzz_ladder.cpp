@@ -1,5 +1,5 @@
-// What may stand in a listing of a SUPER-40NC's programs: anything. It is refused with its places, or it is
-// programs; then the listing made from them is the same programs, and they run for a while, all six at once.
+// Any text as a listing of a SUPER-40NC's programs is refused with places, or it is programs: then the
+// listing made from them gives the same programs, and they run for a while, all six at once.
 #include <cstdint>
 #include <string>
 

@@ -1,5 +1,5 @@
-// What may stand in a listing of a Simple2-R3 program: anything. It is refused with its places, or it is a
-// program, and then the listing made from that is the same program.
+// Any text as a listing of a Simple2-R3 program is refused with places, or it is a program: then the listing
+// made from it gives the same program.
 #include <cstdint>
 #include <string>
 

@@ -27,7 +27,7 @@ constexpr std::size_t kLongest = 4000;
 constexpr std::size_t kRoom = 256;
 constexpr std::size_t kHeader = 6;
 
-/// By the standard alone: what the line should get.
+/// The frames that the line should get, by the standard alone.
 struct Expected {
   Frames frames;
   bool is_refused = false;
@@ -52,7 +52,7 @@ Expected expected_of(std::span<const std::uint8_t> said) {
   return expected;
 }
 
-/// What the line says to a frame: by turns what it should, half of it, something else, nothing.
+/// The line's replies to a frame: alternately the right one, half of it, something else, nothing.
 void answer(ModbusTcp& gateway, const Bytes& frame, unsigned how) {
   Bytes reply{frame[0], static_cast<std::uint8_t>(frame[1] | 0x80), 2};
   pty::append_rtu_crc(reply);

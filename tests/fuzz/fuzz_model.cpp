@@ -1,6 +1,6 @@
-// What may stand in a file that describes a model, its list of registers inside: anything. It is refused by
-// an error of one line each, or it is a model: then its description is the same model, and a device of it
-// takes whatever is written to each of its registers, the same by single ticks and after a restore.
+// Any text as a model file, including its list of registers, is refused with errors of one line each, or it
+// is a model: then its description gives the same model, and a device of it accepts any write to its
+// registers, with the same result by single ticks and after a restore.
 #include <cstddef>
 #include <cstdint>
 #include <string>

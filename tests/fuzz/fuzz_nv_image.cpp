@@ -1,5 +1,5 @@
-// What may stand in the file of a memory: anything. It is refused, or it is an image that reads the same when
-// it is written again; and a device that takes it has a memory that it takes back.
+// Any text as a memory file is refused, or it is an image that reads the same when it is written again; and a
+// device that accepts it has a memory that it accepts back.
 #include <cstdint>
 #include <map>
 #include <memory>

@@ -1,6 +1,6 @@
-// What browsers send to the live page: messages on the WebSocket, and the addresses in their requests. Each
-// message is refused or understood; what is passed on is one line of JSON that names no file and says that it
-// is a page's, and a page that only looks passes on nothing that changes anything.
+// Any messages from browsers on the WebSocket of the live page, and the addresses in their requests. Each
+// message is refused or understood. A message that is passed on is one line of JSON, names no file and says
+// that it comes from a page; a read-only page passes on nothing that changes anything.
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>

@@ -1,5 +1,5 @@
-// What may stand in a recording: anything, behind a header that is right or not. It is refused, or played
-// again: every eighth is, for half a second of its time.
+// Any text as a recording, after a correct or a wrong header, is refused or replayed: every eighth one is,
+// for half a second of its time.
 //
 // An input that begins with '{' is a whole recording. Otherwise its lines are events behind a header of ours.
 #include <cstdint>

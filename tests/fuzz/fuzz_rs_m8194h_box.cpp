@@ -53,11 +53,11 @@ constexpr std::uint16_t kWindow = 8000;
 constexpr std::uint16_t kWordOrder = 14;
 constexpr std::uint16_t kRsmState = 100;  // an input register
 #ifdef UNDERSTUDY_REPLAYS_CORPUS
-constexpr Tick kMaxTicks = 20'000;  // so that a run has an end
+constexpr Tick kMaxTicks = 20'000;  // so that a run ends
 constexpr int kMaxCycles = 100;     // of the power
 #else
 constexpr Tick kMaxTicks = 60;
-constexpr int kMaxCycles = 1;  // they cost as much as a run without one
+constexpr int kMaxCycles = 1;  // each costs as much as a run without one
 #endif
 
 constexpr std::string_view kPrograms[] = {
@@ -263,7 +263,7 @@ class Box {
     pty::append_rtu_crc(frame);
     send(frame, pdu[0]);
   }
-  /// What the box can tell the end of without a silence.
+  /// Messages whose end the device recognizes without silence.
   static bool is_whole(std::span<const std::uint8_t> frame) {
     if (frame.size() < 8) return false;
     const bool is_long = frame[1] == 0x0F || frame[1] == 0x10;
@@ -332,7 +332,7 @@ class Box {
   bool has_noise_ = false;
 };
 
-/// Made when they are first asked for.
+/// Made on first use.
 Box& box_for(std::size_t program, bool in_bulk) {
   static std::array<std::array<std::unique_ptr<Box>, 2>, std::size(kPrograms)> all;
   auto& one = all[program][in_bulk ? 1 : 0];

@@ -1,5 +1,5 @@
-// What may be given to an RS-M8194H as macros and triggers: any text. It is refused with places, or what it
-// says is the same again from its text.
+// Any text as macros and triggers of an RS-M8194H is refused with places, or its contents are the same after
+// they are written and read again.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
-// What may stand in a scenario file: anything. It is refused by an error, or it is a list of scenarios that
-// have a name and steps. (They are checked, not played: what a course may do is for the fuzzers of lines.)
+// Any text as a scenario file is refused with an error, or it is a list of scenarios with names and steps.
+// (They are checked, not run: the fuzz targets of lines cover what runs do.)
 #include <cstdint>
 #include <string>
 

@@ -1,6 +1,6 @@
-// What may be typed at a SLIM: anything, at any moment. Whatever it was, lines are answered in whole lines,
-// ticks that are left out are not to be seen, a state that is saved is one that is taken back, and whoever
-// leaves what is going on (ESC, an empty line, EXIT) is answered again.
+// Any lines typed at a SLIM, at any moment, are answered in whole lines. Skipped ticks make no difference, a
+// saved state is accepted back, and a host that leaves the current dialogue (ESC, an empty line, EXIT) gets
+// replies again.
 //
 // An input is a byte of options, a byte that mixes all other choices (0: ours), then what is typed. Two
 // values stand for what is not a typing:
@@ -36,7 +36,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kLongestInput = 4096;
 #ifdef UNDERSTUDY_REPLAYS_CORPUS
-constexpr Tick kMaxTicks = 20'000;  // so that a run has an end
+constexpr Tick kMaxTicks = 20'000;  // so that a run ends
 #else
 constexpr Tick kMaxTicks = 200;
 #endif
@@ -108,7 +108,7 @@ emulator::world::Bench bench_for(const Options& options) {
   return bench;
 }
 
-/// One chain in a world of its own, with what it has said.
+/// One chain in its own world, with its output.
 class Listener {
  public:
   explicit Listener(const Options& options, bool in_bulk = true)
@@ -119,7 +119,7 @@ class Listener {
 
   emulator::world::World& world() { return world_; }
 
-  /// Everything is as it was when it was made.
+  /// Everything is as it was at the start.
   void begin_anew() {
     make_anew_();
     world_.take_output(0, line().output().size());
@@ -146,7 +146,7 @@ class Listener {
     advance(0ns);
   }
 
-  /// Nothing more is said without being asked.
+  /// Nothing more is sent without a request.
   bool comes_to_rest() {
     for (int round = 0; round < kMaxRounds; ++round) {
       const std::size_t before = said_.size();
@@ -205,7 +205,7 @@ void check_whole_lines(const Listener& listener, const Options& options) {
   require(false, "what is said are whole lines");
 }
 
-/// Whoever leaves what is going on is answered again.
+/// A host that leaves the current dialogue gets replies again.
 void check_answers_again(Listener& listener, const Options& options) {
   listener.type("\x1B\r");
   listener.type("EXIT\r");
@@ -227,7 +227,7 @@ void check_answers_again(Listener& listener, const Options& options) {
   require(parse_real(answer.substr(0, end)).has_value(), "and the line is a number");
 }
 
-/// What the two first bytes of an input ask for.
+/// What the first two bytes of an input request.
 struct Settings {
   std::uint8_t bits = 0;
   std::uint8_t mix = 0;

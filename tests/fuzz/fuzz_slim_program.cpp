@@ -1,5 +1,5 @@
-// What may be given to a SLIM as its program: anything. It is refused with its line, or the program that it
-// then has is one that it takes again; and it runs for a while.
+// Any text as the program of a SLIM is refused with its line, or the resulting program is accepted again; and
+// it runs for a while.
 #include <cstdint>
 #include <memory>
 #include <string>

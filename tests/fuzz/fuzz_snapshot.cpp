@@ -1,6 +1,5 @@
-// What may stand in a snapshot: anything. Text is refused or read; a state that has a right checksum but
-// wrong bytes is refused and changes nothing, or it is a state: saved again it is the same, and the world
-// goes on.
+// Any text as a snapshot is refused or read. A state with a correct checksum but wrong bytes is refused
+// without changes, or it is a state: saved again it is the same, and the world continues.
 //
 // An input that begins with '{' is the text of a snapshot. Otherwise it changes a state that a busy world has
 // given: groups of four bytes are a part, two bytes of a place in it, and the value that is put there.
@@ -81,7 +80,7 @@ void check_state(const emulator::world::WorldState& state, bool is_checked_wholl
   try {
     world.advance_to(world.now() + 20ms);
   } catch (const std::exception&) {
-    // A plausible state that no world comes to: told, and the world is not used any more.
+    // A plausible state that no world reaches: it is reported, and the world is not used any more.
   }
 }
 

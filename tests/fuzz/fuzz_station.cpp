@@ -27,10 +27,10 @@ using namespace understudy;
 using fuzzing::require;
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMaxLumps = 32;  // so that a run has an end
+constexpr std::size_t kMaxLumps = 32;  // so that a run ends
 constexpr SimTime kMaxTime = 2s;       // of all gaps together, likewise
-constexpr SimTime kAfterwards = 2s;    // for what is still on the wire, at most
-constexpr SimTime kAStep = 25ms;       // in which that is waited for
+constexpr SimTime kAfterwards = 2s;    // at most, for data that is still on the wire
+constexpr SimTime kAStep = 25ms;       // the waiting time for it
 
 struct Lump {
   SimTime gap{0};
@@ -46,7 +46,7 @@ struct Input {
   std::vector<Lump> lumps;
 };
 
-constexpr std::size_t kSettings = 16;  // what the byte of options can ask for
+constexpr std::size_t kSettings = 16;  // what the options byte can request
 
 SimTime gap_of(std::uint8_t code) {
   constexpr SimTime kSteps[] = {10us, 150us, 2ms, 20ms};
@@ -75,7 +75,7 @@ Input read_input(std::span<const std::uint8_t> data) {
   return input;
 }
 
-/// One controller in a world of its own, with what it has said.
+/// One controller in its own world, with its output.
 class Listener {
  public:
   Listener(const Input& input, int rotary_switch, bool in_bulk = true)
@@ -84,7 +84,7 @@ class Listener {
     world_.set_bulk_ticks(in_bulk);
   }
 
-  /// Everything is as it was when it was made.
+  /// Everything is as it was at the start.
   void begin_anew() {
     make_anew_();
     world_.take_output(0, line().output().size());
@@ -105,7 +105,7 @@ class Listener {
     world_.take_output(0, output.size());
   }
 
-  /// What is on the wire, or about to be said, has been said.
+  /// Runs until everything on the wire, or about to be sent, has been sent.
   void finish() {
     const SimTime end = world_.now() + kAfterwards;
     while (line().due() && world_.now() < end) advance(kAStep);
@@ -142,7 +142,7 @@ class Listener {
   std::vector<std::uint8_t> said_;
 };
 
-/// How long the reply is whose beginning is here; nothing if it is none.
+/// Returns the length of the reply that begins here; nothing if it is not a reply.
 std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
   if (said.size() < 5) return std::nullopt;
   if ((said[1] & 0x80) != 0) return 5;
@@ -198,7 +198,7 @@ void play(Listener& listener, const Input& input) {
   listener.finish();
 }
 
-/// Made when it is first asked for.
+/// Made on first use.
 Crowd& crowd_for(const Input& input, std::uint8_t options) {
   static std::array<std::unique_ptr<Crowd>, kSettings> crowds;
   auto& crowd = crowds[options % kSettings];

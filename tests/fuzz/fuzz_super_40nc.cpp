@@ -45,7 +45,7 @@ namespace super_40nc = emulator::models::super_40nc;
 
 constexpr std::size_t kPorts = 2;
 #ifdef UNDERSTUDY_REPLAYS_CORPUS
-constexpr Tick kMaxTicks = 20'000;  // so that a run has an end
+constexpr Tick kMaxTicks = 20'000;  // so that a run ends
 #else
 constexpr Tick kMaxTicks = 60;
 #endif
@@ -169,7 +169,7 @@ class Listener {
     pty::append_rtu_crc(frame);
     send(port, frame, pdu[0]);
   }
-  /// What the device can tell the end of without a silence.
+  /// Messages whose end the device recognizes without silence.
   static bool is_whole(std::span<const std::uint8_t> frame) {
     if (frame.size() < 8 || frame[1] == 4) return false;
     const bool is_long = frame[1] == 0x0F || frame[1] == 0x10;
@@ -241,7 +241,7 @@ class Listener {
   bool has_noise_ = false;
 };
 
-/// Made when they are first asked for.
+/// Made on first use.
 Listener& listener_for(std::size_t program, bool in_bulk) {
   static std::array<std::array<std::unique_ptr<Listener>, 2>, std::size(kPrograms)> all;
   auto& one = all[program][in_bulk ? 1 : 0];
@@ -249,7 +249,7 @@ Listener& listener_for(std::size_t program, bool in_bulk) {
   return *one;
 }
 
-/// Requests as they are, of what the lines bring.
+/// The requests that the lines carry.
 void check_refusals(Listener& listener, std::span<const Act> acts) {
   for (const Act& act : acts) {
     if (act.kind() != 1 || act.bytes.empty() || act.bytes.size() > world::kModbusMaxPdu) continue;

@@ -44,7 +44,7 @@ const Bytes kMasterReply{0x12, 0x34, 0x00, 0x00, 0x00, 0x05, 0x01, 0x03, 0x02, 0
 constexpr std::size_t kLongest = 2048;
 constexpr std::size_t kMaxPieces = 24;
 
-/// One controller, which is put back into the state that it had at first.
+/// One controller, which is restored to its initial state.
 struct Bench {
   explicit Bench(pty::Timing timing)
       : world(

@@ -32,9 +32,9 @@ using namespace std::chrono_literals;
 namespace world = emulator::world;
 namespace workbench = emulator::workbench;
 
-constexpr std::size_t kMaxLumps = 32;   // so that a run has an end
-constexpr SimTime kAfterwards = 500ms;  // for what is still on the wire, at most
-constexpr std::size_t kSettings = 8;    // what the byte of options can ask for
+constexpr std::size_t kMaxLumps = 32;   // so that a run ends
+constexpr SimTime kAfterwards = 500ms;  // at most, for data that is still on the wire
+constexpr std::size_t kSettings = 8;    // what the options byte can request
 constexpr std::size_t kPorts = 2;
 
 struct Lump {
@@ -63,7 +63,7 @@ std::vector<Lump> read_lumps(std::span<const std::uint8_t> data, bool has_two_li
   return lumps;
 }
 
-/// One controller in a world of its own, with what it has said.
+/// One controller in its own world, with its output.
 class Listener {
  public:
   Listener(std::uint8_t options, bool in_bulk)
@@ -142,7 +142,7 @@ const world::FunctionRow* function_called(std::uint8_t code) {
   return nullptr;
 }
 
-/// How long the reply is whose beginning is here; nothing if it is none.
+/// Returns the length of the reply that begins here; nothing if it is not a reply.
 std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
   if (said.size() < 5) return std::nullopt;
   if ((said[1] & 0x80) != 0) return 5;
@@ -151,7 +151,7 @@ std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
   return row->kind == world::FunctionRow::Kind::read ? 5U + said[2] : 8U;
 }
 
-/// A request is answered on the line that it came on, and nowhere else.
+/// A request is answered on its own line, and nowhere else.
 void check_replies(Listener& listener, std::size_t line) {
   if (listener.line(line).counters().bytes_discarded > 0) return;  // it talked faster than the wire carries
   std::span<const std::uint8_t> said = listener.said()[line];
@@ -220,7 +220,7 @@ struct Crowd {
   Listener stepped;  // the same, every tick run one by one
 };
 
-/// Made when it is first asked for.
+/// Made on first use.
 Crowd& crowd_for(std::uint8_t options) {
   static std::array<std::unique_ptr<Crowd>, kSettings> crowds;
   auto& crowd = crowds[options % kSettings];

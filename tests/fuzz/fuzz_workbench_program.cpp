@@ -1,7 +1,6 @@
-// What may be given to the tests' controller as a program: any text. It is refused with a place for each
-// mistake, by the check as by a device, and leaves the device as it was; or the device lists what it took,
-// and that is taken and listed the same again. What is numbers on the wire is the same program from its
-// numbers.
+// Any text as a program of the test controller is refused with a place for each mistake, by the check and by
+// a device, which is then unchanged; or the device lists its program, and that listing is accepted and listed
+// the same again. A program as numbers gives the same program from these numbers.
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -25,7 +24,7 @@ DeviceSettings settings() {
   return made;
 }
 
-/// The same one again and again, put back into the state that it had.
+/// The same device repeatedly, restored to its initial state.
 workbench::Workbench& fresh_device() {
   static const std::unique_ptr<Device> device = make_device(workbench::model(), settings());
   static const workbench::WorkbenchState fresh = static_cast<workbench::Workbench&>(*device).state;

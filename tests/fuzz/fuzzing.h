@@ -24,7 +24,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Whether this input is one, of so many, that everything is checked with. Depends on the input alone.
+/// Returns true for the one input in so many with which everything is checked. Depends only on the input.
 inline bool is_checked_wholly([[maybe_unused]] std::span<const std::uint8_t> input,
                               [[maybe_unused]] std::uint32_t one_in = 8) {
 #ifdef UNDERSTUDY_REPLAYS_CORPUS

@@ -1,5 +1,5 @@
-// Gives files, or all files of folders, to the same function that the fuzzer searches: what it once found
-// stays found, with any compiler.
+// Passes files, or all files of folders, to the function that the fuzzer searches, so that faults that were
+// found stay fixed, with any compiler.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Two devices that must be in the same state; if they are not, the field that differs is told.
+// Requires two devices to be in the same state; otherwise names the field that differs.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// One course played twice: in bulk, and tick by tick with a state saved and restored in the midst of it.
+// Runs one course twice: in bulk, and tick by tick with a state that is saved and restored on the way.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ inline void require_no_difference(emulator::world::World& world, const emulator:
   require(false, what);
 }
 
-/// A stage begins anew, obeys acts, runs for ticks and has a world.
+/// A stage can restart, apply acts and run for ticks, and it has a world.
 template <class Executor, class Act>
 void play(Executor& stage, std::span<const Act> acts, Tick ticks_after) {
   stage.begin_anew();
@@ -31,7 +31,7 @@ void play(Executor& stage, std::span<const Act> acts, Tick ticks_after) {
   stage.run(ticks_after);
 }
 
-/// `stepped` goes by single ticks; `in_bulk` has played the acts already.
+/// `stepped` runs by single ticks; `in_bulk` has run the acts already.
 template <class Executor, class Act>
 void require_same_by_single_ticks(Executor& stepped, Executor& in_bulk, std::span<const Act> acts,
                                   Tick ticks_after) {
@@ -50,7 +50,7 @@ void require_same_by_single_ticks(Executor& stepped, Executor& in_bulk, std::spa
                         "many ticks in one step are the same as one by one");
 }
 
-/// A request that is refused leaves all as it was.
+/// A refused request changes nothing.
 inline void require_refused_changes_nothing(emulator::Device& device, std::span<const std::uint8_t> pdu,
                                             bool may_change = false) {
   namespace world = emulator::world;

@@ -1,4 +1,4 @@
-// Facts read out of a maker's manual, kept as CSV files beside the tests: an oracle that is not our code.
+// Facts from a maker's manual, stored as CSV files next to the tests: an oracle that is not our code.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 
 namespace understudy {
 
-/// One row of a fact file: its cells by the names of the columns.
+/// One row of a fact file: its cells by column name.
 using Fact = std::map<std::string, std::string>;
 
-/// A line of CSV as its cells; a quoted cell may hold commas.
+/// Splits a line of CSV into cells; a quoted cell may contain commas.
 inline std::vector<std::string> csv_cells(const std::string& line) {
   std::vector<std::string> cells(1);
   bool is_quoted = false;
@@ -31,7 +31,8 @@ inline std::vector<std::string> csv_cells(const std::string& line) {
   return cells;
 }
 
-/// The rows of a fact file. Lines that begin with '#' are remarks; the first other one names the columns.
+/// Reads the rows of a fact file. Lines that begin with '#' are comments; the first other line names the
+/// columns.
 inline std::vector<Fact> read_facts(const std::string& path) {
   std::ifstream file(path);
   EXPECT_TRUE(file) << path;

@@ -1,4 +1,5 @@
-// Backlash: extra pulses first at each reversal, and then the motion, from the very moment they are out.
+// Backlash: at each reversal, extra pulses come first, and then the motion, from the moment at which they are
+// out.
 #include <gtest/gtest.h>
 
 #include <array>

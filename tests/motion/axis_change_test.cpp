@@ -1,4 +1,4 @@
-// Another speed or another distance for a motion under way.
+// A different speed or distance for a running motion.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -288,7 +288,7 @@ TEST(AxisChange, AReturnThatCannotBePlannedIsRefusedInAdvance) {
   EXPECT_EQ(course.travel(), 10'000);
 }
 
-/// Everything that may be changed on the way, at random; what is asked for last is what must come out.
+/// Everything that can be changed on the way, at random; the last request must be the result.
 TEST(AxisChange, NoChangeEverLosesOrRepeatsOrReversesAPulse) {
   RandomLaws laws(seed());
   int refused = 0;

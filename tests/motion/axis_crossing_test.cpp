@@ -1,4 +1,4 @@
-// Ticks crossed in one step are the ticks one by one: random courses of an axis, with all it may meet.
+// Fast-forwarded ticks equal single ticks: random courses of an axis, with everything that it may meet.
 #include <gtest/gtest.h>
 
 #include "tests/motion/axis_scenario.h"
@@ -6,7 +6,7 @@
 namespace understudy::motion {
 namespace axis_crossing_test {
 
-/// As `single` single ticks, by as few steps as it takes.
+/// Equals `single` single ticks, in as few steps as possible.
 void go_to(AxisCourse& course, Tick until, AxisScenario& scenario, Tick& crossed) {
   while (course.now < until) {
     const Tick most = scenario.between(0, 2) == 0 ? course.now + scenario.between(1, 200) : until;
@@ -41,7 +41,7 @@ TEST(AxisCrossing, IsTheSameStateAsSingleTicks) {
       }
       go_to(bulk, until, scenario, crossed);
       while (single.now < until) single.step();
-      // Events of ticks that were crossed are none: what is left is that of the last tick.
+      // Skipped ticks have no events: what remains belongs to the last tick.
       ASSERT_EQ(bulk.axis, single.axis) << scenario.code() << " " << single.now;
       ASSERT_EQ(bulk.output_pulses, single.output_pulses) << scenario.code() << " " << single.now;
       ASSERT_EQ(bulk.seen, single.seen) << scenario.code() << " " << single.now;

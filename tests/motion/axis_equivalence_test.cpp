@@ -1,4 +1,4 @@
-// The short way through a tick and the careful one are the same, and so are a copy and its original.
+// The fast and the slow path through a tick give the same result, and so do a copy and its original.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace axis_equivalence_test {
 
 constexpr int kTicks = 1'500;
 
-/// Without what only says how the next tick is to be done.
+/// Without the members that only say how the next tick is done.
 Axis state_of(Axis axis) {
   axis.must_recheck = false;
   axis.watch_low = axis.watch_high = 0;
   return axis;
 }
 
-/// Stepped with care, whatever the axis thinks of it.
+/// Stepped by the slow path, whatever the axis chooses.
 std::int64_t step_slow_path(AxisCourse& course, std::int64_t counts) {
   course.axis.must_recheck = true;
   return step(course, counts);
@@ -52,7 +52,7 @@ TEST(AxisEquivalence, TheShortWayThroughATickIsTheCarefulOne) {
   }
 }
 
-/// Found once in 20,000: play is left over when the settings have none any more.
+/// Found once in 20,000: backlash is left over when the settings have none any more.
 TEST(AxisEquivalence, PlayThatIsLeftOverIsForgottenByBoth) {
   expect_alike(AxisScenario(1600278233990034164));
 }

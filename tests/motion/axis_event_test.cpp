@@ -1,4 +1,4 @@
-// What an axis tells of: comparators, the mark, in-position.
+// The events of an axis: comparators, the mark, in-position.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -120,7 +120,7 @@ TEST(AxisEvent, AComparatorOfTheEncoderLooksAtTheEncoder) {
   EXPECT_EQ(firings(course, 5, 1).size(), 1U);
 }
 
-/// And an axis whose encoder nothing is compared with has nothing to look at.
+/// An axis whose encoder is not compared with anything has nothing to check.
 TEST(AxisEvent, AComparatorOfTheEncoderMeetsWhatComesAfterIt) {
   AxisCourse course;
   course.axis.run(+1, constant(1'000), 0);
@@ -155,7 +155,7 @@ TEST(AxisEvent, AnEncoderThatJumpsFarPassesNothing) {
     EXPECT_TRUE(firings(course, 1).empty()) << direction;
     course.axis.set_encoder(0);
     EXPECT_TRUE(firings(course, 1).empty()) << "and back, " << direction;
-    // Of a jump only the end counts, and it does.
+    // Only the end of a jump counts.
     course.axis.set_encoder(direction * 200'000);
     EXPECT_EQ(firings(course, 1, 1).size(), 1U) << direction;
   }
@@ -209,7 +209,7 @@ TEST(AxisEvent, AComparatorThatStopsAtOnceStopsOnItsPulse) {
       EXPECT_EQ(course.travel(), direction * value);
       EXPECT_EQ(course.axis.cause, Cause::comparator);
       EXPECT_TRUE(course.saw(Event::comparator_2));
-      // It stands on it, and goes on from it.
+      // It stands on it, and continues from it.
       course.axis.move(direction * 5, constant(4e6), course.now);
       course.until_rest();
       EXPECT_EQ(course.travel(), direction * (value + 5));

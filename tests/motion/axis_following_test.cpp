@@ -1,5 +1,5 @@
-// An axis that follows a wheel, or is carried along a path with others: the pulses come from elsewhere, and
-// what is met on the way is met all the same.
+// An axis that follows a wheel, or that is carried along a path with others: its pulses come from elsewhere,
+// and it still handles everything on the way.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -86,7 +86,7 @@ TEST(AxisFollowing, StopsAtALimitOnItsEdge) {
     EXPECT_FALSE(course.axis.moving());
     EXPECT_EQ(course.axis.cause, direction > 0 ? Cause::limit_plus : Cause::limit_minus);
 
-    // It may follow again: towards the limit in vain, and freely away from it.
+    // It can follow again: not towards the limit, but freely away from it.
     EXPECT_EQ(course.axis.follow({}), Cause::none);
     course.axis.feed(direction * 10);
     EXPECT_EQ(course.steps(3), 0);

@@ -1,4 +1,4 @@
-// Moves, endless runs and stops of an axis that nothing is in the way of.
+// Moves, endless runs and stops of an axis without obstacles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -192,7 +192,7 @@ TEST(AxisMotion, SlowingDownDuringTheRampDownStillReachesTheTarget) {
     const SpeedLaw law{.top_speed_u_s = top, .up = laws.slope(false), .down = laws.any_ramp(top, false)};
     const auto distance = static_cast<std::int64_t>(laws.of_any_size(1, 1e6));
     const Profile profile = plan(static_cast<double>(distance), law);
-    // Where its speed begins to fall for good.
+    // The place where its speed begins to fall for good.
     double begins_s = profile.duration_s;
     for (std::int32_t k = profile.segment_count - 1; k >= 0; --k) {
       const Segment& segment = profile.segments[static_cast<std::size_t>(k)];

@@ -1,5 +1,4 @@
-// The play of a drive: how much of its backlash an axis has taken up; and what an encoder passes within a
-// tick.
+// The backlash of a drive that an axis has taken up; and what an encoder passes within a tick.
 #include <gtest/gtest.h>
 
 #include "motion/axis.h"

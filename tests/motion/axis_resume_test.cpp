@@ -1,4 +1,4 @@
-// A stop by command that is taken back while the axis still moves.
+// A commanded stop that is cancelled while the axis still moves.
 #include <gtest/gtest.h>
 
 #include "motion/axis.h"

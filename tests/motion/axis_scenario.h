@@ -1,4 +1,4 @@
-// Anything that may happen to an axis, at random: commands, numbers, switches that come and go.
+// Random acts on an axis: commands, numbers, switches that come and go.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ class AxisScenario {
  public:
   explicit AxisScenario(std::uint64_t seed) : random_(seed), laws_(seed), seed_(seed) {}
 
-  /// As code to paste into a test.
+  /// Returns code to paste into a test.
   std::string code() const { return "AxisScenario scenario(" + std::to_string(seed_) + ");"; }
 
   AxisCourse course() {
@@ -33,7 +33,7 @@ class AxisScenario {
     return course;
   }
 
-  /// What happens before the next tick, mostly nothing. It may refuse, by throwing or by its cause.
+  /// The act before the next tick, mostly none. The axis may refuse it, by an exception or by a cause.
   std::function<void(AxisCourse&)> next() {
     const SpeedLaw law = speed_law();
     const int direction = between(0, 1) == 0 ? +1 : -1;
@@ -70,7 +70,7 @@ class AxisScenario {
     }
   }
 
-  /// What comes from elsewhere in the next tick.
+  /// The input of the next tick from elsewhere.
   std::int64_t counts() { return between(0, 3) == 0 ? 0 : between(-40, 60); }
 
   std::int64_t between(std::int64_t low, std::int64_t high) { return random_.between(low, high); }
@@ -125,7 +125,7 @@ class AxisScenario {
   std::uint64_t seed_;
 };
 
-/// Does it; what is refused changes nothing.
+/// Applies it; a refused act changes nothing.
 inline void act(const std::function<void(AxisCourse&)>& command, AxisCourse& course) {
   try {
     command(course);
@@ -133,7 +133,7 @@ inline void act(const std::function<void(AxisCourse&)>& command, AxisCourse& cou
   }
 }
 
-/// One tick, with the counts or pulses that an axis which follows or is carried gets. Gives what came out.
+/// Runs one tick, with the counts or pulses for an axis that follows or is carried. Returns its pulses.
 inline std::int64_t step(AxisCourse& course, std::int64_t counts) {
   course.axis.feed(counts);
   return course.axis.task == Task::coordinated ? course.carry(counts) : course.step();

@@ -1,4 +1,4 @@
-// Another speed, and a stop, while moving: by hand.
+// A different speed, and a stop, while moving: by hand.
 #include <gtest/gtest.h>
 
 #include <vector>

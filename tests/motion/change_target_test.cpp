@@ -1,4 +1,4 @@
-// Another target while moving: by hand.
+// A different target while moving: by hand.
 #include <gtest/gtest.h>
 
 #include <vector>

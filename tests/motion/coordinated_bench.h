@@ -1,4 +1,4 @@
-// Four axes on a bench, carried along paths, and what they are held against.
+// Four axes on a bench that are carried along paths, and the shapes that they are compared with.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ struct Bench {
   void steps(int count) {
     for (; count > 0; --count) step();
   }
-  /// The tick in which the group let go; -1 when it does not.
+  /// Returns the tick in which the group released it; -1 if it did not.
   Tick to_the_end(Tick most = 1'000'000) {
     for (const Tick last = tick + most; tick < last;) {
       step();
@@ -63,7 +63,7 @@ struct Bench {
 
 using Travels = std::array<std::int64_t, Bench::kAxes>;
 
-/// Where a symmetric trapezoid is after t seconds, from its law alone.
+/// Returns the position on a symmetric trapezoid after t seconds, from its law alone.
 inline double trapezoid_at(double t_s, double length_u, double top_u_s, double slope_u_s2) {
   const double peak = std::min(top_u_s, std::sqrt(length_u * slope_u_s2));
   const double ramp_s = peak / slope_u_s2;

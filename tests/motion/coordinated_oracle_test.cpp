@@ -1,4 +1,4 @@
-// The pulses that come out over time, against lines and circles drawn pulse by pulse.
+// The pulses over time, compared with lines and circles that are drawn pulse by pulse.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,4 +1,4 @@
-// What stops one axis of a coordinated motion stops them all.
+// A stop of one axis of a coordinated motion stops all axes.
 #include <gtest/gtest.h>
 
 #include <functional>

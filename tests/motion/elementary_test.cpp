@@ -1,4 +1,4 @@
-// Our own functions against the maths library's in long double, which has 11 bits more.
+// Our own functions compared with the maths library's in long double, which has 11 bits more.
 #include "motion/elementary.h"
 
 #include <gtest/gtest.h>

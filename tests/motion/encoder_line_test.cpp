@@ -1,4 +1,4 @@
-// What an encoder counts along the travel, against counting pulse by pulse.
+// The counts of an encoder along the travel, compared with counting pulse by pulse.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// The trapezoid by times in exact rational arithmetic, from the law alone (Simple2-R3 manual, appendix A,
-// read consistently). Times are whole milliseconds, speeds ratios of pulses per millisecond.
+// A trapezoid given by times, in exact rational arithmetic, from the law alone (Simple2-R3 manual, appendix
+// A, read consistently). Times are whole milliseconds, speeds ratios of pulses per millisecond.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace understudy::motion {
 
-/// Whole pulses that a drive has sent `elapsed` ticks after the beginning of `profile`.
+/// Returns the whole pulses that a drive has sent `elapsed` ticks after the beginning of `profile`.
 inline std::int64_t pulses_at(const Profile& profile, Tick elapsed) {
   if (elapsed < 0) return 0;
   PulseDrive drive;
@@ -19,7 +19,7 @@ inline std::int64_t pulses_at(const Profile& profile, Tick elapsed) {
   return drive.pulses_at(elapsed);
 }
 
-/// The first tick, counted from the beginning, at which `profile` is over.
+/// Returns the first tick, counted from the beginning, at which `profile` is over.
 inline Tick end_tick(const Profile& profile) {
   return static_cast<Tick>(std::ceil(profile.duration_s * kTicksPerSecond - kTickTolerance));
 }
@@ -37,7 +37,7 @@ struct Ratio {
   }
   std::int64_t ceil() const { return -Ratio{-num, den}.floor(); }
   double value() const { return static_cast<double>(num) / static_cast<double>(den); }
-  /// Plus so many millionths.
+  /// Adds this many millionths.
   Ratio plus_millionths(int millionths) const {
     return {num * 1'000'000 + den * millionths, den * 1'000'000};
   }
@@ -68,7 +68,7 @@ struct RegisterMove {
     return pps > 100'000 ? 100'000 : pps;
   }
 
-  /// 2P / (TA+TD) against V.
+  /// Compares 2P / (TA+TD) with V.
   bool reaches_limit() const { return Int128{2} * distance_pulses * limit().den >= limit().num * ramps_ms(); }
   Ratio top() const { return reaches_limit() ? limit() : Ratio{Int128{2} * distance_pulses, ramps_ms()}; }
 
@@ -98,7 +98,7 @@ struct RegisterMove {
   }
   Profile plan() const { return motion::plan(static_cast<double>(distance_pulses), law()); }
 
-  /// As code to paste into a test.
+  /// Returns code to paste into a test.
   std::string code() const {
     return "const RegisterMove move{" + std::to_string(distance_pulses) + ", " + std::to_string(speed_rpm) +
            ", " + std::to_string(resolution) + ", " + std::to_string(acceleration_10ms) + ", " +

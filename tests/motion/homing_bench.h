@@ -19,10 +19,10 @@
 namespace understudy::motion {
 
 inline constexpr std::int64_t kFar = 1'000'000'000;
-/// In place of where a leg came to stand: it did not, the next one took over in motion.
+/// The end of a leg that did not come to rest, because the next one took over in motion.
 inline constexpr std::int64_t kRunsOn = INT64_MIN;
 
-/// What ran for a while: a row of the homing table, in a direction, until it came to stand.
+/// A leg: a row of the homing table, in a direction, until it comes to rest.
 struct Leg {
   int row = 0;
   int direction = +1;
@@ -77,7 +77,7 @@ struct HomingBench {
   Events seen = 0;
   Trace trace;
 
-  /// At `start`, having looked round once.
+  /// An axis at `start` that has sampled its switches once.
   HomingBench(const Environment& machine, std::int64_t start) : environment(machine) {
     axis.travel_pulses = axis.base_pulses = start;
     axis.servo_on = true;
@@ -107,7 +107,7 @@ struct HomingBench {
     runs_ = is;
   }
 
-  /// Until homing is over, or the tick; true if it is over.
+  /// Runs until homing is over, or until the tick. Returns true if it is over.
   bool run(Tick until = 200'000) {
     while (axis.homing.active() && now < until) step();
     return !axis.homing.active();
@@ -136,7 +136,7 @@ struct HomingBench {
   Running runs_;
 };
 
-/// What a homing is expected to end as.
+/// The expected end of a homing.
 struct Ending {
   Cause by = Cause::arrived;
   int in_row = -1;  // -1: no matter
@@ -160,13 +160,13 @@ inline void expect_ended(const HomingBench& bench, const Ending& ending) {
 
 inline double brake_pulses(double speed_pps, double slope) { return speed_pps * speed_pps / (2 * slope); }
 
-/// From rest over `pulses`, not slowing down.
+/// The duration from rest over `pulses`, without slowing down.
 inline double time_to_reach_s(double pulses, double speed_pps, double slope) {
   if (pulses < brake_pulses(speed_pps, slope)) return std::sqrt(2 * pulses / slope);
   return pulses / speed_pps + speed_pps / (2 * slope);
 }
 
-/// From rest to rest, equal ramps.
+/// The duration from rest to rest, with equal ramps.
 inline double time_of_move_s(double pulses, double speed_pps, double slope) {
   if (pulses < 2 * brake_pulses(speed_pps, slope)) return 2 * std::sqrt(pulses / slope);
   return pulses / speed_pps + speed_pps / slope;

@@ -1,6 +1,6 @@
 #include "tests/motion/homing_super40nc_bench.h"
 
-// What ends a homing without home.
+// Events that end a homing without home.
 namespace understudy::motion {
 namespace homing_failure_test {
 

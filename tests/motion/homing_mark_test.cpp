@@ -1,5 +1,5 @@
-// SUPER-40NC's MRK: past the target at the creep speed, which is another than the start speed, and on to a
-// mark. Against closed forms, and from every place.
+// SUPER-40NC's MRK: past the target at the creep speed, which differs from the start speed, and on to a mark.
+// Compared with closed forms, and from every place.
 #include <gtest/gtest.h>
 
 #include "tests/motion/homing_super40nc_bench.h"

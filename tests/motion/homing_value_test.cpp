@@ -2,7 +2,7 @@
 
 #include "tests/motion/homing_super40nc_bench.h"
 
-// Homing as a value, with backlash, and whatever random machines do to it.
+// Homing as a value, with backlash, on random machines.
 namespace understudy::motion {
 namespace homing_value_test {
 
@@ -191,7 +191,7 @@ TEST(HomingValue, StartsInTheMidstOfAnotherMotion) {
   EXPECT_EQ(bench.axis.travel_pulses, 43'000);
 }
 
-/// A machine with anything anywhere.
+/// A machine with anything at any place.
 Environment random_machine(std::mt19937_64& random) {
   const auto between = [&](std::int64_t low, std::int64_t high) {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random);

@@ -1,4 +1,5 @@
-// What every profile of a move must be: without gaps, within the limits of its law, and where it says it is.
+// Checks of every profile of a move: it has no gaps, keeps within the limits of its law, and is where it says
+// it is.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +13,13 @@ namespace understudy::motion {
 
 using oracle::Long;
 
-/// Relative to the limit: the tolerance that the limits are promised to.
+/// The promised tolerance, relative to the limit.
 constexpr Long kLimitTolerance = 1e-9L;
-/// Relative to the greatest speed, place or acceleration: gaps between segments are roundings.
+/// The tolerance of gaps between segments (roundings), relative to the greatest speed, position or
+/// acceleration.
 constexpr Long kGapTolerance = 1e-10L;
 
-/// A failure in words; nothing is success.
+/// A failure in words; empty for success.
 using Fault = std::optional<std::string>;
 
 inline std::string text(Long value) { return std::to_string(static_cast<double>(value)); }
@@ -64,7 +66,7 @@ inline Long greatest_speed(const Profile& profile) {
   return speed;
 }
 
-/// The farthest that it gets from 0.
+/// Returns the greatest distance from 0.
 inline Long farthest(const Profile& profile) {
   Long far = profile.endless() ? 0 : std::abs(Long{profile.end_position_u});
   for (std::int32_t i = 0; i < profile.segment_count; ++i) {
@@ -73,7 +75,7 @@ inline Long farthest(const Profile& profile) {
   return far;
 }
 
-/// Whether a segment changes speed upwards (in the direction of motion), downwards, or not at all.
+/// Returns whether a segment increases the speed (in the direction of motion), decreases it, or neither.
 inline int sense_of(const Segment& segment) {
   const double change = segment.acceleration_u_s2 != 0 ? segment.acceleration_u_s2 : segment.jerk_u_s3;
   return change > 0 ? 1 : change < 0 ? -1 : 0;
@@ -105,13 +107,13 @@ inline Blur blur_of(const Profile& profile) {
   return blur;
 }
 
-/// Whether it turns round after segment `i`: it stops from the start speed, and comes back at it.
+/// Returns true if it reverses after segment `i`: it stops from the start speed, and returns at that speed.
 inline bool turns_after(const Profile& profile, std::int32_t i) {
   return i + 1 < profile.segment_count && profile.segments[static_cast<std::size_t>(i + 1)].speed_u_s < 0 &&
          profile.segments[static_cast<std::size_t>(i)].speed_u_s > 0;
 }
 
-/// The profile without gaps in position and speed.
+/// Checks that the profile has no gaps in position and speed.
 inline Fault gap_in(const Profile& profile, Long scale_u, Long scale_u_s = 0) {
   const Blur blur = blur_of(profile);
   scale_u_s = std::max(scale_u_s, greatest_speed(profile));
@@ -136,7 +138,7 @@ inline Fault gap_in(const Profile& profile, Long scale_u, Long scale_u_s = 0) {
   return {};
 }
 
-/// A move from rest to rest, forwards: limits kept, acceleration without gaps where the law has jerk.
+/// Checks a move from rest to rest, forwards: limits kept, and acceleration without gaps if the law has jerk.
 /// `whole_ramps`: no ramp was broken off.
 inline Fault beyond_limits(const Profile& profile, const SpeedLaw& law, bool whole_ramps) {
   const Long start = oracle::start_of(law);
@@ -149,7 +151,7 @@ inline Fault beyond_limits(const Profile& profile, const SpeedLaw& law, bool who
     up = {std::max(up.acceleration, whole.acceleration), std::max(up.jerk, whole.jerk)};
   }
   const Blur blur = blur_of(profile);
-  // A change of speed beside a great start speed is known to some roundings of that only.
+  // A change of speed next to a great start speed is known only to some roundings of the latter.
   const Long rounding = 1e-15L * peak;
   State before{};
   bool told = true;  // `before` is what the last segment ended with
@@ -160,7 +162,7 @@ inline Fault beyond_limits(const Profile& profile, const SpeedLaw& law, bool who
     const State begin = begin_of(segment);
     const Long duration_s = segment_end_s(profile, i) - segment.begin_s;
     const State end = advance(begin, segment.jerk_u_s3, duration_s);
-    // What is hardly longer than the blur of times tells nothing.
+    // A segment that is hardly longer than the uncertainty of times proves nothing.
     if (duration_s <= 1e4L * blur.time_s) {
       before = {};
       told = false;
@@ -189,7 +191,7 @@ inline Fault beyond_limits(const Profile& profile, const SpeedLaw& law, bool who
   return {};
 }
 
-/// The end is the target, now and for ever.
+/// Checks that the move stays at its target after its end.
 inline Fault off_target(const Profile& profile, double target_u) {
   for (const double t_s : {profile.duration_s, profile.duration_s * 2 + 1}) {
     const Sample sample = profile.sample(t_s);
@@ -199,8 +201,8 @@ inline Fault off_target(const Profile& profile, double target_u) {
   return {};
 }
 
-/// Integrates jerk alone, by Runge and Kutta's method, from the beginning; acceleration jumps where a segment
-/// says so. sample() must agree all along, and the end must be the target.
+/// Integrates only the jerk, by the Runge-Kutta method, from the beginning; acceleration jumps where a
+/// segment says so. sample() must agree everywhere, and the end must be the target.
 inline Fault differs_from_integral(const Profile& profile, double target_u, Long scale_u) {
   const Long tolerance_u = kLimitTolerance * scale_u + blur_of(profile).speed * profile.duration_s;
   const Long tolerance_u_s = kLimitTolerance * greatest_speed(profile) + 2 * blur_of(profile).speed;

@@ -1,4 +1,4 @@
-// Where chips begin to slow down otherwise than plain sense has it: by an offset (MCX314's AO), at a given
+// Cases in which chips begin to slow down at an unexpected place: by an offset (MCX314's AO), at a given
 // place (PCL6045's PRDP), or by another ramp than the one that follows (SUPER-40NC). By hand.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Ten thousand moves of each family, integrated anew from their jerk, and compared with an oracle that finds
+// Ten thousand moves of each family, integrated again from their jerk, and compared with an oracle that finds
 // the peak by bisection (move_oracle.h). A failure prints the move as code; UNDERSTUDY_MOVES tries more.
 #include <gtest/gtest.h>
 

@@ -50,7 +50,8 @@ struct Place {
   Long position = 0, speed = 0;
 };
 
-/// On a ramp up from `low` by `dv`, `t` after its beginning. A ramp down is its mirror image.
+/// Returns the state on a ramp up from `low` by `dv`, `t` after its beginning. A ramp down is its mirror
+/// image.
 inline Place on_ramp(const RampLaw& law, Long low, Long dv, Long t) {
   const Shape shape = shape_of(law, dv);
   const Long whole_s = shape.duration_s();
@@ -70,11 +71,11 @@ inline Place on_ramp(const RampLaw& law, Long low, Long dv, Long t) {
       high - missing};
 }
 
-/// The greatest x in [low, high] at which `fits` still holds; it holds at `low`.
+/// Returns the greatest x in [low, high] at which `fits` still holds; it holds at `low`.
 template <class Fits>
 Long greatest(Long low, Long high, const Fits& fits) {
   if (fits(high)) return high;
-  // First to the right power of two, then to the last bit: numbers from 1e-12 to 1e12 meet here.
+  // Searches first for the power of two, then for the last bit, because numbers range from 1e-12 to 1e12.
   const Long origin = low;
   while (high - origin > 1e-300L && !fits(origin + (high - origin) / 2)) high = origin + (high - origin) / 2;
   low = origin + (high - origin) / 2;
@@ -95,7 +96,7 @@ struct Expected {
 
 inline Long start_of(const SpeedLaw& law) { return std::min(law.start_speed_u_s, law.top_speed_u_s); }
 
-/// What remains when slowing down begins.
+/// Returns the distance that remains when deceleration begins.
 inline Long slow_down_distance(const SpeedLaw& law, Long speed) {
   const Long start = start_of(law);
   const RampLaw& by = law.slow_down_reckoned_by ? *law.slow_down_reckoned_by : law.down;
@@ -150,7 +151,7 @@ inline Expected move_of(double distance_u, const SpeedLaw& law) {
     if (start > 0) expected.duration_s += (left - down_u) / start;
     return expected;
   }
-  // Cut off: from the end of the mirror image so much is missing.
+  // Cut off: this much of the end of the mirror image is missing.
   const Long missing_s = greatest(0, down.duration_s(), [&](Long t) {
     return on_ramp(law.down, start, expected.peak - start, t).position <= down_u - left;
   });

@@ -1,4 +1,4 @@
-// What motion refuses, by name; and that whatever it is given, it ends: with a refusal or with a profile.
+// What motion refuses, by name; and that it ends for any input: with a refusal or with a profile.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Moments that the owner of axes finds between their edges, in a number that it makes of several axes.
+// Moments between edges that the owner of the axes finds, in a number that it computes from several axes.
 #include <gtest/gtest.h>
 
 #include "motion/bisection.h"

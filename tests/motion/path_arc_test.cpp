@@ -1,4 +1,4 @@
-// Arcs and helices by every maker: printed lengths, ends, ambiguous cases, hard points.
+// Arcs and helices by every function: printed lengths, ends, ambiguous cases, difficult points.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Paths against what knows nothing of them: pulse-by-pulse line and circle drawing, and numeric
-// differentiation and integration of what at() gives. A failure prints the path as code.
+// Paths compared with independent methods: drawing lines and circles pulse by pulse, and numeric
+// differentiation and integration of at(). A failure prints the path as code.
 #include <gtest/gtest.h>
 
 #include <algorithm>

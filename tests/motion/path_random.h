@@ -1,5 +1,4 @@
-// Paths at random: tiny and huge, exactly on the axes and between them, a sliver of an arc and a thousand
-// turns.
+// Random paths: tiny and huge, exactly on the axes and between them, a sliver of an arc and a thousand turns.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +33,7 @@ inline std::string code_of(const Point& point) {
   return text + ")";
 }
 
-/// What one maker of arcs is called with, and what is known of its arc beforehand.
+/// The arguments of one arc function, and what is known of its arc beforehand.
 struct ArcCase {
   enum class Maker { by_sweep, by_centre, by_radius, by_three_points, in_space, spiral };
 
@@ -64,7 +63,7 @@ struct ArcCase {
     }
   }
 
-  /// The call, to be pasted into a test.
+  /// Returns the call as code to paste into a test.
   std::string code() const {
     const std::string turned = sweep_rad < 0 ? "Turn::clockwise" : "Turn::counter_clockwise";
     const char* off_circle = options.off_circle == OffCircle::blend ? "blend" : "refuse";
@@ -118,7 +117,7 @@ class RandomPaths {
         between(0, 1) == 0 ? 1000.0 * static_cast<double>(between(1, 100)) : of_any_size(1e-3, 1e9);
     for (double& coordinate : arc.centre)
       coordinate = between(0, 2) == 0 ? 0 : within(-10, 10) * arc.radius_u;
-    // The limits keep what is asked for well-determined by the points: see each maker's remark.
+    // The limits keep the arguments well determined by the points: see the comment of each function.
     switch (maker) {
       case ArcCase::Maker::by_centre: arc.sweep_rad = sweep(1e-6, 6000); break;  // 1e-9 would be a whole turn
       case ArcCase::Maker::by_radius: arc.sweep_rad = sweep(1e-6, 6.28); break;
@@ -139,7 +138,7 @@ class RandomPaths {
     arc.begin = on_ray(arc, arc.radius_u, angle);
     arc.middle = on_ray(arc, arc.radius_u, angle + arc.sweep_rad * within(0.3, 0.7));
     arc.end = on_ray(arc, end_radius, angle + arc.sweep_rad);
-    // Less than 1e-9 rad is left: that is a whole turn to arc_by_centre.
+    // Less than 1e-9 rad is left, which is a whole turn to arc_by_centre.
     arc.more_turns = static_cast<std::int64_t>(std::ceil(std::abs(arc.sweep_rad) / (2 * kPi) - 1e-10)) - 1;
     // Coordinates are rounded, and so are radii.
     arc.options.radius_tolerance_u = 1e-6 + 1e-13 * arc.radius_u;
@@ -169,7 +168,7 @@ class RandomPaths {
   }
   void add_rise(ArcCase& arc) {
     if (arc.maker == ArcCase::Maker::in_space) {
-      // Any tilt of the plane keeps the circle: exchange a part of one axis for one outside the plane.
+      // Tilting the plane keeps the circle: exchange a part of one axis for one outside the plane.
       const double part = within(0, 1);
       const double rest = std::sqrt(1 - part * part);
       const int into = other_axis(arc.options.plane);

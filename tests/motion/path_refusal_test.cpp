@@ -1,4 +1,4 @@
-// What no path can be made of: the reason by name, and one line that says what was wrong.
+// Arguments that cannot make a path: the reason by name, and one line that describes it.
 #include <gtest/gtest.h>
 
 #include <cmath>

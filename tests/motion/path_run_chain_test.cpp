@@ -1,4 +1,4 @@
-// Chains: what is run through, what is stopped at, and how long it takes.
+// Chains: which corners are run through, where the motion stops, and how long it takes.
 #include <gtest/gtest.h>
 
 #include <array>

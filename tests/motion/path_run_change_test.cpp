@@ -1,4 +1,4 @@
-// What is done to a run on its way: other speeds, override, pause and resume. The path stays the path.
+// Changes of a run on its way: different speeds, override, pause and resume. The path stays the same.
 #include <gtest/gtest.h>
 
 #include "motion/bad_motion.h"

@@ -1,4 +1,5 @@
-// Open streams: segments keep the speed until one is said to be the last, and what runs dry ends at speed.
+// Open streams: segments keep the speed until one is marked as the last, and a stream without further
+// segments ends at speed.
 #include <gtest/gtest.h>
 
 #include <cmath>

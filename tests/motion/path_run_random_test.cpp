@@ -1,4 +1,4 @@
-// Runs with everything done to them in any order. A failure prints the commands as code.
+// Runs with all operations in random order. A failure prints the commands as code.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -103,7 +103,7 @@ class RandomRun {
     }
   }
 
-  /// Whatever holds it holds it no more.
+  /// Nothing holds it any more.
   void release(Tick now) {
     say("run.resume(" + std::to_string(now) + "); run.set_override(1, " + std::to_string(now) + ");");
     run.resume(now);
@@ -113,7 +113,7 @@ class RandomRun {
 
   void step(Tick tick) { walk.step(run, tick); }
 
-  /// All that must hold of a tick; nothing is success.
+  /// Everything that must hold for a tick; empty for success.
   std::string fault() {
     const double limit = law_.top_speed_u_s * override_;
     const double tick_s = 1 / kTicksPerSecond;
@@ -168,7 +168,7 @@ class RandomRun {
   RandomMoves& random() { return random_; }
 };
 
-/// What goes wrong; nothing is success.
+/// The failure; empty for success.
 std::string run_at_random(RandomRun& it) {
   for (std::int64_t i = it.random().between(1, 6); i > 0; --i) it.append(0);
   if (it.random().between(0, 5) == 0) it.disturb(0);

@@ -1,4 +1,4 @@
-// A run that forgets what it has not come to, and ends where it can.
+// A run that drops the paths that it has not reached, and ends where it can.
 #include <gtest/gtest.h>
 
 #include "tests/motion/path_shapes.h"

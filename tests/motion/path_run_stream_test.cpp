@@ -1,4 +1,4 @@
-// Paths that come while others run: streams, early and late joints.
+// Paths that arrive while others run: streams, early and late joints.
 #include <gtest/gtest.h>
 
 #include "motion/bad_motion.h"

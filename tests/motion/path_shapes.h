@@ -1,5 +1,5 @@
-// What a run along paths is held against: shapes with their own geometry, and a count of where along them a
-// place is. Nothing here asks motion/path.h, but for the Path that the run is given.
+// Shapes with their own geometry that a run along paths is compared with, and how far along them a place is.
+// This file uses nothing of motion/path.h except the Path for the run.
 #pragma once
 
 #include <algorithm>
@@ -60,7 +60,7 @@ struct Shape {
     return straight ? (end - begin).norm() : std::hypot(radius_u() * sweep_rad, rise_u);
   }
 
-  /// The share of the shape, 0 to 1, nearest to a place.
+  /// Returns the fraction of the shape, 0 to 1, nearest to a place.
   double share_at(const Point& place) const {
     const double length = length_u();
     if (length == 0) return 0;
@@ -70,7 +70,7 @@ struct Shape {
     const double turn = 2 * std::numbers::pi;
     double turned = std::fmod((here - from) * (sweep_rad < 0 ? -1 : 1), turn);
     if (turned < 0) turned += turn;
-    // What is left out of the turn is cut in half: either side of it is nearer to one end.
+    // The rest of the turn is halved: each half is nearer to one end.
     const double sweep = std::abs(sweep_rad);
     if (turned > sweep + (turn - sweep) / 2) turned -= turn;
     return std::clamp(turned / sweep, 0.0, 1.0);
@@ -85,7 +85,7 @@ struct Shape {
   double distance_u(const Point& place) const { return (place - ideal(share_at(place))).norm(); }
 };
 
-/// A run's steps, held against the shapes that were appended to it.
+/// Compares a run's steps with the shapes that were appended to it.
 struct Walk {
   std::vector<Shape> shapes{};
   std::size_t done = 0;      // shapes completed
@@ -112,7 +112,8 @@ struct Walk {
   }
 };
 
-/// The time from rest to rest by slope `a`: L/v + v/a, or 2 sqrt(L/a) where v is not reached.
+/// Returns the time from rest to rest with the acceleration `a`: L/v + v/a, or 2 sqrt(L/a) if v is not
+/// reached.
 inline double trapezoid_s(double length_u, double top_u_s, double slope_u_s2) {
   if (length_u < top_u_s * top_u_s / slope_u_s2) return 2 * std::sqrt(length_u / slope_u_s2);
   return length_u / top_u_s + top_u_s / slope_u_s2;
@@ -123,7 +124,7 @@ inline SpeedLaw by_slope(double top_u_s, double slope_u_s2) {
       .top_speed_u_s = top_u_s, .up = RampLaw::by_slope(slope_u_s2), .down = RampLaw::by_slope(slope_u_s2)};
 }
 
-/// Steps until nothing is left; the last tick, or -1 if that takes longer than `most` ticks.
+/// Steps until nothing is left. Returns the last tick, or -1 if that takes more than `most` ticks.
 inline Tick finish(PathRun& run, Tick after, Tick most = 1'000'000) {
   for (Tick tick = after + 1; tick <= after + most; ++tick) {
     run.step(tick);

@@ -1,4 +1,5 @@
-// Lines, corners and the ends of every path. Arcs: path_arc_test.cpp; what is refused: path_refusal_test.cpp.
+// Lines, corners and the ends of every path. See path_arc_test.cpp for arcs and path_refusal_test.cpp for
+// refusals.
 #include "motion/path.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Laws and distances at random: usual, round, equal, extreme, and exactly where a law changes its form.
+// Random laws and distances: usual, round, equal, extreme, and exactly where a law changes its form.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace understudy::motion {
 
-/// A number as code, to the last bit.
+/// Returns a number as code, exact to the last bit.
 inline std::string code(double value) {
   if (std::isinf(value)) return value < 0 ? "-INFINITY" : "INFINITY";
   if (std::isnan(value)) return "NAN";
@@ -72,7 +72,7 @@ class RandomLaws {
 
   RampLaw slope(bool extreme = true) { return RampLaw::by_slope(extreme ? number() : 10 * usual_number()); }
   RampLaw time() { return RampLaw::by_time(of_any_size(1e-3, 100)); }
-  /// Half of them with a bound that changes of speed about `dv` reach, or just do not.
+  /// Half of them have a bound that changes of speed of about `dv` reach, or just do not.
   RampLaw jerk(double dv, bool extreme = true) {
     const double jerk = extreme ? number() : 100 * usual_number();
     if (below(2) == 0) return RampLaw::by_jerk(jerk);

@@ -1,4 +1,4 @@
-// Moves at random: near zero, round, exactly where a triangle becomes a trapezoid, and everything between.
+// Random moves: near zero, round, exactly where a triangle becomes a trapezoid, and everything between.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ class RandomMoves {
     return std::clamp(static_cast<std::int64_t>(std::exp2(exponent(random_))), low, high);
   }
 
-  /// A move that takes at most `longest_ms`.
+  /// Draws a move that takes at most `longest_ms`.
   RegisterMove next(std::int64_t longest_ms) {
     constexpr std::array<std::int64_t, 8> kResolutions{1, 200, 3000, 3200, 6000, 10'000, 36'000, 1LL << 31};
     constexpr std::array<std::int64_t, 8> kSpeeds{1, 20, 60, 200, 600, 1875, 3000, 32'768};
@@ -50,7 +50,7 @@ class RandomMoves {
     move.acceleration_10ms = ramp_time();
     move.deceleration_10ms = between(0, 3) == 0 ? move.acceleration_10ms : ramp_time();
     const Ratio limit = move.limit();
-    // The distance at which the ramps just fill the move.
+    // Returns the distance at which the ramps just fill the move.
     const std::int64_t equal = Ratio{limit.num * move.ramps_ms(), 2 * limit.den}.floor();
     switch (between(0, 5)) {
       case 0: move.distance_pulses = between(1, 5); break;

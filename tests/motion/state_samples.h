@@ -1,4 +1,5 @@
-// A value of every type that motion can save, in the midst of what it does, and what goes on with it.
+// A value of every type that motion can save, taken in the middle of its work, and functions that continue
+// with it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@
 
 namespace understudy::motion {
 
-/// Goes on with a value for one tick, and tells what came out as numbers.
+/// Advances a value by one tick, and returns what came out as numbers.
 using Output = std::vector<double>;
 
 inline Output go_on(Axis& axis, Tick tick) {

@@ -1,4 +1,4 @@
-// Saved, restored, hashed: every type of motion/state.h.
+// Every type of motion/state.h is saved, restored and hashed.
 #include "motion/state.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ using Saved = testing::Types<Axis, Coordinated, ExternalDrive, Follower, PathRun
                              Environment, SyncTable>;
 TYPED_TEST_SUITE(State, Saved);
 
-/// Whether bytes are refused as they should be: by name, and without a trace.
+/// Checks that bytes are refused as they should be: by name, and without a trace.
 template <class T>
 bool refuses(T value, std::span<const std::byte> bytes) {
   const T before = value;

@@ -1,4 +1,4 @@
-// What triggers an action, in which order, and what each action does.
+// The triggers of an action, their order, and the effect of each action.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Latches: to the pulse at the moment of the event, against closed forms in whole numbers.
+// Latches: exact to the pulse at the moment of the event, compared with closed forms in whole numbers.
 #include <gtest/gtest.h>
 
 #include "motion/synchronous.h"

@@ -1,4 +1,4 @@
-// Random moves against exact arithmetic. A failure prints the move as code.
+// Random moves compared with exact arithmetic. A failure prints the move as code.
 #include <gtest/gtest.h>
 
 #include <iostream>

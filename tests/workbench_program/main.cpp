@@ -1,4 +1,4 @@
-// `understudy` with the tests' own controller beside those that there are: for what only it has.
+// `understudy` with the test controller in addition to its own, for tests that only this controller allows.
 #include <vector>
 
 #include "emulator/command_line/program.h"

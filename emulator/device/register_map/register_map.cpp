@@ -83,7 +83,7 @@ void RegisterMap::place_all() {
     find_stored_pairs(tables_[static_cast<std::size_t>(words)]);
   if (!policy_.word_order_in.empty() && !names_.find(Table::holding, policy_.word_order_in)) {
     throw std::logic_error("register map: " + std::string(policy_.word_order_in) +
-                           " is to have the order of words, but is not a holding register");
+                           " holds the word order, but is not a holding register");
   }
 }
 

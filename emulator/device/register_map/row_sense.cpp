@@ -105,10 +105,10 @@ void validate_fields(const RegisterRow& row, const Require& require) {
     require((taken & field.mask()) == 0, "has two fields in one bit");
     taken |= field.mask();
     require(!field.name.empty() && field.name.find('.') == std::string_view::npos && !is_number(field.name),
-            "has a field whose name is not one");
+            "has a field with an invalid name");
     const auto same = std::count_if(row.fields.begin(), row.fields.end(),
                                     [&](const BitField& other) { return other.name == field.name; });
-    require(same == 1, "has two fields of one name");
+    require(same == 1, "has two fields of the same name");
     require(field.reader == nullptr || row.reader == nullptr, "has a reader, and a field with another");
   }
 }

@@ -31,7 +31,7 @@ lang::WordOrder order_of(const WindowForm& form) {
   return form.low_word_first && follows_order ? lang::WordOrder::low_first : lang::WordOrder::high_first;
 }
 
-/// Of how it is written. Whether the device takes it is its own affair.
+/// The options for how a command is written. Whether the device accepts it is checked elsewhere.
 lang::CommandOptions options_of(const WindowForm& form) {
   return form.choices.empty() ? lang::CommandOptions{} : command_options(form.choices);
 }

@@ -1,4 +1,4 @@
-// What the lines of macros, and commands, do to the module: lang::Machine.
+// Implements lang::Machine: the effects of macro lines and commands on the module.
 #include <cstddef>
 #include <cstdint>
 
@@ -35,7 +35,7 @@ template <Value (*shows)(const Module&, Cell)>
 std::int32_t read_axis(const Module& it, const Command& command) {
   return static_cast<std::int32_t>(shows(it, cell_of_axes(command)));
 }
-/// One bit, by the second parameter.
+/// Reads one bit, selected by the second parameter.
 template <Value (*shows)(const Module&, Cell)>
 std::int32_t read_bit(const Module& it, const Command& command) {
   return static_cast<std::int32_t>(shows(it, cell_of_axes(command)) >> command.values[1] & 1);

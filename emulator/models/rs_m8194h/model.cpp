@@ -37,7 +37,7 @@ constexpr std::string_view kGaps[] = {
      "void, with the module's error (RINT bit 7)."),
     ("The manual does not document the communication at the switch position Init, so the box does not "
      "answer there."),
-    "The IP settings from holding 20 on are stored but have no effect.",
+    "The IP settings from holding register 20 on are stored but have no effect.",
 };
 
 constexpr int kBauds[] = {115200, 57600, 38400, 19200, 9600, 4800, 2400, 1200};

@@ -100,7 +100,7 @@ Tick Module::next_event_tick(Tick done, Tick max, const ClearTravel& ahead) cons
   Tick last = std::min(max, state_.eeprom.next_active_tick() - 1);
   last = std::min(last, frnet.next_active_tick(done) - 1);
   last = motion_step.quiet_until(done, last, ahead);
-  // What waits in the FIFO waits for an axis to stand.
+  // A command in the FIFO waits for an axis to stop.
   if (!queue.is_empty() && chip.driving() == 0) return done + 1;
   return last + 1;
 }
@@ -133,11 +133,11 @@ void Module::load_program(std::string_view text) {
 }
 
 void Module::take_over(const State& restored) {
-  // What was compiled stays so where the macros are the same.
+  // Compiled macros stay valid if the texts are the same.
   const bool is_same = programs.is_compiled() && state_.blocks == restored.blocks;
   state_ = restored;
   if (!is_same) programs.forget_compiled();
-  // What it cannot have been doing it does not continue.
+  // A run that cannot have reached this state does not continue.
   programs.check_restored();
 }
 

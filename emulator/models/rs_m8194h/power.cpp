@@ -61,7 +61,7 @@ void Module::power_up() {
   for (std::size_t a = 0; a < kAxes; ++a) {
     chip.rearm(a);
     motion::Axis& motor = chip.motor(a);
-    // What is there at power-up is not an edge.
+    // Levels at power-up are not edges.
     motor.signals = chip.environment(a).at(motor.travel_pulses);
   }
 }

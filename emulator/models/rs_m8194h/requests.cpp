@@ -50,7 +50,7 @@ lang::Fault fault_of(Cause cause) {
   return lang::Fault::none;
 }
 
-/// What the RS-M8194H has by itself: all else needs the module.
+/// The items of the RS-M8194H itself; all others need the module.
 constexpr Addresses kOwn[] = {
     addresses_of(Table::input, "i-8094H Module ID", "InterpolationRdyFlag"),
     addresses_of(Table::input, "RS-M8194H state"),
@@ -95,7 +95,7 @@ int commands_of(const RegisterRequest& request) {
   return commands;
 }
 
-/// The macro line that a write of the tables stands for, where it has one.
+/// Returns the macro line that corresponds to a write to the tables, if there is one.
 std::optional<lang::Command> line_at(Table table, std::size_t address, std::uint32_t value) {
   if (table != Table::holding) return std::nullopt;
   const auto line = [](lang::Verb verb, std::uint32_t first, std::uint32_t second) {
@@ -206,7 +206,7 @@ bool Requests::diverts(const Place& place, std::uint32_t bits) {
   return true;
 }
 
-/// By choice; else reading clears nothing.
+/// Clears what was read, by choice; otherwise reading clears nothing.
 void Requests::read_answered(const RegisterRequest& request) {
   if (request.table != Table::input) return;
   InterruptState& interrupts = module_.interrupts.state();

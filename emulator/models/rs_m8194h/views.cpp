@@ -43,7 +43,7 @@ std::uint16_t all_of(const Module& it, Cell cell) {
                      is_active ? UpperBits::active : UpperBits::line_levels);
 }
 
-/// A command of the table that a plain write stands for.
+/// Returns the command that a plain write stands for.
 lang::Command counter_command(lang::Verb verb, Cell cell, Value value) {
   lang::Command command{.code = lang::real_time_code(verb)};
   command.values[0] = mask_of(axis_number(cell));
@@ -104,7 +104,7 @@ Value current_acceleration(const Module& it, Cell cell) {
   const std::size_t axis = axis_number(cell);
   double size = 0;
   if (together.takes(axis)) {
-    // Its share of the acceleration along the path.
+    // The axis's share of the acceleration along the path.
     const motion::Sample along = together.run.sample(it.now());
     const double share =
         along.speed_u_s > 0 ? std::abs(together.speed_pps(axis, it.now())) / along.speed_u_s : 0;

@@ -13,14 +13,15 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// By how much velocity mode changes its speed in each step of 0.5 ms.
+/// Returns the change of speed in each 0.5 ms step of velocity mode.
 std::int64_t change_of_speed(const AxisState& axis, const DriveSettings& settings) {
   const std::int64_t left = final_urpm(axis, settings) - axis.speed_urpm;
   const std::int64_t step = settings.velocity_step_urpm;
   return left == 0 ? 0 : left < 0 ? -step : step;
 }
 
-/// For how many ticks it does that, the speed keeping its sign. The step that arrives is not one of them.
+/// Returns for how many ticks it does so without a change of the speed's sign. The step that arrives is not
+/// included.
 Tick even_ticks(const AxisState& axis, const DriveSettings& settings, Tick most) {
   const std::int64_t change = change_of_speed(axis, settings);
   if (change == 0) return most;
@@ -40,8 +41,8 @@ Wide phase_after(const AxisState& axis, const DriveSettings& settings, Tick tick
   return axis.velocity_phase + speeds * settings.pulses_per_revolution;
 }
 
-/// The pulses of this many ticks, in the commanded sense. Phases have one sign, or come to it without a
-/// pulse, so that whole pulses come out as by single steps.
+/// Returns the pulses of this many ticks, in the commanded direction. Phases have one sign, or reach it
+/// without a pulse, so whole pulses come out as in single steps.
 std::int64_t pulses_ahead(const AxisState& axis, const Crossing& crossing, Tick tick) {
   if (tick == crossing.done) return 0;
   if (runs_velocity(axis)) {
@@ -89,7 +90,7 @@ std::int64_t counts_ahead(const AxisState& axis, const Crossing& crossing, Tick 
   return counts_at(axis, crossing.ahead->encoder_counts(crossing.axis, pulses), crossing.encoder_reversed);
 }
 
-/// As remember_encoder() would have had it in each of the ticks.
+/// Records what remember_encoder() would have recorded in each of the ticks.
 void remember_skip(AxisState& axis, const Crossing& crossing, Tick tick) {
   const Tick next = crossing.done + 1;
   const std::int64_t first = counts_ahead(axis, crossing, next);

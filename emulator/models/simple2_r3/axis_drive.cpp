@@ -35,7 +35,7 @@ bool alarm_forbids(const AxisState& axis) {
   return is_on(axis, motion::Signal::alarm) && axis.motor.settings.at_alarm != motion::Reaction::ignore;
 }
 
-/// Whether the limit on that side forbids motion.
+/// Returns true if the limit on that side forbids motion.
 bool limit_forbids(const AxisState& axis, int direction) {
   const motion::AxisSettings& settings = axis.motor.settings;
   if (direction > 0) {
@@ -45,7 +45,7 @@ bool limit_forbids(const AxisState& axis, int direction) {
          settings.at_limit_minus != motion::Reaction::ignore;
 }
 
-/// What velocity mode aims at now.
+/// Returns the present target of velocity mode.
 std::int64_t target_urpm(const AxisState& axis) {
   return limit_forbids(axis, sign_of(axis.target_urpm)) ? 0 : axis.target_urpm;
 }
@@ -59,7 +59,7 @@ std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
     const std::int64_t speed_before = axis.speed_urpm;
     axis.speed_urpm = std::clamp(target, axis.speed_urpm - step, axis.speed_urpm + step);
     const std::int64_t speed = settings.pulses_by_speed_before ? speed_before : axis.speed_urpm;
-    // At most 6e12 by the cap, and 1.2e11 left over.
+    // At most 6e12 because of the speed limit, plus a remainder of 1.2e11.
     axis.velocity_phase += speed * static_cast<std::int64_t>(settings.pulses_per_revolution);
     pulses += axis.velocity_phase / kVelocityPhase;
     axis.velocity_phase %= kVelocityPhase;
@@ -233,7 +233,7 @@ motion::Follower follower_by(SyncSettings settings) {
     settings.numerator /= common;
     settings.denominator /= common;
   }
-  // Still so: nobody's encoder has that many counts, and the ratio may be a little off.
+  // Still too large: no real encoder has that many counts, so the ratio may be slightly off.
   while (is_too_large()) {
     settings.numerator /= 2;
     settings.denominator = std::max<std::int64_t>(settings.denominator / 2, 1);
@@ -260,7 +260,7 @@ std::int64_t encoder_rpm(const AxisState& axis, Tick now, const SpeedMeter& mete
   const std::int64_t then = axis.encoder_history[ring_place(now - meter.window)];
   const Wide counts = Wide{axis.encoder_counts} - then;
   const std::int64_t windows_a_minute = 60'000 / meter.window;
-  // To the nearest: whole counts would show a steady 100 RPM as 99 otherwise.
+  // Rounds to the nearest value; otherwise a steady 100 RPM would show as 99.
   const Wide half = Wide{meter.counts_per_revolution / 2} * (counts < 0 ? -1 : 1);
   Wide rpm = (counts * windows_a_minute + half) / meter.counts_per_revolution;
   if (meter.wraps) return static_cast<std::int16_t>(static_cast<std::uint16_t>(rpm));

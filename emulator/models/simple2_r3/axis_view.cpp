@@ -88,7 +88,7 @@ motion::Follower AxisView::sync_follower() const {
     sync.numerator *= of_axis;
     sync.denominator *= std::max<std::int64_t>(image[slots().encoder_resolution], 1);
   }
-  // Of each 5 ms; 0 is without bound.
+  // The slope for each 5 ms; 0 means no limit.
   const std::uint32_t slope = image[slots().sync_slope];
   if (slope != 0)
     sync.slope_pps =

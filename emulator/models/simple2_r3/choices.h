@@ -14,19 +14,19 @@ inline constexpr Confidence kProposal = Confidence::proposal;
 inline constexpr ChoiceRow kChoices[] = {
     // --- the wire ---
     {"station_0_request", "RS485",
-     "How is a request to address 0 handled while the rotary switch is 1 to 15?", "broadcast|ignored",
+     "How is a request to address 0 handled while the rotary switch is at 1 to 15?", "broadcast|ignored",
      kLikely, "It is a Modbus broadcast: the station carries out writes and sends no reply."},
-    {"switch_0_broadcast", "RS485", "How is a request to address 0 handled while the rotary switch is 0?",
+    {"switch_0_broadcast", "RS485", "How is a request to address 0 handled while the rotary switch is at 0?",
      "answered|silent", kLikely,
      "At switch 0 the station accepts every station number. The reply carries the request's address."},
     {"exceptions", "RS485", "What is the reply to a refused request?", "modbus_v1_1b3|no_answer", kLikely,
      "The manual refers to the Modbus application protocol and names no exception."},
     {"request_effects", "RS485", "When do the registers of one write request take effect?",
      "once_all_are_stored|each_in_its_turn", kProposal,
-     "The order is ascending in either case, so 0x1000 to 0x1005 is a whole move. The options differ if a "
-     "value follows the command that uses it."},
-    {"end_time_counts", "RS485", "From which moment does the END time of 0.75 ms count?",
-     "end_of_last_character", kProposal, "This is the tolerant reading: it is idle time after the stop bit."},
+     "The order is ascending in either case, so one write to 0x1000 to 0x1005 sets up and starts a move. The "
+     "options differ if a value follows the command that uses it."},
+    {"end_time_counts", "RS485", "When does the END time of 0.75 ms begin?", "end_of_last_character",
+     kProposal, "This is the tolerant reading: it is idle time after the stop bit."},
     {"reply_delay", "RS485", "When does a reply begin?", "after_end_time", kFollows,
      "The controller knows that a request is complete only after the END time."},
     {"boot_time", "RS485", "How long after power-on does the station answer requests and start a program?",
@@ -34,7 +34,7 @@ inline constexpr ChoiceRow kChoices[] = {
     {"rotary_switch", "RS485", "When is the rotary switch read?", "as_set_up", kLikely,
      "The station number does not change during operation, and a bench cannot turn the switch."},
     {"switches_sampled", "RS485", "When are the DIP switches read?", "at_power_up|always", kProposal,
-     "The manual gives no moment. A change of the line speed during operation would corrupt characters on "
+     "The manual does not say when. A change of the line speed during operation would corrupt characters on "
      "the line."},
     // --- registers ---
     {"unmapped_addresses", "位址列表", "What is the reply to a request for addresses without a register?",
@@ -117,7 +117,7 @@ inline constexpr ChoiceRow kChoices[] = {
     {"aclr_again", "運動相關", "What does a second ACLR within the 200 ms do?", "restarts|ignored", kProposal,
      "Each command requests 200 ms from its own moment."},
     {"analog_scaling", "附錄 C",
-     "How do the ADC and its calibration give Analog_A and Analog_B (200 a volt)?",
+     "How are Analog_A and Analog_B (200 per volt) computed from the ADC and its calibration?",
      "line_through_both_points|line_through_zero", kProposal,
      "The line gives 200 at 1 V and 2000 at 10 V, rounded towards 200. It gives 0 if both points are equal. "
      "With line_through_zero, only the 10 V point counts."},
@@ -127,7 +127,7 @@ inline constexpr ChoiceRow kChoices[] = {
      "uncalibrated input reads correctly."},
     // --- memory ---
     {"eeprom_time", "狀態相關", "How long is EEPROM_Writing 1 for each 16-bit word?", "5ms_a_word|1ms_a_word",
-     kProposal, "Such memories take this time. They write one quantity after the other."},
+     kProposal, "EEPROMs take about this long. They write one value at a time."},
     {"eeprom_same_value", "狀態相關", "Is a persistent register saved again if the same value is written?",
      "not_saved_again|saved_again", kProposal, "Skipping the write spares the memory, which wears out."},
     {"eeprom_erasure", "程式控制", "How long do Erase_ALL and Factory_Reset write?", "500ms|100ms", kProposal,
@@ -135,17 +135,17 @@ inline constexpr ChoiceRow kChoices[] = {
     {"write_while_saving", "狀態相關",
      "What happens to a write to a persistent register while EEPROM_Writing is 1?", "queued|not_saved",
      kProposal,
-     "The write waits for its turn. With not_saved, power-off loses the value unless the memory is just "
-     "writing that register."},
+     "The write waits for its turn. With not_saved, power-off loses the value unless the memory is writing "
+     "that register at that moment."},
     {"power_cut", "狀態相關", "Which value survives a power cut during its write?", "old_value|new_value",
      kProposal,
      "The value is complete in either case, because both halves of a 32-bit register are written as one. "
      "Pending writes are lost."},
     {"password_kept", "附錄 C", "Does NEW_PWD survive power-off?", "yes|no", kProposal,
-     "The manual prints no star, but a lock that power-off opens is useless."},
+     "The manual prints no star, but a lock that a power cycle opens is useless."},
     {"first_password", "附錄 C", "What is the factory password?", "0|65535", kProposal,
-     "PWD_Input is 0 at power-up, so with 0 the program is open until someone sets a password. 65535 is an "
-     "empty memory."},
+     "PWD_Input is 0 at power-up, so with 0 the program is open until someone sets a password. 65535 is the "
+     "content of an erased memory."},
     {"password_read_back", "附錄 C", "What does NEW_PWD read while the program is unlocked?", "shown|zero",
      kProposal, "The manual says that reads are invalid only while it is locked."},
     {"lock_judged", "附錄 C", "When is PROG_UNLOCK evaluated?", "at_power_up_and_input|always", kProposal,
@@ -170,7 +170,7 @@ inline constexpr ChoiceRow kChoices[] = {
     {"servo_unassigned", "程式指令列表", "What does SVOFF do while no output has the function SVON?",
      "inhibits_pulses|no_effect", kProposal,
      "The manual says that pulses need SVON. With no_effect, there is no drive to switch off."},
-    {"command_while_servo_off", "程式指令列表", "What happens to a motion command while SVOFF?",
+    {"command_while_servo_off", "程式指令列表", "What happens to a motion command during SVOFF?",
      "dropped|kept_until_servo_on", kLikely,
      "Pulses are inhibited and the trigger reads 0. With kept_until_servo_on, the last command begins at "
      "SVON, a program's line waits for it as for a move, and STOP cancels it."},
@@ -198,13 +198,13 @@ inline constexpr ChoiceRow kChoices[] = {
      "The axis drops the old move and its remaining distance. With old_target, an old move at speed 0 counts "
      "as well. A distance of 0 stops the axis at once with either, as in appendix A."},
     {"speed_while_moving", "運動相關",
-     "When does a write to Speed, AccTime, DecTime or Resoultion count during a move that uses them?",
+     "When does a write to Speed, AccTime, DecTime or Resoultion take effect during a move that uses them?",
      "next_move|at_once", kProposal,
      "Appendix A plans a move as a whole. With at_once, the rest of the move uses the new values (speed 0 "
      "waits for the next move)."},
     {"least_ramp", "附錄 A", "What is the shortest ramp time, printed as 1?", "10ms|1ms|500us", kProposal,
      "It is the unit of the registers. A time of 0 also gives this ramp."},
-    {"move_begins", "附錄 A", "How far is a move in the first 1 ms tick after its command?",
+    {"move_begins", "附錄 A", "How far along is a move in the first 1 ms tick after its command?",
      "at_its_beginning|one_tick_in", kProposal,
      "The manual's example then takes 3050 ms. With one_tick_in, it takes 3049 ms."},
     {"tick_order", "附錄 B", "Which comes first in a 1 ms tick, the program's line or motion?",
@@ -265,9 +265,9 @@ inline constexpr ChoiceRow kChoices[] = {
     // --- homing and the other modes ---
     {"homing_sequence", "運動相關", "How does homing search for the home switch?",
      "edge_met_in_direction|stops_at_first_edge", kProposal,
-     "The manual gives only speed, times and the first direction. The default ends behind the edge met in "
-     "that direction, where the first tick finds it. The alternative slows down once the switch is on and "
-     "stays there. A limit reverses both."},
+     "The manual gives only speed, times and the first direction. By default, homing ends just past the edge "
+     "that it meets in that direction, in the first tick that sees it. With stops_at_first_edge, it slows "
+     "down once the switch is on and stays there. With both, a limit reverses the search."},
     {"home_unassigned", "運動相關", "What does homing do without an assigned home input?", "searches|dropped",
      kProposal, "The axis never meets the switch, so only the second limit, STOP or SVOFF ends homing."},
     {"home_coordinate", "運動相關", "What does the coordinate become when home is found?", "zero|kept",
@@ -300,8 +300,8 @@ inline constexpr ChoiceRow kChoices[] = {
      "Pulses need it too. With not_needed, SVOFF does not affect PWM."},
     {"sync_encoder", "系統參數相關", "Which encoder does an axis follow in sync mode?", "own|other",
      kProposal,
-     "The manual does not say. With own, it follows the encoder of its letter. With other, it follows the "
-     "encoder of the other axis."},
+     "The manual does not say. With own, it follows the encoder of the same letter. With other, it follows "
+     "the encoder of the other axis."},
     {"sync_ratio", "系統參數相關", "What is the unit of the ratio EncSync_NUM / _DEN?",
      "pulses_per_encoder_count|revolutions", kProposal,
      "This is the simplest reading. With revolutions, both resolutions count."},
@@ -321,12 +321,12 @@ inline constexpr ChoiceRow kChoices[] = {
      kProposal,
      "They begin with the command. With every_fifth_tick, they begin at ticks divisible by 5, whenever the "
      "command came."},
-    {"encoder_speed", "編碼器，座標，類比輸入相關", "Over which time is ENCx_RPM measured?",
+    {"encoder_speed", "編碼器，座標，類比輸入相關", "Over what time is ENCx_RPM measured?",
      "window_of_100ms|window_of_10ms", kProposal,
-     "A window of 100 ms shows 1 RPM from 600 counts a revolution."},
+     "A window of 100 ms resolves 1 RPM if the encoder has at least 600 counts per revolution."},
     {"encoder_speed_overflow", "編碼器，座標，類比輸入相關",
      "What does ENCx_RPM show if the encoder is too fast for it?", "saturates|wraps", kProposal,
-     "The register has 16 bits with a sign, so 32767 RPM is the maximum."},
+     "The register is a signed 16-bit number, so 32767 RPM is the maximum."},
     // --- programs ---
     {"wait_move_b_139", "程式指令列表", "What does Wait_Move_B do up to 1.39?", "as_move_inc_b_wait|waits",
      kFollows, "The text says both. The remark exists only for B, so we treat it as a defect."},
@@ -343,7 +343,7 @@ inline constexpr ChoiceRow kChoices[] = {
      "The inner Loop runs in the outer one's first pass, before the outer one counts."},
     {"undefined_flag", "旗標", "What does a jump or Loop to flag 0, or to a flag above 64, do?",
      "line_0|line_void", kProposal,
-     "It acts as for a flag that no line has. The manual says that only 1 to 64 count."},
+     "It acts as if no line had the flag. The manual says that only 1 to 64 count."},
     {"wait_cut_short", "程式指令列表",
      "What does a line that waits for a move do if an alarm, a limit, STOP or SVOFF ends the move?",
      "goes_on|waits_on|program_ends", kProposal,
@@ -355,7 +355,8 @@ inline constexpr ChoiceRow kChoices[] = {
      "continues."},
     {"wait_move_homing", "程式指令列表", "Does Wait_Move_* wait for homing?", "waits|does_not_wait",
      kProposal,
-     "The manual names position moves, and homing is in position mode. The other modes are not waited for."},
+     "The manual names position moves, and homing is in position mode. It does not wait for the other "
+     "modes."},
     {"unknown_command", "程式指令列表", "What happens to a command that is not in the list?",
      "does_nothing|ends", kProposal, "An empty line is NOP, so a command without a meaning is one too."},
     {"undefined_operand", "程式指令列表",
@@ -387,15 +388,15 @@ inline constexpr ChoiceRow kChoices[] = {
      kProposal, "Each line takes 2 ms, including the line that waited."},
     {"flags_found", "旗標", "When does the controller search the lines for flags?", "at_every_write|at_start",
      kProposal,
-     "This way a line counts that the host writes while the program runs. With at_start, it counts from the "
-     "next START."},
+     "This way, a line that the host writes while the program runs also counts. With at_start, it counts "
+     "from the next START."},
     {"flags_after_end", "旗標", "Does a flag on a line after the first END count?", "counts|does_not_count",
      kProposal, "A jump can lead there."},
     {"same_flag_twice", "旗標", "Which of several lines with the same flag was set last?",
      "last_line|last_written", kLikely,
-     "The last line set counts, and we read this as the highest line number. With last_written, it is the "
-     "latest write, and the line number again after power-up."},
-    {"arithmetic", "程式指令列表", "What is a result beyond 32 bits?", "wraps|saturates", kProposal,
+     "The last line set counts, and we read this as the highest line number. With last_written, the line "
+     "written last counts, and after power-up the highest line number again."},
+    {"arithmetic", "程式指令列表", "What happens to a result beyond 32 bits?", "wraps|saturates", kProposal,
      "Processors wrap. Every division by zero gives 0."},
     {"division", "程式指令列表", "How are a fractional quotient and its remainder rounded?",
      "towards_zero|downwards", kProposal,
@@ -411,10 +412,10 @@ inline constexpr ChoiceRow kChoices[] = {
     {"program_value_of_32_bits", "程式指令列表", "What does a program's value below 1 do to a Resoultion?",
      "nearest|ignored", kProposal, "1 is the minimum. With ignored, the register keeps its value."},
     {"resolution_in_program", "程式指令列表", "What does a program read from a Resoultion of 2^31?",
-     "minus_2_31", kFollows, "Parameters have 32 bits with a sign."},
+     "minus_2_31", kFollows, "Parameters are signed 32-bit numbers."},
     {"timer_compare", "程式應用相關", "How do Jump_Timer1_GE and Jump_Timer2_GE compare?",
      "without_sign|with_sign", kProposal,
-     "A timer has 32 bits without a sign, so -1 is the greatest value. The VAR instructions are always "
+     "A timer is an unsigned 32-bit number, so -1 is the greatest value. The VAR instructions are always "
      "signed."},
     {"timer_overflow", "程式應用相關", "What does a timer do beyond 32 bits?", "goes_on_at_0|stays",
      kProposal, "A 32-bit counter wraps."},

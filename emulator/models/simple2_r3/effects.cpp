@@ -53,7 +53,7 @@ bool is_write_protected(const Simple2R3& device) {
   return !is_unlocked(device) && device.chose(option("locked_writes", "ignored"));
 }
 
-/// Only a choice has a set appear in the axis's registers.
+/// Shows a set in the axis's registers, by choice only.
 void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
   if (!device.chose(option("set_move", "copied"))) return;
   auto& image = device.state().image;
@@ -64,7 +64,7 @@ void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
   image[slots.dec_time] = set.deceleration_10ms;
 }
 
-/// A trigger that goes on, as it reads.
+/// Returns how a trigger of a running motion reads.
 Value while_in_progress(const Simple2R3& device, Cell cell, Command command) {
   const AxisState& axis = axis_of(device, cell);
   const bool is_shown = axis.by_trigger || !device.chose(option("triggers_shown", "those_written_there"));
@@ -86,7 +86,7 @@ MoveParameters from_here(const Simple2R3& device, int axis, MoveParameters move)
   return move;
 }
 
-/// Of a cell of the program.
+/// Returns the slot of a cell of the program.
 std::size_t cell_slot(Cell cell) {
   return kColumns[static_cast<std::size_t>(cell.argument)] + static_cast<std::size_t>(cell.index);
 }

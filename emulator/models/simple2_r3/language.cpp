@@ -89,7 +89,7 @@ class Listing final : public ProgramLanguage, public ProgramCells {
             .highest = 255,
             .most_rows = lang::kLineCount};
   }
-  /// As a master writes them from 0x4000 on; what follows the last line that is not all zeros is left out.
+  /// Lists the cells as a master writes them from 0x4000 on; zero lines at the end are left out.
   std::vector<CellRow> assemble(std::string_view text, const DeviceSettings&) const override {
     const lang::Assembly assembly = lang::assemble(text);
     if (!assembly.lines) throw ProgramError(mistakes_of(assembly));

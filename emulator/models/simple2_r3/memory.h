@@ -1,4 +1,4 @@
-// What a Simple2-R3 keeps when its power goes, and the password that locks it.
+// The memory that a Simple2-R3 keeps without power, and the password that locks it.
 #pragma once
 
 #include <cstddef>

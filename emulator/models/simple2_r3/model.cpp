@@ -24,14 +24,14 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-// Every version that the manual tells a difference of; 1.52 is the manual's own.
+// Every version for which the manual names a difference; the manual itself is for 1.52.
 constexpr std::array<Firmware, 7> kFirmwares{139, 140, 141, 142, 150, 151, 152};
 
 constexpr std::array<std::string_view, 2> kGaps{
     ("PWM is modelled as its duty (`feeder.A.pwm`), and the form of the pulses as a number "
      "(`feeder.pulse_format`), because the pulse terminals have no levels. A duty does not move a "
      "machine."),
-    ("The lines A and B of an encoder are not terminals: the encoder is modelled as a count of its "
+    ("Lines A and B of an encoder are not terminals: the encoder is modelled as a count of its "
      "edges."),
 };
 

@@ -1,4 +1,4 @@
-// Where its program is, for observers.
+// Shows observers where its program is.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -43,7 +43,7 @@ bool is_failure(interpreter::simple2::Ending ending) {
 std::pair<int, std::string> listed(const interpreter::simple2::Program& program, std::size_t number) {
   interpreter::simple2::Lines lines = program.lines();
   if (lines[number] == interpreter::simple2::Line{}) return {0, "NOP"};
-  // What stands behind it does not change what is in front.
+  // The lines after it do not change how the ones before are written.
   std::fill(lines.begin() + static_cast<std::ptrdiff_t>(number) + 1, lines.end(),
             interpreter::simple2::Line{});
   std::string text = disassemble(lines);

@@ -24,7 +24,7 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-/// Where each parameter number leads; empty for those that are not defined.
+/// Returns the place of each parameter number; empty if it is not defined.
 const std::vector<NamedPlace>& parameter_places() {
   static const std::vector<NamedPlace> places = [] {
     std::vector<NamedPlace> all(256);
@@ -132,7 +132,7 @@ MoveParameters ProgramMachine::parameters_for(std::size_t axis, std::int64_t dis
           .of_the_axis = true};
 }
 
-/// Only a choice has a program's move appear in the axis's register.
+/// By choice only, a program's move shows in the axis's register.
 void ProgramMachine::show_pulse(std::size_t axis, std::int32_t pulses) {
   if (!setup_.chose(option("program_pulse", "shown"))) return;
   state_.image[kAxisSlots[axis].pulse] = static_cast<std::uint32_t>(pulses);

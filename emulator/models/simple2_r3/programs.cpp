@@ -142,7 +142,8 @@ void Programs::reset_timers() {
 }
 
 Tick next_slot(const State& state, const Setup& setup, const RegisterBank& bank, Tick done) {
-  // A program that waits is asked only until it is found to wait on: what it waits for is a tick of its own.
+  // A waiting program is run only until it is clear that it continues to wait; its condition has its own
+  // tick.
   if (state.execution.held.command == 0) {
     return done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs;
   }

@@ -14,7 +14,7 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-/// A signal that has come on or gone, as the axis meets it.
+/// Returns the event of a signal that has come on or gone, for the axis.
 Event event_of(const AxisState& axis, motion::Signal signal, bool on) {
   if (signal == motion::Signal::alarm) return on ? Event::alarm : Event::alarm_gone;
   if (!on) return Event::limit_gone;
@@ -85,7 +85,7 @@ void AxisReactions::servo_off() {
 
 void AxisReactions::begin_following() {
   simple2_r3::follow_encoder(axis(), sync_follower(), followed_count());
-  // Nothing comes out until its first period begins.
+  // No pulses come out until its first period begins.
   if (chose(option("sync_period", "every_fifth_tick")))
     axis().motor.follower.phase = static_cast<int>((now() + 1) % kSyncPeriod);
 }
@@ -114,7 +114,7 @@ void AxisReactions::apply_signals(motion::Signals on) {
   axis.signals.steady = on;
   ++axis.signals.version;
   if (axis.mode == Mode::position) return;
-  // One after the other: what the first has made of the axis is what the next one meets.
+  // The signals act one after the other: each one meets the axis as the previous one has left it.
   for (const motion::Signal signal :
        {motion::Signal::alarm, motion::Signal::limit_plus, motion::Signal::limit_minus}) {
     if ((changed & motion::bit(signal)) == 0 || setup().ignores(signal)) continue;
@@ -157,7 +157,7 @@ void AxisReactions::handle_in_sync(Outcome outcome) {
 void AxisReactions::refresh_signals() {
   apply_servo_state();
   apply_signals(signals().of_motor(number()));
-  // A homing that goes on has yet to see its edges.
+  // A homing in progress must still see its edges.
   if (!axis().motor.homing.active()) axis().motor.signals = axis().signals.steady;
 }
 

@@ -18,7 +18,8 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-/// What a plant's encoder gives (PlantAxis::encoder_counts): the difference of two fits.
+/// Requires a count that a plant's encoder can give (PlantAxis::encoder_counts), so the difference of two
+/// counts fits.
 void require_encoder_count(std::int64_t counts) {
   constexpr std::int64_t kEnd = std::int64_t{1} << 61;
   require_within(counts, -kEnd, kEnd - 1);

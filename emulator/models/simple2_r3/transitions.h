@@ -331,7 +331,7 @@ static_assert(
       }
       return true;
     }(),
-    "each cell that there is has one row");
+    "each cell has exactly one row");
 
 constexpr const Transition* reaction_row(Activity activity, Phase phase, Event event) {
   const std::uint8_t row = kReactionOfCell[static_cast<std::size_t>(activity)]

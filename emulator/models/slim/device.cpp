@@ -87,7 +87,7 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
 
 // --- memory and program ----------------------------------------------------------------------------
 
-/// What was set when the device was made is kept, as if saved.
+/// Values that were set when the device was made are saved.
 void Slim::settle_memory() {
   state_.kept = state_.ram;
   keep_program(state_);
@@ -142,12 +142,12 @@ void Slim::run_interpreters(Tick tick) {
   if (watch() != nullptr) watch()->look(mark_of(state_.program));
   const Error error = step(state_.execution, tick, state_.program, setup_.flow, *this);
   if (error == Error::none) return;
-  // A program that goes on failing is faster than its line: what has no room is remembered only.
+  // A program that fails repeatedly is faster than its line: errors without room on the line are only stored.
   const bool is_said =
       chose(option("unasked_text", "errors_of_a_program_too")) && has_room_to_speak(state_, setup_);
   const int module = is_said ? fail(state_, setup_, failed_module_, error)
                              : remember_error(state_, setup_, failed_module_, error);
-  // Whoever asks T0 why its program has ended is told, although the motor was another one's.
+  // A host that asks T0 why its program has ended gets the error, even if it belonged to another motor.
   if (module != 0 && !state_.execution.running) note_error(state_, setup_, 0, error);
 }
 
@@ -163,7 +163,7 @@ Tick Slim::next_active_tick(Tick done) const {
 }
 
 Tick Slim::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
-  // What a program and its events look at moves.
+  // Values that a program and its events read change with motion.
   const bool is_looked_at = state_.execution.running || !setup_.flow.events_need_program;
   if (state_.touched || (is_looked_at && !program_is_held(state_, setup_))) return done + 1;
   const Tick next = state_.chain.next_event_tick(done, most, ahead);

@@ -39,7 +39,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// What is sound depends on what was chosen; programs become what their lines say here.
+/// Checks programs with the chosen options; here they are compiled from their lines.
 void settle_programs(State& state, const lang::FlowOptions& options) {
   const std::vector<std::string> texts = state.program.texts();
   require_state(state.program.set_texts(texts, options.program), "a line is not a command of a program");
@@ -55,7 +55,7 @@ void settle_programs(State& state, const lang::FlowOptions& options) {
 
 void Slim::check_restored(State& restored) const {
   settle_programs(restored, setup_.flow);
-  // What else only this bench's choices tell.
+  // Further checks depend on this bench's choices.
   for (const Errors& errors : restored.errors) {
     require_state(errors.history.size() <= setup_.history_length(), "too many errors are remembered");
   }

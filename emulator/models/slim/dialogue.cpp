@@ -31,8 +31,8 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// Whether a line that comes while a program waits for a number is a command all the same: what else may be
-/// typed while a program runs, but for queries.
+/// Returns true if a line that arrives while a program waits for a number is still a command: one that is
+/// allowed while a program runs, except queries.
 bool is_heard_instead_of_number(const Setup& setup, std::string_view line) {
   const lang::ParseResult parsed = lang::parse_line(line, setup.of_programs().dialect);
   if (!parsed.line.command) return false;
@@ -71,7 +71,7 @@ Error obey(State& state, const Setup& setup, const lang::Machine& machine, lang:
   return error;
 }
 
-/// What became of it is said, and returned.
+/// Executes a command, sends its result, and returns it.
 Error hear_command(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line) {
   lang::ParseResult parsed = lang::parse_line(line, setup.of_programs().dialect);
   if (parsed.error == Error::none && !parsed.line.command) {

@@ -25,8 +25,8 @@ void note_error(State& state, const Setup& setup, int module, Error error) {
   if (errors.history.size() > setup.history_length()) errors.history.pop_back();
 }
 
-/// T0 reads the lines: what is wrong with one is T0's error, whichever module it names. What a motor refuses
-/// is its own, unless nobody could ask: of a module that is not linked the host has it.
+/// T0 reads the lines, so errors in a line belong to T0, whichever module the line names. Errors of a motor
+/// belong to its module, unless the module is not linked: then nobody could query it, and T0 has the error.
 int remember_error(State& state, const Setup& setup, int module, Error error) {
   const bool is_of_line = error == Error::syntax || error == Error::range || error == Error::address;
   if (is_of_line || !state.chain.linked(module) || setup.errors_are_of_t0()) module = 0;

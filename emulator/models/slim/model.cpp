@@ -130,7 +130,7 @@ constexpr std::array<std::string_view, 5> kGaps{
      "without effect."),
     ("PWM has a resolution of whole milliseconds. Above 500 Hz, the output stays at the prevailing "
      "level."),
-    ("If PR2 or PR3 of its modules differ, a real chain would make a move wrongly; here the move is "
+    ("If PR2 or PR3 of its modules differ, a real chain would move wrongly; here the move is "
      "refused. If PR3 of one module changes in motion, the path stays the same."),
 };
 

@@ -68,7 +68,7 @@ using interpreter::slim::Verb;
 
 constexpr Verb kAnsweredInWords[] = {Verb::query_version, Verb::query_error_history, Verb::query_time};
 
-/// A function that is the value of a query: of one that there is, and whose answer is a number.
+/// Returns true if the function is the value of an existing query whose answer is a number.
 bool is_quantity(const Operand& operand) {
   const auto parsed = interpreter::slim::parse_line("?" + operand.text);
   if (parsed.error != Error::none || !parsed.line.command) return false;

@@ -39,7 +39,7 @@ ReadProgram read_program(const Setup& setup, std::string_view text) {
   for (int number = 1; std::getline(lines, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     const std::size_t first = line.find_first_not_of(" \t");
-    // What a file has for people: empty lines and remarks.
+    // Files may have empty lines and comments.
     if (first == std::string::npos || line[first] == ';' || line[first] == '#') continue;
     const Error error = read.program.insert(read.program.size(), line, setup.of_programs());
     if (error == Error::none) {

@@ -1,4 +1,4 @@
-// What SLIM's queries answer.
+// Answers SLIM's queries.
 #include "emulator/models/slim/queries.h"
 
 #include <array>
@@ -98,7 +98,7 @@ unsigned status_bits(const State& state, int module) {
 constexpr std::array kQueryVerbs = [] {
   std::array<Verb, lang::kCommands.size()> verbs{};
   std::size_t count = 0;
-  // In place of other commands any query: a key may come twice.
+  // Other commands are replaced by any query, because a key may occur twice.
   for (const lang::CommandRow& row : lang::kCommands) {
     verbs[count++] = row.is_query() ? row.verb : Verb::query_parameter;
   }
@@ -107,7 +107,7 @@ constexpr std::array kQueryVerbs = [] {
 
 }  // namespace
 
-/// What each query answers.
+/// The answers of the queries.
 struct Queries {
   struct Question {
     const State& state;

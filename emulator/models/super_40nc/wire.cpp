@@ -1,4 +1,4 @@
-// What a SUPER-40NC answers on the line, and to whom.
+// Decides what a SUPER-40NC answers on the line, and to which addresses.
 #include "emulator/models/super_40nc/wire.h"
 
 #include <algorithm>

@@ -74,7 +74,7 @@ void CaseTable::read_rows(const world::YamlFields& root) {
 }
 
 void CaseTable::read_options(const world::YamlFields& root) {
-  if (root.has("cases")) root.at("choice").fail("stands beside `cases`; expected one of them");
+  if (root.has("cases")) root.at("choice").fail("cannot be combined with `cases`; expected one of the two");
   const auto choices = root.at("choice").with_rule(&no_parameters()).entries();
   if (choices.size() != 1) {
     root.at("choice").fail("names " + std::to_string(choices.size()) +

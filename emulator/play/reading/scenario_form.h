@@ -75,7 +75,7 @@ inline constexpr world::Key kVaryKey{
 /// A play has the keys of a scenario. It may leave out `bench`, and what else the file gives to all of them.
 inline constexpr std::array kPlayKeys{
     world::Key{kNameKey.key, "What it is about, as a sentence; no two plays share one.", &world::kText},
-    world::Key{kBenchKey.key, "The bench; where the file has one too, what differs from that.",
+    world::Key{kBenchKey.key, "The bench; if the file also has one, the differences from it.",
                &kBenchOrPartSchema},
     kNvKey,
     kFirmwareKey,

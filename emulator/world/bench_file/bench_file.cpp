@@ -280,7 +280,7 @@ class BenchReader {
         const bool is_on_a_line = std::any_of(stations.begin(), stations.end(),
                                               [](const auto& station) { return station.has_value(); });
         if (!is_on_a_line && has_all_lines)
-          places_[i].device.fail("the device is on no line; expected a station that names it");
+          places_[i].device.fail("the device is not on a line; expected a station that names it");
       });
       judge_device(places_[i], bench_.devices[i], all_);
     }
@@ -329,8 +329,7 @@ class BenchReader {
 Bench read_whole(const std::string& text, const std::string& name, BenchReader reader) {
   const YamlFields root = YamlFields::parse(text, name, "bench", "`understudy: 1` and `lines:`");
   if (!root.has("lines") && (root.has("steps") || root.has("bench"))) {
-    throw FileError({name, 1, 1},
-                    "bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
+    throw FileError({name, 1, 1}, "bench: is a scenario; expected a bench (`understudy run` runs scenarios)");
   }
   if (!root.has("lines") && (root.has("registers") || root.has("model"))) {
     throw FileError({name, 1, 1}, "bench: is a model file; expected a bench, whose stations name it");

@@ -50,7 +50,7 @@ inline constexpr std::array kStationKeys{kNameKey,     kModelKey,   kAddressKey,
                                          kFirmwareKey, kModulesKey, kSetKey,     kChoicesKey,
                                          kDipKey,      kProgramKey, kNvKey};
 inline constexpr std::array kPlacedStationKeys{
-    Key{"device", "The name of a device declared under `devices`, or on a line before.", &kText, true},
+    Key{"device", "The name of a device declared under `devices`, or on an earlier line.", &kText, true},
     kAddressKey, kPortKey};
 
 // --- lines ---------------------------------------------------------------------------------------

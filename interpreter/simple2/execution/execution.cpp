@@ -34,13 +34,13 @@ Line without_flag(const Line& line) {
 
 bool holds(const Execution& execution) { return execution.held.command != 0; }
 
-/// Whether the line at work waits, and is another by now.
+/// Returns true if the current line waits and has been replaced meanwhile.
 bool must_be_read_anew(const Execution& execution, const Program& program, const Dialect& dialect) {
   return dialect.rewritten_line == Dialect::RewrittenLine::read_anew && holds(execution) &&
          without_flag(program.line(execution.now_line)) != execution.held;
 }
 
-/// As it stands in the program, or as it began to wait.
+/// Returns the line as it is in the program now, or as it was when it began to wait.
 const Line& line_to_run(const Execution& execution, const Program& program, const Dialect& dialect) {
   const bool as_it_began = dialect.rewritten_line == Dialect::RewrittenLine::waits_on && holds(execution);
   return as_it_began ? execution.held : program.line(execution.next_line);
@@ -63,7 +63,8 @@ bool writes_what_is_read_only(const Line& line) {
   return false;
 }
 
-/// Whether the program ends because the line names something that does not exist, or does not take a value.
+/// Returns true if the program ends because the line names something that does not exist, or that cannot be
+/// written.
 bool ends_for_an_operand(const Line& line, const Dialect& dialect) {
   const bool by_operand = dialect.undefined_operand == Dialect::UndefinedOperand::ends;
   const bool by_parameter = dialect.undefined_parameter == Dialect::UndefinedParameter::ends;
@@ -127,8 +128,8 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
   }
 }
 
-/// Whether the next line has been executed and would do no more than wait on, as long as the machine stays as
-/// it is.
+/// Returns true if the next line has been executed and would only continue to wait, as long as the machine
+/// does not change.
 bool would_wait_on(const Execution& execution, const Program& program, const Dialect& dialect,
                    const MachineView& machine) {
   if (execution.next_line != execution.now_line) return false;
@@ -136,7 +137,7 @@ bool would_wait_on(const Execution& execution, const Program& program, const Dia
   if (!holds(execution) || must_be_read_anew(execution, program, dialect)) return false;
   const Line& line = line_to_run(execution, program, dialect);
   if (ends_for_an_operand(line, dialect)) return false;
-  // An axis that has begun to move meanwhile is waited for as well.
+  // The line also waits for an axis that has begun to move meanwhile.
   const bool all_noted = (execution.waits_for_a || !machine.moving_for_wait(Axis::a)) &&
                          (execution.waits_for_b || !machine.moving_for_wait(Axis::b));
   const bool notes = dialect.wait_cut_short != Dialect::WaitCutShort::line_is_over && !all_noted;
@@ -197,7 +198,7 @@ void step(Execution& execution, std::int64_t now_ms, const Program& program, con
   }
   const bool has_waited = std::exchange(execution.waits, false);
   execute_line(execution, now_ms, program, dialect, machine);
-  // Only a line that has waited gives its slot on, so at most two run in one.
+  // Only a line that has waited passes its slot on, so at most two lines run in one slot.
   if (has_waited && execution.running && !execution.waits && execution.phase == Phase::line) {
     execute_line(execution, now_ms, program, dialect, machine);
   }

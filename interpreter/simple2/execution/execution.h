@@ -27,7 +27,7 @@ enum class Ending : std::uint8_t {
   wait_cut_short,
 };
 
-/// What the next slot begins with.
+/// What the next slot starts with.
 enum class Phase : std::uint8_t {
   line,   // a line
   delay,  // the end of a delay

@@ -1,5 +1,5 @@
-# Read before the blocks of a page (pages_test.cpp). Whoever starts in the first terminal is ended by Ctrl-C when the next
-# one begins; a sleep behind a start is long enough, however busy the machine is.
+# Sourced before the blocks of a page (pages_test.cpp). A program in the first terminal is ended by Ctrl-C when the next
+# one begins. A sleep after a start is always long enough, however busy the machine is.
 at=0 first= home=$PWD
 failed() { echo "line $1: $2" >>"$home/failures"; }
 judged=0
@@ -31,7 +31,7 @@ in_first_terminal() {
   done
   failed "$at" "did not become ready: $(cat "$home/first")"
 }
-# Bash gives the number of a job that has ended to none until it has told of it, and a script tells when it likes.
+# Bash does not reuse the number of an ended job until it has reported its end, and a script reports that at any time.
 wait_for_all() {
   [ -n "$first" ] || wait
   jobs >/dev/null

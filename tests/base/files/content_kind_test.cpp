@@ -1,4 +1,4 @@
-// What a file holds, by how it begins, and what may therefore be replaced by what.
+// The kind of a file's contents by its first bytes, and which outputs may replace it.
 #include "base/files/content_kind.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Which files may be written, and when what was there is gone.
+// Which files may be written, and when their previous contents are lost.
 #include "base/files/output_file.h"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST_F(OutputFileTest, OfAnotherKindStays) {
   EXPECT_EQ(pty::contents_of(path), "new");
 }
 
-// As Linux forbids it where fs.protected_regular is on; whatever it is here.
+// As Linux forbids it with fs.protected_regular, whatever the setting is here.
 TEST_F(OutputFileTest, IsNoStrangersFileInAnOpenFolder) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root can make another user's file";
   const std::string open_folder = folder_ / "tmp";
@@ -134,7 +134,7 @@ TEST_F(OutputFileTest, IsNotReachedByAStrangersLinkInAnOpenFolder) {
             "it is another user's link in a folder that everyone can write to; expected a path of your own");
   ASSERT_EQ(::lchown(link.c_str(), ::geteuid(), 0), 0);
   EXPECT_EQ(refusal(link), "");
-  // Nor through a folder on the way.
+  // The same through a folder on the way.
   const std::string way = open_folder + "/way";
   fs::create_directory_symlink(fs::path(precious).parent_path(), way);
   EXPECT_EQ(refusal(way + "/precious"), "");

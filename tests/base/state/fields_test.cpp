@@ -1,4 +1,4 @@
-// Fields by name: a list is complete or does not compile, and tells where two values differ.
+// Fields by name: an incomplete list does not compile, and a list shows where two values differ.
 #include "base/state/fields.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ struct Shelf {
   std::array<std::uint8_t, 3> drawers{};
 };
 
-/// Saved otherwise than it lies in memory, and not to be copied.
+/// A type that is saved in another form than in memory, and that cannot be copied.
 class Ring {
  public:
   Ring() = default;
@@ -56,7 +56,7 @@ class Ring {
   std::size_t first_ = 0;
 };
 
-/// Some of it is its state.
+/// A type of which only some members are state.
 class Counter {
  public:
   Counter() = default;

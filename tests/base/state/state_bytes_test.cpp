@@ -1,4 +1,5 @@
-// Bytes by hand: what a value of each kind becomes, what is refused, and the published examples of the codes.
+// Bytes by hand: how a value of each kind is written, what is refused, and the published examples of the
+// codes.
 #include "base/state/state_bytes.h"
 
 #include <gtest/gtest.h>
@@ -110,7 +111,8 @@ std::string refusal(const std::vector<std::byte>& from) {
   }
 }
 
-// 1.5 is 0x3FF8 and twelve zeros. A vector, a map and an optional say first how many, 32 bits, or whether.
+// 1.5 is 0x3FF8 and twelve zeros. A vector, a map and an optional begin with their count, in 32 bits, or with
+// a flag.
 const Sample kSample{.byte = 0xAB,
                      .number = -2,
                      .yes = true,
@@ -152,7 +154,7 @@ TEST(StateBytes, WhatATypeCannotBeIsRefused) {
   EXPECT_EQ(refusal<Point>(bytes({0x9C, 0xFF, 0, 0})), "");  // -100
   EXPECT_EQ(refusal<Point>(bytes({0x9B, 0xFF, 0, 0})), "a number is beyond its range");
   EXPECT_EQ(refusal<std::uint32_t>(bytes({1, 2, 3, 4, 5})), "bytes are left over");
-  // Four thousand million elements: refused before there is room for them.
+  // Four thousand million elements: refused before memory is allocated for them.
   EXPECT_EQ(refusal<std::vector<Point>>(bytes({0xFF, 0xFF, 0xFF, 0xFF, 0})), "the bytes end too early");
   using Map = std::map<std::uint8_t, std::uint8_t>;
   EXPECT_EQ(refusal<Map>(bytes({2, 0, 0, 0, 7, 8, 7, 8})), "its entries are out of order");

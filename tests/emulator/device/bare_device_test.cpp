@@ -1,5 +1,5 @@
-// A device that has no facet stubs none: what it has no registers, terminals, axes, memory, program or motion
-// for, it does not speak of.
+// A device without facets: it says nothing about registers, terminals, axes, memory, programs or motion that
+// it lacks.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// What a device lacks is not there to be asked; what its model's tables list is.
+// Facets that a device lacks cannot be requested; facets that its model's tables list exist.
 #include <gtest/gtest.h>
 
 #include <memory>

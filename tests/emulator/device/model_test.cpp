@@ -1,4 +1,4 @@
-// Models and the settings that make a device of one.
+// Models, and the settings from which devices are made.
 #include "emulator/device/model.h"
 #include "emulator/models/models.h"
 

@@ -1,4 +1,4 @@
-// Rows of numbers as text: what is read is what was printed, and each wrong row is told with its place.
+// Rows of numbers as text: printed rows are read back, and each wrong row is reported with its place.
 #include "emulator/device/program_cells.h"
 
 #include <gtest/gtest.h>

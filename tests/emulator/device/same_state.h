@@ -1,4 +1,4 @@
-// Whether two devices of one make are in the same state; if not, the first field that differs, by its name.
+// Compares the states of two devices of one kind; names the first field that differs.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ inline testing::AssertionResult same_state(const Device& a, const Device& b) {
   return testing::AssertionFailure() << a.name() << "." << a.state_difference(a.save_state(), b.save_state());
 }
 
-/// The same of what they save: its bytes are all that a snapshot has of them.
+/// Compares what they save, because a snapshot contains only these bytes.
 inline testing::AssertionResult saves(const Device& device, const std::vector<std::byte>& bytes) {
   const std::vector<std::byte> saved = device.save_state();
   if (saved == bytes) return testing::AssertionSuccess();

@@ -1,5 +1,5 @@
-// A device whose state is one value: it is compared, saved, told apart and restored as a whole, as if no tick
-// had been skipped.
+// A device whose state is one value: it is compared, saved, distinguished and restored as a whole, as if no
+// tick had been skipped.
 #include "emulator/device/stateful_device.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ struct GateState {
   bool operator==(const GateState&) const = default;
 };
 
-/// Opens at most three times. It notes a tick only when it is run.
+/// Opens at most three times. It records a tick only when it is run.
 class Gate final : public StatefulDevice<Gate, GateState> {
  public:
   using StatefulDevice::StatefulDevice;

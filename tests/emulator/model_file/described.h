@@ -1,4 +1,4 @@
-// Models that tests describe, as texts.
+// Models that tests describe in texts.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace understudy::emulator::model_file {
 
-/// Their models live as long as the tests.
+/// The models exist as long as the tests.
 inline DescribedModels& described_models() {
   static DescribedModels described(models::all_models());
   return described;
 }
 inline ModelList with_described() { return {models::all_models(), &described_models()}; }
 
-/// The list inside of the file, as `registers: |` has it: its first line is line 4.
+/// The list inside the file, as after `registers: |`: its first line is line 4.
 inline std::string model_with(const std::string& list, const std::string& more) {
   std::string text = "understudy: 1\nmodel: one\nregisters: |\n";
   for (std::size_t begin = 0; begin < list.size();) {
@@ -29,7 +29,7 @@ inline std::string model_with(const std::string& list, const std::string& more) 
   return text + more;
 }
 
-/// What is wrong with a model file; empty if nothing is.
+/// Returns the error of a model file, or an empty text.
 inline std::string diagnostic_about(const std::string& text) {
   try {
     described_models().parse(text, "m.yaml");
@@ -39,7 +39,7 @@ inline std::string diagnostic_about(const std::string& text) {
   }
 }
 
-/// A text as a scalar of YAML on one line.
+/// Returns a text as a YAML scalar on one line.
 inline std::string quoted_scalar(const std::string& text) {
   std::string made = "\"";
   for (const char c : text) {
@@ -54,7 +54,7 @@ inline std::string quoted_scalar(const std::string& text) {
   return made + "\"";
 }
 
-/// One device, `it`, of a described model; `more` is the rest of the bench.
+/// One device `it` of a described model; `more` is the rest of the bench.
 inline world::Bench bench_with(const std::string& model, const std::string& more = "") {
   return world::parse_bench(with_described(),
                             "understudy: 1\nlines: { a: { timing: instant, stations: [ { name: it, model: " +

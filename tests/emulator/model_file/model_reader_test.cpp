@@ -34,7 +34,7 @@ const std::string kList =
     "discrete,0,SWITCH,R,bit,,,,0,0,\n";
 constexpr int kLines = 17;  // before what follows the list
 
-/// Of a model with these further lines, without the place of the file's beginning.
+/// The errors of a model with these further lines, without the place of the file's beginning.
 std::string diagnostic(const std::string& more) { return diagnostic_about(model_with(kList, more)); }
 
 std::string at(int line, int column, const std::string& text) {
@@ -201,7 +201,7 @@ TEST(ModelReader, SaysWhatIsWrongWithTheWhole) {
             "m.yaml:1:1: model: the file is not a map; expected `understudy: 1`, `model:` and `registers:`");
 }
 
-/// What is stored as it comes may be beyond the range of the list, and so may what is shown.
+/// Values that are stored unchecked may be beyond the range of the list, and so may shown values.
 TEST(ModelReader, KnowsWhichValuesMayBeThere) {
   EXPECT_EQ(diagnostic("axes: { A: { stop: SPEED == 9000 } }\n"), "");
   EXPECT_EQ(diagnostic("map: { out_of_range: stored }\naxes: { A: { stop: SPEED == 9001 } }\n"), "");
@@ -246,7 +246,7 @@ TEST(ModelReader, TakesAnAxisWithEveryKey) {
   EXPECT_EQ(diagnostic(all), "");
 }
 
-/// Each key is read: what is no register, number, word or map anywhere is refused.
+/// Each key is read: a value that is not a register, number, word or map is refused everywhere.
 TEST(ModelReader, ReadsEveryKeyOfAnAxis) {
   for (const Key& row : kAxisKeys) {
     const std::string came = diagnostic(axis(std::string(row.key) + ": '?'"));
@@ -256,7 +256,7 @@ TEST(ModelReader, ReadsEveryKeyOfAnAxis) {
   }
 }
 
-/// An alias may be inside of what it names.
+/// An alias may be inside the node that it names.
 TEST(ModelReader, IsNotCaughtInACircle) {
   EXPECT_NE(diagnostic("momentary: &m [ *m ]\n"), "");
   EXPECT_NE(diagnostic("axes: &a { A: *a }\n"), "");
@@ -287,7 +287,7 @@ TEST(ModelFiles, GiveTheSameModelForTheSameText) {
   const std::string text = model_with(kList, axis("target: TARGET, speed: SPEED, start: CONTROL.GO"));
   const Model& model = described_models().parse(text, "m.yaml");
   EXPECT_EQ(&described_models().parse(text, "other.yaml"), &model);
-  // And the text that it has itself.
+  // And its own text.
   EXPECT_EQ(&described_models().parse(std::string(model.description), "again.yaml"), &model);
 }
 

@@ -176,7 +176,7 @@ TEST(RegisterList, TakesTheNearestToZeroForAMissingDefault) {
   EXPECT_EQ(registers[1].factory, 0);
 }
 
-/// What `describe` prints of a model is a list of the same registers.
+/// The output of `describe` for a model is a list of the same registers.
 TEST(RegisterList, IsWhatDescribePrints) {
   int compared = 0;
   for (const Model* const model : models::all_models()) {
@@ -190,7 +190,7 @@ TEST(RegisterList, IsWhatDescribePrints) {
   EXPECT_EQ(compared, 3);
 }
 
-/// Lines of a list inside of a model file are those of that file.
+/// Lines of a list inside a model file are counted in that file.
 TEST(RegisterList, InsideOfAModelFileIsSaidToBeThere) {
   EXPECT_EQ(diagnostic_about(model_with("address,name\n0,A\n0,B\n", "")),
             "m.yaml:6:1: address: '0' is taken by A in line 5; expected a free one in the table holding");
@@ -208,7 +208,8 @@ TEST(Starter, IsAModelThatCanBeReadAndEdited) {
     return model.replace(model.find(key), key.size(), "registers: " + quoted_scalar(list));
   };
   EXPECT_EQ(diagnostic_about(put_list_in(text)), "");
-  // With the marks of the axis taken away what it guesses is a whole axis, but for the two bits of no value.
+  // If the comment marks of the axis are removed, the guessed text is a whole axis, except for two bits
+  // without a value.
   const std::size_t axes = text.find("#axes:");
   for (std::size_t at = axes; at < text.find("# A value that"); ++at) {
     if (text[at] == '#' && (at == axes || text[at - 1] == '\n')) text.erase(at, 1);

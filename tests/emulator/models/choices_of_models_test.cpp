@@ -1,4 +1,4 @@
-// What each model's manual leaves open: its rows say everything, and each option makes a device.
+// The choices of each model: the rows are complete, and each option makes a device.
 #include <gtest/gtest.h>
 
 #include <cstddef>

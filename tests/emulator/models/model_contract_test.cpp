@@ -1,6 +1,6 @@
-// What every model promises to whoever runs it, checked for every listed model: a new one needs no entry
-// here. Beside this: restored_states_test.cpp (flipped bytes, changed images), world/sleepers/ (single ticks
-// against long advances).
+// The promises of every model, checked for every listed model: a new one needs no entry here. See also
+// restored_states_test.cpp (flipped bytes, changed images) and world/sleepers/ (single ticks compared with
+// long advances).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ TEST_P(ModelContract, KeepsEachPersistentRegisterOverAPowerCut) {
           EXPECT_EQ(read_value(bank, *place), written) << name << " of firmware " << firmware;
         }
         ++kept;
-        // Its memory as it was: what one register does to another is not the question.
+        // Its memory is as it was: effects of one register on another are not tested here.
         const std::unique_ptr<Device> other = make(firmware);
         fresh->restore_state(other->save_state());
       }
@@ -88,7 +88,7 @@ TEST_P(ModelContract, KeepsEachPersistentRegisterOverAPowerCut) {
   EXPECT_GT(kept, 0);
 }
 
-/// As the station 5: for some models 0 is a number like others, and the factory's.
+/// As station 5: for some models 0 is an ordinary number, and the factory's.
 TEST_P(ModelContract, NeverAnswersABroadcast) {
   if (!model().rtu) return;  // it does not speak Modbus
   for (const Firmware firmware : model().firmwares) {
@@ -157,7 +157,7 @@ TEST_P(ModelContract, StartsTheSameWheneverItIsMade) {
   }
 }
 
-/// Each of these is told first: what all devices save comes before a model's own.
+/// Each of these is reported first, because the state of all devices comes before a model's own.
 TEST_P(ModelContract, DiffersByPowerByAnInputOrByTimeAlone) {
   const std::unique_ptr<Device> one = make(model().firmwares.front());
   const std::unique_ptr<Device> other = make(model().firmwares.front());
@@ -178,7 +178,7 @@ TEST_P(ModelContract, DiffersByPowerByAnInputOrByTimeAlone) {
   }
   other->set_now(5);
   expect_told("now: 0 against 5");
-  // Losing power changes more than the power. The first byte that differs is the power's alone.
+  // A power loss changes more than the power state. The first byte that differs is the power's alone.
   other->switch_power(false);
   const std::vector<std::byte> off = other->save_state();
   std::vector<std::byte> without_power = saved;

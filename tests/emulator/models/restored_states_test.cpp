@@ -1,6 +1,6 @@
-// Whatever a byte of a snapshot, or a number of a memory's image, becomes: it is refused, and nothing has
-// changed; or it can be lived on, by moves, ticks and writes. For every model. UNDERSTUDY_SEED,
-// UNDERSTUDY_FLIPS: as many a model.
+// Any changed byte of a snapshot, or number of a memory image, is refused without changes, or gives a state
+// that survives moves, ticks and writes. For every model. UNDERSTUDY_SEED; UNDERSTUDY_FLIPS: the number of
+// changes per model.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -24,7 +24,7 @@ namespace restored_states_test {
 using namespace std::chrono_literals;
 using world::World;
 
-/// What a device is told, again and again: "NAME=VALUE", "RSM_...", or a line of text.
+/// The commands that a device gets repeatedly: "NAME=VALUE", "RSM_...", or a line of text.
 struct Life {
   std::string model;
   std::string settings;
@@ -153,7 +153,7 @@ class Living {
   World world;
 
  private:
-  /// A register that can be written, a value that it takes.
+  /// Returns a register that can be written, and a valid value.
   void write_something(RegisterBank& bank) {
     const auto rows = bank.map().rows();
     const RegisterRow& row = rows[between(0, rows.size() - 1)];
@@ -184,7 +184,7 @@ int flips() {
   return given != nullptr ? std::atoi(given) : 400;
 }
 
-/// Becomes another number: a byte of it, or all of it the least or the greatest.
+/// Changes a number: one byte of it, or the whole to the minimum or maximum.
 void flip(std::vector<std::byte>& bytes, Living& life) {
   const std::size_t at = life.between(0, bytes.size() - 1);
   const std::size_t kind = life.between(0, 5);
@@ -249,7 +249,7 @@ TEST(RestoredStates, FlippedBytesAreRefusedOrCanBeLivedOn) {
   }
 }
 
-/// Another number, or another letter of a text.
+/// A different number, or a different letter of a text.
 void change(NvImage& image, Living& living) {
   const std::size_t texts = image.blocks.size() + image.program.size();
   const std::size_t numbers = image.registers.size() + image.reals.size();

@@ -1,4 +1,4 @@
-// Who may ask the page anything.
+// Who may send requests to the page.
 #include "emulator/page/access.h"
 
 #include <gtest/gtest.h>

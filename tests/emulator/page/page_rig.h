@@ -1,4 +1,4 @@
-// A page with benches that are made up, and browsers that are no more than sockets.
+// A page with simulated benches, and browsers that are only sockets.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@
 
 namespace understudy::emulator::page {
 
-/// What answers on a control socket: each line by a function, on a thread of its own.
+/// Answers on a control socket: each line by a function, in its own thread.
 class MadeUpBench {
  public:
   using Answer = std::function<std::string(const TestJson& message)>;
@@ -46,7 +46,7 @@ class MadeUpBench {
     unlink(path_.c_str());
   }
 
-  /// All looks so far.
+  /// Returns all `look` messages so far.
   int looks() const { return looks_; }
   std::vector<TestJson> asked() {
     const std::lock_guard lock(mutex_);
@@ -117,7 +117,7 @@ struct PageRig {
   }
   std::string socket() const { return folder + "/control"; }
 
-  /// One that has brought the token, and been greeted.
+  /// Returns a browser that has sent the token and was welcomed.
   std::unique_ptr<TestBrowser> browser() {
     auto made = std::make_unique<TestBrowser>(page.port());
     EXPECT_TRUE(made->open_socket(page.port()));

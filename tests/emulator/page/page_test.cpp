@@ -1,4 +1,4 @@
-// The page's server: who gets in, what benches and browsers hear of each other.
+// The page's server: who gets access, and what benches and browsers receive from each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace page_test {
 
 using Clock = std::chrono::steady_clock;
 
-/// A bench whose value counts looks.
+/// A bench whose value counts the `look` messages.
 std::string counting(const TestJson& message) {
   static std::atomic<int> count = 0;
   if (message["do"] != "look") return TestJson{{"ok", true}, {"echo", message}}.dump();
@@ -42,7 +42,7 @@ std::string counting(const TestJson& message) {
   return reply.dump();
 }
 
-/// Whether the page has hung up; what it said before that does not matter.
+/// Returns true if the page has closed the connection; what it sent before does not matter.
 bool is_closed(TestBrowser& browser) {
   pollfd one{browser.descriptor(), POLLIN, 0};
   char bytes[4096];
@@ -187,7 +187,7 @@ TEST(PageConnections, ByTheThousandLeaveItAlive) {
     if (i % 3 == 0) all.back()->write("GET / HTTP/1.1\r\nHost: 127");  // half a request
     if (i % 3 == 1) all.back()->hang_up();
   }
-  // Those that say nothing are let go, and there is room again.
+  // Connections that send nothing are closed, and there is room again.
   for (int i = 0; i < 50; ++i) {
     TestBrowser browser(rig.page.port());
     if (browser.ask("GET / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(rig.page.port()) + "\r\n") ==
@@ -220,7 +220,8 @@ TEST(PageConnections, OfStrangersDoNotKeepOthersOut) {
   come(200);
   EXPECT_EQ(rig.browser()->why(), "");
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(4)) << "nobody was waited for";
-  // The oldest have made room, the newest are still there, and so is whoever had the token.
+  // The oldest were closed for new ones; the newest are still connected, and so is every client that had the
+  // token.
   EXPECT_TRUE(is_closed(*unauthenticated.front()));
   EXPECT_FALSE(is_closed(*unauthenticated.back()));
   owner->say({{"do", "nonsense"}});
@@ -238,7 +239,7 @@ TEST(PageLooks, AskForNamesByTheNumberThatTheBenchGaveThem) {
     if (is_forgotten && message.contains("look")) return std::string(R"({"ok":false,"error":"not kept"})");
     is_forgotten = false;
     ++(message.contains("names") ? spelt_out : by_number);
-    // Another daemon has other names behind the same number.
+    // Another daemon uses the same number for other names.
     const int value = message.contains("names") || pid == 7 ? 5 : 999;
     return TestJson{{"ok", true},      {"pid", pid.load()}, {"simulated_time_ns", 1},
                     {"paused", false}, {"speed", "real"},   {"advancing", false},
@@ -255,11 +256,11 @@ TEST(PageLooks, AskForNamesByTheNumberThatTheBenchGaveThem) {
   };
   wait_for(by_number, 5);
   EXPECT_EQ(spelt_out, 1);
-  // Names that were forgotten are spelt out again; nothing is lost by it.
+  // Forgotten names are sent in full again, so nothing is lost.
   is_forgotten = true;
   wait_for(spelt_out, 2);
   wait_for(by_number, 10);
-  // So are those of another daemon; what it said by a number that was not its own is not shown.
+  // The same for names of another daemon; its replies by a wrong number are not shown.
   pid = 8;
   wait_for(spelt_out, 3);
   while (true) {
@@ -370,13 +371,13 @@ TEST_P(PageLosses, AreToldWhereverTheHoleIs) {
   EXPECT_EQ(wait_for(*browser, 8), Told({5, 6, 7, 8}, 0)) << "what was before it looked, it does not miss";
   most = 2;
   EXPECT_EQ(wait_for(*browser, 22), Told({20, 21, 22}, 11));
-  // Within what the page has kept there is a hole as well.
+  // There is also a gap within what the page has stored.
   const auto later = rig.browser();
   later->say({{"do", "watch"}, {"bench", 0}, {key, true}});
   EXPECT_EQ(wait_for(*later, 22), Told({5, 6, 7, 8, 20, 21, 22}, 11));
   most = 3;
   EXPECT_EQ(wait_for(*browser, 23), Told({23}, 0));
-  // What has not happened, as the world was restored, is not missed.
+  // Events that did not happen, because the world was restored, are not missed.
   most = 4;
   EXPECT_EQ(wait_for(*browser, 40), Told({40}, 0));
 }

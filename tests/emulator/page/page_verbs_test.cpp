@@ -1,4 +1,4 @@
-// What browsers may say.
+// The messages that browsers may send.
 #include "emulator/page/page_verbs.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST(BrowserMessages, SayWhatIsWatchedAndAsked) {
       parse_browser_message(R"({"do":"ask","id":-3,"message":{"do":"list"}})", 1, false);
   EXPECT_EQ(ask.id, "-3");
   EXPECT_EQ(ask.message, R"({"do":"list","as":"page"})");
-  // Whatever they say, they are a page.
+  // Whatever they send, they count as a page.
   EXPECT_EQ(parse_browser_message(R"({"do":"ask","id":1,"message":{"do":"list","as":"control"}})", 1, false)
                 .message,
             R"({"do":"list","as":"page"})");

@@ -1,4 +1,4 @@
-// A browser that is no more than a socket: HTTP, and of WebSocket (RFC 6455) what the page needs.
+// A browser that is only a socket: HTTP, and the part of WebSocket (RFC 6455) that the page needs.
 #pragma once
 
 #include <arpa/inet.h>
@@ -39,7 +39,7 @@ class TestBrowser {
   }
   void write(const std::string& bytes) { ::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
 
-  /// All that comes until the page closes, or nothing for this long.
+  /// Returns everything until the page closes, or until nothing is received for this long.
   std::string read_all(int patience_ms = 3'000) {
     while (fill(patience_ms)) {
     }
@@ -68,7 +68,7 @@ class TestBrowser {
                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n") == "HTTP/1.1 101";
   }
 
-  /// A frame as RFC 6455 has it, masked with zeros.
+  /// Returns a frame of RFC 6455, masked with zeros.
   static std::string frame(const std::string& payload, int opcode = 1) {
     std::string bytes(1, static_cast<char>(0x80 | opcode));
     if (payload.size() < 126) {
@@ -85,7 +85,8 @@ class TestBrowser {
   }
   void say(const TestJson& message) { write(frame(message.dump())); }
 
-  /// The next message; null after a close frame (then `why` is its reason) or an end, or when nothing comes.
+  /// Returns the next message. Null after a close frame (`why` is then its reason), after an end, or if
+  /// nothing is received.
   TestJson hear(int patience_ms = 3'000) {
     while (true) {
       if (input_.size() >= 2) {
@@ -116,7 +117,7 @@ class TestBrowser {
   }
   const std::string& why() const { return why_; }
 
-  /// The next of that kind.
+  /// Returns the next message of that kind.
   TestJson hear_one(const std::string& is, int patience_ms = 3'000) {
     while (true) {
       TestJson message = hear(patience_ms);

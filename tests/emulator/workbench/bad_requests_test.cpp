@@ -1,5 +1,5 @@
-// What each of the eight functions says to a request that is wrong, and what the device hears of it: each
-// kind of fault beside each function. Nothing of such a request is carried out.
+// The replies of each of the eight functions to wrong requests, and what the device learns of them: each kind
+// of fault with each function. No part of such a request is carried out.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -50,7 +50,7 @@ struct Case {
   int reason = 0;
 };
 
-/// A write of one value again and again: the request's head, and so many bytes 0x01 behind it.
+/// Repeated writes of one value: the request's head, followed by this many bytes 0x01.
 std::string with_bytes(const std::string& head, int bytes) {
   std::string text = head;
   for (int i = 0; i < bytes; ++i) text += " 01";

@@ -1,5 +1,5 @@
-// Blocks of text wherever memories go: files that follow them, steps that compare and save them, power that
-// comes and goes; and what is described of them and of ports.
+// Blocks of text everywhere in memories: files that follow them, steps that compare and save them, power
+// cycles; and their description, with that of ports.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -73,7 +73,7 @@ TEST(KeptBlocks, AFileFollowsThemAndIsBegunWith) {
     }));
     blocks_of(world).erase("recipes", "00");
   }
-  // What was erased last is not there any more.
+  // The block that was erased last no longer exists.
   world::Bench again = bench_of();
   serve::read_memories(again, folder.path());
   world::World world(again, {}, {});
@@ -97,7 +97,7 @@ TEST(KeptBlocks, AFileThatTheDeviceRefusesIsToldWithItsLine) {
   }
 }
 
-/// All of them, each where it stands.
+/// All of them, each at its place.
 TEST(KeptBlocks, ThoseOfABenchAreToldWithTheirLines) {
   const std::string text =
       "understudy: 1\nlines:\n  rs485:\n    stations:\n      - name: it\n        model: workbench\n"
@@ -207,7 +207,7 @@ TEST(Ports, ACaptureNamesThemBesideTheLine) {
   EXPECT_EQ(text_of("a.txt").find("(mill"), std::string::npos) << text_of("a.txt");
 }
 
-// A command has its name beside its bytes.
+// A command has its name next to its bytes.
 TEST(Ports, ACaptureTellsCommandsByTheirNames) {
   const Folder folder;
   for (const char* name : {"a.pcapng", "a.txt"}) {

@@ -1,5 +1,5 @@
-// Crossing many ticks in one step, for a device that meets edges between ticks: the same world as by single
-// ticks. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
+// Fast-forward of a device that handles edges between ticks: the same world as with single ticks.
+// UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,7 +61,7 @@ class Course {
     return made;
   }
 
-  /// Something that happens to both.
+  /// An event that both get.
   std::function<void(World&)> act() {
     const auto number = static_cast<std::size_t>(between(0, 1));
     const auto axis = [number](World& world) -> motion::Axis& {

@@ -61,7 +61,7 @@ std::vector<Declaration> facts_of(const std::string& controller) {
   return facts;
 }
 
-/// Holds what its rows say; views are of numbers beside the image, by the row's number.
+/// Holds the values of its rows; views show numbers outside the image, by the row's number.
 class Declared final : public DeviceOf<Declared>, public RegisterBankOf<Declared> {
  public:
   Declared(const Model& model, const DeviceSettings& settings)
@@ -130,7 +130,7 @@ std::vector<RegisterRow> rows_of(std::span<const Declaration> facts) {
 constexpr std::uint8_t kAllFunctions[] = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x0F, 0x10};
 constexpr std::uint8_t kWithoutInputRegisters[] = {0x01, 0x02, 0x03, 0x05, 0x06, 0x0F, 0x10};
 
-// What its chapter on exceptions says, and on pairs and holes.
+// The rules of its chapter on exceptions, and on pairs and holes.
 constexpr MapPolicy kRsM8194H{.unmapped = MapPolicy::Unmapped::holes_read_zero,
                               .write_only = MapPolicy::WriteOnly::refused,
                               .read_only = MapPolicy::ReadOnly::refused,
@@ -215,7 +215,7 @@ std::string refusal(std::uint8_t function, int exception) {
   return world::text(Bytes{static_cast<std::uint8_t>(function | 0x80), static_cast<std::uint8_t>(exception)});
 }
 
-/// Something that each register can hold, another one for each.
+/// A value that each register can hold, a different one for each.
 std::uint32_t some_bits(const Declaration& fact, int index) {
   const std::uint32_t mixed = static_cast<std::uint32_t>(fact.address + index * 7 + 1) * 2654435761U;
   if (fact.type == Type::bit) return 1;

@@ -1,5 +1,5 @@
-// A device that asks for it meets the switches of its machine at the pulse where they lie, whatever the
-// speed; where an input is not the switch's alone, or pulses are lost, levels count.
+// A device that requests it gets the switches of its machine at their exact pulse, at any speed; if an input
+// does not belong to the switch alone, or pulses are lost, levels count.
 #include <gtest/gtest.h>
 
 #include "emulator/world/bench_file/bench_file.h"
@@ -70,7 +70,7 @@ struct Rig {
     world.inject(world::find_fault(world.known(), {.kind = kind, .place = place, .fields = fields}));
   }
 
-  /// Until homing is over; why it ended.
+  /// Runs until homing is over. Returns why it ended.
   motion::Cause home(std::size_t motor, const motion::HomingProgram& program) {
     const motion::Cause refused = axis(motor).home(program, device().now());
     if (refused != motion::Cause::none) return refused;
@@ -264,7 +264,7 @@ TEST(Edges, TwoThatLoseTheirPlacesAtOnceFindThem) {
   }
 }
 
-/// A controller may count otherwise from one moment to the next, as when it is told that a motor is reversed.
+/// A controller's count may change at a moment, as when it is told that a motor is reversed.
 TEST(Edges, FollowAxesThatAllCountAnew) {
   Rig rig({.position = 2000});
   Rig as_before({.position = 2000});

@@ -88,7 +88,7 @@ struct Program {
   std::map<std::string, std::string> files{};
 };
 
-/// A text into a program, or into what is wrong with it.
+/// Compiles a text into a program or an error.
 class ProgramReader {
  public:
   explicit ProgramReader(std::size_t longest_area) : longest_area_(longest_area) {}
@@ -248,7 +248,7 @@ class ProgramReader {
   std::vector<Jump> jumps_;
 };
 
-/// A step as text, without its label.
+/// Returns a step as text, without its label.
 inline std::string to_text(const ProgramStep& step, const std::vector<ProgramStep>& area) {
   std::string text(step.row->mnemonic);
   for (std::size_t i = 0; i < step.operands.size(); ++i) {

@@ -1,5 +1,5 @@
-// A language that is nobody's but the tests' controller's: checked, loaded, kept, listed, turned into numbers
-// and back, described; wherever programs are read, and all that is wrong with one told with its place.
+// The language of the test controller: checked, loaded, saved, listed, converted to numbers and back,
+// described; everywhere that programs are read, with the places of all errors.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -231,7 +231,7 @@ TEST(Languages, AScenarioExpectsThatAProgramIsRefused) {
       std::string::npos);
   EXPECT_NE(failure(good + "    refused: true\n").find("it accepted the program; expected a refusal"),
             std::string::npos);
-  // For what the device is doing, and not for its text.
+  // Because of what the device is doing, not because of the text.
   EXPECT_EQ(failure("  - write: { it.Absent: 1 }\n" + good +
                     "    refused: the module is absent\n  - expect: { it.Program_Refused: 1 }\n"),
             "");
@@ -375,7 +375,7 @@ TEST(Languages, DescribeHasParametersByTheirOwnNumbers) {
   EXPECT_TRUE(text.ends_with("D224,D124,0x00E0,16,0,\n7,Offset,0x0008,16,0,\n")) << text;
 }
 
-/// Its devices take programs, and it has no language for them.
+/// Its devices accept programs, but the model has no language for them.
 const Model& silent() {
   static const Model made = [] {
     Model silent = model();

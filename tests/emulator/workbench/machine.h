@@ -46,7 +46,7 @@ class Motors {
     state.motors[kReversed].axis.inverted = true;
   }
 
-  /// What a motor meets now: where an input changes with the place, zones; else its level.
+  /// Returns what a motor meets now: zones if an input depends on the position; otherwise its level.
   void update_environment(const Device& device, std::size_t number) {
     struct Function {
       MotorInput input;
@@ -147,7 +147,7 @@ class Motors {
   MotorsState& state;
 
  private:
-  /// Of counts that wrap at 32 bits.
+  /// The difference of counts that wrap at 32 bits.
   static std::int32_t difference(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
   }

@@ -14,7 +14,7 @@ namespace understudy::emulator::workbench {
 inline constexpr std::string_view kMotors[] = {"A", "B"};
 inline constexpr std::size_t kMotorCount = 2;
 
-/// What the inputs of a motor are for, in the order of their terminals.
+/// The functions of a motor's inputs, in the order of their terminals.
 enum MotorInput : int { kUpper, kLower, kHome, kNear, kMark, kIndex, kInputsOfMotor };
 
 // Terminals by number.

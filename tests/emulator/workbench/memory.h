@@ -1,4 +1,5 @@
-// What the tests' controller keeps: registers in an EEPROM and beside it in battery RAM, files and recipes.
+// The persistent memory of the tests' controller: registers in an EEPROM and also in battery RAM, files and
+// recipes.
 #pragma once
 
 #include <array>
@@ -66,7 +67,7 @@ inline Kept factory_kept(const RegisterMap& map) {
           .blocks = TextBlocks(kBlocks)};
 }
 
-/// At power-up the registers that are kept have what was kept.
+/// At power-up, persistent registers have their stored values.
 inline void recall(const Eeprom& eeprom, const RegisterMap& map, std::vector<std::uint32_t>& image) {
   std::size_t slot = 0;
   for (const RegisterRow& row : map.rows()) {
@@ -100,7 +101,7 @@ class WorkbenchMemory final : public KeptMemory {
   Kept& kept_;
 };
 
-/// One command of the wire: what (1 put, 2 append, 3 erase), kind, number, then two characters a word.
+/// One command on the line: its action (1 put, 2 append, 3 erase), kind, number, then two characters a word.
 inline Refusal change_block(TextBlocks& blocks, std::span<const std::uint16_t> words) {
   if (words.size() < 3 || words[0] < 1 || words[0] > 3 || words[1] >= std::size(kBlocks) || words[2] > 99) {
     return Refusal::bad_value;

@@ -1,5 +1,5 @@
-// What the controller keeps: an EEPROM with its time, battery RAM beside it, and named texts; in images, in
-// states, and through power cuts.
+// The persistent memory of the test controller: an EEPROM with its time, battery RAM, and named texts; in
+// images, in states, and through power cuts.
 #include "tests/emulator/workbench/memory.h"
 
 #include <gtest/gtest.h>
@@ -113,7 +113,7 @@ TEST(WorkbenchMemory, SurvivesPowerCutsAtAnyMoment) {
     const int wait = static_cast<int>(random() % 12);
     now += std::chrono::milliseconds(wait);
     rig.world.advance_to(now);
-    // What is written after tick n is kept at the end of tick n + 1 + its time.
+    // A write after tick n is stored at the end of tick n + 1 + its time.
     if (wait >= kWriteTime + 1) speed_kept = speed;
     rig.world.switch_power(0, false);
     rig.world.switch_power(0, true);
@@ -185,7 +185,7 @@ TEST(WorkbenchMemory, RefusesBadBlocksByLineAndName) {
             "line 6: blocks: files: '07': is not UTF-8; expected text");
   EXPECT_EQ(with("\"files\":{\n\"07\":[\"a\"],\n\"07\":[\"b\"]}"),
             "line 6: blocks: '07': appears twice; expected it once");
-  // What the device itself refuses.
+  // Writes that the device itself refuses.
   EXPECT_EQ(with("\"recipes\":{},\n\"fils\":{\"07\":[\"a\"]}").substr(0, 46),
             "line 5: blocks: 'fils' is not a kind of block;");
   EXPECT_EQ(with("\"files\":{\n\"07\":[\"a\"],\n\n\"A\":[\"a\"]}"),
@@ -198,7 +198,7 @@ TEST(WorkbenchMemory, RefusesBadBlocksByLineAndName) {
             "line 4: blocks: recipes: has 11 entries; expected at most 10");
 }
 
-// An image is made where it is wanted: of the moment at which it was asked for, and without the device.
+// An image is made on request, of the moment of the request, without the device.
 TEST(WorkbenchMemory, IsGivenAwayAsItIsAndMadeIntoAnImageLater) {
   LateImage late;
   NvImage wanted;

@@ -1,5 +1,5 @@
-// Registers by their names: in several tables, of axes, fields, reals; what is kept of them, and how a table
-// of them is printed.
+// Registers by name: in several tables, of axes, fields, reals; their persistence, and the output of a table
+// of them.
 #include <gtest/gtest.h>
 
 #include "emulator/device/describe/describe.h"

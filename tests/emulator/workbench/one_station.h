@@ -1,4 +1,4 @@
-// The tests' controller as a station alone.
+// The tests' controller as a single station.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace understudy::emulator::workbench {
 
-/// Hears requests and answers them, without a line.
+/// Receives requests and answers them, without a line.
 struct OneStation final : pty::Transmitter {
   explicit OneStation(bool strict = false) {
     DeviceSettings settings;
@@ -28,7 +28,7 @@ struct OneStation final : pty::Transmitter {
   }
   void answer(std::span<const std::uint8_t> bytes, std::uint64_t) override { transmit(bytes); }
 
-  /// The reply to a PDU; empty if there is none.
+  /// Returns the reply to a PDU; empty if there is none.
   std::string ask(std::string_view pdu, std::uint8_t address = 1) {
     world::Bytes frame{address};
     for (const std::uint8_t byte : world::hex(pdu)) frame.push_back(byte);

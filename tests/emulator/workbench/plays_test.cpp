@@ -1,5 +1,5 @@
 // Bits, reals, and registers of four tables in scenarios: written, read, waited for, polled, refused; the
-// same in free and in real time; recorded, replayed, forked, traced, linted.
+// same in virtual and in real time; recorded, replayed, forked, traced, linted.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A device with two ports in bench files: what may be written, what may not and where that is told.
+// A device with two ports in bench files: what is allowed, what is not, and where errors are reported.
 #include <gtest/gtest.h>
 
 #include "emulator/world/bench/bench_text.h"
@@ -95,7 +95,7 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
        "bench.yaml:3:38: lines.a.stations[1]: the device is already on this line, with its port PC; expected "
        "another line"},
       {lines_ab(mill, "{ device: mill, port: HMI }", devices),
-       "bench.yaml:7:10: devices.lathe: the device is on no line; expected a station that names it"},
+       "bench.yaml:7:10: devices.lathe: the device is not on a line; expected a station that names it"},
       {lines_ab("{ device: mill }, { device: lathe }", "{ device: mill, port: HMI }", devices),
        "bench.yaml:3:38: lines.a.stations[1]: address 1 is taken on this line; expected another"},
       {lines_ab("{ device: mill, address: 5 }, { device: lathe, address: 5 }", "{ device: mill, port: HMI }",

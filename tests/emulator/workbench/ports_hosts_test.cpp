@@ -1,5 +1,5 @@
-// Two hosts at once on the two ports of one device: every answer is the right one, on the right line, and no
-// value is torn. What they do is recorded, played again, saved and restored.
+// Two hosts at once on the two ports of one device: every answer is correct, on the right line, and no value
+// is torn. The run is recorded, replayed, saved and restored.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -29,7 +29,7 @@ void put_word(Bytes& bytes, std::size_t word) {
   bytes.push_back(static_cast<std::uint8_t>(word));
 }
 
-/// What the device must answer, as the manual of a controller would say it: without its code.
+/// The expected replies of the device, as a manual would describe them, without its code.
 class Oracle {
  public:
   /// Carries it out. Empty: no answer.
@@ -143,7 +143,7 @@ TEST(TwoHosts, GetTheRightAnswers100000Times) {
   EXPECT_EQ(two.mill().state.receive_errors, (std::array<std::uint32_t, 2>{}));
 }
 
-/// Both talk all the time, in the wire's time, break off, meet faults and lose the power.
+/// Both send all the time, at the speed of the wire, disconnect, meet faults and lose the power.
 class BusyHosts {
  public:
   explicit BusyHosts(std::uint64_t seed)

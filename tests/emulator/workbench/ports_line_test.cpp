@@ -1,5 +1,5 @@
-// A device on two lines with one register image: what belongs to a line stays there, what belongs to the
-// device is the same on both.
+// A device on two lines with one register image: state of a line stays with that line, state of the device is
+// the same on both.
 #include <gtest/gtest.h>
 
 #include "emulator/world/faults/fault.h"

@@ -1,4 +1,4 @@
-// Scenarios of a device on two lines: `via`, in free time and over real ports.
+// Scenarios of a device on two lines: `via`, in virtual time and over real ports.
 #include <gtest/gtest.h>
 
 #include "emulator/play/performing/run.h"

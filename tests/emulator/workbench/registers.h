@@ -21,7 +21,7 @@ inline constexpr std::size_t kFifo = 3;
 inline constexpr std::uint16_t kMove = 0x0A01;  // axis, target (two words)
 inline constexpr std::uint16_t kStop = 0x0A02;
 
-// What the rows do beyond storing (workbench.h).
+// The effects of rows, beyond storing (workbench.h).
 Value position_of(const Workbench& bench, Cell cell);
 void set_position(Workbench& bench, Cell cell, Value value);
 Value is_driving(const Workbench& bench, Cell cell);
@@ -37,7 +37,7 @@ DeviceAnswer take_block(Workbench& bench, Cell cell, std::span<const std::uint16
 Value receive_errors(const Workbench& bench, Cell cell);
 DeviceAnswer take_command(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
 
-// Why it refuses, in numbers of its own.
+// Its own error numbers.
 inline constexpr int kUnknownCommand = 2;
 inline constexpr int kWrongWords = 3;
 inline constexpr int kFifoFull = 0xC1;

@@ -1,5 +1,5 @@
-// Rows that make no sense are refused when a table is built, each with what is wrong with it; and what the
-// words for rows do at their edges.
+// Rows that make no sense are refused when a table is built, each with its error; and corner cases of the
+// vocabulary of rows.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -85,11 +85,11 @@ const Case kCases[] = {
     {real().with_bits(kPlain), "has fields, and no bits for them"},
     {word().with_bits(kBeyond), "has a field that it has no bits for"},
     {word().with_bits(kShared), "has two fields in one bit"},
-    {word().with_bits(kEmptyName), "has a field whose name is not one"},
-    {word().with_bits(kNumberName), "has a field whose name is not one"},
-    {word().with_bits(kOtherNumberName), "has a field whose name is not one"},
-    {word().with_bits(kDottedName), "has a field whose name is not one"},
-    {word().with_bits(kSameNames), "has two fields of one name"},
+    {word().with_bits(kEmptyName), "has a field with an invalid name"},
+    {word().with_bits(kNumberName), "has a field with an invalid name"},
+    {word().with_bits(kOtherNumberName), "has a field with an invalid name"},
+    {word().with_bits(kDottedName), "has a field with an invalid name"},
+    {word().with_bits(kSameNames), "has two fields of the same name"},
     {word().reads<last_cause, Varies::in_ticks>().with_bits(kReading),
      "has a reader, and a field with another"},
 };
@@ -114,7 +114,7 @@ TEST(RowSense, TheOrderOfWordsIsInAHoldingRegister) {
       ADD_FAILURE() << name << " is taken";
     } catch (const std::logic_error& error) {
       EXPECT_EQ(error.what(), "register map: " + std::string(name) +
-                                  " is to have the order of words, but is not a holding register");
+                                  " holds the word order, but is not a holding register");
     }
   }
 }

@@ -1,5 +1,5 @@
-// Names with their table, bits and reals where people give and read them: benches, the control socket, frames
-// in words.
+// Names with their table, bits and reals wherever people write and read them: benches, the control socket,
+// decoded frames.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -153,7 +153,7 @@ TEST(ServedNames, ACommandIsGivenByItsName) {
   };
   EXPECT_EQ(command("it", "MOVE X -70000"), "");
   EXPECT_EQ(command({}, "STOP"), "") << "the only device";
-  // In the order of words that it has now.
+  // In the present word order.
   EXPECT_EQ(served.diagnostic_of_setting("Word_Order", 1), "");
   EXPECT_EQ(command({}, "MOVE Z 65537"), "");
   EXPECT_EQ(served.get("STATE.WAITING"), 3);

@@ -1,4 +1,4 @@
-// Terminals of every kind and in hundreds: what is counted, analog outputs, short pulses, groups; and what
+// Terminals of every kind, hundreds of them: counted inputs, analog outputs, short pulses, groups; and what
 // observers see of them.
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@ namespace understudy::emulator::workbench {
 
 inline const ListedModel kWorkbenchModels[] = {&model()};
 
-/// Lines "pc" and "hmi"; what is said of each, behind its name, and what follows.
+/// Lines "pc" and "hmi", the settings of each after its name, and the rest of the bench.
 inline std::string two_lines_text(const std::string& of_line = "", const std::string& more = "") {
   return "understudy: 1\nlines:\n"
          "  pc: { " +
@@ -38,7 +38,7 @@ inline world::Bytes frame_of(std::string_view text) {
   return made;
 }
 
-/// A world of such a bench. Hosts have the lines' own settings.
+/// A world with such a bench. Hosts use the lines' own settings.
 struct TwoLines {
   static constexpr std::size_t kPc = 0;
   static constexpr std::size_t kHmi = 1;
@@ -50,7 +50,7 @@ struct TwoLines {
   const Workbench& mill() { return static_cast<const Workbench&>(world.device(0)); }
   void send(std::size_t line, std::string_view text) { world.receive(line, frame_of(text)); }
   void pass(SimTime time) { world.advance_to(world.now() + time); }
-  /// What has come since the last call, as hexadecimal text without a checksum, if that is right.
+  /// Returns what was received since the last call as hexadecimal text, without a correct checksum.
   std::string came(std::size_t line) {
     const auto output = world.line(line).line.output();
     const world::Bytes bytes(output.begin(), output.end());

@@ -1,4 +1,4 @@
-// Commands by name: what a scenario sends, in free and in real time, and what is told of frames.
+// Commands by name: what a scenario sends, in virtual and in real time, and how frames are described.
 #include <gtest/gtest.h>
 
 #include "emulator/device/command_window.h"
@@ -52,7 +52,7 @@ const std::string kCommands =
     "  - command: { mill: MOVE X -70000 }\n"
     "  - command: { mill: MOVE Y 1000 }\n    via: hmi\n"
     "  - assert: [ mill.STATE.WAITING == 2 ]\n"
-    // The order of words is asked when the command is sent.
+    // The word order is read when the command is sent.
     "  - write: { mill.Word_Order: 1 }\n"
     "  - command: { mill: MOVE Z 65537 }\n"
     "  - command: { mill: STOP }\n    exception: 6\n"
@@ -142,11 +142,11 @@ TEST(WindowNames, FramesAreToldByThem) {
   EXPECT_EQ(told(play::message_request(1, kWindow, Words{kStop})), "command 0x1F40 it: STOP");
   EXPECT_EQ(told(play::write_request(1, Table::holding, kWindow, Words{kStop})), "command 0x1F40 it: STOP");
   EXPECT_EQ(told(play::message_request(0, kWindow, Words{kStop})), "station 0: command 0x1F40 it: STOP");
-  // What is none is told as words are.
+  // Other messages are described as words.
   EXPECT_EQ(told(play::message_request(1, kWindow, Words{7, 1})),
             "write 0x1F40 it.Command0 = 7, Command1 = 1");
   EXPECT_EQ(told(play::message_request(1, kWindow + 1, Words{kStop})), "write 0x1F41 it.Command1 = 2562");
-  // By the order of words that it has now.
+  // In the present word order.
   auto& bench = static_cast<Workbench&>(world.device(0));
   write_value(bench, *find_register(model(), "Word_Order", 100), 1);
   EXPECT_EQ(told(play::message_request(1, kWindow, Words{kMove, 1, 1000, 0})),

@@ -1,5 +1,5 @@
-// A window takes what one request writes as one message; what the device itself refuses, and what it hears of
-// refusals.
+// A window takes the words of one request as one message; what the device itself refuses, and what it learns
+// of refusals.
 #include <gtest/gtest.h>
 
 #include "emulator/device/register_map/access.h"

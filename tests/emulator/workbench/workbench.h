@@ -86,7 +86,7 @@ class Workbench final : public DeviceOf<Workbench>,
     state.kept = factory_kept(*model.registers);
   }
 
-  /// Its areas and files are kept as blocks; what it sets is set at once.
+  /// Its areas and files are persistent blocks; settings take effect at once.
   void load_program(std::string_view text) override {
     if (stored(absent_) != 0) {
       state.program_refused = 1;
@@ -111,7 +111,7 @@ class Workbench final : public DeviceOf<Workbench>,
     }
     for (auto& [name, lines] : read.program.files) keep("files", name, std::move(lines));
   }
-  /// What the language has taken fits.
+  /// A program that the language has accepted fits.
   void keep(std::string_view kind, const std::string& name, std::string text) {
     const std::string why = state.kept.blocks.put(kind, name, SharedText(std::move(text)));
     if (!why.empty()) throw std::logic_error(name + ": " + why);
@@ -159,7 +159,7 @@ class Workbench final : public DeviceOf<Workbench>,
   bool output_moves(int) const override { return false; }
   std::uint32_t output_word(int first, int count) const override {
     if (first < kFirstGroupedOutput) return Terminals::output_word(first, count);
-    // A run of them lies in three words at most.
+    // A run of them occupies three words at most.
     const int at = first - kFirstGroupedOutput;
     std::uint64_t words = 0;
     for (int i = 0; i < 3 && powered(); ++i) {
@@ -203,13 +203,13 @@ class Workbench final : public DeviceOf<Workbench>,
     motors_.fast_forward_to(tick, pulses);
   }
 
-  /// Positions and commands are of a module that may be absent, and positions wait for room in its FIFO.
+  /// Positions and commands belong to a module that may be absent; positions wait for room in its FIFO.
   DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override {
     const bool is_of_module =
         request.table == Table::holding && (request.first == kWindow || (request.first & 0xFFF0) == 0x0010);
     if (!is_of_module) return Refusal::none;
     if (stored(absent_) != 0) return {Refusal::failure, kModuleAbsent};
-    // A command is judged first (take_command()).
+    // A command is checked first (take_command()).
     const bool is_full = request.is_write() && request.first != kWindow && state.fifo.size() >= kFifo;
     if (checked == Checked::everything && is_full) return {Refusal::busy, kFifoFull};
     return Refusal::none;
@@ -305,7 +305,7 @@ inline DeviceAnswer take_block(Workbench& bench, Cell, std::span<const std::uint
   return change_block(bench.state.kept.blocks, words);
 }
 
-/// A command is good by its code, its words and its axis; then it waits in the FIFO.
+/// A command is checked by its code, its words and its axis; then it waits in the FIFO.
 inline DeviceAnswer take_command(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
   if (words[0] != kMove && words[0] != kStop) return {Refusal::bad_value, kUnknownCommand};
   const bool is_good = words[0] == kMove ? words.size() == 4 && words[1] < kAxisCount : words.size() == 1;
@@ -329,7 +329,7 @@ inline constexpr Firmware kFirmwares[] = {100};
 inline constexpr std::string_view kStateRegisters[] = {"STATE", "holding.Position_X", "Temperature",
                                                        "Mode.PROGRAM"};
 
-/// One number for every axis, and numbers that are counted.
+/// One number for every axis, and numbers that are counters.
 inline constexpr ParameterRow kParameters[] = {
     {.first = 20,
      .register_name = "Speed_{}",

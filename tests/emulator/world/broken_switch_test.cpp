@@ -32,7 +32,7 @@ class Machine : public ReadySimple2 {
   }
   std::int64_t place() { return world().plant(0, 0).position_pulses(); }
   bool homed() const { return bit("STATUS.8"); }
-  /// How long homing took; -1 if it still goes on.
+  /// Returns how long homing took; -1 if it continues.
   Tick go_home(Tick at_most = 3000) {
     set("Aaxis_GoHome", 1);
     const Tick begin = now() + 1;
@@ -58,7 +58,7 @@ TEST(BrokenSwitch, HomingGivesUpAtTheSecondLimitIfHomeNeverComesOn) {
   EXPECT_FALSE(machine.homed());
   EXPECT_EQ(machine.place(), -200);
 
-  // Mended, it is found: the edge at 100, and back to it.
+  // After the repair it is found: the edge at 100, and back to it.
   ASSERT_TRUE(machine.world().clear_fault(stuck));
   EXPECT_GT(machine.go_home(), 0);
   EXPECT_TRUE(machine.homed());

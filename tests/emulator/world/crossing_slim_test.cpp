@@ -1,5 +1,5 @@
-// Many ticks of a SLIM in one step: random commands, pauses, switches and choices, the same in bulk and by
-// single ticks. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
+// Many ticks of a SLIM in one step: random commands, pauses, switches and choices, the same as with single
+// ticks. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Many ticks in one step while axes move: the same world as by single ticks, however it is set up. Benches,
-// choices and what happens are drawn at random; UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
+// Many ticks in one step while axes move: the same world as with single ticks, for any setup. Benches,
+// choices and events are drawn at random; UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -199,7 +199,7 @@ TEST(WorldCrossing, RandomCoursesAreTheSameInBulkAndByTicks) {
     run += plain.ticks_run();
     single += twin.ticks_run();
   }
-  // Worth something only if much is crossed, and axes move.
+  // The test is meaningful only if many ticks are skipped, and axes move.
   EXPECT_LT(run * 3, single);
   EXPECT_GT(crossed, 10'000u);
 }

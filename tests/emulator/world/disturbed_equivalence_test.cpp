@@ -1,6 +1,6 @@
-// However a world is stepped, it is the same world: here with everything that a user can do to it from behind
-// the line. Power, faults, analog inputs, switches on the housing, drives. Beside world_equivalence_test.cpp,
-// whose events are more of the line. Random, seeded; UNDERSTUDY_SEED overrides.
+// However a world is stepped, it is the same world: here with everything that a user can do to it beyond the
+// line: power, faults, analog inputs, switches on the housing, drives. The events of
+// world_equivalence_test.cpp are mostly on the line. Random, seeded; UNDERSTUDY_SEED overrides.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -201,7 +201,7 @@ void apply(World& world, const Event& event) {
   }
 }
 
-/// The sequences are worth something only if much happens in them.
+/// The sequences are meaningful only if much happens in them.
 struct Lively {
   std::uint64_t crossed = 0;
   std::uint64_t run = 0;

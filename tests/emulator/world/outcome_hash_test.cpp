@@ -51,7 +51,7 @@ TEST(OutcomeHash, DoesNotHingeOnWhoLooksOn) {
 }
 
 TEST(OutcomeHash, DiffersWithWhateverComesOut) {
-  // The same request, whoever puts it together; it takes as long as the reply does.
+  // The same request, whoever composes it; it takes as long as the reply does.
   const std::string servo_on_in_bytes = "  - send: { bytes: 01 06 10 14 00 01 +crc, within: 5.333333ms }\n";
   EXPECT_EQ(outcome(play::kServoOn), outcome(servo_on_in_bytes));
   const std::set<std::uint64_t> outcomes = {
@@ -70,8 +70,8 @@ TEST(OutcomeHash, DiffersWithWhateverComesOut) {
   EXPECT_EQ(outcomes.size(), 10U);
 }
 
-/// Two hosts say the same at the same time, which nobody answers: one is heard, the other has set something
-/// else than the device.
+/// Two hosts send the same at the same time, and nobody answers: one is received, the other has different
+/// line settings.
 TEST(OutcomeHash, DiffersWithWhatWasHeard) {
   const auto of_host = [](int stop_bits) {
     World world(parse_bench(models::all_models(),

@@ -1,4 +1,4 @@
-// What may come from outside to a world of two Simple2-R3, at random: requests, noise, inputs.
+// Random events from outside for a world of two Simple2-R3: requests, noise, inputs.
 #pragma once
 
 #include <random>
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::world {
 
-/// Something from outside: bytes on the line, or an input's level.
+/// An event from outside: bytes on the line, or an input's level.
 struct RandomEvent {
   SimTime at{0};
   Bytes bytes{};
@@ -81,7 +81,7 @@ class RandomEvents {
     }
   }
 
-  /// Function 16: distance, speed, times and the trigger of an axis.
+  /// A request with function 16: distance, speed, times and the trigger of an axis.
   Bytes whole_move(int station) {
     const auto byte = [](std::int64_t n) { return static_cast<std::uint8_t>(n); };
     const std::int64_t first = between(0, 1) == 0 ? 0x1000 : 0x1006;

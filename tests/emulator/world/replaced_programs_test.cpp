@@ -29,14 +29,14 @@ namespace replaced_programs_test {
 
 using Texts = std::vector<std::string_view>;
 
-/// A part of a program: how it begins, and lines that it may have.
+/// A part of a program: its beginning, and lines that it may contain.
 struct Part {
   const char* head;
   Texts lines;
 };
 
-/// What programs in a language are made of, and what hosts do to a device that runs them. `{3-9}` is a number
-/// of these.
+/// The parts of programs in a language, and what hosts do to a device that runs them. `{3-9}` is one of these
+/// numbers.
 struct Language {
   const char* model;
   const char* settings;     // of the device, on the bench
@@ -150,7 +150,7 @@ class Course {
     world_.set_bulk_ticks(looks != Looks::at_single_ticks);
   }
 
-  /// What it comes to.
+  /// Its result.
   std::string run(int acts) {
     load();
     for (int i = 0; i < acts; ++i) {
@@ -187,7 +187,7 @@ class Course {
     return std::to_string(least + below(most - least + 1));
   }
 
-  /// One in four is not ours.
+  /// One in four is not the default.
   std::string choices(const Model& model) {
     std::string text;
     for (const ChoiceRow& row : model.choices) {

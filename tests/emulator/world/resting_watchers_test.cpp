@@ -1,4 +1,4 @@
-// Who watches a world does not make it take every tick while nothing happens, and sees the same as if it did.
+// A watcher does not force a world to run every tick while nothing happens, and sees the same as if it did.
 // Random, seeded; UNDERSTUDY_SEED overrides.
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace resting_watchers_test {
 
 using namespace std::chrono_literals;
 
-/// A trace of what traces have by themselves, and of more.
+/// A trace of the usual values, and of more.
 class Traced {
  public:
   Traced(World& world, const std::vector<std::string>& also)
@@ -173,7 +173,7 @@ TEST(RestingWatchers, OneThatSeesEveryTickMakesAllSeeThem) {
   for (std::size_t i = 0; i < every.ticks.size(); ++i) EXPECT_EQ(every.ticks[i], static_cast<Tick>(i) + 1);
 }
 
-/// What somebody who watches does is seen by all at the next tick.
+/// An action of a watcher is visible to all at the next tick.
 TEST(RestingWatchers, SeeWhatOneOfThemDoes) {
   struct Acting final : TickWatcher {
     explicit Acting(World& of) : world(of) {}

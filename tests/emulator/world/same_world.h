@@ -1,5 +1,4 @@
-// Whether two machines, or two worlds, are in the same state; if not, the first field that differs, by its
-// name.
+// Compares the states of two machines or worlds; names the first field that differs.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +15,7 @@ inline testing::AssertionResult same_state(const PlantAxis& a, const PlantAxis& 
   return testing::AssertionFailure() << first_difference(a.save(), b.save(), "machine");
 }
 
-/// But for what hosts have left on its lines, and how ticks were run.
+/// Ignores what hosts have left on its lines, and how ticks were run.
 inline testing::AssertionResult same_state(const World& a, const World& b) {
   if (hash(a) == hash(b)) return testing::AssertionSuccess();
   return testing::AssertionFailure() << difference(a, save(a), save(b));

@@ -1,4 +1,4 @@
-// Where two snapshots differ is told by path and name, and nothing that differs stays untold.
+// Differences of two snapshots are reported by path and name, and every difference is reported.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -83,7 +83,7 @@ TEST(SnapshotDifference, OfMachinesIsToldByTheirAxes) {
   EXPECT_EQ(difference(one, save(one), save(other)), "turner.B.machine.position_pulses: 30 against 31");
 }
 
-/// Any byte that is changed, and makes another state of the world, makes a difference that has a name.
+/// Any changed byte that gives another state of the world gives a named difference.
 void expect_all_told(World& world) {
   const WorldState state = save(world);
   const std::size_t step = is_sanitized() ? 19 : 7;

@@ -1,4 +1,4 @@
-// Which files are taken for snapshots.
+// Which files are accepted as snapshots.
 #include "emulator/world/snapshot_file.h"
 #include "emulator/models/models.h"
 

@@ -26,7 +26,7 @@ std::uint64_t seed() {
   return given != nullptr ? std::strtoull(given, nullptr, 10) : 40'001;
 }
 
-/// What a world is seen to be just before an act.
+/// The visible state of a world just before an act.
 struct Seen {
   std::uint64_t hash = 0;
   Bytes said;
@@ -38,7 +38,8 @@ Seen look(World& world) {
   return {.hash = hash(world), .said = take_output(world), .next_due = world.next_due()};
 }
 
-/// In how many of the moments something was going on, so that nothing is proved of quiet worlds only.
+/// The number of moments in which something was running, so that the test does not prove something only for
+/// quiet worlds.
 struct Moments {
   int in_request = 0;
   int between_characters_and_service = 0;
@@ -91,7 +92,7 @@ void save_and_go_on(std::uint64_t seed_value, Moments& moments) {
   World world = make_world(timing, 19'200, options);
   const std::vector<Act> acts = random.make(150);
 
-  // A life, with snapshots of it at times between its acts.
+  // A course, with snapshots of it between its acts.
   std::vector<Saved> snapshots;
   std::vector<Seen> lived;
   for (std::size_t i = 0; i < acts.size(); ++i) {
@@ -111,7 +112,7 @@ void save_and_go_on(std::uint64_t seed_value, Moments& moments) {
   World fresh = make_world(timing, 19'200, options);
   for (const Saved& saved : snapshots) {
     const std::size_t end = std::min(saved.next_act + kActsAfterwards, acts.size());
-    // One that has lived already, and one that has not.
+    // A world that has run already, and a new one.
     for (World* other : {&world, &fresh}) {
       const std::string which = " act " + std::to_string(saved.next_act) + " at " +
                                 format_duration(saved.state.time) + " seed " + std::to_string(seed_value);
@@ -254,7 +255,7 @@ TEST(Snapshot, OneStateHasSeveralContinuations) {
 
 // --- what is refused -------------------------------------------------------------------------------
 
-/// Busy, with all that there is to flip.
+/// A busy world, with everything that can be changed.
 void keep_busy(World& world, std::uint64_t seed_value) {
   BusyActs random(seed_value);
   for (const Act& act : random.make(80)) {

@@ -1,5 +1,5 @@
-// The ways in which a world can be brought to a time, and whether two worlds are the same afterwards: for
-// tests that it makes no difference.
+// The ways to advance a world to a time, and comparisons of two worlds afterwards, for tests that they make
+// no difference.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,13 +17,13 @@
 
 namespace understudy::emulator::world {
 
-/// UNDERSTUDY_SEED, or else what is given.
+/// Returns UNDERSTUDY_SEED, or the given seed.
 inline std::uint64_t seed_or(std::uint64_t usual) {
   const char* given = std::getenv("UNDERSTUDY_SEED");
   return given != nullptr ? std::strtoull(given, nullptr, 10) : usual;
 }
 
-/// Brings a world to a time.
+/// Advances a world to a time.
 using Stepping = std::function<void(World&, SimTime)>;
 
 inline void by_single_ticks(World& world, SimTime to) {
@@ -80,8 +80,8 @@ inline testing::AssertionResult same(World& one, World& other) {
   return testing::AssertionSuccess();
 }
 
-/// Gives the same events to both, one after the other, and compares them before each and long after the last.
-/// The `plain` world is brought there in one step. `look` is called after each event. Fails fatally.
+/// Applies the same events to both, one after the other, and compares them before each event and long after
+/// the last. The `plain` world is advanced in one step. `look` is called after each event. Fails fatally.
 template <typename Event>
 void play_both(World& plain, World& twin, const std::vector<Event>& events, const Stepping& stepping,
                const std::string& name, const std::function<void()>& look) {

@@ -190,7 +190,7 @@ TEST(HandWheels, AreTurnedByHandAlone) {
                         "  - assert: x.A.encoder == 9\n"
                         "  - advance: 499ms\n"
                         "  - assert: x.A.encoder == 11\n"
-                        // A turn that meets another goes with it.
+                        // A turn that meets another one is added to it.
                         "  - inject: { turn: x.A, counts: -5, in: 4ms }\n"
                         "  - advance: 2ms\n"
                         "  - assert: x.A.encoder == 9\n"
@@ -199,7 +199,7 @@ TEST(HandWheels, AreTurnedByHandAlone) {
                         "  - inject: { turn: x.A, counts: -1000000 }\n"
                         "  - advance: 1ms\n"
                         "  - assert: x.A.encoder == -999993\n"
-                        // In the middle of a turn the state is whole.
+                        // In the middle of a turn, the state is complete.
                         "  - inject: { turn: x.A, counts: 1000, in: 100ms }\n"
                         "  - advance: 50ms\n"
                         "  - snapshot: half\n"

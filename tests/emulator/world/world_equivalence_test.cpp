@@ -1,5 +1,5 @@
-// However a world is stepped, the same things from outside at the same times make the same world: bulk
-// ticks or single ones, many small steps or one big one. Random, seeded; UNDERSTUDY_SEED overrides.
+// However a world is stepped, the same events from outside at the same times make the same world: bulk ticks
+// or single ones, many small steps or one big one. Random, seeded; UNDERSTUDY_SEED overrides.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -39,7 +39,7 @@ void compare(std::uint64_t seed_value, const std::string& timing, const Stepping
   for (const auto& station : plain.line(0).stations) sum.replies += station->counters().replies;
 }
 
-/// The sequences are worth something only if much happens in them.
+/// The sequences are meaningful only if much happens in them.
 void expect_lively(const Lively& sum) {
   EXPECT_GT(sum.crossed, 10'000u);
   EXPECT_GT(sum.run, 5'000u);

@@ -1,4 +1,4 @@
-// The command table against the manual's.
+// The command table compared with the manual's.
 #include "interpreter/rs_m8194h/commands.h"
 
 #include <gtest/gtest.h>

@@ -236,7 +236,7 @@ TEST(RsM8194hDownload, CloseTakesALineIfChosen) {
   EXPECT_EQ(download({false, 1}, repeated(8, "SET_VAR VAR1 1"), options).status.error, 0x01);
 }
 
-/// Each in a download of its own, behind what has to be open for it.
+/// Each in its own download, after the lines that must be open for it.
 TEST(RsM8194hDownload, EveryPrintedMacroFrameIsALine) {
   int count = 0;
   for (const auto& registers : printed::window_frames()) {

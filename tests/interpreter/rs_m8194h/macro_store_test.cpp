@@ -1,4 +1,4 @@
-// Macros that a memory holds as texts.
+// Macros that a memory stores as texts.
 #include "interpreter/rs_m8194h/macro_store.h"
 
 #include <gtest/gtest.h>

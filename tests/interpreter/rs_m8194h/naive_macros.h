@@ -1,5 +1,5 @@
-// Macros carried out in another way than the product's: as a tree of blocks, walked by calls inside calls,
-// with time that passes where a line waits.
+// Executes macros in a different way than the product: as a tree of blocks, walked by nested calls, where
+// time passes when a line waits.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace understudy::interpreter::rs_m8194h::naive {
 
-/// What the world of the random macros is like at a time: everything is a rule of arithmetic.
+/// The world of the random macros at a time: everything follows an arithmetic rule.
 inline bool axes_stand(std::uint32_t axes, std::int64_t now) { return (now + axes) % 4 != 0; }
 inline bool input_is_on(std::uint32_t group, std::uint32_t channel, std::int64_t now) {
   return (now / 3 + group + 2 * channel) % 5 < 2;
@@ -31,7 +31,7 @@ inline std::int32_t reading(const std::string& text, std::int64_t now) {
   return static_cast<std::int32_t>(sum % 20001) - 10000;
 }
 
-/// A command with numbers alone: none of them stands for a variable.
+/// Returns a command with numbers only, without variables.
 inline std::string plain(const Command& command) {
   Command real_time = command;
   real_time.code = static_cast<std::uint16_t>((command.code & 0xFFU) | 0x0A00U);
@@ -49,7 +49,7 @@ struct Node {
 };
 using Nodes = std::vector<Node>;
 
-/// The lines from `at` on, up to what ends their block.
+/// The lines from `at` to the end of their block.
 inline Nodes tree_of(const std::vector<Command>& lines, std::size_t& at) {
   Nodes nodes;
   while (at < lines.size()) {
@@ -114,7 +114,7 @@ class Evaluator {
     if (now_ == end_) throw TimeIsUp{};
     ++now_;
     left_ = budget_;
-    // An MP that waits sees what comes while an ISR is at work.
+    // A waiting MP notices its event also while an ISR runs.
     if (awaited_ && awaited_()) has_come_ = true;
     if (!in_isr_) serve();
   }

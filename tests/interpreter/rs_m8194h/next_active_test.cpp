@@ -1,4 +1,4 @@
-// When macros have something to do again.
+// When macros must run again.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -64,7 +64,7 @@ inline std::vector<std::uint8_t> bytes_of(const std::string& text) {
   return bytes;
 }
 
-/// The registers of a frame that writes to the window; none if it is another one.
+/// Returns the registers of a frame that writes to the window; none for other frames.
 inline std::vector<std::uint16_t> window_registers(const Fact& frame) {
   const std::vector<std::uint8_t> bytes = bytes_of(frame.at("frame"));
   const bool is_window = frame.at("direction") == "request" && bytes.size() > 9 && bytes[1] == 0x10 &&
@@ -107,7 +107,7 @@ inline std::vector<std::uint16_t> good_registers(std::uint16_t code, const std::
   return registers;
 }
 
-/// Where a parameter stands in them.
+/// Returns the position of a parameter in them.
 inline std::size_t place_of(const std::vector<Allowed>& parameters, std::size_t number) {
   std::size_t at = 1;
   for (std::size_t i = 0; i < number; ++i) at += static_cast<std::size_t>(parameters[i].registers);

@@ -1,5 +1,5 @@
-// Random macros through the product and through another way of carrying them out: the same course, to the
-// tick, and the same variables. What differs is printed as text that can be loaded.
+// Random macros through the product and through another implementation: the same course, to the tick, and the
+// same variables. A difference is printed as text that can be loaded.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -21,7 +21,7 @@ struct Bench {
   }
 
   void start(int mp = 1) { start_mp(execution, mp, machine.now_ms + 1, machine); }
-  /// Ticks; what is left for the FIFO in the last one.
+  /// Runs ticks. Returns what is left for the FIFO in the last one.
   int run(int ticks, int budget = 8) {
     int left = 0;
     for (int i = 0; i < ticks; ++i) {
@@ -39,7 +39,7 @@ struct Bench {
   bool is_paused = false;
 };
 
-/// Lines without RSM_MACRO_, parted by '|' without blanks around it.
+/// Lines without RSM_MACRO_, separated by '|' without blanks around it.
 std::string mp(int number, const std::string& lines) {
   std::string text = "MP " + std::to_string(number) + "\n";
   std::string line;

@@ -1,5 +1,5 @@
-// A controller for macros under test: what stands, what an input is and what a reading gives are functions of
-// the time; what a macro does is written down with its time.
+// A controller for macros under test. Motion, inputs and readings are functions of the time; the actions of
+// macros are recorded with their times.
 #pragma once
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class ScriptedMachine : public Machine {
 
   void note(const std::string& what) { log.push_back(std::to_string(now_ms) + " " + what); }
 
-  /// Of a text as listings have it.
+  /// Made from a text in the form of listings.
   void store(const std::string& text) {
     ParsedListing parsed = parse_listing(text);
     for (const TextError& error : parsed.errors) ADD_FAILURE() << to_string(error) << "\n" << text;

@@ -1,4 +1,4 @@
-// Commands as text and back: without loss, and with a place for what is wrong.
+// Commands as text and back: without loss, and with the places of errors.
 #include "interpreter/rs_m8194h/text.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(RsM8194hText, OfEveryPrintedFrameIsReadBack) {
   }
 }
 
-/// Whatever the registers are: what decode() takes is read back from its text.
+/// For any registers: what decode() accepts is read back from its text.
 TEST(RsM8194hText, OfRandomCommandsIsReadBack) {
   std::mt19937 random(20);  // NOLINT(cert-msc51-cpp): the same every time
   const auto allowed = printed::allowed();

@@ -21,7 +21,7 @@ namespace window_test {
 
 using Registers = std::vector<std::uint16_t>;
 
-/// A state in which the code may come.
+/// Returns a state in which the code is allowed.
 State state_for(std::uint16_t code) {
   if (!is_macro_code(code)) return State::ready;
   return find_code(code)->use.in_mp ? State::mp_download : State::isr_download;
@@ -133,7 +133,7 @@ TEST(RsM8194hWindow, RangesEndWhereTheManualSays) {
           printed::put(registers, at, one.registers, value);
           return fault_of(registers);
         };
-        // VAR_CALCULATE has an error of its own, which its download finds.
+        // VAR_CALCULATE has its own error, which its download finds.
         const Fault beyond = (code & 0xFF) == 0xD4 ? Fault::none : Fault::parameter;
         const bool is_side = one.name == "Lp" || one.name == "Wp";
         const bool is_radius = one.name == "Rp";

@@ -1,4 +1,4 @@
-// What the firmware version changes.
+// The effects of the firmware version.
 #include "tests/interpreter/simple2/scripted_machine.h"
 
 namespace understudy::interpreter::simple2 {

@@ -1,4 +1,4 @@
-// What each instruction does, worked out by hand from the manual's list.
+// The effect of each instruction, worked out by hand from the manual's list.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace understudy::interpreter::simple2 {
 
-// The instruction under test stands in line 10. Line 40 has flag 7; no line has flag 9.
+// The instruction under test is in line 10. Line 40 has flag 7; no line has flag 9.
 inline constexpr int kHere = 10;
 inline constexpr int kNext = 11;
 inline constexpr int kAfterNext = 12;

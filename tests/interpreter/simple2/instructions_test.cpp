@@ -1,4 +1,4 @@
-// The instruction table against the manual's list.
+// The instruction table compared with the manual's list.
 #include "interpreter/simple2/instructions.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace instructions_test {
 
 std::vector<Fact> facts() { return read_facts(std::string(TEST_FACTS) + "/simple2/instructions.csv"); }
 
-/// What the manual calls an operand, by the beginning of its wording.
+/// The manual's words for an operand, by their beginning.
 Operand operand_of(const std::string& wording) {
   const std::vector<std::pair<std::string, Operand>> wordings = {
       {"N/A", Operand::none},

@@ -1,4 +1,4 @@
-// Listings that are wrong: each error with its place and its message.
+// Wrong listings: each error with its place and its message.
 #include <gtest/gtest.h>
 
 #include <random>

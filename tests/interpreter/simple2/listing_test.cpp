@@ -1,4 +1,4 @@
-// Listings that are right.
+// Correct listings.
 #include "interpreter/simple2/listing.h"
 
 #include <gtest/gtest.h>

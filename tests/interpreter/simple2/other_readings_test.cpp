@@ -1,4 +1,4 @@
-// Flags that cannot be, how timers are compared, waits that are cut short: ours, and the other readings.
+// Impossible flags, comparisons of timers, waits that are cut short: our option, and the others.
 #include "tests/interpreter/simple2/scripted_machine.h"
 
 namespace understudy::interpreter::simple2 {
@@ -60,7 +60,7 @@ ProgramRun waiting(std::uint8_t opcode, Dialect::WaitCutShort reading) {
   return run;
 }
 
-/// A line that waits for one axis, and what the machine says of that axis and of the other one.
+/// A line that waits for one axis, and the state of that axis and of the other one.
 struct WaitingLine {
   std::uint8_t opcode;
   bool ScriptedMachine::*moving;
@@ -101,7 +101,8 @@ TEST(Simple2OtherReadings, AWaitThatIsCutShortIsOverOrEndsTheProgram) {
         EXPECT_EQ(run.machine.parameters[0], ends ? 0 : 1) << int{opcode};
         EXPECT_EQ(run.execution.ending, ends ? Ending::wait_cut_short : Ending::end_instruction);
       }
-      // What was cut before does not matter: the line has waited for nothing. Nor is the other axis.
+      // An earlier interruption does not matter, because the line waited for nothing; nor does the other
+      // axis.
       ProgramRun before = waiting(opcode, reading);
       before.machine.*cut_short = true;
       before.until(40);
@@ -142,7 +143,7 @@ TEST(Simple2OtherReadings, ARewrittenLineIsReadAnewOrWaitsOn) {
       run.until(40);
       EXPECT_EQ(run.execution.running, reading == waits_on) << int{line.command};
       EXPECT_EQ(run.machine.parameters[0], reading == read_anew ? 1 : 0) << int{line.command};
-      // What it waits for comes: DIN_10, the end of the move, the end of the delay.
+      // The end of its wait: DIN_10, the end of the move, the end of the delay.
       run.machine.inputs = 1 << 10;
       run.machine.moving_a = false;
       run.until(300);

@@ -1,4 +1,4 @@
-// The names of parameters against the manual's table.
+// The names of parameters compared with the manual's table.
 #include "interpreter/simple2/parameter_names.h"
 
 #include <gtest/gtest.h>

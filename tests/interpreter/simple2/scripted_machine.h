@@ -1,4 +1,4 @@
-// A machine that does nothing but write down what a program asks of it.
+// A machine that only records what a program requests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace understudy::interpreter::simple2 {
 
-/// Lines of a program, the first of them line 0.
+/// The lines of a program, from line 0.
 inline Program program_of(const std::vector<Line>& lines) {
   Lines all{};
   for (std::size_t i = 0; i < lines.size(); ++i) all[i] = lines[i];
@@ -39,7 +39,7 @@ class ScriptedMachine final : public Machine {
            calls == other.calls;
   }
 
-  /// Calls since the last time, "A by 500; B by -3".
+  /// Returns the calls since the last time: "A by 500; B by -3".
   std::string take_calls() {
     std::string text;
     for (const std::string& call : calls) text += (text.empty() ? "" : "; ") + call;
@@ -112,16 +112,16 @@ struct ProgramRun {
     start(execution, first_line);
   }
 
-  /// The slot at `next_slot_ms`.
+  /// Runs the slot at `next_slot_ms`.
   void slot() {
     step(execution, next_slot_ms, program, dialect, machine);
     next_slot_ms += kSlotMs;
   }
-  /// Every slot before `ms`.
+  /// Runs every slot before `ms`.
   void until(std::int64_t ms) {
     while (next_slot_ms < ms) slot();
   }
-  /// Slots until the program ends, but `most` of them at most.
+  /// Runs slots until the program ends, but at most `most`.
   void to_the_end(int most = 10000) {
     while (execution.running && most-- > 0) slot();
     EXPECT_FALSE(execution.running) << "still in line " << int{execution.now_line};

@@ -1,4 +1,4 @@
-// The command table against what was read out of the manual (commands.csv).
+// The command table compared with the facts from the manual (commands.csv).
 #include "interpreter/slim/commands.h"
 
 #include <gtest/gtest.h>

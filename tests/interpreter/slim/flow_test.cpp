@@ -1,5 +1,5 @@
-// Jumps, calls, waits and ends. Times are worked out by hand from "one line a tick": after G at 0 the line
-// that is the n-th to be carried out is carried out at n ms.
+// Jumps, calls, waits and ends. Times are worked out by hand from "one line a tick": after G at 0, the n-th
+// line runs at n ms.
 #include <gtest/gtest.h>
 
 #include "tests/interpreter/slim/scripted_machine.h"

@@ -1,4 +1,4 @@
-// What a machine, an event or a host means for a program that is not its next line.
+// How a machine, an event or a host affects a program beyond its next line.
 #include <gtest/gtest.h>
 
 #include "tests/interpreter/slim/scripted_machine.h"
@@ -28,7 +28,7 @@ TEST(SlimMachine, MayForgetWhatAnEventHasInterrupted) {
     run.until(10);
     run.machine.inputs.insert(1);
     run.until(400);
-    // The routine and its subroutine go on to their ends.
+    // The routine and its subroutine continue to their ends.
     Log expected{"11 TASTOP", "13 SET P2", "15 SET P3"};
     if (!forgets) expected.emplace_back("117 SET P1");
     EXPECT_EQ(run.machine.log, expected);
@@ -63,7 +63,7 @@ TEST(SlimEvents, MayRunTheirRoutineWithoutAProgram) {
   run.machine.inputs.insert(1);
   run.until(60);
   EXPECT_EQ(run.machine.log.size(), 2U);
-  // To a label that there is not: an error, once.
+  // To a label that does not exist: an error, once.
   define("ON EV1,$NOWHERE");
   run.until(90);
   EXPECT_EQ(run.errors, (std::vector<Error>{Error::address}));

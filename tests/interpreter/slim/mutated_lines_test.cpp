@@ -1,4 +1,4 @@
-// Lines that are nearly right: none may do harm, and what is understood reads back from its own text.
+// Lines that are nearly right: none does harm, and an accepted line reads back from its own text.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -59,7 +59,7 @@ TEST(SlimMutatedLines, AreRefusedOrReadBack) {
     ++understood;
     EXPECT_EQ(parse_line(text_of(result.line)), result) << line << " -> " << text_of(result.line);
   }
-  // Neither side is a rare case, or the test would say little.
+  // Neither side is a rare case; otherwise the test would prove little.
   EXPECT_GT(understood, 2'000);
   EXPECT_LT(understood, 18'000);
 }

@@ -191,7 +191,7 @@ struct PlaceCase {
   bool external;
 };
 
-/// The manual's columns where it has them; else what it makes sense to store or to type.
+/// The manual's columns if it has them; otherwise what makes sense to store or to type.
 TEST(SlimAvailability, ByPlace) {
   for (const PlaceCase& each : {PlaceCase{"TAPZ", true, true, true},
                                 {"TASTOP", true, true, true},

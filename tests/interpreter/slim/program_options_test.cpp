@@ -1,5 +1,5 @@
-// What a bench may choose otherwise about programs: how fast lines run, how events are looked at, which
-// numbers lines have, what is refused as a line is entered.
+// Options about programs: how fast lines run, how often events are checked, how lines are numbered, what is
+// refused when a line is entered.
 #include <gtest/gtest.h>
 
 #include "interpreter/slim/editor.h"
@@ -100,7 +100,7 @@ TEST(SlimProgramOptions, EventsLookedAtInEachFourthTick) {
   }
 }
 
-/// What looks at its input by itself sees it in each tick all the same.
+/// A line that checks its input itself still sees it in each tick.
 TEST(SlimProgramOptions, RareLooksAreThoseOfEventsOnly) {
   ProgramRun run({"SET EV1 NZ,NS(N0)", "ON EV1,$E", "WI 1", "SET P1", "RET", "$E SET P2", "RET"},
                  {.events = {.look_every_ms = 4}});
@@ -112,7 +112,7 @@ TEST(SlimProgramOptions, RareLooksAreThoseOfEventsOnly) {
   run.until(22);
   EXPECT_EQ(run.machine.log, (Log{"22 SET P1"}));
 
-  // A condition that cannot be tested is found out at a look.
+  // A condition that cannot be tested is detected at a check.
   ProgramRun wrong({"SET EV1 NZ,NS(N0)", "ON EV1,$E", "$E WT 1000"}, {.events = {.look_every_ms = 4}});
   wrong.begin();
   wrong.until(20);
@@ -150,7 +150,7 @@ TEST(SlimProgramOptions, FewerEvents) {
   EXPECT_EQ(parse_line("ON EV9,$A").error, Error::range);
   EXPECT_EQ(parse_line("ON P1,$A", four).error, Error::syntax);
 
-  // Nor can one be there in what is restored.
+  // A restored program cannot contain one either.
   ProgramRun run({"SET EV5 I,1", "ON EV5,$A", "$A RET"});
   run.begin();
   run.until(2);
@@ -240,7 +240,7 @@ TEST(SlimProgramOptions, LinesCheckedAsTheyRun) {
   EXPECT_EQ(passes.errors,
             (std::vector{Error::syntax, Error::range, Error::not_allowed, Error::not_allowed}));
 
-  // What is jumped over is nobody's concern; a label in front of nonsense is a label.
+  // Skipped lines do not matter; a label before nonsense is a label.
   ProgramRun jumps({"JP $B", "NONSENSE", "$B", "SET P1", "$C NONSENSE", "SET P2"}, passing);
   jumps.begin();
   jumps.until(10);

@@ -1,4 +1,4 @@
-// Every row of the table by lines that have its form and lines that do not.
+// Every row of the table, with lines that have its form and lines that do not.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,5 +1,5 @@
-// A machine for programs under test: inputs and variables are set by hand, what a program does is written
-// down with its time.
+// A machine for programs under test: tests set inputs and variables, and the actions of a program are
+// recorded with their times.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ class ScriptedMachine : public Machine {
 
 using Log = std::vector<std::string>;
 
-/// A program with its machine, from `G` at time 0: the first line is at work at 1 ms.
+/// A program with its machine, from `G` at time 0: the first line runs at 1 ms.
 struct ProgramRun {
   explicit ProgramRun(const std::vector<std::string>& lines, FlowOptions flow = {}) : options(flow) {
     for (const std::string& line : lines) {
@@ -78,11 +78,11 @@ struct ProgramRun {
     return start(execution, program, go.line.command->operands.data(), options);
   }
 
-  /// All ticks up to and with `ms`. Leaves out those that next_active_ms() says may be left out, and checks
-  /// that nothing would have come of them.
+  /// Runs all ticks up to and including `ms`. Skips those that next_active_ms() allows to skip, and checks
+  /// that they would not have changed anything.
   void until(std::int64_t ms) {
     while (machine.now_ms < ms) {
-      // Only the machine can tell when it would no longer let the program wait.
+      // Only the machine knows when it would end the program's wait.
       const bool is_released = execution.hold == Hold::machine && machine.waiting.empty();
       const bool is_quiet = !is_released && next_active_ms(execution, machine.now_ms, program, options,
                                                            machine) > machine.now_ms + 1;

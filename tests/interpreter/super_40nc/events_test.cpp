@@ -1,5 +1,5 @@
-// What happens to step programs against what they are doing: every cell, for C and for an axis program; by a
-// table that was read out of the manual, not from ours.
+// Each event in each phase of step programs: every cell, for C and for an axis program, compared with a table
+// from the manual, not with ours.
 #include "interpreter/super_40nc/events.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +12,7 @@ namespace events_test {
 constexpr Phase kPhases[] = {Phase::idle,    Phase::executing, Phase::moving, Phase::homing,
                              Phase::waiting, Phase::paused,    Phase::held};
 
-/// A program of an area in a phase: it has a motion, a home search and a wait, and its contact as it should
-/// be.
+/// A program of an area in a phase: it has a motion, a home search and a wait, and the right contact.
 Running in_phase(Area area, Phase phase) {
   const char* line = phase == Phase::homing ? "HOM K1" : phase == Phase::waiting ? "WAT X40" : "DRV K100";
   Running running("AREA " + std::string(row_of(area).name) + "\n" + line + "\nSET Y9\nEND\n");
@@ -28,7 +27,7 @@ Running in_phase(Area area, Phase phase) {
   return running;
 }
 
-/// What the manual, or the choice, says of a cell: the phase behind it, and what the machine is told.
+/// The cell of the manual, or of the choice: the next phase, and the calls to the machine.
 struct Cells {
   Event event;
   // I E M H W P Q; "-": nothing changes. A letter: the phase. Behind it "stop", "hold", "go on", "starts",
@@ -83,7 +82,7 @@ TEST(Super40ncEvents, AllCellsAreTheManuals) {
   }
 }
 
-/// M8000 := 0 while its line moves or searches home: that ends first.
+/// M8000 := 0 while its line moves or searches home: the motion ends first.
 TEST(Super40ncEvents, ContactOffLetsAMotionEnd) {
   for (const Phase phase : {Phase::moving, Phase::homing}) {
     Running running = in_phase(Area::c, phase);
@@ -310,7 +309,7 @@ TEST(Super40ncEvents, AStartElsewhereKeepsTheOldModes) {
   EXPECT_EQ(first.machine.log.back(), "C: DRV 1 * * * at 100");
 }
 
-/// What the machine is told of a motion beside the lines and of the wheel: by the same calls.
+/// The calls to the machine about a motion beside the lines, and about the wheel: they are the same.
 TEST(Super40ncEvents, MotionsBesideTheLinesFollowTheirRow) {
   for (std::size_t i = 0; i < kBeside.size(); ++i) {
     const BesideRow& row = kBeside[i];

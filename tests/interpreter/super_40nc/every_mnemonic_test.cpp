@@ -83,7 +83,7 @@ std::string right_operand(std::string_view letters) {
   return std::string(first) + "1";
 }
 
-/// A program around a line in which it is right, and where the line stands in it.
+/// A correct program around a line, and the place of the line in it.
 struct Around {
   std::string before;
   std::string behind;
@@ -126,7 +126,7 @@ class Trial {
     const Checked checked = check(text);
     EXPECT_TRUE(checked.program) << text << (checked.errors.empty() ? "" : to_string(checked.errors.front()));
   }
-  /// The line behind it has its step all the same.
+  /// The line after it still has its step.
   void refuses(const std::string& line, Refused refused) const { refuses(line, refused, fact_.at("steps")); }
   void refuses(const std::string& line, Refused refused, const std::string& steps) const {
     const std::string text = around_.before + line + "\nNOP K1\n" + around_.behind;
@@ -172,7 +172,7 @@ Fields right_words(const Fact& fact) {
 
 std::vector<Fact> facts() { return read_facts(TEST_FACTS "/super_40nc/instructions.csv"); }
 
-/// Calls it with every mnemonic in every area, and whether it may stand there.
+/// Calls it with every mnemonic in every area, and whether it is allowed there.
 template <class Visit>
 void everywhere(Visit visit) {
   const std::vector<Fact> all = facts();
@@ -181,7 +181,7 @@ void everywhere(Visit visit) {
     for (const Place& place : kPlaces) visit(fact, place, may_stand(fact, place));
   }
 }
-/// The same where it may.
+/// The same where it is allowed.
 template <class Visit>
 void wherever_it_may(Visit visit) {
   everywhere([&](const Fact& fact, const Place& place, bool may) {
@@ -233,7 +233,7 @@ TEST(Super40ncEveryMnemonic, TakesTheKindsOfItsFields) {
   EXPECT_GT(tried, 5000);
 }
 
-/// The numbers that there are. (接點元件編號一覽表, 暫存器元件編號一覽表.)
+/// The existing numbers. (接點元件編號一覽表, 暫存器元件編號一覽表.)
 struct Numbers {
   char letter;
   std::vector<std::string> taken;
@@ -342,7 +342,7 @@ TEST(Super40ncEveryMnemonic, AloneSaysWhatItLacks) {
 
 // --- running ------------------------------------------------------------------------------------------
 
-/// What a line did: codes with their steps, what it asked for, and whether the line behind it was reached.
+/// The effect of a line: codes with their steps, its requests, and whether the next line was reached.
 struct Did {
   std::vector<std::array<int, 3>> codes;
   std::vector<std::string> asked;
@@ -392,7 +392,8 @@ TEST(Super40ncEveryMnemonic, WithoutFieldsDoesNothing) {
   EXPECT_GT(tried, 50);
 }
 
-/// What the CSV calls void in an area loads there, reports code 2 with its step, and the next line runs.
+/// A line that the CSV calls void in an area loads there, reports code 2 with its step, and the next line
+/// runs.
 TEST(Super40ncEveryMnemonic, IsVoidWhereTheManualSays) {
   int tried = 0;
   wherever_it_may([&](const Fact& fact, const Place& place, const Trial&) {

@@ -1,4 +1,4 @@
-// More of what the manual leaves open, read otherwise: the rows of choices that are about limits and corners.
+// More options about what the manual leaves open: those about limits and corner cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The table of instructions against what was read out of the manual (instructions.csv).
+// The instruction table compared with the facts from the manual (instructions.csv).
 #include "interpreter/super_40nc/instructions.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// Listings: those that the manual prints, with all their step numbers; what is refused, with its place and
-// code.
+// Listings: those that the manual prints, with all their step numbers; refused ones, with places and codes.
 #include "interpreter/super_40nc/listing.h"
 
 #include <gtest/gtest.h>
@@ -219,7 +218,7 @@ TEST(Super40ncListing, LoadsADoubledLabelAndReportsIt) {
   EXPECT_FALSE(check("AREA Y\nLAB K5\nLAB K5\nEND\n", strict).program);
 }
 
-/// It stops there, with D8094 = 3, when it comes to it: not before.
+/// It stops there, with D8094 = 3, when it reaches it, not before.
 TEST(Super40ncListing, LoadsAJumpWithoutItsLabelAndNotesIt) {
   for (const char* jump : {"JMP K9", "CAL K9", "LD M0\nCJ K9"}) {
     const std::string text = "AREA X\nLAB K1\n" + std::string(jump) + "\nEND\nAREA Y\nLAB K9\nEND\n";
@@ -257,7 +256,8 @@ TEST(Super40ncListing, OtherReadingsRefuseOtherThings) {
   EXPECT_EQ(check("AREA X\nFOO\n", options).errors.at(0).step, 500);
 }
 
-/// People come from an FX: what they write is answered with the box's word, not with one that is spelt alike.
+/// Users come from an FX: their words are answered with this controller's equivalent, not with the nearest
+/// spelling.
 TEST(Super40ncListing, AnswersWordsOfOtherPlcsWithItsOwn) {
   struct Case {
     std::string line;

@@ -1,5 +1,5 @@
-// What the manual leaves open, read otherwise: each option of the languages makes the difference that it
-// names. Those about what is loaded are in listing_test.cpp.
+// Options about what the manual leaves open: each option of the languages makes the difference that it
+// describes. listing_test.cpp has those about loading.
 #include <gtest/gtest.h>
 
 #include "tests/interpreter/super_40nc/running.h"

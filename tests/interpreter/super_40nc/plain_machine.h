@@ -1,4 +1,5 @@
-// The least machine that programs can run on: memory, where nothing moves. For benchmarks and fuzz targets.
+// The simplest machine that programs can run on: memory, in which nothing moves. For benchmarks and fuzz
+// targets.
 #pragma once
 
 #include <array>

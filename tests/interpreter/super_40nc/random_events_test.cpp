@@ -1,5 +1,5 @@
-// Random programs, disturbed: pauses of all kinds change nothing but the time; quiet scans and ticks that are
-// crossed are as if they had been run.
+// Random programs with disturbances: pauses of all kinds change only the time; skipped quiet scans and ticks
+// have the same result as if they had run.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -18,7 +18,8 @@ std::string number(Random& random, const char* letter, int limit) {
 
 // --- pauses -----------------------------------------------------------------------------------------
 
-/// Ends by itself, and depends on nobody: numbers, delays, motions, branches forward, subroutines.
+/// A program that ends on its own and depends on nothing: numbers, delays, motions, forward branches,
+/// subroutines.
 std::string random_program(Random& random) {
   std::string text = "AREA C\n";
   const auto body = [&](int count, bool may_call) {

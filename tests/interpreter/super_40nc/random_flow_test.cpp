@@ -1,5 +1,5 @@
-// Step programs of random flow against a naive evaluator, which reads the listing's words each time it meets
-// a line and looks for labels and partners by walking through them.
+// Step programs of random flow compared with a naive evaluator, which reads the listing's words at each line
+// and searches for labels and partners.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 
 int below(Random& random, int limit) { return static_cast<int>(random() % static_cast<unsigned>(limit)); }
 
-/// What a program may do, over M0 to M7, D0 to D7 and four labels and subroutines.
+/// The possible lines of a program, over M0 to M7, D0 to D7 and four labels and subroutines.
 class Writer {
  public:
   explicit Writer(Random& random) : random_(random) {}
@@ -167,7 +167,7 @@ class Naive {
     ++at;
     return true;
   }
-  /// The line of a label; past the end if there is none.
+  /// Returns the line of a label; past the end if there is none.
   std::size_t label(const std::string& name) const {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (lines_[i][0] == "LAB" && lines_[i][1] == name) return i;
@@ -189,7 +189,7 @@ class Naive {
     }
   }
 
-  /// False: the slice is over.
+  /// Returns false if the slice is over.
   bool line() {
     const Words& words = lines_[at];
     const std::string& word = words[0];

@@ -1,4 +1,4 @@
-// A listing at work on a scripted machine: the PLC, then the step programs, then motion, a tick at a time.
+// Runs a listing on a scripted machine: in each tick the PLC, then the step programs, then motion.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// The manual's own listings at work, against what it says of them: ladders by all their inputs, step programs
-// by what they ask of the machine. How motion goes is the device's business, and tested there.
+// The manual's own listings compared with its text: ladders with all their inputs, step programs by their
+// requests to the machine. The tests of the device test the motion itself.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -32,7 +32,7 @@ Running steps(const std::string& name, Area area) {
   return running;
 }
 
-/// What it has asked of the machine, starts, ends and positions too.
+/// Its requests to the machine, including starts, ends and positions.
 std::string asked(const Running& running) {
   std::string text;
   for (const std::string& line : running.machine.log) {

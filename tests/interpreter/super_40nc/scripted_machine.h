@@ -1,5 +1,5 @@
-// A machine for programs under test: contacts and registers are set by hand, motions take as many ticks as
-// they are told to, and what programs ask is written down.
+// A machine for programs under test: tests set contacts and registers, motions take as many ticks as the test
+// says, and the requests of programs are recorded.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What programs at work consist of, as bytes and back.
+// The state of running programs, as bytes and back.
 #include <gtest/gtest.h>
 
 #include "base/state/difference.h"

@@ -21,7 +21,7 @@ Running started(std::string lines, Area area = Area::c, const Options& options =
   return running;
 }
 
-/// What it has asked of the machine, without starts and ends.
+/// Its requests to the machine, without starts and ends.
 std::string asked(const Running& running) {
   std::string text;
   for (const std::string& line : running.machine.log) {
@@ -357,7 +357,7 @@ TEST(Super40ncStep, DecidesByTheContactBeforeEveryLine) {
   EXPECT_EQ(running.state(Area::c).step, 2);
 }
 
-/// What was held is dropped with the step that is written, and a start has nothing to go on with.
+/// Held motion is dropped when the step is written, and a start has nothing to continue.
 TEST(Super40ncStep, AWrittenStepDropsWhatIsHeld) {
   Running running = started("LIN K1000;SET Y0;TMR K500");
   running.machine.motion_ticks = 50;

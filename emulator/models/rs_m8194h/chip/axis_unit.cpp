@@ -17,7 +17,7 @@ namespace {
 using motion::Comparator;
 using motion::Counter;
 
-/// Whether a count that was beyond the ring has come into it.
+/// Returns a counter to its ring once a count that was beyond the ring has come into it.
 void enter_ring(Counter& counter, const BasicSettings& settings, std::int64_t travel, std::int64_t came) {
   if (!settings.ring || counter.range == Counter::Range::ring) return;
   const std::int64_t count = counter.at(travel);
@@ -28,7 +28,7 @@ void enter_ring(Counter& counter, const BasicSettings& settings, std::int64_t tr
   if (has_entered) set_count(counter, settings, count, travel, true);
 }
 
-/// Another range, with the count that there is.
+/// Changes the range of a counter, and keeps its count.
 void set_range(Counter& counter, const BasicSettings& settings, std::int64_t travel, bool ring_folds) {
   const std::int64_t count = counter.at(travel);
   counter.ring_top = settings.ring ? settings.ring_top : 0;
@@ -122,7 +122,7 @@ void set_external_levels(AxisUnit& axis) {
 
 void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count) {
   if (!axis.has_encoder) {
-    // The count goes on from where the pulses have brought it.
+    // The encoder continues from the count that the pulses have reached.
     const std::int32_t count = encoder_count(axis, motor);
     axis.has_encoder = true;
     axis.encoder_zero = axis.encoder_raw;
@@ -156,7 +156,7 @@ void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& setti
   const bool counts_otherwise =
       before.encoder_mode != settings.encoder_mode || before.encoder_division != settings.encoder_division;
   if (axis.has_encoder && counts_otherwise) {
-    // From here on: what was counted stays.
+    // The new setting applies from here on; the present count stays.
     const std::int32_t count = encoder_count(axis, motor);
     axis.encoder_zero = axis.encoder_raw;
     motor.set_encoder(0);
@@ -205,7 +205,8 @@ void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const 
   const bool applies = options.homing_obeys_soft_limits || !motor.homing.active();
   if (axis.basic.soft_limits && applies) {
     const Counter& counter = axis.basic.soft_limit_source == 0 ? axis.logic : axis.encoder;
-    // What is between count and place now: the offset itself is right up to whole rounds of the counter.
+    // The difference between count and position now; the offset itself may be off by whole rounds of the
+    // counter.
     const std::int64_t place = by_encoder ? motor.encoder_pulses : motor.travel_pulses;
     const std::int64_t ahead = place - counter.at(place);
     changed.soft_limits_of = by_encoder ? motion::Count::encoder : motion::Count::command;

@@ -100,7 +100,7 @@ void Chip::pass_pins(Tick tick) {
   const bool is_emergency = (input(kEmergencyPin) != 0) != machine_options().emergency_while_off;
   if (is_emergency != state_.emergency_input) state_.emergency_since = tick;
   state_.emergency_input = is_emergency;
-  // Each axis has its own filter for it, that of its limits and home.
+  // Each axis filters it with its own filter, that of its limits and home.
   for (AxisUnit& unit : state_.units) {
     const Tick delay = filter_ticks(unit, static_cast<int>(Pin::limit_plus), machine_options());
     if (tick - state_.emergency_since >= delay) unit.emergency = is_emergency;
@@ -117,7 +117,7 @@ void Chip::pass_all_pins() {
   state_.holds_back = false;
 }
 
-/// Where an input changes with the place, the motor meets zones; else its level.
+/// The motor meets zones if an input depends on the position; otherwise the input's level.
 void Chip::update_environment(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
   const MachineEdges& edges = (*edges_)[axis];

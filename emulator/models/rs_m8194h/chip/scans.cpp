@@ -64,7 +64,7 @@ void Scans::step(Tick tick) {
       chip_.give_pulse(a, tick, given);
       scan.triggered = passed;
     }
-    // An encoder that does not go along tells of the last pulses a tick later.
+    // An encoder that does not move with the axis reports the last pulses a tick later.
     const AxisUnit& unit = chip_.unit(a);
     const bool lags = scan.type >= 2 && unit.has_encoder && !chip_.environment(a).encoder.is_known() &&
                       unit.sent_pulses != 0;

@@ -23,7 +23,7 @@ namespace {
 
 int way_of_step(std::uint8_t step) { return step == 1 ? +1 : step == 2 ? -1 : 0; }
 
-/// What the manual leaves open about homing.
+/// Options about homing that the manual leaves open.
 struct HomingOptions {
   bool fails_at_limit_in_step_1 = false;
   bool limit_is_near_home = false;
@@ -77,7 +77,7 @@ Took Drives::drive(AxisMask axes, const Drive& what) {
       case Start::starts: start(a, what); break;
       case Start::is_void: note_obstacles(mask_of(a)); break;
       case Start::is_held:
-        // The later one replaces what was held of this axis, or comes too late.
+        // By choice, the later drive replaces the one that was held for this axis, or comes too late.
         if (keeps_first_held(mask_of(a))) break;
         chip_.unit(a).held_drive = what;
         if (has(streams_.axes_of_held(), a)) streams_.drop_held();
@@ -88,7 +88,8 @@ Took Drives::drive(AxisMask axes, const Drive& what) {
   return Took::done;
 }
 
-/// By choice, CONTINUE_MOVE goes on at another speed, or, the other way, behind a stop. Whether it does.
+/// Returns true if, by choice, a second CONTINUE_MOVE replaces the first one and continues at its speed.
+/// Otherwise it waits for a stop.
 bool Drives::takes_place_of_endless(std::size_t axis, const Drive& what) {
   motion::Axis& motor = chip_.motor(axis);
   const bool is_again = what.what == Drive::What::endless && chip_.activity(axis) == Activity::single &&
@@ -114,7 +115,7 @@ void Drives::start(std::size_t axis, const Drive& what, bool without_ramps) {
   streams_.on_single_drive(axis);
   take_off(axis, WayOut::other_drive);
   unit.began_pulses = motor.travel_pulses;
-  // What a command finds at its pins is what they are now.
+  // A command sees its pins as they are now.
   motor.signals = chip_.environment(axis).at(motor.travel_pulses, motor.signals);
   std::int64_t distance = what.value;
   if (what.what == Drive::What::absolute) distance -= absolute_count(unit, motor);

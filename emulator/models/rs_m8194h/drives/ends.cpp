@@ -79,13 +79,13 @@ void Edges::on_homed(std::size_t axis) {
   }
 }
 
-/// By choice, a limit is no cause of an end that was there anyhow.
+/// Returns true for a limit that, by choice, does not count as the cause of a drive that ends there anyway.
 bool Edges::is_no_cause(motion::Cause cause, bool is_at_its_end) const {
   const bool is_limit = cause == motion::Cause::limit_plus || cause == motion::Cause::limit_minus;
   return is_limit && is_at_its_end && chose(option("limit_at_the_end", "is_complete"));
 }
 
-/// Makes errors of its own cause and of what it has met before.
+/// Records the errors of the path's end: its own cause, and what it has met before.
 void Edges::note_end_of_path(std::size_t axis) {
   AxisUnit& unit = chip_.unit(axis);
   motion::Axis& motor = chip_.motor(axis);

@@ -41,7 +41,7 @@ std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
     const bool was_high = which == 0 ? unit.external.plus_high : unit.external.minus_high;
     const bool is_high = (unit.pins.passed & bit_of(pin)) == 0;
     edges = was_high != is_high ? 1 : 0;
-    // What it holds back is an edge to come, should it be taken off.
+    // If the filter is removed, the level that it held back becomes an edge.
     if (((count & 1U) == 0) != is_high) --unit.external_seen[which];
   }
   // While off nothing but the level at the end matters.
@@ -49,7 +49,7 @@ std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
   return edges;
 }
 
-/// The edges of a tick lie evenly in it, those of one input between those of the other.
+/// Spreads the edges of an input evenly over the tick, between those of the other input.
 void External::watch(std::size_t axis, Tick tick) {
   AxisUnit& unit = chip_.unit(axis);
   const std::array<std::uint32_t, 2> edges{edges_of(axis, 0), edges_of(axis, 1)};
@@ -62,7 +62,7 @@ void External::watch(std::size_t axis, Tick tick) {
     const std::int64_t half_ns = kTickLength.count() / (std::int64_t{edges[i]} * 2);
     std::int64_t at_ns = time_of(tick).count() + half_ns * place(i);
     ++done[i];
-    // Beside edges of the other input nobody knows its time so well.
+    // Among edges of the other input, the exact time is not known.
     const std::int64_t most_ns = edges[0] != 0 && edges[1] != 0 ? half_ns : 0;
     at_ns = std::clamp(unit.external_free_ns, at_ns, at_ns + most_ns);
     // A line is high while it does not conduct; each edge turns it over.

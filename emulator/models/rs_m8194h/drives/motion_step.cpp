@@ -25,7 +25,7 @@ void MotionStep::step(Tick tick) {
   on_path_speed(tick);
   streams_.on_path_end(was_full);
   for (std::size_t a = 0; a < kAxes; ++a) {
-    // Its input stops what it has begun, and nothing else.
+    // The input stops only what it has started.
     if (!chip_.motor(a).moving()) chip_.unit(a).external.running = 0;
     if (chip_.unit(a).paused_drive.what != Drive::What::none) drives_.check_paused(a);
   }
@@ -53,7 +53,7 @@ void MotionStep::step_axes(Tick tick) {
       enter_ring(chip_.unit(a), chip_.motor(a));
       if (!is_beyond_ring(chip_.unit(a))) chip_.rearm(a);
     }
-    // It may be back before the path stands.
+    // The signal may be gone before the path stops.
     if (chip_.motor(a).slowing && together.takes(a)) chip_.unit(a).met |= error_of(chip_.motor(a).cause);
   }
 }

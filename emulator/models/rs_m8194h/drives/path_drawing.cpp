@@ -26,7 +26,7 @@ namespace {
 
 using motion::Point;
 
-/// What is drawn, with what turn, and from which parameter on its points stand.
+/// The figure of a command, its direction of turn, and the first parameter of its points.
 struct Figure {
   Draws draws = Draws::line;
   Turn turn = kCw;
@@ -64,7 +64,7 @@ PathSpeed speed_of(const Paths& paths, const PathRow& row) {
           .shape = {.constant = given.constant}};
 }
 
-/// The pen: where a command's parameters lie on its axes, and what has been drawn so far.
+/// The pen: the position of a command's parameters on its axes, and what has been drawn so far.
 class Pen {
  public:
   Pen(const Chip& chip, const HeldPath& path, bool joins)
@@ -180,7 +180,7 @@ class Pen {
             .shape = {.constant = command.values[2] == 0, .unlike_ramps = true}};
   }
 
-  /// Draws a helix of so many turns (7.4.11); one of none draws nothing.
+  /// Draws a helix with this many turns (7.4.11); 0 turns draw nothing.
   PathSpeed helix() {
     PathSpeed speed{.settings = {.drive_pps = path_.command.values[4], .offset_pulses = 0},
                     .shape = {.constant = true}};

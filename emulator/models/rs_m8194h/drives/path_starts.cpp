@@ -114,7 +114,7 @@ Start PathStarts::may_begin(const HeldPath& path) {
     streams_.refuse(path);
     return outcome;
   }
-  // There is one path at a time, whatever its axes.
+  // Only one path can run at a time, whatever its axes.
   if (outcome == Start::waits || chip_.paths().together.engaged) return Start::waits;
   const bool is_single = row_of_path(path.command.verb()).runs == Paths::Runs::single;
   const bool has_no_speed = is_single && chip_.paths().vector.drive_pps == 0;
@@ -129,7 +129,7 @@ Took PathStarts::hold(const HeldPath& path) {
     if (has(axes, a)) chip_.unit(a).held_drive = {};
   }
   streams_.drop_held();
-  // What was held of the stream had another INITIAL.
+  // The held segments of the stream had another INITIAL.
   if (is_segment(path)) streams_.forget_break(row_of_path(path.command.verb()).stream);
   streams_.held().assign(1, path);
   return Took::done;
@@ -140,7 +140,7 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
   Paths& paths = chip_.paths();
   const bool is_stream = is_segment(path);
   const bool is_last = !is_stream || is_last_segment(path);
-  // The errors and the RINT bit of a stream that was broken off stay until it begins anew.
+  // The errors and the RINT bit of an interrupted stream stay until a new one begins.
   const bool goes_on = is_stream && (paths.broken & bit_of(row.stream)) != 0;
   if (is_stream && is_last) streams_.forget_break(row.stream);
   const PathDrawing drawing = draw_path(chip_, path, joins);

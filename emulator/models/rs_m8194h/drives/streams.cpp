@@ -56,8 +56,8 @@ bool Streams::joins(const HeldPath& path) const {
          paths.stream == row.stream && paths.open && (paths.axes & ~mask_of_codes(path.codes)) == 0;
 }
 
-/// One segment is loaded ahead of the one that runs; what ends within the coming tick has to have its
-/// successors in time.
+/// Returns true if there is room for a segment: one is loaded ahead of the running one, and segments that end
+/// within the next tick need their successors in time.
 bool Streams::has_room() const {
   const motion::PathRun& run = chip_.paths().together.run;
   if (run.full()) return false;
@@ -105,7 +105,7 @@ void Streams::forget_done() {
   state_.loaded.erase(state_.loaded.begin(), state_.loaded.begin() + done);
 }
 
-/// One without ramps has those that its start speed gives it.
+/// Returns the law for slowing down. A path without ramps uses those of its start speed.
 motion::SpeedLaw Streams::law_to_slow_down() const {
   const Paths& paths = chip_.paths();
   motion::SpeedLaw law = paths.together.run.speed();
@@ -148,7 +148,7 @@ bool Streams::is_left_over(const HeldPath& segment) {
   return true;
 }
 
-/// `has_more`: its last segment has not come. What is held of it is void, too.
+/// Breaks off a stream. `has_more`: its last segment has not come yet. Its held segments are void, too.
 void Streams::break_off(Stream stream, bool has_more) {
   interrupts_.raise(Rint::stream);
   auto& held = state_.held_paths;
@@ -171,11 +171,11 @@ void Streams::break_off() {
   if (paths.together.engaged) return;  // it slows down
   auto loaded = std::exchange(state_.loaded, {});
   if (loaded.size() < 2 || !chose(option("broken_stream", "runs_all_the_same"))) return;
-  // Behind the segment that was broken off they run as soon as they may, before all that waits.
+  // The segments after the interrupted one run as soon as they can, before everything that waits.
   state_.held_paths.insert(state_.held_paths.begin(), loaded.begin() + 1, loaded.end());
 }
 
-/// It may not begin, so nothing behind it does.
+/// Refuses a segment that must not begin, and the segments after it.
 void Streams::refuse(const HeldPath& path) {
   if (is_segment(path)) break_off(stream_of(path), !is_last_segment(path));
 }

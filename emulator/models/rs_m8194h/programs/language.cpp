@@ -77,7 +77,7 @@ class Instructions {
   std::vector<InstructionRow> rows_;
 };
 
-/// What a macro is opened and closed by.
+/// The commands that open and close a macro.
 lang::Command create(const lang::MacroName& name) {
   lang::Command command{
       .code = lang::real_time_code(name.is_isr ? lang::Verb::isr_create : lang::Verb::mp_create)};

@@ -116,7 +116,7 @@ Eeprom Memory::factory_memory() const {
   const auto at_once = std::make_unique<bool[]>(kSlotCount);
   for (const RegisterRow& row : kRegisters) {
     for (int i = 0; i < row.count && !row.is_view; ++i) {
-      // What is kept needs no time to be written.
+      // Persistent values are stored without delay.
       is_kept[factory.size()] = at_once[factory.size()] = keeps(row);
       factory.push_back(static_cast<std::uint32_t>(row.factory));
     }

@@ -1,4 +1,4 @@
-// Where its macros are, for observers.
+// Shows observers where its macros are.
 #include <cstddef>
 #include <string>
 #include <string_view>

@@ -68,7 +68,8 @@ void Triggers::check(const FrnetWords& before, bool at_start) {
   }
 }
 
-/// A level that is over ends its pause, by choice, and lets go what it held, the last one if several did.
+/// When a level ends, it ends its pause, by choice, and releases what it held (the last level, if several
+/// did).
 void Triggers::on_level_end(int channel, const lang::Trigger& trigger) {
   ProgramState& programs = known_.programs.state();
   const bool ends_its_pause = programs.paused && programs.paused_by == channel &&
@@ -131,7 +132,7 @@ void Triggers::pause(int channel) {
   if (programs.paused && machine_options().pause_holds_axes) known_.stops.pause();
 }
 
-/// By choice, a level that is still there calls its macro again.
+/// By choice, a level that is still present calls its macro again.
 void Triggers::repeat_levels() {
   if (!known_.memory.are_triggers_enabled() || known_.programs.mp_runs() || !is_empty()) return;
   for (int channel = 0; channel < lang::kTriggerCount; ++channel) {

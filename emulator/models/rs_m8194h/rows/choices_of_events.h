@@ -55,7 +55,7 @@ inline constexpr ChoiceRow kEventChoices[] = {
     {"scan_output", "7.4.12", "Which pin do a scan's triggers use, and what happens to its SET_OUT settings?",
      "that_of_set_out_which_it_replaces|that_of_set_out_which_comes_back", kFollows,
      "The housing has no other pin."},
-    {"scan_edge", "7.4.12", "What is outEdge 0 of LINE_SCAN, a high pulse by the remark of its frame?",
+    {"scan_edge", "7.4.12", "What is outEdge 0 of LINE_SCAN? The remark of its frame says a high pulse.",
      "low|high", kFollows, "The parameter list says 0 V."},
     {"scan_setting_lasts", "7.4.12", "How long does a LINE_SCAN last?", "for_one_scan|until_the_next_setting",
      kProposal, "START names no settings."},

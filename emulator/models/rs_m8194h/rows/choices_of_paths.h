@@ -20,7 +20,7 @@ inline constexpr ChoiceRow kPathChoices[] = {
     {"broken_stream", "7.4.3",
      "What happens to the rest of a stream that is broken off, or whose segment may not begin?",
      "is_void_to_its_last_segment_or_initial|is_void_to_its_initial|runs_all_the_same", kProposal,
-     "Segments after a lost one would go to other places."},
+     "Segments after a lost one would end in the wrong places."},
     {"last_ramp", "7.4.3", "Where is the end ramp of a stream?",
      "over_all_that_is_loaded|in_the_last_segment", kFollows,
      "The last segment of the example is shorter than its ramp."},

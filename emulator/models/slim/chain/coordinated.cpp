@@ -104,7 +104,7 @@ Error Chain::spiral(double centre_x_units, double centre_y_units, double sweep_d
   job.by_radius = options().chose(option("spiral_r", "radius_at_its_end"));
   if (options().chose(option("spiral", "sweep_in_degrees_and_growth_in_all")) && growth_units != 0 &&
       !job.by_radius) {
-    // On no way at all no radius can change.
+    // The radius cannot change over a sweep of 0.
     job.growth_units_turn = sweep_deg == 0 ? HUGE_VAL : growth_units * (360 / std::abs(sweep_deg));
     if (!std::isfinite(job.growth_units_turn)) return Error::range;
   }

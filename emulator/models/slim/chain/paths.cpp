@@ -100,7 +100,7 @@ std::optional<motion::Path> path_from(const ChainState& chain, const Job& job, c
   return std::nullopt;
 }
 
-/// A path without length is over at once.
+/// Completes a path without length at once.
 void finish_empty(ChainState& chain, const Job& job, const motion::Point& end) {
   for (std::size_t i = 0; i < job.module_of.size(); ++i) {
     if (job.module_of[i] < 0) continue;

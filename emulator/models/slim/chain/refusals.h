@@ -7,14 +7,14 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Of any command: not_linked.
+/// Returns why any command is refused: not_linked.
 Error refusal(const ChainState& chain, int module);
-/// Of a motion of a module that is known by a letter, or by its number.
+/// Return why a motion of a module, given by its letter or by its number, is refused.
 Error refusal_of_motion(const ChainState& chain, int module, InPause what = InPause::motion);
 Error refusal_by_number(const ChainState& chain, int module, InPause what = InPause::motion);
-/// Of a homing.
+/// Returns why a homing is refused.
 Error refusal_of_home(const ChainState& chain, int module);
-/// Of a jog or thrust.
+/// Returns why a jog or a thrust is refused.
 Error refusal_of_jog(const ChainState& chain, int module);
 
 }  // namespace understudy::emulator::models::slim

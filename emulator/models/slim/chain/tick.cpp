@@ -1,4 +1,4 @@
-// The tick, and when there need not be one.
+// Runs the ticks of the chain, and finds those that can be skipped.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -87,7 +87,7 @@ bool waits(const ChainState& chain, int module) {
 /// Returns true if the group is not engaged, or paused and at rest.
 bool stands(const Group& group, Tick done) {
   const motion::PathRun& run = group.motion.run;
-  // What was completed is of the last tick only.
+  // Completions belong to the last tick only.
   return !group.motion.engaged || (run.paused() && run.at_rest(done) && run.completed() == 0 &&
                                    group.motion.slowing_for == motion::Cause::none);
 }
@@ -108,7 +108,7 @@ void Chain::step(Tick tick) {
     const bool was_running = group.motion.axis_of[0] >= 0;
     if (was_running && !group.motion.engaged) release_group(state_, group, tick);
   }
-  // What follows begins at the end of what was: no tick is lost between two commands.
+  // The next command begins where the previous one ended, so no tick is lost between them.
   for (int module = 0; module < kModules; ++module) after_motion(state_.motor(module), tick);
   const bool has_jobs = std::any_of(state_.modules.begin(), state_.modules.end(),
                                     [](const Module& module) { return !module.fifo.empty(); });
@@ -121,7 +121,7 @@ Tick Chain::next_active_tick(Tick done) const {
   for (int module = 0; module < kModules; ++module) {
     const Module& mine = module_at(module);
     if (!waits(state_, module)) return done + 1;
-    // What the axis met and sent is of the last tick only. A path may end without a pulse in its last tick.
+    // Events and pulses belong to the last tick only. A path may end without a pulse in its last tick.
     if (!is_undisturbed(state_, module) || mine.sent_pulses != 0) next = std::min(next, done + 1);
     for (const Output& output : mine.outputs) next = std::min(next, output.next_change(done));
   }

@@ -24,7 +24,7 @@ int Job::modules() const {
 
 namespace {
 
-/// So many turns as its growth takes from one radius to the other, to the left.
+/// Returns the sweep that its growth needs from one radius to the other, to the left.
 double sweep_to_radius(const Job& spiral, double begin_radius_units) {
   const double turns = (spiral.sweep_deg - begin_radius_units) / spiral.growth_units_turn;
   motion::require_not_negative(spiral.sweep_deg, "spiral", "its last radius");

@@ -32,7 +32,7 @@ namespace {
 void begin_thrust(const Motor& motor, std::int32_t force, Tick begin_at) {
   Module& module = motor.module;
   if (motor.options.thrust_runs()) begin_jog(motor, +1, begin_at);
-  // Also if there is no speed to run at.
+  // The motion also begins if its speed is 0.
   if (!motor.axis.moving()) motor.axis.move_at_zero_speed(+1);
   take_off(module, MarkEvent::begins);
   module.activity = Activity::thrust;

@@ -19,7 +19,7 @@ namespace {
 /// Beyond this a double does not hold every pulse, and sums of two might not either.
 constexpr double kFarthest_pulses = 4'503'599'627'370'496.0;  // 2^52
 
-/// No module is that fast; faster, and a century of jogging could not be counted.
+/// No module is this fast. With a higher speed, a century of jogging could not be counted.
 constexpr double kFastest_pps = 1e9;
 
 double pulses_a_second(const ModuleSettings& settings, double rpm_or_rps) {
@@ -27,7 +27,7 @@ double pulses_a_second(const ModuleSettings& settings, double rpm_or_rps) {
   return std::min(rps * settings.pulses_per_revolution, kFastest_pps);
 }
 
-/// PR2, where it stands for VA.
+/// Returns PR2 as an acceleration, for the moves that use it instead of VA.
 double path_slope(const ModuleSettings& settings) {
   constexpr double kSlowest_pps2 = 1e-8;  // VA's least comes to that, and a ramp must have an end
   return std::clamp(settings.path_acceleration_units_s2 * settings.scale.pulses_per_unit(), kSlowest_pps2,
@@ -45,7 +45,7 @@ motion::SpeedLaw trapezoid(const ModuleSettings& settings, double rpm_or_rps, co
 }  // namespace
 
 std::int64_t Module::pulses_of(double units) const {
-  // In the order that coordinated motion reckons in: both must come to the same pulse.
+  // Calculates in the same order as coordinated motion, because both must give the same pulse.
   const double pulses =
       units * static_cast<double>(settings.scale.multiplier) / static_cast<double>(settings.scale.divider);
   return std::llround(pulses);

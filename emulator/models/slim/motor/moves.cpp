@@ -19,7 +19,8 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// No other FIFO has a command of one module. Returns true, because the FIFO has changed.
+/// Drops the head. No other FIFO contains a command of a single module. Returns true, because the FIFO has
+/// changed.
 bool drop_head(Module& module, Error why) {
   module.late_error = why;
   module.fifo.pop();

@@ -25,7 +25,7 @@ inline void after_motion(const Motor& motor, Tick begin_at) {
   }
 }
 
-/// A pause has come, or is over.
+/// Called when a pause begins or ends.
 void hold_motion(const Motor& motor);
 void resume_motion(const Motor& motor);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTicksPerSecond = 1000;
 constexpr double kFastestShown_hz = kTicksPerSecond / 2;
-/// A duration that comes out of a division a hair above a whole number of ticks is that number.
+/// A duration that a division makes slightly longer than a whole number of ticks counts as that number.
 constexpr double kTolerance_ticks = 1e-6;
 
 bool varies(const Output& output) {
@@ -23,7 +23,7 @@ double tick_of(const Output& output, double periods) {
   return std::ceil(periods * kTicksPerSecond / output.frequency_hz - kTolerance_ticks);
 }
 
-/// The period that tick `k` lies in.
+/// Returns the period that contains tick `k`.
 double period_of(const Output& output, double k) {
   double period = std::floor(k * output.frequency_hz / kTicksPerSecond);
   if (tick_of(output, period + 1) <= k) ++period;

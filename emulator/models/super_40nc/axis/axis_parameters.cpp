@@ -80,7 +80,7 @@ void AxisParameters::apply_axis_parameters(int axis_number, int number) {
   };
   switch (number) {
     case d9x::kEncoderDirection: {
-      // It counts in the other direction from here on, and has met nothing.
+      // It counts in the other direction from here on, and has not met anything yet.
       motion::Axis& motor = chip(axis_number);
       const std::int64_t counts = axis(axis_number).encoder_counts;
       motor.encoder_pulses = motor.encoder_seen =

@@ -286,7 +286,7 @@ void TickEdges::compare(motion::SharedTick& tick, const Question& of) {
   stop(tick, of.axis, action == kStopByRamp, why);
 }
 
-/// What one axis of a path does, the path does.
+/// Stops an axis; a path stops with any of its axes.
 void TickEdges::stop(motion::SharedTick& tick, int axis, bool by_ramp, motion::Cause why) {
   ground_.touch();
   if (by_ramp && is_on_path(axis)) return tick.slow_path(why, axes_.path.run.speed());

@@ -22,7 +22,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// "plc 初始": programs that do not run begin anew.
+/// "plc 初始": programs that do not run start from the beginning.
 void Programs::plc_to_run() {
   ProgramMachine machine(*this, controls_);
   language::run(state_.plc, *ladder_, machine, options_);

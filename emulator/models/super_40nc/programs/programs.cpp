@@ -1,4 +1,4 @@
-// What step programs are told, and what they show.
+// The events that step programs receive, and what they show.
 #include "emulator/models/super_40nc/programs/programs.h"
 
 #include <algorithm>

@@ -55,7 +55,7 @@ inline constexpr ChoiceRow kMotionChoices[] = {
     {"soft_limit_resets", "X33./X34.", "What does a soft limit do to a running program?",
      "reset|pauses_at_the_line", kProposal, "The manual says only \"stops at once\"."},
     {"comparator_resets", "D9x 參數暫存器的功用(XYZU 軸用)",
-     "What does a comparator's stop do to a running program, except a soft limit's?",
+     "What does a stop by a comparator, other than a soft limit, do to a running program?",
      "reset|pauses_at_the_line", kProposal, "A limit does the same."},
     {"alm_resets", "X33./X34.", "What does an alarm do to a running program?", "reset|pauses_at_the_line",
      kProposal, "A limit does the same."},
@@ -116,7 +116,7 @@ inline constexpr ChoiceRow kMotionChoices[] = {
      "nothing|m8500_renews_x14_and_c0|m8507_stops_the_plc", kProposal,
      "The manual says only that they \"must be triggered\". Parameters take effect without them."},
     {"logo_contact", "M85x 人機對應接點", "What does M8502 do?", "rises_after_d9007_stays|the_panel_alone",
-     kLikely, "The start page hangs with the switch OFF."},
+     kLikely, "The start page hangs if the switch is OFF."},
     // --- the rest ---
     {"user_table", "命令範例", "Do the user table and the direct command work?", "off|on", kProposal,
      "The manual says \"unfinished?????\". It prints only code 1, a line. The other codes are ours "

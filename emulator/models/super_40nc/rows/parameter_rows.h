@@ -113,7 +113,7 @@ inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用
     parameter(d9x::kLatchResetC).range(0, 15).with_bits(kCounterBits).does<change_axis>(d9x::kLatchResetC),
     parameter(d9x::kBacklash).range(0, 4095).in("pulse"),  // X1
     parameter(d9x::kCorrectMode).range(0, 2),
-    parameter(58).range(0, 1).not_modelled("pulses of the wheel behind a stop"),
+    parameter(58).range(0, 1).not_modelled("pulses of the wheel after a stop"),
     parameter(59).range(0, 2047).in("n/2048").not_modelled("X42 to X44 are the ratio"),
     parameter(60).range(0, 31).not_modelled("X42 to X44 are the ratio"),
     parameter(61).range(0, 65535).in("1.6 us").not_modelled("vibration suppression"),

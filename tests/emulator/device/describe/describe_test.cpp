@@ -1,4 +1,4 @@
-// What `describe` says, against the manual's facts. The columns are promised to scripts.
+// The output of `describe`, compared with the manual's facts. Scripts rely on the columns.
 #include "emulator/device/describe/describe.h"
 #include "emulator/models/models.h"
 
@@ -120,7 +120,7 @@ TEST(Describe, EveryInstructionHasAMeaningOfItsOwn) {
     EXPECT_TRUE(meanings.insert(meaning).second) << row.at("mnemonic") << ": " << meaning;
   }
   EXPECT_EQ(meanings.size(), 115U);
-  // It speaks of the axis, counter or timer that the name speaks of.
+  // The text names the axis, counter or timer of the name.
   for (const Fact& row : Csv("instructions").rows) {
     const std::string name = row.at("mnemonic") + "_";
     const std::string& meaning = row.at("meaning");
@@ -150,7 +150,7 @@ TEST(Describe, SectionsInAnotherLanguageAreTranslated) {
       EXPECT_TRUE(is_ascii(row.in_english) && !row.in_english.empty()) << row.name;
       EXPECT_TRUE(translated.insert(row.name).second) << row.name << " appears twice";
     }
-    // What the manual only numbers may have a title as well.
+    // Sections that the manual only numbers may have a title as well.
     for (const std::string_view section : sections) EXPECT_TRUE(translated.contains(section)) << section;
     for (const std::string_view section : translated) EXPECT_TRUE(named.contains(section)) << section;
     for (const Fact& row : Csv("choices", *model).rows) {

@@ -1,5 +1,5 @@
-// The simulated EEPROM: when what is kept, and what a power cut leaves. Ticks are worked out by hand: what is
-// written after tick n begins with tick n + 1, and is kept at the end of tick n + 1 + its time.
+// The simulated EEPROM: when values are stored, and what a power cut leaves. Ticks are worked out by hand: a
+// write after tick n begins with tick n + 1, and is stored at the end of tick n + 1 + its time.
 #include "emulator/device/memory/eeprom.h"
 
 #include <gtest/gtest.h>
@@ -151,7 +151,7 @@ TEST(Eeprom, APowerCutLosesWhatWaitsAndWhatIsBeingWritten) {
   EXPECT_EQ(memory.eeprom.next_active_tick(), kNever);
   memory.run_to(1000);
   EXPECT_EQ(memory.kept(), (Image{1, 101, 102, 103, 104, 105, 106, 107}));
-  // And it is fit to write again, also what was lost.
+  // It can be written again, including what was lost.
   memory.write(1, 2, kPair);
   memory.run_to(1011);
   EXPECT_EQ(memory.kept()[1], 2u);
@@ -256,7 +256,7 @@ class SlowEeprom {
         return;
       }
     }
-    // What stands there when all that waits is done.
+    // Its contents when all waiting writes are done.
     const std::uint32_t before =
         !jobs_.empty() && jobs_[0].everything ? (*jobs_[0].everything)[slot] : kept[slot];
     if (before != bits) jobs_.push_back({.slot = slot, .bits = bits, .left = takes});
@@ -267,7 +267,8 @@ class SlowEeprom {
     jobs_.clear();
     std::copy_n(image.begin(), 6, kept.begin());
   }
-  /// A tick: what was there before it began has one tick of time less; the first tick is the way in.
+  /// Runs a tick: jobs that were present before it have one tick less; the first tick is the delay before a
+  /// job starts.
   void tick() {
     if (jobs_.empty()) return;
     Job& job = jobs_.front();

@@ -1,4 +1,4 @@
-// NV images on disk: replaced as a whole, whenever the writer dies and whatever the disk says.
+// NV images on disk are replaced as a whole, whenever the writer dies and whatever the disk reports.
 #include "emulator/device/memory/nv_file.h"
 
 #include <fcntl.h>
@@ -46,7 +46,7 @@ std::string text_of(const std::string& path) {
 
 void put(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
-/// All registers hold `value`; a few blocks of a disk long.
+/// An image in which all registers hold `value`; a few disk blocks long.
 NvImage image_of(std::int64_t value, int registers = 400) {
   NvImage image{.model = "simple2-r3", .firmware = "1.52", .registers = {}};
   for (int i = 0; i < registers; ++i) image.registers.emplace_back("R" + std::to_string(i), value);
@@ -55,7 +55,7 @@ NvImage image_of(std::int64_t value, int registers = 400) {
 
 std::string numbered(int i) { return to_json(image_of(i, 1)); }
 
-/// The value of an image that was written whole; -1 if it is of several.
+/// Returns the value of a complete image; -1 if it is a mixture.
 std::int64_t value_of_whole(const NvImage& image, std::size_t registers = 400) {
   if (image.registers.size() != registers) return -1;
   for (const auto& [name, value] : image.registers) {
@@ -133,7 +133,7 @@ TEST_F(NvFile, AShorterImageLeavesNothingOfALongerOne) {
   }
 }
 
-// Whoever hands it over does not wait for it, and does not make it.
+// The caller does not wait for it, and does not make it.
 TEST_F(NvFile, ALateImageIsMadeByTheWritersThread) {
   std::thread::id maker;
   {
@@ -250,7 +250,7 @@ TEST_F(NvFile, AWriterKilledAtAnyMomentLeavesAWholeImage) {
         if (i == last + 1 && ::write(first_is_there[1], "!", 1) != 1) _exit(1);
       }
     }
-    // Every other one dies while it begins or with its first image, the rest among many.
+    // Every other one dies at its start or with its first image, the rest among many.
     close(first_is_there[1]);
     char sign = 0;
     if (kill_number % 2 == 0) {
@@ -308,7 +308,7 @@ TEST_F(NvFile, InAFolderThatIsNotThereIsTold) {
   EXPECT_EQ(text_of(path()), "another's") << "one file's trouble is not another's";
 }
 
-/// As a full disk: nothing grows beyond so many bytes.
+/// Like a full disk: no file grows beyond this many bytes.
 struct FullDisk {
   explicit FullDisk(rlim_t bytes) {
     signal(SIGXFSZ, SIG_IGN);

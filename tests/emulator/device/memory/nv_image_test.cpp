@@ -1,5 +1,5 @@
-// NV images as text: what a device's memory holds comes back, and anything else is refused with one line that
-// says where it went wrong.
+// NV images as text: the contents of a device's memory are read back, and anything else is refused with one
+// line and its position.
 #include "emulator/device/memory/nv_image.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ const NvImage kExample{.model = "simple2-r3",
                                      {"PROG_MEM31", 2147483647},
                                      {"Aaxis_SVON_Polarity", 0}}};
 
-/// What is wrong with a text; empty if nothing is.
+/// Returns the error of a text; empty if there is none.
 std::string diagnostic(const std::string& text) {
   try {
     parse_nv_image(text);
@@ -88,7 +88,7 @@ TEST(NvImage, TornAnywhereIsRefusedWithTheLineOfTheTear) {
 }
 
 TEST(NvImage, ATailOfAnotherImageBehindItIsRefused) {
-  // What a file that was written in place would be after a shorter image replaced a longer one.
+  // The contents of a file that was overwritten in place by a shorter image.
   const std::string longer = to_json(kExample);
   NvImage shorter = kExample;
   shorter.registers.resize(2);

@@ -77,7 +77,7 @@ TEST(WriteWords, ARefusedRequestChangesNothingHoweverMuchOfItIsGood) {
   }
 }
 
-// More than any frame can bring, with room to spare.
+// More than any frame can carry, with room to spare.
 TEST(WriteWords, AreAtMost2000) {
   const RegisterRow rows[] = {coil(0, "C{}", Access::read_write).times(2001, 1, 0)};
   Toy toy(rows);
@@ -266,7 +266,7 @@ TEST(WriteWords, AWriteMayBeOneMessageWithoutAWindow) {
   const world::Words refused{0, 9};
   EXPECT_EQ(write_request(toy.device, Table::holding, 0x0017, refused),
             (Objection{.refusal = Refusal::busy, .cause = Cause::busy, .address = 0x0017, .reason = 9}));
-  // Another count, or another place, is none.
+  // A different count or place does not match.
   EXPECT_EQ(write(toy, 0x0017, {8}), Refusal::no_register);
   EXPECT_EQ(write(toy, 0x0010, {8, 9}), Refusal::none);
   EXPECT_EQ(toy.device.events, (Events{"whole 8 9", "written", "written"}));
@@ -316,7 +316,7 @@ TEST(NotImplemented, IsMentionedOnceForEachRow) {
   EXPECT_EQ(world::read(toy.device, 0x10, 2), (world::Words{1, 2}));
 }
 
-/// What the controller should say by itself, by a word and by a bit, beside what it does say.
+/// What the controller should report, by word and by bit, and what it does report.
 TEST(NotImplemented, IsMentionedToWhoReadsIt) {
   const RegisterRow rows[] = {reg(0x10, "Fine", Type::u16, Access::read),
                               reg(0x11, "Word", Type::u16, Access::read).not_modelled("no word"),

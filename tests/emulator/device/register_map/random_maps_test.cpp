@@ -1,5 +1,5 @@
-// Requests that read, of maps drawn at random: each word and bit is what its row says, whatever stands around
-// it and however much the request brings at once.
+// Read requests on random maps: each word and bit is what its row says, whatever its neighbours are and
+// however much the request reads at once.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -25,7 +25,7 @@ Value shown_in_field(const ToyDevice&, Cell) { return kFieldShows; }
 constexpr BitField kFields[] = {bits(2, "PLAIN"),
                                 bits(4, "SHOWN", 3).reads<shown_in_field, Varies::in_ticks>()};
 
-/// What one address has, by its row alone.
+/// The contents of one address, from its row alone.
 struct Spot {
   const RegisterRow* row = nullptr;
   int index = 0;
@@ -73,7 +73,7 @@ class Drawn {
     return value;
   }
 
-  /// The words or bits that a request gets; none where it is refused, with the cause.
+  /// Returns the words or bits of a request; none if it is refused, with the cause.
   Cause answer(Table table, int first, int count, std::vector<std::uint16_t>& words) const {
     for (int i = 0; i < count; ++i) {
       const auto found = spots.find({table, first + i});

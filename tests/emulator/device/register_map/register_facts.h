@@ -1,4 +1,4 @@
-// The Simple2-R3's registers as its manual has them (simple2_r3_registers.csv), typed.
+// The Simple2-R3's registers from its manual (simple2_r3_registers.csv), typed.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct RegisterFact {
   int since = 0;
 
   Access access() const { return !writable ? Access::read : readable ? Access::read_write : Access::write; }
-  /// What the register's words can carry at all.
+  /// The range that the register's words can hold.
   Value lowest() const { return !is_signed ? 0 : is_32_bit ? INT32_MIN : INT16_MIN; }
   Value highest() const {
     if (is_32_bit) return is_signed ? Value{INT32_MAX} : Value{UINT32_MAX};
@@ -63,7 +63,7 @@ inline std::vector<RegisterFact> simple2_r3_registers() {
   return registers;
 }
 
-/// "Aaxis_Pulse_L" and "PROG_MEM3_RegL" without what the manual appends to a half.
+/// Returns "Aaxis_Pulse_L" and "PROG_MEM3_RegL" without the suffix of a half.
 inline std::string without_half(const std::string& name) {
   for (const std::string tail : {"_RegL", "_RegH", "_L", "_H"}) {
     if (name.ends_with(tail)) return name.substr(0, name.size() - tail.size());

@@ -1,4 +1,4 @@
-// Places, names and what a map refuses to be made of.
+// Places, names, and the maps that are refused.
 #include "emulator/device/register_map/register_map.h"
 
 #include <gtest/gtest.h>

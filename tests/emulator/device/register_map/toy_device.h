@@ -1,4 +1,4 @@
-// A device with a register map of the test's own, to look at the vocabulary without any real model.
+// A device with its own register map, to test register maps without a real model.
 #pragma once
 
 #include <cstdint>
@@ -72,15 +72,15 @@ class ToyDevice final : public DeviceOf<ToyDevice>, public RegisterBankOf<ToyDev
   std::vector<std::uint32_t> image_;
 };
 
-/// An effect: notes argument, index, value, the present content of the device's first register, and
-/// whether only a low half came.
+/// An effect: records its argument, the index, the value, the present content of the device's first register,
+/// and whether only the low half was written.
 inline void note(ToyDevice& toy, Cell cell, Value value) {
   toy.events.push_back(std::to_string(cell.argument) + "[" + std::to_string(cell.index) +
                        "]=" + std::to_string(value) + " first=" + std::to_string(toy.image()[0]) +
                        (cell.high_half ? "" : " low"));
 }
 
-/// A map, its model and one device.
+/// A map with its model and one device.
 struct Toy {
   explicit Toy(std::span<const RegisterRow> rows, MapPolicy policy = {}, Firmware firmware = 200)
       : map(rows, policy),
@@ -123,7 +123,7 @@ struct Toy {
   ToyDevice device;
 };
 
-// Fourteen words from 0x0010 on, with a hole at 0x0018 and at 0x001B.
+// Fourteen words from 0x0010, with holes at 0x0018 and 0x001B.
 inline constexpr RegisterRow kToyRows[] = {
     reg(0x0010, "Speed", Type::u16, Access::read_write).range(1, 3000).from_factory(5),
     reg(0x0011, "Angle", Type::s16, Access::read_write).range(-1000, 1000),

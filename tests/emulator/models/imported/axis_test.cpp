@@ -101,10 +101,10 @@ TEST(DescribedAxis, GoesOnToANewTargetWithoutAStop) {
   one.write("COMMAND", 1);
   one.advance(1);
   EXPECT_EQ(one.read("NOW"), 1000) << "it has not stopped";
-  // At 1000 to the ramp down of 100 ms, which covers 50.
+  // At 1000 up to the ramp down of 100 ms, which covers 50.
   EXPECT_NEAR(static_cast<double>(one.ticks_until_still()), static_cast<double>(12'000 - here - 50) + 100, 3);
   EXPECT_EQ(one.read("POSITION"), 12'000);
-  // One behind it is passed and come back to.
+  // A target behind it is passed, and the axis returns to it.
   one.write("TARGET", 13'000);
   one.write("COMMAND", 1);
   one.advance(500);
@@ -207,7 +207,7 @@ TEST(DescribedAxis, ShowsItsEncoder) {
 
 // --- the table of answers ------------------------------------------------------------------------------
 
-/// The rows of docs/import.md's table, by command: a word for each doing.
+/// The rows of the table in docs/import.md, by command: a word for each activity.
 std::map<std::string, std::vector<std::string>> printed_answers() {
   std::ifstream page(PROJECT_FOLDER "/docs/import.md");
   std::map<std::string, std::vector<std::string>> rows;
@@ -228,7 +228,7 @@ std::map<std::string, std::vector<std::string>> printed_answers() {
   return rows;
 }
 
-/// Puts an axis into each doing, gives it each command, and looks at what comes of it.
+/// Puts an axis into each activity, gives it each command, and checks the result.
 class Answers : public testing::Test {
  protected:
   static std::string happened(Command command, Activity activity) {

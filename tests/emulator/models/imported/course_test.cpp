@@ -128,7 +128,7 @@ TEST(DescribedMemory, KeepsWhatTheListCallsPersistent) {
   EXPECT_EQ(read_value(*device->register_bank(), *device->register_bank()->find("SETPOINT")), -5);
 }
 
-/// Where values are stored as they come, a memory has them, and is read back.
+/// If values are stored unchecked, a memory contains them, and is read back.
 TEST(DescribedMemory, KeepsWhatIsBeyondItsRange) {
   OneDescribed one(axis_model() + "map: { out_of_range: stored }\n");
   one.write("SETPOINT", 5000);
@@ -151,7 +151,7 @@ TEST(DescribedTerminals, AreWhatTheirRegistersSay) {
   EXPECT_FALSE(one.device().terminals()->output(4));
 }
 
-/// What shows an input has its register's default until somebody gives the input a level.
+/// A register that shows an input has its default until the input gets a level.
 TEST(DescribedTerminals, BeginAsTheirRegistersDo) {
   const std::string list =
       "address,name,access,type,default\n0,LEVEL,R,s16,-250\n1,STATES,R,u16,4\n2,SPARE,R/W,u16,0\n";
@@ -180,7 +180,7 @@ TEST(DescribedTerminals, TheFirstIsShownLikeAnyOther) {
   EXPECT_EQ(one.read("STATE"), 1);
 }
 
-/// Whatever is written, nothing but a refusal comes of it.
+/// Any write is accepted or refused, without other effects.
 TEST(DescribedCourses, OutliveAnyNumbers) {
   std::mt19937_64 random(7);
   OneDescribed one(axis_model(", pulses_per_count: 2147483647, pps_per_count: 1e9, rated_speed: 2147483647"));

@@ -27,7 +27,7 @@ TEST(Follower, ComesNearerNoFasterThanItMay) {
   EXPECT_EQ(approach(99.99999999, 100, 0.25, 10), 100) << "a rest has an end";
 }
 
-/// Whatever its period, at every renewal: goal + (start - goal) exp(-t / constant), rounded.
+/// At every update, whatever its period: goal + (start - goal) exp(-t / constant), rounded.
 TEST(Following, IsTheClosedFormOfAFirstOrderLag) {
   for (const char* every : {"1ms", "10ms", "250ms"}) {
     std::string model = axis_model();
@@ -58,8 +58,8 @@ const std::string kThermostat =
     "input,2,ROOM,R,s16,,,,0,0\n"
     "discrete,0,HEATS,R,bit,,,,0,0\n";
 
-/// A heater that is switched by its own temperature: between its two goals, at 10 a second.
-/// Without a word about it, it rests at the register's default, also where that is a real number.
+/// A heater that its own temperature switches: between its two targets, at 10 a second. Unless the file says
+/// otherwise, it rests at the register's default, also if that is a real number.
 TEST(Following, RestsAtTheDefault) {
   const std::string list =
       "address,name,access,type,default\n0,GOAL,R/W,u16,0\n1,REAL,R,f32,1.5\n3,WHOLE,R,s16,-40\n";

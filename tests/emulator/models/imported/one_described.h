@@ -1,4 +1,4 @@
-// A described controller with one axis and a value that follows, in a world.
+// A world of one described controller with one axis and a value that follows it.
 #pragma once
 
 #include <memory>
@@ -61,7 +61,7 @@ struct OneDescribed {
         world(bench, {}, {}) {}
 
   Device& device() { return world.device(0); }
-  /// As a request from outside.
+  /// Writes like a request from outside.
   Refusal write(std::string_view name, Value value) {
     RegisterBank& bank = *device().register_bank();
     const auto place = bank.find(name);
@@ -77,7 +77,7 @@ struct OneDescribed {
     return read_value(bank, *place);
   }
   void advance(Tick ticks) { world.advance_to(world.now() + ticks * kTickLength); }
-  /// Ticks until it is no longer busy; -1 if that takes too long.
+  /// Returns the ticks until it is no longer busy; -1 if that takes too long.
   Tick ticks_until_still(Tick most = 100'000) {
     for (Tick ticks = 0; ticks <= most; ++ticks) {
       if (read("STATUS.BUSY") == 0) return ticks;

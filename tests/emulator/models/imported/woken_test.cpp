@@ -1,5 +1,5 @@
-// What is shown by a relation or a view changes with the pulses of an axis, and whoever goes by it is told in
-// time: a wire from an output, and an axis whose speed is such a register.
+// Registers that show a relation or a view change with the pulses of an axis, and everything that depends on
+// them is updated in time: a wire from an output, and an axis whose speed is such a register.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/model_file/described.h"
@@ -44,7 +44,7 @@ Tick tick_of(world::World& world, int input) {
   return tick_at(world.now()) - first;
 }
 
-/// The moment by single ticks; in one piece it is on just then, and not before.
+/// The moment by single ticks; in one step it is on at this moment, and not before.
 void expect_in_time(int input, Value go) {
   const auto begin = [&](world::World& world) {
     world::set(world, "it.SPEED", 1000);
@@ -74,7 +74,7 @@ TEST(DescribedWires, CostNothingWhereTheAxesStand) {
   EXPECT_LT(world.ticks_run(), 100U);
 }
 
-/// X runs at the speed that Y has, to the pulse of each tick behind it.
+/// X runs at the speed of Y, to the pulse of each tick, one tick later.
 TEST(DescribedAxes, FollowASpeedThatAnotherOneShows) {
   world::World world = world_of("Y_NOW");
   world::set(world, "it.Y_SPEED", 100);

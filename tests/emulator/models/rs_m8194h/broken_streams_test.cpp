@@ -1,4 +1,4 @@
-// Streams that something breaks off (7.4): what is left of them, and what says so.
+// Interrupted streams (7.4): what remains of them, and how it is reported.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -47,7 +47,7 @@ const Kind kKinds[] = {
      {"RSM_MIX_2D_CONTINUE 1 1 0 0 0 700"}},
 };
 
-/// What ends the first side on its way, and what takes its lock away.
+/// An event that ends the first side on its way, and what clears its lock.
 struct Break {
   const char* name;
   Commands before;
@@ -75,7 +75,7 @@ const Break kBreaks[] = {
     {"an emergency stop", {}, {"RSM_EMERGENCY_STOP 0"}, {"RSM_CLEAR_EMERGENCY_STOP"}, -1, true},
 };
 
-/// Where the rest of the stream is when it is broken off.
+/// Where the rest of the stream is when it is interrupted.
 enum class Rest { in_the_fifo, sent_later, in_a_macro };
 
 struct Course {
@@ -119,7 +119,7 @@ GivenRsm given(const Course& course, const std::string& option) {
   return made;
 }
 
-/// Its stream, broken off. Afterwards all of it has been sent.
+/// Sends a stream that is interrupted. Afterwards all of it has been sent.
 void play(OneRsm& rsm, const Course& course) {
   const Kind& kind = course.kind;
   for (const auto each : course.broken.before) rsm.send(each);
@@ -137,7 +137,7 @@ void play(OneRsm& rsm, const Course& course) {
   rsm.run_to_rest(20'000);
 }
 
-/// Where the first side ends when nothing follows it.
+/// Where the first side ends if nothing follows it.
 std::vector<Value> place_of_break(const Course& course) {
   OneRsm rsm(given({course.kind, course.broken}, "is_void_to_its_last_segment_or_initial"));
   for (const auto each : course.broken.before) rsm.send(each);
@@ -198,7 +198,7 @@ TEST(BrokenStreams, AreVoidToTheirInitial) {
 
 TEST(BrokenStreams, RunAllTheSameFromWhereTheyStopped) {
   for_each_course([](const Course& course) {
-    // What comes while it is locked, or while its input is on, is void.
+    // Commands that arrive while it is locked, or while its input is on, are void.
     const bool is_obstructed = !course.broken.behind.empty() ||
                                course.broken.signal == terminal(0, Pin::alarm) ||
                                course.broken.signal == kEmergencyPin;

@@ -1,4 +1,4 @@
-// The commands of the window by name, for each code of the manual and in both orders of words.
+// The commands of the window by name, for each code of the manual and in both word orders.
 #include "emulator/models/rs_m8194h/command_names.h"
 
 #include <map>
@@ -27,7 +27,7 @@ std::string diagnostic_of(const std::string& text) {
   return "none";
 }
 
-/// A parameter as the manual's table gives it: how many registers, and a good value drawn at random.
+/// A parameter from the manual's table: its number of registers, and a valid random value.
 struct Allowed {
   std::string name;
   std::string rule;
@@ -58,7 +58,7 @@ std::map<int, std::vector<Allowed>> parameters_by_low_byte() {
   return all;
 }
 
-/// A message as a host writes it: the code, then each parameter, its words in the order that is asked for.
+/// A message as a host writes it: the code, then each parameter, in the requested word order.
 class Message {
  public:
   explicit Message(std::uint16_t code) : words_{code} {}

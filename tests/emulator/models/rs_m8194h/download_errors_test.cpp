@@ -1,4 +1,4 @@
-// Every error of a download at the device: what the lines and CLOSE are answered, what inputs 110 to 114 and
+// Every error of a download at the device: the replies to the lines and to CLOSE, what inputs 110 to 114 and
 // 102 then show, and that the old macro stays (5.2, 12.1.13).
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(RsM8194hDownloadErrors, AllSixteenAreShownAndTheOldMacroStays) {
     rsm.set("CALL_MP", 41);
     rsm.run(10);
     EXPECT_EQ(rsm.get("VAR7"), 77);
-    // The next good one is stored, and the error is gone.
+    // The next correct one is stored, and the error is gone.
     rsm.send({"RSM_MP_CREATE 41", "RSM_MACRO_SET_VAR VAR7 78", "RSM_MACRO_MP_CLOSE"});
     EXPECT_EQ(rsm.ask("04 00 6E 00 05"), "04 0A 00 29 00 03 00 00 00 00 00 00");
     EXPECT_EQ(rsm.get("IllegalFuncErr"), one.reason) << "good requests leave the reason";
@@ -121,7 +121,8 @@ TEST(RsM8194hDownloadErrors, EveryLineWantsItsNumberOfRegisters) {
   }
 }
 
-/// The power goes between any two messages of a download: the old macro is there, and nothing is half done.
+/// The power fails between any two messages of a download: the old macro is present, and nothing is half
+/// done.
 TEST(RsM8194hDownloadErrors, APowerCutInTheMidstLeavesTheOldMacro) {
   const Lines kNew = {"RSM_MP_CREATE 41", "RSM_MACRO_FOR 3", "RSM_MACRO_SET_VAR VAR7 78", "RSM_MACRO_NEXT",
                       "RSM_MACRO_MP_CLOSE"};
@@ -135,7 +136,7 @@ TEST(RsM8194hDownloadErrors, APowerCutInTheMidstLeavesTheOldMacro) {
     EXPECT_EQ(rsm.device().user_program()->program_text() == kOld, !is_new) << cut;
     EXPECT_EQ(rsm.get("RSM_STATE"), 0);
     EXPECT_EQ(rsm.exception("RSM_MACRO_NEXT"), 3) << "no download goes on";
-    // A snapshot of the same moment goes on where it was.
+    // A snapshot of the same moment continues where it was.
     OneRsm twin;
     twin.device().restore_state(saved);
     for (std::size_t i = cut; i < kNew.size(); ++i) twin.send(kNew[i]);

@@ -1,6 +1,6 @@
-// How long moves take, to the tick, by closed forms of the chip's laws (7.1): moves too short for their
-// speed, offsets of the deceleration, constant speeds, both directions; and where whole ones are at every
-// tick.
+// The durations of moves, to the tick, by closed forms of the chip's laws (7.1): moves too short for their
+// speed, offsets of the deceleration, constant speeds, both directions; and the positions of whole moves at
+// every tick.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,12 +29,12 @@ bool is_s(const Move& move) { return move.mode == 1 || move.mode == 3; }
 double ramp_s(const Move& move, double peak, double rate) {
   return is_s(move) ? 2 * std::sqrt((peak - move.sv) / rate) : (peak - move.sv) / rate;
 }
-/// The speed rises evenly, or in two equal parabolas: its mean is that of its ends.
+/// The speed rises linearly, or in two equal parabolas: its mean is that of its ends.
 double ramp_pulses(const Move& move, double peak, double rate) {
   return (peak + move.sv) / 2 * ramp_s(move, peak, rate);
 }
 
-/// The highest speed at which both ramps fit into so many pulses, by bisection; V at most.
+/// The highest speed at which both ramps fit into this many pulses, by bisection; at most V.
 double peak_pps(const Move& move, double pulses) {
   double low = move.sv;
   double high = move.v;
@@ -53,7 +53,7 @@ double seconds_of(const Move& move) {
   if (move.v <= move.sv) return move.distance / move.v;
   if (move.ao >= move.distance) return move.distance / move.sv;
   if (move.ao < 0) {
-    // Too late: a T ends at what its ramp has come down to.
+    // Too late: a T-curve ends at the speed that its ramp has reached.
     const double cut = ramp_pulses(move, move.v, move.down) + move.ao;
     const double end = std::sqrt(move.v * move.v - 2 * move.down * cut);
     const double even = move.distance - ramp_pulses(move, move.v, move.up) - cut;
@@ -129,7 +129,8 @@ TEST(RsM8194hDurations, AreThoseOfTheClosedForms) {
 
 constexpr double kRounding = 1e-6;
 
-/// A ramp from one speed to a higher one, in pulses after so many seconds: even, or in two equal parabolas.
+/// A ramp from one speed to a higher one, in pulses after this many seconds: linear, or in two equal
+/// parabolas.
 struct Ramp {
   bool is_s = false;
   double low = 0, high = 0;  // pulses a second
@@ -156,7 +157,7 @@ struct Law {
   double seconds(double distance) const {
     return rising().lasts() + falling().lasts() + (distance - rising().pulses() - falling().pulses()) / v;
   }
-  /// Pulses after so many seconds.
+  /// Pulses after this many seconds.
   double at(double t, double distance) const {
     const double left = seconds(distance) - t;
     if (left <= 0) return distance;
@@ -190,7 +191,7 @@ TEST(RsM8194hDurations, AreWhereTheirLawSaysAtEveryTick) {
         rsm.run(1);
         const double t = static_cast<double>(rsm.now() - begin - 1) / 1000;  // from the next tick on
         const double should = law.at(t, kDistance);
-        // A pulse goes out when its place has been reached.
+        // A pulse is sent when its position has been reached.
         const auto is = static_cast<double>(direction * rsm.get("LP_Z"));
         ASSERT_LE(is, should + kRounding) << "mode " << law.mode << " at " << t;
         ASSERT_GT(is, should - 1 - kRounding) << "mode " << law.mode << " at " << t;

@@ -1,6 +1,6 @@
-// What an edge reads, sets or stops is of the pulse where it lies: the table kind of motion x kind of edge x
-// what is done x whom, at speeds from a pulse in 100 ms to 4,000 in one, against closed forms. X goes by
-// `speed`, Y by another one, both from one moment: at X's pulse n Y has sent floor(n y / x).
+// The effects of an edge belong to its pulse: the table kind of motion x kind of edge x effect x affected
+// axis, at speeds from a pulse in 100 ms to 4,000 in one, compared with closed forms. X moves at `speed`, Y
+// at another one, both from the same moment: at X's pulse n, Y has sent floor(n y / x).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ struct Cell {
   std::int64_t speed_of_x() const {
     return on_path() ? std::min<std::int64_t>(speeds.x, 2'828'000) : speeds.x;
   }
-  /// Pulses of X behind the edge that come out in the same millisecond, or much later.
+  /// Pulses of X after the edge that come out in the same millisecond, or much later.
   std::int64_t total() const {
     const bool is_last = motion == Motion::last_of_a_move || motion == Motion::last_of_a_line;
     return speeds.edge + (is_last ? 1 + speeds.x / 10'000 : 4 * speeds.edge);
@@ -151,7 +151,7 @@ void expect_closed_form(const Cell& cell) {
   const std::int64_t halves = 2 * by.edge - (cell.on_path() ? 1 : 0);
   const std::int64_t place = cell.on_y ? halves * by.y / (2 * cell.speed_of_x()) : by.edge;
   const std::int64_t least = place - (cell.on_y && halves * by.y % (2 * cell.speed_of_x()) == 0 ? 1 : 0);
-  // What is preset is far below C+, which is met once.
+  // The preset value is far below C+, which is met once.
   constexpr std::int64_t kPreset = -100'000'000;
   const auto expect_place = [&](std::int64_t found) {
     // The chip's steps of a vector speed are a microsecond by then.
@@ -217,7 +217,7 @@ TEST(RsM8194hEdgesInATick, ActInTheirOrderAndAreCountedEach) {
     rsm.run(50);
     EXPECT_EQ(rsm.get("LATCH_Z"), is_late ? 5800 : 5500);
   }
-  // LPSET at C+ again and again: every 100 pulses, 40 times a millisecond, and as many output pulses.
+  // LPSET at C+ repeatedly: every 100 pulses, 40 times a millisecond, and as many output pulses.
   OneRsm rsm;
   rsm.send({"RSM_SET_MAX_V X 4000000", "RSM_SET_SV X 4000000", "RSM_SET_V X 4000000"});
   rsm.run(5);
@@ -260,7 +260,7 @@ TEST(RsM8194hEdgesInATick, ASoftLimitOnAnEncoderIsMetAtItsPulse) {
   }
 }
 
-/// The machine may have been pushed, and may lose pulses: what the encoder then shows counts.
+/// The machine may have been pushed, and may lose pulses: the encoder's count decides.
 TEST(RsM8194hEdgesInATick, AnEncoderThatDoesNotGoAlongCountsAsItIsTold) {
   for (const bool is_pushed : {false, true}) {
     world::PlantSetup plant;

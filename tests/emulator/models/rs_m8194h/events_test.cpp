@@ -166,7 +166,7 @@ TEST(RsM8194hEvents, EachDriveAndPresetDoesWhatItsLineSays) {
       if (is_endless) {
         EXPECT_EQ(absolute > 0, direction > 0);
       }
-      // All three have counted the same but for what was preset; a stop takes some pulses first.
+      // All three have the same count, except for the preset; a stop takes some pulses first.
       EXPECT_EQ(rsm.get("LP_Y") != absolute, preset == position);
       EXPECT_EQ(rsm.get("EP_Y") != absolute, preset == encoder);
       if (!is_stop && preset == position) {
@@ -175,7 +175,7 @@ TEST(RsM8194hEvents, EachDriveAndPresetDoesWhatItsLineSays) {
       if (!is_stop && preset == encoder) {
         EXPECT_EQ(rsm.get("EP_Y") - absolute, kPreset);
       }
-      // V for what comes next.
+      // V for the next drive.
       rsm.send(
           {"RSM_STOP_SUDDENLY Y", "RSM_CLEAR_STOP Y", "RSM_CLEAR_SYNC_ACTION X", "RSM_FIXED_MOVE Y 1000"});
       rsm.run(100);
@@ -215,7 +215,7 @@ TEST(RsM8194hEvents, LineScansTriggerAtTheirPitch) {
 
 TEST(RsM8194hEvents, ScansAreCompletedOnceAllOfThemStand) {
   SteadyRsm rsm;
-  // Y has no setting, and goes without triggers.
+  // Y has no setting, and moves without triggers.
   rsm.send({"RSM_LINE_SCAN_START Y 0 2000", "RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN_START X 0 200"});
   rsm.run(200);
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 2);
@@ -235,7 +235,7 @@ TEST(RsM8194hEvents, AScanThatDoesNotMoveLeavesItsFirstPlaceInCPlus) {
   EXPECT_EQ(rsm.state().units[0].compare[0].value, 510);
 }
 
-// A ring comes round, and the counter may be set on the way: what counts is the way.
+// A ring wraps, and the counter may be set on the way: the distance decides.
 TEST(RsM8194hEvents, LineScansGoOnWhenTheirCounterJumps) {
   for (const int type : {0, 2}) {
     SteadyRsm rsm;

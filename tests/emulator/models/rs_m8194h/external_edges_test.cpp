@@ -1,4 +1,4 @@
-// Edges of EXP+ and EXP- that come in quick succession (3.17): none is lost that the axis could have obeyed.
+// Edges of EXP+ and EXP- in quick succession (3.17): none is lost that the axis could have obeyed.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace understudy::emulator::models::rs_m8194h {
 namespace external_edges_test {
 
-/// An axis that needs no ramp: a drive takes its pulses' time.
+/// An axis without ramps: a drive takes the time of its pulses.
 struct QuickRsm : OneRsm {
   explicit QuickRsm(std::int64_t pps, const std::map<std::string, std::string>& choices = {})
       : OneRsm({.choices = choices}) {
@@ -27,7 +27,7 @@ struct QuickRsm : OneRsm {
   }
 };
 
-/// Falling edges that such a drive would have been ready for, evenly `apart_us` from each other.
+/// Falling edges for which such a drive is ready, evenly spaced by `apart_us`.
 std::int64_t obeyed(std::int64_t falls, double apart_us, double takes_us) {
   std::int64_t count = 0;
   double free_us = -1;
@@ -112,7 +112,7 @@ TEST(RsM8194hExternalEdges, CountTurnedBackOrTooFarToo) {
   rsm.turn(Pin::external_plus, -200, 100);
   rsm.run(150);
   EXPECT_EQ(rsm.get("LP_X"), 100);
-  // What no input could see is not gone through edge by edge.
+  // Edges that no input could see are not handled one by one.
   rsm.turn(Pin::external_plus, 2'000'000'000, 1);
   rsm.run(20);
   EXPECT_GT(rsm.get("LP_X"), 100);

@@ -1,5 +1,5 @@
-// The FIFO against a list: 10,000 random courses of commands of one to four blocks, of drives that wait, of
-// stops, busy answers, clearings and resets. What differs is printed as steps that can be pasted into a
+// The FIFO compared with a list: 10,000 random courses of commands of one to four blocks, of waiting drives,
+// of stops, busy replies, clears and resets. A difference is printed as steps that can be pasted into a
 // scenario.
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ struct Waiting {
   int value = 0;  // of LP Y
 };
 
-/// What the box should do, as plainly as it can be said. X drives without an end; Z and U are locked, so that
-/// paths of theirs are void.
+/// The expected behaviour of the device, as plainly as possible. X drives without an end; Z and U are locked,
+/// so their paths are void.
 struct Model {
   static constexpr int kSteps = 8;
   std::deque<Waiting> waiting{};
@@ -63,7 +63,7 @@ struct Model {
     steps = kSteps;
     run();
   }
-  /// Whether there is room.
+  /// Returns true if there is room.
   bool add(const Waiting& command) {
     if (command.blocks > free()) return false;
     waiting.push_back(command);

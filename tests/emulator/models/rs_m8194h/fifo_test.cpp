@@ -1,4 +1,4 @@
-// The FIFO: its room, what passes it by, what holds it (2.2, 3.2.2, 4.10, 9.9).
+// The FIFO: its capacity, what bypasses it, what holds it (2.2, 3.2.2, 4.10, 9.9).
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
@@ -6,7 +6,7 @@
 namespace understudy::emulator::models::rs_m8194h {
 namespace fifo_test {
 
-/// X runs without end, and the FIFO waits for it.
+/// X runs without an end, and the FIFO waits for it.
 struct BlockedRsm : OneRsm {
   BlockedRsm() { send({"RSM_CONTINUE_MOVE X 1000", "RSM_STOP_WAIT X"}); }
 };
@@ -20,7 +20,7 @@ TEST(RsM8194hFifo, HasThirtyBlocksAndIsBusyWhenFull) {
   }
   EXPECT_EQ(rsm.exception("RSM_SET_V Y 1000"), 6);
   EXPECT_EQ(rsm.get("IllegalFuncErr"), 0xC1);
-  // What acts at once takes no block, and is never busy.
+  // Commands that act at once take no block, and are never refused as busy.
   rsm.send({"RSM_STOP_SUDDENLY X"});
   rsm.run(10);
   EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 30);

@@ -69,7 +69,7 @@ TEST(RsM8194hFilters, EachInputIsDelayedByItsBitOfFenAndByFln) {
         const Tick delay = bit == each.filter ? kDelays[number] : 0;
         EXPECT_EQ(passes, delay + 1) << each.word << "." << each.bit << ", FEn " << (1 << bit) << ", FLn "
                                      << number;
-        // As long as the filter's time it has to stay.
+        // It must stay as long as the filter's time.
         rsm.pin(2, each.pin, false);
         rsm.run(delay);
         rsm.pin(2, each.pin, true);
@@ -99,7 +99,7 @@ TEST(RsM8194hFilters, ExternalDrivesLoseWhatIsTooShort) {
   EXPECT_EQ(rsm.get("LP_X"), 10);
   edge_after(4, 30);
   edge_after(5, 3);
-  // Without the filter what it held back counts.
+  // Without the filter, the level that it held back counts.
   rsm.send("RSM_SET_FILTER X 0 0");
   edge_after(6, 30);
   EXPECT_EQ(rsm.get("LP_X"), 20);

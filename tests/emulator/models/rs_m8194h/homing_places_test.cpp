@@ -1,5 +1,5 @@
-// Homing at the device from everywhere, with each combination of its steps, at three speeds: where it ends,
-// by the closed form of what each step looks for (6.3, 4.8).
+// Homing at the device from everywhere, with each combination of its steps, at three speeds. The end is given
+// by a closed form of what each step looks for (6.3, 4.8).
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -9,7 +9,7 @@
 namespace understudy::emulator::models::rs_m8194h {
 namespace homing_places_test {
 
-// Where the machine's switches are on. All places are whole pulses, both ends belong to a switch.
+// The positions of the machine's switches. All are whole pulses; both ends belong to a switch.
 constexpr std::int64_t kHomeFirst = -40;
 constexpr std::int64_t kHomeLast = 40;
 constexpr std::int64_t kNearFirst = -600;
@@ -74,7 +74,7 @@ End at_limit(std::int64_t from, int sign) {
   return {sign > 0 ? std::max(from, kLimit) : std::min(from, -kLimit), sign > 0 ? 4 : 8};
 }
 
-/// Nothing where the place is that of a ramp's end.
+/// Returns nothing if the place is the end of a ramp.
 std::optional<End> closed_form(const Steps& steps, std::int64_t place, bool is_constant) {
   const int w1 = sign_of(steps.ways[0]);
   const int w2 = sign_of(steps.ways[1]);
@@ -86,7 +86,7 @@ std::optional<End> closed_form(const Steps& steps, std::int64_t place, bool is_c
     const bool lies_ahead = w1 > 0 ? place < kNearFirst : place > kNearLast;
     place = !lies_ahead ? at_limit(place, w1).place : w1 > 0 ? kNearFirst : kNearLast;
   }
-  // From wherever step 1 has led, step 2 comes to the edge that it meets on its way.
+  // Wherever step 1 has ended, step 2 reaches the first edge on its way.
   if (w2 != 0) place = steps.limit_is_home ? w2 * kLimit : w2 > 0 ? kHomeFirst : kHomeLast;
   if (w3 != 0) {
     const std::int64_t phase = index_phase(place);
@@ -96,7 +96,7 @@ std::optional<End> closed_form(const Steps& steps, std::int64_t place, bool is_c
     place = edge;
   }
   if (w4 != 0) {
-    // A limit that is met with the last pulse is met.
+    // A limit that the last pulse reaches counts as met.
     if (meets_limit(place, place + w4 * kOffset, w4)) return at_limit(place, w4);
     place += w4 * kOffset;
   }

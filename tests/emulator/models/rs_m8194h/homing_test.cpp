@@ -1,4 +1,4 @@
-// Automatic homing: from before, on and behind each switch to the same pulse, and how it fails (6, 4.8).
+// Automatic homing: from before, on and after each switch to the same pulse, and how it fails (6, 4.8).
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"

@@ -1,5 +1,5 @@
-// Macros in the box: the download over the wire with its errors, the manual's programs, interplay with the
-// FIFO, triggers without a host (5.4, 9, 10).
+// Macros in the device: the download over the wire with its errors, the manual's programs, interaction with
+// the FIFO, triggers without a host (5.4, 9, 10).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// What a motion has left to be done, against all that may take it away: every cell of the table in
-// transitions.h.
+// Pending work of a motion, with every event that may discard it: every cell of the table in transitions.h.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -81,7 +80,7 @@ const std::vector<Event>& events() {
       {WayOut::other_drive,
        [](MarkedRsm& rsm) {
          if (rsm.mark == Mark::external_drive) return rsm.send("RSM_SET_PULSE X 6000");
-         // By a mark of another axis: commands wait in the FIFO meanwhile.
+         // By a mark of another axis, because commands wait in the FIFO meanwhile.
          auto& sync = const_cast<State&>(rsm.state()).sync;
          sync.triggers[3] = {.factors = motion::bit(motion::Event::mark_on), .activates = 1};
          sync.actions[0].drive = motion::SyncAction::Drive::endless_minus;

@@ -48,7 +48,7 @@ class OneRsm {
   const State& state() const { return rsm().state(); }
   const Ports& ports() const { return *rsm().terminals(); }
 
-  /// A request as its station serves it; the reply's PDU as text.
+  /// Serves a request by its station, and returns the reply's PDU as text.
   std::string ask(const world::Bytes& pdu) {
     const world::ModbusReply reply = world::serve(device(), pdu);
     if (reply.refused.objection) device().register_bank()->exception_answered(reply.refused);
@@ -56,7 +56,7 @@ class OneRsm {
         world::Bytes(reply.pdu.begin(), reply.pdu.begin() + static_cast<std::ptrdiff_t>(reply.size)));
   }
   std::string ask(std::string_view pdu) { return ask(world::hex(pdu)); }
-  /// The exception that a command gets; 0: none.
+  /// Returns the exception that a command gets; 0: none.
   int exception(std::string_view command) {
     const std::string reply = ask(pdu_of(command));
     return reply.starts_with("90") ? std::stoi(reply.substr(3), nullptr, 16) : 0;
@@ -89,7 +89,7 @@ class OneRsm {
   bool rests() const {
     return get("DRIVING_AXIS") == 0 && get("FREE_BUFFER_SIZE") == 30 && get("I8094H_STATE") == 0;
   }
-  /// Until nothing moves or waits; the ticks it took.
+  /// Runs until nothing moves or waits. Returns the ticks it took.
   Tick run_to_rest(Tick most = 200'000) {
     const Tick begin = now();
     do {

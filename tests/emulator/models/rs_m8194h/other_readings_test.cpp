@@ -1,5 +1,5 @@
-// Options that are not ours, where they meet what else the device does (8.5 of the behaviour; each one alone
-// is told apart by docs/fidelity/proofs/rs-m8194h/).
+// Options other than the default where they interact with the rest of the device (8.5 of the behaviour;
+// docs/fidelity/proofs/rs-m8194h/ shows each one alone).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace other_readings_test {
 
 using Choices = std::map<std::string, std::string>;
 
-/// X, Y and Z go at a constant speed from their first pulse on.
+/// X, Y and Z run at a constant speed from their first pulse on.
 struct SteadyRsm : OneRsm {
   explicit SteadyRsm(Choices choices, std::string program = {})
       : OneRsm({.program = std::move(program), .choices = std::move(choices)}) {
@@ -46,7 +46,7 @@ TEST(RsM8194hOtherReadings, TableWritesOfADownloadAreItsLines) {
             "MP 21\n  RSM_MACRO_FRNET_OUT 1 5\n  RSM_MACRO_FRNET_OUT 2 6\n  RSM_MACRO_MP_CALL 3\n"
             "  RSM_MACRO_ABS_SET_POSITION U 7\n  RSM_MACRO_SET_LP X -1\n  RSM_MACRO_SET_EP U 8\n"
             "  RSM_MACRO_SET_VAR VAR1 9\nEND\n");
-  // Outside a download they are what they always are.
+  // Outside a download, they are as usual.
   rsm.set("VAR1", 3);
   EXPECT_EQ(rsm.get("VAR1"), 3);
 }
@@ -172,7 +172,7 @@ TEST(RsM8194hOtherReadings, ADriveThatIsTakenAlongIsDroppedByAStop) {
     rsm.run(60);
     EXPECT_EQ(rsm.get("LP_Y"), 50);
     EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 30);
-    // One more has to wait behind it.
+    // One more must wait after it.
     rsm.send("RSM_FIXED_MOVE XZ 10");
     EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 29);
     EXPECT_EQ(rsm.get("LP_Z"), 0);
@@ -210,7 +210,7 @@ TEST(RsM8194hOtherReadings, WithoutASpeedNothingIsDriven) {
 TEST(RsM8194hOtherReadings, AnActionWithoutASpeedDrivesNothing) {
   for (const bool has_speed : {false, true}) {
     OneRsm rsm({.choices = {{"power_on_values", "0_and_no_drive"}}});
-    // Y sets out, without end, at the end of X's drive.
+    // Y starts, without an end, at the end of X's drive.
     rsm.send({"RSM_SYNC_ACTION X Y 0x20 3 0 0 0 0 0 0 0 0", "RSM_SET_SV XY 1000", "RSM_SET_V X 1000"});
     if (has_speed) rsm.send("RSM_SET_V Y 1000");
     rsm.send("RSM_FIXED_MOVE X 5");
@@ -239,7 +239,7 @@ TEST(RsM8194hOtherReadings, AScanAboveItsMaximumIsVoid) {
   }
 }
 
-/// Pulses that a path goes on for behind a slow stop, along X alone.
+/// The pulses that a path continues after a slow stop, along X alone.
 Value slowing_pulses(const Choices& choices, const char* const stop) {
   SteadyRsm rsm(choices);
   rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_VECTOR_SPEED 0", "RSM_SET_VSV 100", "RSM_SET_VV 10000",
@@ -312,7 +312,7 @@ TEST(RsM8194hOtherReadings, APauseHoldsWhatMovesWhereItIs) {
   const Value u = rsm.get("LP_U");
   EXPECT_LT(x, -100);
   EXPECT_GT(x, -1000);
-  // A saved state knows of it as well.
+  // A saved state contains it as well.
   PausedRsm twin;
   twin.device().restore_state(rsm.device().save_state());
   for (OneRsm* const one : {static_cast<OneRsm*>(&rsm), static_cast<OneRsm*>(&twin)}) {
@@ -350,7 +350,7 @@ TEST(RsM8194hOtherReadings, AShortPauseIsOverOnceTheAxisStands) {
   EXPECT_EQ(rsm.get("CV_X"), 1000);
   rsm.pause();
   rsm.go_on();
-  // It has not come to rest yet: it goes on slowing down.
+  // It is not at rest yet: it continues to slow down.
   EXPECT_GT(rsm.get("CV_X"), 900);
   rsm.run(500);
   EXPECT_NEAR(static_cast<double>(rsm.get("CV_X")), 490, 20);

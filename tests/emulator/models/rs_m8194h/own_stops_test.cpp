@@ -1,4 +1,5 @@
-// Stops by a synchronous action of the own axis, at full speed: to the pulse, and a path as a whole.
+// Stops by a synchronous action on the axis itself, at full speed: exact to the pulse, and for a path as a
+// whole.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

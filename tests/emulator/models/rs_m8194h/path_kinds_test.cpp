@@ -1,4 +1,4 @@
-// Which paths there are by modes, streams and start points of rectangles (7.2.2, 7.4.1, 7.4.8).
+// Paths by modes, streams and start points of rectangles (7.2.2, 7.4.1, 7.4.8).
 #include <gtest/gtest.h>
 
 #include <algorithm>

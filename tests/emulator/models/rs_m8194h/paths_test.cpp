@@ -126,7 +126,7 @@ TEST(RsM8194hPaths, AFedStreamNeverSlowsBeforeItsLastSegment) {
   int sent = 0;
   Value least_after_ramp = 100000;
   while (sent < kSegments || rsm.get("DRIVING_AXIS") != 0) {
-    // The ways of a stair: right angles all along.
+    // The segments of a staircase: right angles everywhere.
     while (sent < kSegments && rsm.get("FREE_BUFFER_SIZE") > 0) {
       ++sent;
       const std::string last = sent == kSegments ? "1" : "0";
@@ -182,7 +182,8 @@ constexpr double kRounding = 1e-6;
 
 using Place = std::array<double, 3>;
 
-/// Whether a straight way from a to b comes within half a pulse of a place, coordinate by coordinate.
+/// Returns true if a straight line from a to b comes within half a pulse of a place, coordinate by
+/// coordinate.
 bool line_passes(const Place& a, const Place& b, const Place& place) {
   double from = 0, to = 1;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -198,7 +199,7 @@ bool line_passes(const Place& a, const Place& b, const Place& place) {
   }
   return from <= to;
 }
-/// The same of a circle in the first two.
+/// The same for a circle in the first two.
 bool circle_passes(const Place& centre, double radius, const Place& place) {
   const double dx = std::abs(place[0] - centre[0]);
   const double dy = std::abs(place[1] - centre[1]);
@@ -259,7 +260,7 @@ std::vector<Course> courses() {
         circle({5000, 3500, 0}, 500), line({5000, 4000, 0}, {0, 4000, 0}), circle({0, 3500, 0}, 500),
         line({-500, 3500, 0}, {-500, 500, 0}), circle({0, 500, 0}, 500)},
        zero});
-  // Z is even over the angle.
+  // Z is proportional to the angle.
   all.push_back({0,
                  {"RSM_HELIX_3D X Y Z 1 9000 1000 0 3 -700"},
                  {[](const Place& place) {
@@ -300,8 +301,8 @@ TEST(RsM8194hPaths, PathsAreWithinHalfAPulseAtEveryTick) {
   }
 }
 
-/// The example of 7.4.3: 20,001 segments through the FIFO, by a host that sends until it is told that the box
-/// is busy.
+/// The example of 7.4.3: 20,001 segments through the FIFO, from a host that sends until it is refused as
+/// busy.
 TEST(RsM8194hPaths, AStreamOf20001SegmentsNeverStops) {
   constexpr int kSegments = 20'001;
   constexpr int kStep = 100;
@@ -352,7 +353,7 @@ TEST(RsM8194hPaths, APathFindsTheSignalsOfThisMoment) {
     rsm.send("RSM_LINE_2D 100 100");
     EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0) << axis;
     EXPECT_EQ(rsm.get("ERROR_CODE_" + axis), 4) << axis;
-    // And the other way round.
+    // And the reverse.
     rsm.send("RSM_SET_HLMT " + axis + " 0 0");
     rsm.send("RSM_LINE_2D 100 100");
     EXPECT_NE(rsm.get("DRIVING_AXIS"), 0) << axis;

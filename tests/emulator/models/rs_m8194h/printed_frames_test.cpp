@@ -1,4 +1,4 @@
-// The frames that the manual prints, each to a fresh box.
+// The frames that the manual prints, each sent to a new device.
 #include <gtest/gtest.h>
 
 #include "interpreter/rs_m8194h/commands.h"
@@ -53,7 +53,7 @@ TEST(RsM8194hFrames, EachPrintedFrameIsAnsweredAsItShould) {
     if (!fact.at("answer").empty()) {
       EXPECT_EQ(reply, pdu(fact.at("answer")));
     } else {
-      // A read: as many bytes as registers ask for.
+      // A read: as many bytes as the registers need.
       const std::size_t words = static_cast<std::size_t>(bytes[3] << 8 | bytes[4]);
       EXPECT_EQ(world::hex(reply).size(), 2 + 2 * words) << reply;
       EXPECT_EQ(world::hex(reply)[0], bytes[0]);

@@ -1,4 +1,4 @@
-// What is refused, with which exception, and the reason that input 102 then shows (2.2, 4.16.2, 12.1.12).
+// Refused requests, with their exceptions, and the reasons that input 102 then shows (2.2, 4.16.2, 12.1.12).
 #include <gtest/gtest.h>
 
 #include "interpreter/rs_m8194h/commands.h"
@@ -50,7 +50,7 @@ TEST(RsM8194hRefusals, EachHasItsExceptionAndItsReason) {
     for (const std::string_view command : row.before) rsm.send(command);
     EXPECT_EQ(rsm.ask(row.request), row.reply);
     EXPECT_EQ(rsm.get("IllegalFuncErr"), row.reason);
-    // Good requests leave the reason as it is.
+    // Good requests do not change the reason.
     EXPECT_EQ(rsm.ask("04 00 47 00 01"), "04 02 00 1E");
     EXPECT_EQ(rsm.get("IllegalFuncErr"), row.reason);
   }
@@ -132,7 +132,7 @@ TEST(RsM8194hRefusals, FirmwaresShowTheirVersions) {
   EXPECT_EQ(later.get("I8094H_FIRMWARE"), 0x02210300);
 }
 
-/// Reasons 4 to 7, whatever exception goes with them; other reasons keep theirs.
+/// Reasons 4 to 7, whatever their exception is; other reasons keep theirs.
 TEST(RsM8194hRefusals, ExceptionOfTheStateIsOfItsReasonsAlone) {
   struct StateCase {
     const char* state;  // a command that leads there, and one back

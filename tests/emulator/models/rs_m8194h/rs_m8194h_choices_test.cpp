@@ -1,5 +1,5 @@
-// Where choices meet what else the device does: most of them are told apart by
-// docs/fidelity/proofs/rs-m8194h/.
+// Choices where they interact with the rest of the device; docs/fidelity/proofs/rs-m8194h/ shows most of
+// them.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -94,7 +94,7 @@ TEST(RsM8194hChoices, AnEmergencyInputCanBeActiveWhileOpen) {
   EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0x20);
 }
 
-/// ISR1 writes 1 behind VAR1, ISR2 a 2.
+/// ISR1 appends a 1 to VAR1, ISR2 a 2.
 const char* const kTellers = R"(
 ISR 1
   RSM_MACRO_VAR_CALCULATE VAR1 * 10 VAR1
@@ -161,7 +161,7 @@ TEST(RsM8194hChoices, ParametersMayComeInParts) {
   EXPECT_EQ(twin.get("DRIVING_AXIS"), 1);
   twin.run_to_rest();
   EXPECT_EQ(twin.get("LP_X"), 300);
-  // Beyond the window's end, and with too many registers, it is as ever.
+  // Beyond the window's end, and with too many registers, it is refused as usual.
   EXPECT_EQ(twin.ask("10 1FA4 0002 04 0000 0000"), "90 02");
   EXPECT_EQ(twin.ask("10 1F40 0005 0A 0A4E 0001 0000 0001 0000"), "90 03");
   // A line of a macro, too.
@@ -192,9 +192,9 @@ TEST(RsM8194hChoices, ErrorsOfADownloadThatShowAtCloseAreKept) {
                        .choices = {{"structure_faults", "at_close"}}};
   OneRsm rsm(given);
   rsm.send({"RSM_MP_CREATE 1", "RSM_MACRO_SET_VAR VAR1 8", "RSM_MACRO_ELSE"});
-  // Of an undefined command, too, which is not the first error.
+  // Also for an undefined command, which is not the first error.
   EXPECT_EQ(rsm.ask("10 1F40 0001 02 0C00"), "10 1F 40 00 01");
-  // A parameter is no error of the download.
+  // A wrong parameter is not an error of the download.
   EXPECT_EQ(rsm.ask("10 1F40 0002 04 0CCB 0000"), "90 03");
   OneRsm twin(given);
   twin.device().restore_state(rsm.device().save_state());
@@ -205,7 +205,7 @@ TEST(RsM8194hChoices, ErrorsOfADownloadThatShowAtCloseAreKept) {
   twin.set("CALL_MP", 1);
   twin.run(5);
   EXPECT_EQ(twin.get("VAR1"), 7);
-  // An undefined command alone, and a good download behind it.
+  // An undefined command alone, followed by a good download.
   twin.send("RSM_MP_CREATE 1");
   EXPECT_EQ(twin.ask("10 1F40 0001 02 0C00"), "10 1F 40 00 01");
   EXPECT_EQ(twin.exception("RSM_MACRO_MP_CLOSE"), 3);
@@ -307,7 +307,7 @@ TEST(RsM8194hChoices, VariablesThatHaveEndsTakeThem) {
                                                  {"77 35 94 00", true},    // 2,000,000,000
                                                  {"77 35 94 01", false}};  // one more
   for (const auto& [value, is_good] : kCases) {
-    // VAR1 and VAR2; a fault in the one keeps the other as it was.
+    // VAR1 and VAR2; a fault in one leaves the other unchanged.
     rsm.set("VAR1", 7);
     const std::string sent = std::string(" 00 04 08 00 00 00 05 ") + value;
     EXPECT_EQ(rsm.ask("10 01 2E" + sent), is_good ? "10 01 2E 00 04" : "90 03") << value;

@@ -1,5 +1,5 @@
-// Many ticks in one step are the same as one by one: random courses of drives, paths, homing, comparators,
-// macros, inputs, machines that lose pulses, and power. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
+// Many ticks in one step equal single ticks: random courses of drives, paths, homing, comparators, macros,
+// inputs, machines that lose pulses, and power. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,7 +74,7 @@ class Course {
       case 13: return "RSM_SET_COMPARE " + axis + " 0 0 " + of_any_size(9000, true);
       case 14: return "RSM_SET_LP " + axis + " " + of_any_size(9000, true);
       case 15: return "RSM_MP_CALL " + std::to_string(between(1, 2));
-      // What the encoder tells matters, and no more.
+      // Only the encoder's count matters.
       case 17: return "RSM_SET_COMPARE " + axis + " 0 1 " + of_any_size(9000, true);
       case 18: return "RSM_SET_EP " + axis + " " + of_any_size(9000, true);
       case 19:
@@ -86,7 +86,7 @@ class Course {
     }
   }
 
-  /// Something that happens to both; and what it is called.
+  /// An event for both, and its name.
   std::pair<std::function<void(OneRsm&)>, std::string> act() {
     const auto axis = static_cast<std::size_t>(between(0, 2));
     const bool on = one_in(2);
@@ -158,7 +158,7 @@ TEST(RsM8194hCrossing, RandomCoursesAreTheSameInBulkAndByTicks) {
     crossed += plain.world().ticks_skipped();
     EXPECT_EQ(twin.world().ticks_skipped(), 0U);
   }
-  // Worth something only if much is crossed, and axes move.
+  // The test is meaningful only if many ticks are skipped, and axes move.
   EXPECT_GT(crossed, 10'000U);
   EXPECT_GT(moved, 10'000);
 }
@@ -172,7 +172,7 @@ TEST(RsM8194hCrossing, AMoveWithNothingToMeetIsCrossed) {
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 3);
 }
 
-/// An encoder that nothing is compared with is nothing to meet.
+/// An encoder that is not compared with anything causes no events.
 TEST(RsM8194hCrossing, AMoveWithAnEncoderIsCrossedAsWell) {
   GivenRsm given;
   given.plant[0].encoder_counts_per_revolution = 4000;

@@ -1,4 +1,4 @@
-// EP where the machine has an encoder: its counts alone, from the first pulse on, however time goes by.
+// EP on a machine with an encoder: only its counts, from the first pulse on, however time advances.
 #include <gtest/gtest.h>
 
 #include <chrono>

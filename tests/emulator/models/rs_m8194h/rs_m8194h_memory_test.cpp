@@ -1,4 +1,4 @@
-// What survives the power, what the Initial Table does, and that a state is whole (8, 3.19, 4.3.1).
+// What survives power-off, what the Initial Table does, and that a state is complete (8, 3.19, 4.3.1).
 #include <gtest/gtest.h>
 
 #include "base/state/state_error.h"
@@ -49,7 +49,7 @@ TEST(RsM8194hMemory, KeepsWhatTheManualSaysAndLosesTheRest) {
   EXPECT_EQ(rsm.device().user_program()->program_text(),
             "MP 5\n  RSM_MACRO_SET_VAR VAR1 3\nEND\n\nTRIGGER 8.4 on MP5\n");
 
-  // Into another box, by its image.
+  // Into another device, by its image.
   DeviceSettings settings;
   settings.name = "other";
   settings.nv = image;
@@ -85,7 +85,7 @@ constexpr Block kBlocks[] = {
     {"macros", "1", "MP 1\n  RSM_MACRO_TIMER 5\nEND\n", false},
 };
 
-// What a choice allows is kept, too.
+// Values that a choice allows are persistent, too.
 TEST(RsM8194hMemory, KeepsMacrosThatOnlyAChoiceAllows) {
   const std::string text = "MP 41\n  RSM_MACRO_RECTANGLE X Y 0 0 0 1000 1000 600 1000 1000 1000 1000\nEND\n";
   const std::map<std::string, std::string> kChoices[] = {{{"rectangle_radius", "drawn_shorter"}},
@@ -132,7 +132,7 @@ TEST(RsM8194hMemory, TheFactorysIsEmpty) {
   EXPECT_TRUE(image.blocks.empty());
 }
 
-/// Something of everything, for a state that has it all.
+/// Something of each kind, for a state that contains everything.
 std::string_view busy_course(int step) {
   constexpr std::string_view kCommands[] = {"RSM_CONTINUE_MOVE Z 3000",
                                             "RSM_MIX_2D_INITIAL X Y 1 1000 10000 50000",
@@ -214,7 +214,7 @@ TEST(RsM8194hMemory, AFlippedByteIsRefusedOrCanBeLivedOn) {
 }
 
 TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
-  // The same course, watched tick by tick and not at all.
+  // The same course, with a watcher of every tick and without.
   OneRsm stepped;
   OneRsm crossed;
   const auto both = [&](std::string_view command) {
@@ -236,7 +236,7 @@ TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
   EXPECT_EQ(stepped.positions(), crossed.positions());
 }
 
-/// A command of a random course: most of what moves, stops, holds and waits.
+/// A command of a random course: most of those that move, stop, hold and wait.
 std::string random_command(std::uint32_t& seed) {
   const auto draw = [&](std::uint32_t most) {
     seed = seed * 1664525 + 1013904223;

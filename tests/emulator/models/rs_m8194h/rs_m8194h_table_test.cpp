@@ -1,4 +1,4 @@
-// RS-M8194H's tables against the facts read out of its manual: every address of every table.
+// RS-M8194H's tables compared with the facts from its manual: every address of every table.
 #include <gtest/gtest.h>
 
 #include <map>

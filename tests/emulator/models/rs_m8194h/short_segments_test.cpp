@@ -1,5 +1,5 @@
-// Streams whose segments are shorter than a millisecond's way: they never stop while they are fed, and are
-// never more than half a pulse from their path (7.4.3).
+// Streams whose segments are shorter than a millisecond of travel: they never stop while they get segments,
+// and are never more than half a pulse off their path (7.4.3).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct Zigzag {
 const Zigzag kZigzags[] = {{1, 1000},    {3, 10000},   {3, 20000},   {7, 50000},
                            {20, 100000}, {40, 100000}, {200, 100000}};
 
-/// Of the zigzag at a place in X.
+/// The value of the zigzag at a place in X.
 double height(const Zigzag& shape, double x) {
   const double in_round = std::fmod(x, 2.0 * shape.across);
   return std::min(in_round, 2.0 * shape.across - in_round);
@@ -40,7 +40,7 @@ TEST(RsM8194hShortSegments, AreJoinedWithoutAStop) {
     while (rsm.get("DRIVING_AXIS") != 0 && rsm.now() < begin + 100'000) {
       const auto x = static_cast<double>(rsm.get("LP_X"));
       const auto y = static_cast<double>(rsm.get("LP_Y"));
-      // Half a pulse in each coordinate of some place of the path.
+      // Within half a pulse, in each coordinate, of some place of the path.
       double off = 1e9;
       for (int step = -10; step <= 10; ++step) {
         off = std::min(off, std::abs(y - height(shape, std::max(x + 0.05 * step, 0.0))));

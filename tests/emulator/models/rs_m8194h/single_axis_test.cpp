@@ -92,7 +92,7 @@ struct Quantised {
   int asked;
   int runs_at;
 };
-/// In whole counts of MAX_V / 8000, one at least; MAX_V itself 8000 to 4,000,000 (3.4).
+/// In whole counts of MAX_V / 8000, at least one; MAX_V itself is 8000 to 4,000,000 (3.4).
 constexpr Quantised kQuantised[] = {{8000, 1234, 1234},    {16000, 1235, 1234},   {200000, 1240, 1225},
                                     {200000, 3, 25},       {4000000, 1700, 1500}, {5000, 7999, 7999},
                                     {9000000, 4500, 4500}, {20000, 50000, 20000}, {8000, 0, 1}};
@@ -173,7 +173,7 @@ TEST(RsM8194hAxis, SoftLimitsStopAndOnlyTheWayBackIsFree) {
   EXPECT_EQ(rsm.get("LP_X"), -1301);
 }
 
-// Wherever the axis has been before its counter was set.
+// Wherever the axis was before its counter was set.
 TEST(RsM8194hAxis, SoftLimitsGoByTheCountThatIsSet) {
   struct Case {
     int travel;  // before
@@ -316,7 +316,8 @@ TEST(RsM8194hAxis, AContinuousExternalDriveRunsWhileItsInputIsLow) {
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
 }
 
-/// What EXD_CP has begun ends when its input opens, whatever has come between; it ends nothing else.
+/// A motion of EXD_CP ends when its input opens, whatever has happened in between; the input ends nothing
+/// else.
 TEST(RsM8194hAxis, AContinuousExternalDriveIsItsInputsAlone) {
   const auto turn = [](OneRsm& rsm, int count) {
     rsm.device().set_input(terminal(0, Pin::external_plus), count);
@@ -383,7 +384,7 @@ TEST(RsM8194hAxis, ANewSpeedOnTheWayMayBeBelowTheStartSpeed) {
   EXPECT_EQ(rsm.get("LP_X") - at, 500);
 }
 
-/// Neither does it keep the other input from beginning one.
+/// It does not keep the other input from starting one either.
 TEST(RsM8194hAxis, AnExternalDriveThatALimitEndsIsNone) {
   OneRsm rsm;
   rsm.send({"RSM_SET_MAX_V X 8000", "RSM_SET_SV X 100", "RSM_SET_A X 1000000", "RSM_EXD_CP X 1000"});

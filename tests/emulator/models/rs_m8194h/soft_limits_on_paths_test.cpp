@@ -1,5 +1,5 @@
-// Soft limits against paths (3.9.1, 7.2, 7.4): every kind of limit meets every kind of path, also one that
-// leaves the allowed room and is back in it before its end. The oracle is the same path without limits.
+// Soft limits and paths (3.9.1, 7.2, 7.4): every kind of limit with every kind of path, also one that leaves
+// the allowed range and returns before its end. The oracle is the same path without limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace soft_limits_on_paths_test {
 
 using Commands = std::vector<std::string>;
 
-/// Axis1 is the one that meets its limit; `way` turns all of it round to the minus side.
+/// Axis1 meets its limit; `way` mirrors everything to the minus side.
 struct PathKind {
   const char* name;
   bool has_ramps;
@@ -96,7 +96,7 @@ const PathKind kPaths[] = {
      }},
 };
 
-/// Where EP comes from, and how a limit stops.
+/// The source of EP, and how a limit stops.
 struct LimitKind {
   const char* name;
   int source;  // 0 LP, 1 EP
@@ -132,7 +132,7 @@ struct Run {
   }
 
   static GivenRsm given(const LimitKind& limit) {
-    // What is behind a limit in a stream would go on as one of its own: so all of it is loaded.
+    // The rest of a stream after a limit would run as its own stream, so all of it is loaded.
     GivenRsm made{.choices = {{"stream_lookahead", "30"}}};
     if (limit.at_once) made.choices["soft_limit_stop"] = "at_once";
     if (limit.has_encoder) {
@@ -166,12 +166,12 @@ void check(const LimitKind& limit, const PathKind& path, int direction, Value mo
     EXPECT_TRUE(run.places == free.places);
     return;
   }
-  // Until it is met nothing is different.
+  // Until the limit is met, nothing is different.
   std::size_t met = 0;
   while (free.places[met][0] * direction <= most) ++met;
   for (std::size_t t = 0; t < met; ++t) ASSERT_EQ(run.places[t], free.places[t]) << t;
-  // It goes on along the path by its ramp, from 2,000 to 400 PPS at 4,000 PPS/s: 480 pulses, 240 ticks of the
-  // path at full speed. An encoder is told a tick later.
+  // It continues along the path by its ramp, from 2,000 to 400 PPS at 4,000 PPS/s: 480 pulses, 240 ticks of
+  // the path at full speed. The encoder's count comes a tick later.
   const bool slows = path.has_ramps && !limit.at_once;
   const std::size_t ramp = slows ? 240 : 0;
   if (limit.at_once && !limit.has_encoder) {
@@ -187,7 +187,7 @@ TEST(RsM8194hSoftLimitsOnPaths, AreHeededByEveryKindOfPath) {
   for (const LimitKind& limit : kLimits) {
     for (const PathKind& path : kPaths) {
       for (const int direction : {+1, -1}) {
-        // In its midst; so near its turn that it is back before it stands; by one pulse; not at all.
+        // In the middle; so near its turn that it is back before it stops; by one pulse; not at all.
         check(limit, path, direction, static_cast<Value>(path.farthest * 0.7));
         if (is_sanitized()) continue;
         check(limit, path, direction, static_cast<Value>(path.farthest * 0.995));
@@ -197,7 +197,7 @@ TEST(RsM8194hSoftLimitsOnPaths, AreHeededByEveryKindOfPath) {
   }
 }
 
-/// An arc that leaves the switch, or the encoder's count, before it stands.
+/// An arc that leaves the switch, or the encoder's count, before it stops.
 TEST(RsM8194hSoftLimitsOnPaths, ALimitSwitchThatIsLeftAgainIsTold) {
   for (const int direction : {+1, -1}) {
     world::PlantSetup plant;
@@ -212,7 +212,7 @@ TEST(RsM8194hSoftLimitsOnPaths, ALimitSwitchThatIsLeftAgainIsTold) {
     EXPECT_LT(rsm.get("LP_Y"), 2500);
     EXPECT_EQ(rsm.get("ERROR_CODE_X"), direction > 0 ? 4 : 8);
     EXPECT_EQ(rsm.get("ERROR_CODE_Y"), 0);
-    // It is history, and the next drive takes it away.
+    // The error is an old one, and the next drive clears it.
     rsm.send(direction > 0 ? "RSM_LINE_2D -100 0" : "RSM_LINE_2D 100 0");
     EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
     rsm.run_to_rest();

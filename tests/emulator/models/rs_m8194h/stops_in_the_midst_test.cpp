@@ -1,5 +1,5 @@
-// What stops things, while a macro waits, an ISR waits above a suspended macro, and a stream has more to come
-// (7.5, 5.9): event by event, as data.
+// Stops while a macro waits, while an ISR waits above a suspended macro, and while a stream expects more
+// segments (7.5, 5.9): event by event, as data.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
@@ -9,7 +9,7 @@ namespace stops_in_the_midst_test {
 
 enum class Midst : std::uint8_t { macro, isr, stream };
 
-/// X is on its way for ever in the first two; Y's move has raised the ISR of the second.
+/// X runs without an end in the first two; Y's move has triggered the ISR of the second.
 const char* const kPrograms = R"(
 MP 1
   RSM_MACRO_FIXED_MOVE X 1000000
@@ -69,7 +69,7 @@ struct Case {
 constexpr int kStop = 0x100;
 constexpr int kEmergency = 0x200;
 const Case kCases[] = {
-    // The drive that the macro waits for is void, and the macro goes on behind it.
+    // The drive that the macro waits for is void, and the macro continues after it.
     {Midst::macro, "RSM_STOP_SLOWLY X", {.locked = true, .error_x = kStop, .var1 = 1}},
     {Midst::macro, "RSM_STOP_SUDDENLY X", {.locked = true, .error_x = kStop, .var1 = 1}},
     {Midst::macro,
@@ -87,7 +87,7 @@ const Case kCases[] = {
     {Midst::macro, "RSM_MP_TERMINATE", {.moves = true}},
     {Midst::macro, "RSM_CLEAR_CARD_BUFFER", {.mp = true, .moves = true}},
     {Midst::macro, "RSM_RESET_CARD", {}},
-    // In order behind the macro.
+    // In order after the macro.
     {Midst::macro, "RSM_DRV_HOLD X", {.mp = true, .moves = true, .free = 29}},
     {Midst::macro, "RSM_CLEAR_STOP X", {.mp = true, .moves = true, .free = 29}},
     {Midst::macro, "RSM_FIXED_MOVE Y 100", {.mp = true, .moves = true, .free = 29}},
@@ -107,10 +107,10 @@ const Case kCases[] = {
     {Midst::isr, "RSM_RESET_CARD", {}},
     {Midst::isr, "RSM_FIXED_MOVE Y 100", {.mp = true, .isr = true, .moves = true, .free = 29}},
     {Midst::isr, "+LMTP_X", {.mp = true, .isr = true, .error_x = 4}},
-    // What it waits for: both come to their ends, and the TIMER has run meanwhile.
+    // The end of its wait: both come to their ends, and the TIMER has run meanwhile.
     {Midst::isr, "+DI_8_0", {.moves = true, .var1 = 1, .var2 = 1}},
 
-    // Segments that are left in the FIFO are void, one after the other.
+    // Segments that remain in the FIFO are void, one after the other.
     {Midst::stream, "RSM_STOP_SLOWLY X", {.locked = true, .error_x = kStop}},
     {Midst::stream, "RSM_STOP_SUDDENLY X", {.locked = true, .error_x = kStop}},
     {Midst::stream, "RSM_VSTOP_SLOWLY", {.path_locked = true, .error_x = kStop, .error_y = kStop}},

@@ -1,5 +1,5 @@
-// The whole matrix of 7.5: what an axis does, against what may happen to it. One line an event, one column a
-// state; every cell is walked.
+// The whole matrix of 7.5: each activity of an axis with each event. One line for each event, one column for
+// each state; every cell is tested.
 #include <gtest/gtest.h>
 
 #include <array>

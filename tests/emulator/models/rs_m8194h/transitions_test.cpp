@@ -1,4 +1,4 @@
-// Every event against everything that an axis can be doing (7.5): the cells of the matrix, one by one.
+// Every event in every activity of an axis (7.5): the cells of the matrix, one by one.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
@@ -32,7 +32,7 @@ const Situation kSituations[] = {
     {Does::is_in_emergency, "emergency", {"RSM_EMERGENCY_STOP 0"}},
 };
 
-/// What X is 1 tick and 3 s after the event.
+/// The state of X 1 tick and 3 s after the event.
 struct Outcome {
   bool moves_after = false;  // in the next tick
   bool moves_at_last = false;
@@ -236,7 +236,7 @@ TEST(RsM8194hMeetings, AStreamIsHeldWithAllItsSegments) {
     EXPECT_TRUE(twin.device().same_state(rsm.device()));
     if (!in_two) twin.send("RSM_LINE_2D_CONTINUE 1 0 100");
     twin.send("RSM_DRV_START XY");
-    // It goes on behind those that were held.
+    // It continues after those that were held.
     if (in_two) twin.send("RSM_LINE_2D_CONTINUE 1 0 100");
     for (int i = 0; i < 700 && twin.get("DRIVING_AXIS") != 0; ++i) {
       twin.run(1);
@@ -250,7 +250,7 @@ TEST(RsM8194hMeetings, AHeldStreamIsReplacedOrEndsAsAWhole) {
   OneRsm rsm;
   rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_SET_SV XY 2000", "RSM_SET_V XY 2000", "RSM_DRV_HOLD XY",
             "RSM_LINE_2D_INITIAL X Y 2000 2000 20000"});
-  // The stream that is whole is replaced by the next one, that by a drive of one of its axes.
+  // The complete stream is replaced by the next one, and that by a drive of one of its axes.
   rsm.send({"RSM_LINE_2D_CONTINUE 0 100 0", "RSM_LINE_2D_CONTINUE 1 100 0", "RSM_LINE_2D_CONTINUE 0 0 50",
             "RSM_LINE_2D_CONTINUE 1 0 50", "RSM_DRV_START XY"});
   rsm.run_to_rest();
@@ -259,7 +259,7 @@ TEST(RsM8194hMeetings, AHeldStreamIsReplacedOrEndsAsAWhole) {
             "RSM_FIXED_MOVE X 7", "RSM_DRV_START XY"});
   rsm.run_to_rest();
   EXPECT_EQ(rsm.positions(), (std::vector<Value>{7, 100, 0, 0}));
-  // A stop ends what is left of it.
+  // A stop ends the rest of it.
   rsm.send({"RSM_DRV_HOLD XY", "RSM_LINE_2D_CONTINUE 0 100 0", "RSM_LINE_2D_CONTINUE 0 100 0",
             "RSM_LINE_2D_CONTINUE 0 100 0", "RSM_LINE_2D_CONTINUE 1 100 0", "RSM_DRV_START XY"});
   rsm.run(30);

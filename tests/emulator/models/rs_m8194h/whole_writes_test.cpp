@@ -1,4 +1,4 @@
-// Writes to the tables that are one message by choice: two words for a group of FRnet outputs, and coils that
+// Writes to the tables that by choice are one message: two words for a group of FRnet outputs, and coils that
 // switch servos.
 #include <gtest/gtest.h>
 
@@ -24,13 +24,13 @@ TEST(RsM8194hWholeWrites, TwoWordsAreANumberForTheirFirstGroup) {
   rsm.set("VAR511", -2);
   EXPECT_EQ(rsm.ask("10 00 00 00 02 04 00 00 FF FF"), "10 00 00 00 02");
   EXPECT_EQ(rsm.ask("10 00 01 00 02 04 7F FF 01 FF"), "10 00 01 00 02");  // VAR511
-  // The last group has no other behind it: that is CALL_MP, which is not meant.
+  // No other group follows the last one: CALL_MP follows, which is not meant.
   EXPECT_EQ(rsm.ask("10 00 07 00 02 04 00 00 00 05"), "10 00 07 00 02");
   EXPECT_EQ(groups(rsm), "03 10 FF FF FF FE 00 00 00 00 00 00 00 00 00 00 00 05");
   rsm.run(20);
   EXPECT_EQ(rsm.get("CALL_MP"), 0);
   EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 30);
-  // Other counts are what they always are.
+  // Other counts are as usual.
   EXPECT_EQ(rsm.ask("06 00 03 00 04"), "06 00 03 00 04");
   EXPECT_EQ(rsm.ask("10 00 04 00 03 06 00 06 00 07 00 08"), "10 00 04 00 03");
   EXPECT_EQ(groups(rsm), "03 10 FF FF FF FE 00 00 00 04 00 06 00 07 00 08 00 05");
@@ -80,7 +80,7 @@ TEST(RsM8194hWholeWrites, CoilsSwitchServosAndTheOutputsBeforeThem) {
   EXPECT_EQ(rsm.get("holding.FRnet DO group 7"), 0x8000);
   EXPECT_EQ(rsm.ask("05 00 83 FF 00"), "05 00 83 FF 00");
   EXPECT_EQ(rsm.ask("05 00 83 00 00"), "05 00 83 00 00");
-  // Beyond U there is nothing, and nothing is done by half.
+  // There is nothing after U, and nothing is done in part.
   EXPECT_EQ(rsm.ask("0F 00 83 00 02 01 03"), "8F 02");
   EXPECT_EQ(rsm.ask("01 00 80 00 04"), "01 01 03");
 }

@@ -1,4 +1,4 @@
-// AutoStart_MainProg: the program begins at line 0 after each power-up, in the first slot there is (slots are
+// AutoStart_MainProg: the program begins at line 0 after each power-up, in the first possible slot (slots are
 // at even ticks; manual: 系統參數相關).
 #include "tests/emulator/models/simple2_r3/switched_simple2.h"
 

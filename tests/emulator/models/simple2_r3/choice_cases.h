@@ -1,4 +1,4 @@
-// For tests of choices: what each option of a row is expected to do, none left out.
+// Cases for tests of choices: what each option of a row must do.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace understudy::emulator::models::simple2_r3 {
 template <typename Expected>
 using OptionCases = std::vector<std::pair<std::string, Expected>>;
 
-/// The cases as they are given; fails if they are not the row's options, ours first.
+/// Returns the given cases. Fails if they are not the row's options, the default first.
 template <typename Expected = Value>
 OptionCases<Expected> each_option(std::string_view id, const OptionCases<Expected>& cases) {
   std::vector<std::string_view> named;
@@ -31,7 +31,7 @@ inline Given with(const std::string& choice, const std::string& option) {
   return {.choices = {{choice, option}}};
 }
 
-/// The device's reply to a frame on its line, at once; no bytes if it is silent.
+/// Returns the device's immediate reply to a frame on its line; no bytes if there is none.
 inline std::vector<std::uint8_t> ask(OneSimple2& feeder, const std::vector<std::uint8_t>& frame) {
   const pty::Line& line = feeder.world().line(0).line;
   feeder.world().receive(0, frame);
@@ -52,7 +52,7 @@ inline void write_program(OneSimple2& feeder, const std::vector<ProgramLine>& li
   }
 }
 
-/// Writes it and starts it at tick 10, so that its lines run at 12, 14 and so on.
+/// Writes the program and starts it at tick 10, so its lines run at 12, 14 and so on.
 inline void start_with_program(OneSimple2& feeder, const std::vector<ProgramLine>& lines) {
   write_program(feeder, lines);
   feeder.run_to(10);

@@ -1,4 +1,4 @@
-// Choices about registers as they read, inputs and outputs.
+// Choices about register reads, inputs and outputs.
 #include "emulator/device/axes.h"
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 

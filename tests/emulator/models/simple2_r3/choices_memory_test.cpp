@@ -1,4 +1,4 @@
-// Choices about what is kept: EEPROM, power cuts, factory reset, the password.
+// Choices about persistent values: EEPROM, power cuts, factory reset, the password.
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {

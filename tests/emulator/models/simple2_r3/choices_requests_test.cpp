@@ -1,4 +1,4 @@
-// Choices about what a request may do, and what it gets for an answer.
+// Choices about what a request may do, and about its reply.
 #include "emulator/device/axes.h"
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 

@@ -1,6 +1,6 @@
-// Whatever is chosen, a device is a value: quiet ticks may be crossed, and a world that is saved and restored
-// elsewhere goes on as it did. Each option leads the same busy life three times over. Random, seeded;
-// UNDERSTUDY_SEED overrides.
+// With every choice, a device is a value: quiet ticks can be skipped, and a world that is saved and restored
+// elsewhere continues in the same way. Each option runs the same random acts three times (seeded;
+// UNDERSTUDY_SEED overrides).
 #include <gtest/gtest.h>
 
 #include <cstdlib>

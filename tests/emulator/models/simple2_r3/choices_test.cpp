@@ -1,5 +1,5 @@
-// Choices reach the interpreter. Each one alone is told apart by docs/fidelity/proofs/simple2-r3/; where it
-// meets what else the device does, by choices_*_test.cpp.
+// Choices reach the interpreter. docs/fidelity/proofs/simple2-r3/ shows each one alone; choices_*_test.cpp
+// test how they interact with the rest of the device.
 #include "emulator/models/simple2_r3/choices.h"
 
 #include <set>

@@ -1,4 +1,4 @@
-// What PWM and the pulses' form are to whoever looks: conditions, traces, messages.
+// PWM and the pulse format for observers: conditions, traces, messages.
 #include <algorithm>
 
 #include "emulator/device/axes.h"

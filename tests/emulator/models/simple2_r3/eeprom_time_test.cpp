@@ -1,5 +1,5 @@
-// EEPROM_Writing over time, to the millisecond: 5 ms a word, one quantity after the other, an erasure 500 ms
-// (choices eeprom_time, eeprom_erasure). What is written after tick n begins with tick n + 1.
+// EEPROM_Writing over time, to the millisecond: 5 ms a word, one value after the other, an erasure 500 ms
+// (choices eeprom_time, eeprom_erasure). A write after tick n begins with tick n + 1.
 #include "emulator/device/memory/kept_memory.h"
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 

@@ -1,5 +1,5 @@
-// Homing among the other commands: what replaces it, what it replaces, what it leaves behind, speed 0, and
-// homing by a program. Courses as in homing_from_everywhere_test.cpp.
+// Homing and the other commands: what replaces it, what it replaces, what it leaves, speed 0, and homing by a
+// program. Courses as in homing_from_everywhere_test.cpp.
 #include "tests/emulator/models/simple2_r3/homing_machine.h"
 
 namespace understudy::emulator::models::simple2_r3 {

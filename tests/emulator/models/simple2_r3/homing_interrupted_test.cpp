@@ -1,4 +1,4 @@
-// Homing that is stopped, dropped or begun anew, in each of its phases.
+// Homing that is stopped, dropped or restarted, in each of its phases.
 //
 // From between the switch and the limit ahead homing has all its phases; its times are worked out in
 // homing_from_everywhere_test.cpp.

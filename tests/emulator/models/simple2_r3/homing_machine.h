@@ -15,13 +15,13 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// The factory of these tests: one pulse a millisecond, reached in 10 ms.
+/// The settings of these tests: one pulse a millisecond, reached in 10 ms.
 struct HomingPace {
   double pulses_a_ms = 1;
   double ramp_ms = 10;
 };
 
-/// One leg, from `at` ms on; `gone` pulses after its `from`.
+/// One leg, from `at` ms on, which is `gone` pulses after its `from`.
 struct HomingLeg {
   enum class Does : std::uint8_t { run, slow, back, stand };
 
@@ -59,11 +59,11 @@ struct HomingLeg {
   }
 };
 
-/// From standstill on `from`, along the direction of homing (+1) or against it.
+/// Starts from standstill at `from`, along the direction of homing (+1) or against it.
 inline HomingLeg run_leg(Tick at, int direction, std::int64_t from) {
   return {.at = at, .direction = direction, .from = from};
 }
-/// The same run slows down, `gone` pulses after `from`.
+/// The same run slows down `gone` pulses after `from`.
 inline HomingLeg slow_leg(Tick at, int direction, std::int64_t from, double gone, double pulses_a_ms = 1) {
   return {.at = at,
           .does = HomingLeg::Does::slow,
@@ -72,7 +72,7 @@ inline HomingLeg slow_leg(Tick at, int direction, std::int64_t from, double gone
           .gone_pulses = gone,
           .pulses_a_ms = pulses_a_ms};
 }
-/// Against the direction, back to the edge.
+/// Runs against the direction, back to the edge.
 inline HomingLeg back_leg(Tick at, std::int64_t from, std::int64_t distance) {
   return {.at = at, .does = HomingLeg::Does::back, .direction = -1, .from = from, .distance = distance};
 }
@@ -117,7 +117,7 @@ struct HomingAxis {
   int behind_input() const { return input_of(direction > 0 ? 3 : 2); }
 };
 
-/// Stands still with its servos on, at tick 20.
+/// A device at rest with its servos on, at tick 20.
 class HomingSimple2 : public ReadySimple2 {
  public:
   explicit HomingSimple2(const std::vector<HomingAxis>& axes, Given given = {})
@@ -159,7 +159,8 @@ class HomingSimple2 : public ReadySimple2 {
   void step_by(Tick ticks) {
     for (Tick i = 0; i < ticks; ++i) step();
   }
-  /// Milliseconds from a command, just given, to the end of what it started; -1 if there is none by then.
+  /// Returns the milliseconds from the command that was just given to the end of its motion; -1 if it does
+  /// not end in time.
   Tick milliseconds_to_end(std::size_t i = 0, Tick at_most = 5000) {
     const Tick begin = now() + 1;
     while (is_moving(i)) {
@@ -189,8 +190,8 @@ class HomingSimple2 : public ReadySimple2 {
     return given;
   }
 
-  // A reversed motor runs towards the plant's lower switch when it is told to go up; whoever wires the
-  // machine swaps the two, and so do we.
+  // A reversed motor runs towards the plant's lower switch when it is told to go up. A machine's builder
+  // would swap the two switches, and so does this test.
   void wire_reversed_limits() {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       const HomingAxis& a = axes_[i];
@@ -206,8 +207,9 @@ class HomingSimple2 : public ReadySimple2 {
 /// The bits of STATUS that belong to an axis.
 inline Value status_of(Value status, int number) { return status & (number == 0 ? 0x5555 : 0xAAAA); }
 
-/// Holds the machine against courses, one an axis, from a command just given to 30 ms after the last end:
-/// in every millisecond the place, the coordinate, the trigger and all bits of STATUS.
+/// Compares the machine with courses, one for each axis, from the command that was just given to 30 ms after
+/// the last end. It checks the position, the coordinate, the trigger and all bits of STATUS in every
+/// millisecond.
 inline void expect_courses(HomingSimple2& machine, const std::vector<HomingCourse>& courses) {
   Tick last = 0;
   for (const HomingCourse& course : courses) last = std::max(last, course.end);
@@ -231,7 +233,7 @@ inline void expect_courses(HomingSimple2& machine, const std::vector<HomingCours
           << a.axis << " at " << ms << " ms";
       ASSERT_EQ(machine.get(machine.name(a.axis, "GoHome")), !over) << a.axis << " at " << ms << " ms";
 
-      // A switch is looked at when a tick begins.
+      // A switch is sampled when a tick begins.
       const std::int64_t seen = course.place_at(std::max<Tick>(ms - 1, 0));
       Value bits = over ? 0 : 1 << 4 | 1 << 6;
       if (over && course.found) bits |= 1 << 8;
@@ -244,7 +246,7 @@ inline void expect_courses(HomingSimple2& machine, const std::vector<HomingCours
   }
 }
 
-/// Every way to build the same machine: both axes, both directions, either sense of the motor.
+/// All variants of the same machine: both axes, both directions, either sense of the motor.
 inline std::vector<HomingAxis> every_build_of(HomingAxis machine) {
   std::vector<HomingAxis> builds;
   for (const char axis : {'A', 'B'}) {

@@ -1,5 +1,5 @@
-// Homing where the switches stand badly: home at a limit, narrow, or nowhere; and where it gives up.
-// Courses as in homing_from_everywhere_test.cpp.
+// Homing with unusual switches: home at a limit, narrow, or missing; and when homing gives up. Courses as in
+// homing_from_everywhere_test.cpp.
 #include "tests/emulator/models/simple2_r3/homing_machine.h"
 
 namespace understudy::emulator::models::simple2_r3 {

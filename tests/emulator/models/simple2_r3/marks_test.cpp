@@ -1,5 +1,5 @@
-// What a command has marked on its axis, in every cell of transitions.h: the event clears what marks.h says
-// for its outcome, and a STOP behind it leaves an axis that moves as one that has only stood there.
+// The marks of a command on its axis, in every cell of transitions.h: the event clears what marks.h says for
+// its outcome, and after a STOP an axis that moves equals one that has never moved.
 #include "emulator/models/simple2_r3/marks.h"
 
 #include <gtest/gtest.h>

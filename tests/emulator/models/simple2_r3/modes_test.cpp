@@ -1,4 +1,4 @@
-// Velocity, PWM and encoder-synchronous mode, homing, and how one mode gives way to another.
+// Velocity, PWM and encoder-synchronous mode, homing, and how one mode replaces another.
 #include "emulator/device/axes.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "tests/emulator/models/simple2_r3/one_simple2.h"

@@ -49,7 +49,7 @@ class OneSimple2 {
   void set(std::string_view name, Value value) {
     EXPECT_EQ(try_set(name, value), Refusal::none) << name << " = " << value;
   }
-  /// One request that writes several words.
+  /// Sends one request that writes several words.
   void write(std::uint16_t first, const std::vector<std::uint16_t>& words) {
     EXPECT_EQ(write_words(*world_.device(0).register_bank(), Table::holding, first, words), Refusal::none)
         << first;
@@ -77,11 +77,11 @@ class OneSimple2 {
     return std::string(1, axis) + "axis_" + std::string(what);
   }
 
-  // --- time and the outside ----------------------------------------------------------------------
+  // --- time and inputs ---------------------------------------------------------------------------
   Tick now() const { return tick_at(world_.now()); }
   void run_to(Tick tick) { world_.advance_to(time_of(tick)); }
   void run(Tick ticks) { run_to(now() + ticks); }
-  /// Ticks until the moving bit is 0.
+  /// Returns the ticks until the moving bit is 0.
   Tick run_while_moving(char axis, Tick at_most = 200'000) {
     const Tick begin = now();
     while (moving(axis) && now() - begin < at_most) run(1);
@@ -109,7 +109,7 @@ class OneSimple2 {
   world::World world_;
 };
 
-/// With both servos on.
+/// Returns one with both servos on.
 struct ReadySimple2 : OneSimple2 {
   explicit ReadySimple2(const Given& given = {}) : OneSimple2(given) {
     set("ALL_SVON", 1);

@@ -1,4 +1,4 @@
-// Outputs, and what may take them over (manual: 輸入輸出功能指配相關, 輸入輸出相關).
+// Outputs, and the functions that may take them over (manual: 輸入輸出功能指配相關, 輸入輸出相關).
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {

@@ -1,4 +1,4 @@
-// What a power cut leaves in the EEPROM: what was done, whole, and of the rest what was there before (choice
+// What a power cut leaves in the EEPROM: completed writes, and the previous values of all others (choice
 // power_cut).
 #include "tests/emulator/models/simple2_r3/switched_simple2.h"
 #include "tests/emulator/world/stations/pdus.h"

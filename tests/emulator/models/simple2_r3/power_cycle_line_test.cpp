@@ -1,5 +1,5 @@
-// Power cycles as the line sees them: what is half said or half heard, requests right after power-up, the
-// other station on the line, the speed that the DIP switches set.
+// Power cycles as the line sees them: half-sent and half-received messages, requests right after power-up,
+// the other station on the line, the speed that the DIP switches set.
 //
 // At 19200 baud a character of 11 bits takes 572 917 ns; a device replies 750 us after a request's last one.
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Power cycles in the middle of everything: what outlives the power and what does not, for every register,
-// and a device that comes back as if it had never done anything else than keep its memory.
+// Power cycles at any moment: what survives them and what does not, for every register, and a device that
+// restarts as if it had only kept its memory.
 #include <functional>
 
 #include "emulator/device/memory/kept_memory.h"

@@ -1,6 +1,6 @@
-// Power cycles at random times (seeded; UNDERSTUDY_SEED overrides): ticks crossed in bulk are single ticks,
-// and what was kept is never lost. Two controllers with machines, wires, programs that start by themselves
-// and count in memory, EEPROM writes and erasures under way.
+// Power cycles at random times (seeded; UNDERSTUDY_SEED overrides): fast-forwarded ticks equal single ticks,
+// and stored values are never lost. Two controllers with machines, wires, programs that start automatically
+// and count in memory, EEPROM writes and erasures in progress.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

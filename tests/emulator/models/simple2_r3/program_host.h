@@ -12,19 +12,19 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// Every version that the manual tells a difference of, and those between.
+/// Every firmware that differs according to the manual, and those in between.
 inline constexpr Firmware kVersions[] = {139, 140, 141, 142, 150, 151, 152};
 
-/// Of a course: not at all.
+/// For a course: never.
 inline constexpr Tick kNone = -1;
 
-/// When a program's outputs come on and when it ends, in ticks.
+/// The ticks in which a program's outputs come on, and in which it ends.
 struct ProgramCourse {
   std::array<Tick, 3> outputs{kNone, kNone, kNone};
   Tick end = kNone;
 };
 
-/// Reached by its Modbus server alone.
+/// A device that is reached only through its Modbus server.
 struct ProgramHost {
   explicit ProgramHost(Firmware firmware, std::map<std::string, std::string> choices = {})
       : machine({.firmware = firmware, .choices = std::move(choices)}) {}
@@ -53,14 +53,14 @@ struct ProgramHost {
     return words.size() < 2 ? 0 : static_cast<std::int32_t>(words[0] | std::uint32_t{words[1]} << 16);
   }
 
-  /// Both axes at one pulse a millisecond: 3000 pulses a revolution, 20 RPM, ramps of 10 ms.
+  /// Sets both axes to one pulse a millisecond: 3000 pulses a revolution, 20 RPM, ramps of 10 ms.
   void set_pace() {
     write_32(0xF002, 3000);
     write_32(0xF004, 3000);
     write(0x1002, world::Words{20, 1, 1});
     write(0x1008, world::Words{20, 1, 1});
   }
-  /// With the servos on, from tick 10.
+  /// Switches the servos on at tick 10.
   void start(const world::Words& program) {
     set_pace();
     write(0x1013, 1);
@@ -68,7 +68,7 @@ struct ProgramHost {
     machine.run_to(10);
     write(0x3000, 0);
   }
-  /// A program just started, against its course, tick by tick.
+  /// Compares a program that was just started with its course, tick by tick.
   void expect(const ProgramCourse& course, Tick until) {
     for (Tick tick = 10; tick <= until; ++tick) {
       machine.run_to(tick);
@@ -90,7 +90,7 @@ inline world::Words program_lines(const std::vector<std::array<std::uint16_t, 4>
   return words;
 }
 
-/// CMD of the lines used here.
+/// The CMD values of the lines used here.
 namespace opcode {
 inline constexpr std::uint16_t kDelay = 0x02, kJump = 0x03, kOut = 0x05, kEnd = 0xFF;
 inline constexpr std::uint16_t kJumpTimer1 = 0x1A, kJumpTimer2 = 0x1B, kTimerStart = 0x55, kCountUp = 0x51;

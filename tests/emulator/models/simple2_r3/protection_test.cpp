@@ -1,4 +1,4 @@
-// What limit switches and alarms do to motion (choices limit_reaction, alarm_reaction, aclr_output).
+// The effect of limit switches and alarms on motion (choices limit_reaction, alarm_reaction, aclr_output).
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {

@@ -1,4 +1,4 @@
-// A rig that brings axis A into each phase of each mode, and makes each event of transitions.h.
+// Brings axis A into each phase of each mode, and triggers each event of transitions.h.
 #pragma once
 
 #include <numeric>
@@ -26,7 +26,7 @@ inline std::int64_t sum(const Pulses& pulses) {
   return std::accumulate(pulses.begin(), pulses.end(), std::int64_t{0});
 }
 
-/// Axis A at one pulse a millisecond whatever it does, and an encoder that turns as it is told.
+/// Axis A, always at one pulse a millisecond, with an encoder that the test turns.
 class Rig : public OneSimple2 {
  public:
   explicit Rig(const Given& given) : OneSimple2(given) {
@@ -43,7 +43,7 @@ class Rig : public OneSimple2 {
 
   const AxisState& axis() { return static_cast<const Simple2R3&>(device()).state().axes[0]; }
 
-  /// What comes out in each tick.
+  /// The pulses of each tick.
   Pulses watch(Tick ticks) {
     Pulses pulses;
     for (Tick i = 0; i < ticks; ++i) {
@@ -166,8 +166,8 @@ inline void cause(Rig& rig, Phase phase, Event event) {
 
 using Choices = std::map<std::string, std::string>;
 
-/// Calls `visit` for each cell of a mode, by the first options and by each that makes something else of it.
-/// Returns the number of cells.
+/// Calls `visit` for each cell of a mode, with the default options and with each option that changes the
+/// cell. Returns the number of cells.
 template <class Visit>
 int for_each_cell(Activity activity, Visit visit) {
   int cells = 0;
@@ -181,7 +181,7 @@ int for_each_cell(Activity activity, Visit visit) {
                    ", event " + std::to_string(e));
       const Transition& row = *reaction_row(activity, phase, event);
       Choices choices;
-      // Only so there is a servo that is off in these modes.
+      // Gives these modes a servo that is off.
       if (phase == Phase::servo_off && activity != Activity::position) choices["mode_after_stop"] = "stays";
       visit(phase, event, choices, row.outcome);
       for (const OtherOutcome& other : {row.other, row.another}) {
@@ -199,7 +199,7 @@ int for_each_cell(Activity activity, Visit visit) {
   return cells;
 }
 
-/// What forbids motion is gone.
+/// Clears everything that inhibits motion.
 inline void free(Rig& rig) {
   for (const int input : {kAlarmInput, kUpperInput, kLowerInput}) rig.input(input, false);
 }

@@ -1,4 +1,4 @@
-// The Simple2-R3's tables against its manual: every address, name, range, parameter number.
+// The Simple2-R3's tables compared with its manual: every address, name, range, parameter number.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,4 +1,4 @@
-// Every register of the Simple2-R3 as a host meets it (specification 1.4 and 2).
+// Every register of the Simple2-R3 as a host sees it (specification 1.4 and 2).
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,5 +1,5 @@
-// A Simple2-R3's whole state as bytes: saved, restored, hashed, refused. What it does afterwards is looked at
-// by tests/emulator/world/snapshot_test.cpp.
+// A Simple2-R3's whole state as bytes: saved, restored, hashed, refused.
+// tests/emulator/world/snapshot_test.cpp tests how it continues.
 #include <gtest/gtest.h>
 
 #include "base/state/state_error.h"

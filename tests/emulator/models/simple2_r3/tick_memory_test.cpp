@@ -1,5 +1,5 @@
-// What a tick of a Simple2-R3 looks at lies on few cache lines, and what it spares itself is looked at when
-// it has changed.
+// The data that a tick of a Simple2-R3 reads lies on few cache lines, and data that it skips is read when it
+// has changed.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,5 +1,5 @@
-// Every cell of transitions.h against the running device: an axis is brought into the phase, the event comes,
-// and what leaves it is what the cell says; with each choice that makes something else of the cell, too.
+// Every cell of transitions.h on the running device: an axis is brought into the phase, the event occurs, and
+// the result is what the cell says; also with each choice that changes the cell.
 #include "emulator/models/simple2_r3/transitions.h"
 
 #include <algorithm>

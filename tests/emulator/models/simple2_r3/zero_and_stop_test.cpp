@@ -1,5 +1,5 @@
-// Commands of 0, STOP while an axis slows down already, and what else of motion a host can see between the
-// lines of the manual.
+// Commands of 0, STOP while an axis already slows down, and other motion that a host can see but the manual
+// does not describe.
 #include <cmath>
 
 #include "emulator/device/axes.h"

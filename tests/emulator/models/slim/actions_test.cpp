@@ -1,5 +1,4 @@
-// Every verb of SLIM's command list has an action or an answer of its own, and where it may be given it does
-// something.
+// Every verb of SLIM's command list has its own action or answer, and has an effect where it is allowed.
 #include "emulator/models/slim/actions.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// SLIM's dialogue as a bench chooses it, and with hosts of all manners.
+// SLIM's dialogue with each option, and with hosts of different habits.
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {

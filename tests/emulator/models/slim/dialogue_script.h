@@ -58,7 +58,7 @@ class DialogueScript {
     listen();
   }
 
-  /// The next line that was said; "(nothing)" if there is none.
+  /// Returns the next line that was received; "(nothing)" if there is none.
   std::string next() {
     if (said_.empty()) return "(nothing)";
     const std::string line = said_.front();
@@ -124,7 +124,7 @@ class DialogueScript {
 
 using Choices = std::map<std::string, std::string>;
 
-/// The same script, as it goes with one option and, where that is not tested elsewhere, with ours.
+/// The same script as it runs with one option and, if that is not tested elsewhere, with the default.
 inline void play(const Choices& choices, const std::string& script) {
   SCOPED_TRACE(choices.empty() ? "ours" : choices.begin()->first + ": " + choices.begin()->second);
   DialogueScript(1, choices).play(script);

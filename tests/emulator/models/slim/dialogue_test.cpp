@@ -1,4 +1,4 @@
-// What SLIM says to what is typed: queries, parameters, memory, errors, editing, options.
+// SLIM's replies to typed lines: queries, parameters, memory, errors, editing, options.
 #include "emulator/device/named_values.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 

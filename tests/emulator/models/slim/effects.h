@@ -47,7 +47,7 @@ inline std::string meaning_of(const std::string& name, const std::string& line) 
     for (int i = 0; i < 31; ++i) steps += "CHG P4; ";
     return steps;
   }
-  // Who refuses a motion: a motor without control, a pause.
+  // Conditions that refuse a motion: a motor without control, a pause.
   const std::string halted = line + " -> ERR 9; {new}; TAPZ; " + line + " -> ERR 6; ";
   if (name == "moves") return "{new}; " + off + halted;
   if (name == "moves_axis") {  // by its letter: also where no module has it
@@ -90,7 +90,7 @@ inline std::string typed_by(const std::string& step) {
   return step.substr(0, step.find(" -> "));
 }
 
-/// In the manner of dialogue_script.h.
+/// Like dialogue_script.h.
 inline std::string script_of(const std::string& step) {
   if (step[0] == '@') return "@ " + step.substr(1);
   if (step[0] == '<' || step == "off" || step == "on" || step.find(" = ") != std::string::npos) return step;
@@ -114,7 +114,7 @@ inline void check_output(DialogueScript& script, const std::string& step) {
   ADD_FAILURE() << "no output " << name;
 }
 
-/// Plays all steps, from new devices on.
+/// Runs all steps, on new devices.
 inline void play_effect(const Effect& effect) {
   SCOPED_TRACE(std::string(effect.syntax));
   auto script = std::make_unique<DialogueScript>(effect.modules);

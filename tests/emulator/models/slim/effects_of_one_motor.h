@@ -40,7 +40,7 @@ inline constexpr Effect kOneMotorEffects[] = {
     {"TpJGR",
      "T2JGR; @100; T2JG0; @50; ?T2PE -> -1650; {moves T2JGR}; {new}; T5JGR -> ERR 5; TX=2; "
      "T2JGR -> ERR 4"},
-    // Also for a module that has become an axis.
+    // Also for a module that is assigned to an axis.
     {"TpJG0", "T1JGF; @100; TX=1; T1JG0; @50; ?T1PE -> 1650; ?T1ST -> 1; T5JG0 -> ERR 5"},
     {"FT n",
      "FT 500; @5; ?MD -> 3; JG0; @5; ?MD -> 0; FT 0 -> ERR 2; FT 20001 -> ERR 2; {moves FT 20000}; "
@@ -57,7 +57,7 @@ inline constexpr Effect kOneMotorEffects[] = {
     // --- motor control
     {"HON", "HOFF; @2; ?ST -> 0; HON; @2; ?ST -> 1; MA 5; @20; ?PE -> 5; {queued HON}"},
     {"TpHON", "T1HOFF; @2; ?T1ST -> 0; ?ST -> 1; T1HON; @2; ?T1ST -> 1; T5HON -> ERR 5; TX=1; T1HON"},
-    // In its turn: the move in front of it is finished, the one behind is refused.
+    // In its turn: the earlier move is completed, the later one is refused.
     {"HOFF", "MR 10000; HOFF; MR 5 -> ERR 9; @200; ?PE -> 10000; ?ST -> 32; {queued HOFF}"},
     {"TpHOFF",
      "T2JGF; @20; T2IN1 = 1; T2HOFF; T2JG0; @50; ?T2ST -> 0; T2MA 5 -> ERR 9; ?ST -> 1; "
@@ -95,7 +95,7 @@ inline constexpr Effect kOneMotorEffects[] = {
      "P1SET P2,9000; P2SET P3,5000; MA 10000; @70; P3 is 0; @15; P3 is 1; P2 is 0; @70; P2 is 1; "
      "{queued P2SET P3,5}"},
     {"P1CLR Pn,x", "SET P3; P1CLR P3,5000; MA 10000; @70; P3 is 1; @15; P3 is 0; {queued P1CLR P3,5}"},
-    // Once only: on the way back it stays.
+    // Only once: on the way back it does not switch.
     {"P2CLR Pn,x",
      "OUTP 15; P2CLR P4,5000; MA 10000; @70; P4 is 1; @15; P4 is 0; @90; SET P4; MA 0; @200; "
      "P4 is 1; {queued P2CLR P3,5}"},
@@ -183,7 +183,7 @@ inline constexpr Effect kOneMotorEffects[] = {
     {"PD n", "PG; MA 5; MA 6; .; PD 0; PL -> 0: MA 6; PD 1 -> ERR 2; {new}; {runs}; PD 0 -> ERR 3"},
     {"ULP", "PG; MA 5; MA 6; .; ULP -> MA 5|MA 6|END; {new}; {runs}; ULP -> ERR 3"},
     {"DLP", "PG; MA 5; .; DLP; MA 6; .; WT 1; END; PL -> 0: MA 6|1: WT 1; {new}; {runs}; DLP -> ERR 3"},
-    // What is queued is completed.
+    // Queued commands are completed.
     {"EXIT", "PG; MR 10000; WI 8; .; G; @20; EXIT; ?ST -> 259; @200; ?PE -> 10000; ?ST -> 1; EXIT"},
     {"ULC",
      "VM=500; ULC -> PN10=500|PN14=100|FU=0|VA=10000|LL=0|EL=0|PN37=34952|PN44=1|PN45=1|PN46=1|PN50=1|"

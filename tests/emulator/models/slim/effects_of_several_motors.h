@@ -123,8 +123,8 @@ inline constexpr Effect kSeveralMotorsEffects[] = {
     {"WDN",
      "TW=0; PG; T1MR 100000; WMR 10000; WDN; OUT \"W\"; .; G; @152; @10; < W; {stored WDN}; {new}; PG; "
      "WDN; .; G; @2; ?ERR -> 4"},
-    // At 50 from the beginning: 2 + 0.05 s. From 45 at 0.5 s on: down to 50 within 0.05 s and 3.75, down to 0
-    // within another 0.05 s and 1.25, and 50 between them at 50: 1.1 s more.
+    // If 50 applies from the beginning: 2 + 0.05 s. If from 45 at 0.5 s on: it decelerates to 50 within 0.05
+    // s and 3.75, to 0 within another 0.05 s and 1.25, and the 50 in between take 1.1 s more.
     {"TVM=f32",
      "{map}; TVM=50; ?TVM -> 50; ?T3PR3 -> 50; 2MA 100,0; @2044; ?ST -> 259; @12; ?PE -> 100; "
      "TVM=0 -> ERR 2; {new}; {map}; 2MA 100,0; @501; TVM=50; @1093; ?ST -> 259; @12; ?PE -> 100; "

@@ -1,5 +1,4 @@
-// Every form of SLIM's command list at the device: what it does and what refuses it, and where it may be
-// given.
+// Every form of SLIM's command list at the device: its effect, what refuses it, and where it is allowed.
 #include <map>
 #include <set>
 

@@ -1,4 +1,4 @@
-// The coordinated commands alone: how long they take, where they end, and where they are at every tick.
+// The coordinated commands alone: their durations, their ends, and their positions at every tick.
 #include <gtest/gtest.h>
 
 #include <functional>

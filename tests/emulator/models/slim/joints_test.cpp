@@ -1,4 +1,4 @@
-// Continuous path: CM 0, 1, 2 with PR7, and what may be joined.
+// Continuous paths: CM 0, 1, 2 with PR7, and which paths can be joined.
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -1,5 +1,5 @@
-// What an activity has marked on its module is gone when it is over, whichever way it ends: every activity by
-// every way out, and then the module is as one that has only stood there, and moves like it.
+// The marks of an activity on its module are gone when it ends, in any way: every activity with every way to
+// end; afterwards the module equals one that has never moved, and moves like it.
 #include "emulator/models/slim/motor/marks.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What SLIM keeps over power-off, and its memory as an image.
+// SLIM's persistent memory, and the memory as an image.
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
 #include "tests/emulator/models/slim/dialogue_script.h"

@@ -1,4 +1,4 @@
-// One module: its moves, their speed, and what may be moved by number.
+// One module: its moves, their speed, and which modules can be moved by number.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/slim/one_chain.h"

@@ -1,5 +1,5 @@
-// A chain of three modules at round speeds that a bench has chosen an option for, and dialogues with it. Each
-// is also played without leaving out quiet ticks, and by a device that is saved and restored at each line.
+// A chain of three modules at round speeds, with an option that the bench has chosen, and dialogues with it.
+// Each dialogue also runs without skipped ticks, and on a device that is saved and restored at each line.
 #pragma once
 
 #include <sstream>
@@ -12,8 +12,8 @@
 
 namespace understudy::emulator::models::slim {
 
-/// At FU=1, VM=1, VJ=1, VA=10 with 1000 pulses a revolution: 1000 pulses a second, reached within 0.1 s and
-/// 50 pulses. Paths are at 100 and 1000.
+/// Values: FU=1, VM=1, VJ=1, VA=10 and 1000 pulses a revolution make 1000 pulses a second, reached within 0.1
+/// s and 50 pulses. Paths use 100 and 1000.
 class MotionScript : public DialogueScript {
  public:
   MotionScript(const std::string& id, const std::string& option)
@@ -25,7 +25,7 @@ class MotionScript : public DialogueScript {
 
   bool output(int number) { return device().terminals()->output(terminal(0, kFirstOutput + number - 1)); }
 
-  /// How long it moves from now on.
+  /// Returns how long it moves from now on.
   Tick finish_ms() {
     const auto busy = [&] {
       const Chain& chain = device().state().chain;
@@ -37,7 +37,7 @@ class MotionScript : public DialogueScript {
   }
 };
 
-/// Lines up to the next one that does something.
+/// Returns the lines up to the next one that does something.
 inline std::vector<std::string> steps_of(const std::string& script) {
   std::vector<std::string> steps;
   std::istringstream lines(script);

@@ -1,4 +1,4 @@
-// How numbers are written, whose an error is, and what is refused as a line is entered.
+// How numbers are written, which module has an error, and what is refused when a line is entered.
 #include <string>
 
 #include "emulator/device/user_program.h"

@@ -1,4 +1,4 @@
-// A chain of eight modules on a bench, and the closed forms it is held against.
+// A chain of eight modules on a bench, and the closed forms that it is compared with.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// From rest to rest over `length`, at most `speed`, by `slope`.
+/// The duration of a move from rest to rest over `length`, with at most `speed` and the acceleration `slope`.
 struct Trapezoid {
   double length, speed, slope;
 
@@ -28,7 +28,7 @@ struct Trapezoid {
   }
 };
 
-/// The tick by which a duration is over, but for what a double makes of it.
+/// Returns the tick by which a duration is over, apart from rounding.
 inline Tick ticks_of(double seconds) { return static_cast<Tick>(std::ceil(seconds * 1000 - 1e-6)); }
 
 struct OneChain {
@@ -51,7 +51,7 @@ struct OneChain {
   void scale_all(std::int64_t pulses_per_unit) {
     for (int module = 0; module < kModules; ++module) chain.settings().set_scale(module, pulses_per_unit, 1);
   }
-  /// VM and VA in pulses, 10000 a revolution.
+  /// VM and VA in pulses, with 10000 a revolution.
   void speeds(int module, double pps, double pps2) {
     chain.settings().set_speed_unit(module, SpeedUnit::rps);
     chain.settings().set_working_speed(module, pps / 10'000);
@@ -77,7 +77,7 @@ struct OneChain {
     }
     return true;
   }
-  /// The tick in which everything was done.
+  /// Returns the tick in which everything was done.
   Tick finish(Tick most = 200'000) {
     for (const Tick last = tick + most; !all_done() && tick < last;) step();
     return tick;

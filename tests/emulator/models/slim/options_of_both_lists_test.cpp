@@ -1,5 +1,5 @@
-// Where the maker's two lists say different things, or one says too little: each option at work beside ours,
-// also tick by tick and in a device that is restored at each step.
+// Points on which the maker's two lists differ, or one is incomplete: each option compared with the default,
+// also tick by tick and on a device that is restored at each step.
 #include "emulator/device/memory/kept_memory.h"
 #include "tests/emulator/models/slim/motion_option_script.h"
 

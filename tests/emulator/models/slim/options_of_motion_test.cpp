@@ -1,4 +1,4 @@
-// What a bench may choose about motion: each option at work in a dialogue, beside ours.
+// Options about motion: each one in a dialogue, compared with the default.
 //
 // What is typed begins in the next millisecond, so 500 ms of a motion are over after 501.
 #include "tests/emulator/models/slim/motion_option_script.h"

@@ -1,5 +1,5 @@
-// SLIM's programs as a bench chooses them, as they are entered, listed and kept. What interpreter/slim says
-// by itself is tested there.
+// Options about entering, listing and saving SLIM's programs. The tests of interpreter/slim test the language
+// itself.
 #include <utility>
 
 #include "base/state/state_error.h"

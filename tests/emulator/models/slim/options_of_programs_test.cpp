@@ -1,5 +1,5 @@
-// SLIM's programs as a bench chooses them, over the whole device. What interpreter/slim says by itself is
-// tested there. Unless chosen otherwise the n-th line after G runs n ms after it.
+// Options about SLIM's programs on the whole device. The tests of interpreter/slim test the language itself.
+// Unless an option says otherwise, the n-th line after G runs n ms after it.
 #include <algorithm>
 #include <utility>
 

@@ -1,4 +1,5 @@
-// What TASTOP does to a program, and what is heard while one waits for a number: each option beside ours.
+// Options about what TASTOP does to a program, and which lines are accepted while one waits for a number,
+// each compared with the default.
 #include "emulator/device/named_values.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 

@@ -1,5 +1,5 @@
-// SLIM's dialogue, its modules and numbers as a bench chooses them: each option, and ours beside it. How its
-// line is held and read: options_of_the_line_test.cpp.
+// Options about SLIM's dialogue, its modules and numbers, each compared with the default. For the line itself
+// see options_of_the_line_test.cpp.
 #include <algorithm>
 
 #include "emulator/device/axes.h"

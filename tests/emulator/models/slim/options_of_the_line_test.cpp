@@ -1,4 +1,4 @@
-// SLIM's line as a bench chooses it: where lines end, how long they may be, and who holds whom.
+// Options about SLIM's line: where lines end, how long they can be, and flow control.
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/user_program.h"

@@ -1,4 +1,4 @@
-// Outputs: in their turn and at once, pulses, PWM, and by position.
+// Outputs: buffered and immediate, pulses, PWM, and by position.
 #include <gtest/gtest.h>
 
 #include "emulator/device/terminals.h"
@@ -74,7 +74,7 @@ TEST(SlimOutputs, APulseLastsFourMillisecondsAUnit) {
     }
     EXPECT_EQ(on, 4 * width);
     EXPECT_EQ(bench.chain.next_active_tick(bench.tick), kNever);
-    // On an output that is on: it is off behind the pulse, and not before.
+    // On an output that is on: it is off after the pulse, and not before.
     bench.chain.set_output(0, 2, true);
     bench.chain.pulse_output(0, 2, width);
     for (Tick i = 0; i <= 4 * width; ++i, bench.step()) EXPECT_TRUE(bench.chain.output(0, 2));
@@ -114,7 +114,7 @@ TEST(SlimOutputs, PwmShowsItsPeriodAndDutyAsFarAsTicksCan) {
     for (int i = 0; i < 1000; ++i) {
       const Tick next = bench.chain.next_active_tick(bench.tick);
       bench.step();
-      // It changes when it says so, and only then.
+      // It changes at the predicted time, and only then.
       EXPECT_EQ(bench.chain.output(0, 1) != before, bench.tick == next) << row.hz << " at " << bench.tick;
       before = bench.chain.output(0, 1);
       on += before ? 1 : 0;
@@ -177,7 +177,7 @@ TEST(SlimTriggers, FollowTheCoordinateAndWorkInCoordinatedMotion) {
   bench.line({0, 100});  // from 100 to 200: there half way
   while (!bench.chain.output(1, 1) && bench.tick < 5000) bench.step();
   EXPECT_EQ(bench.travel(1), 50);
-  // P1SET again takes the place of what was armed.
+  // Another P1SET replaces the armed one.
   bench.chain.arm(1, 1, 2, true, 160);
   bench.chain.arm(1, 1, 3, true, 170);
   bench.finish();
@@ -200,7 +200,7 @@ TEST(SlimTriggers, OfOneMillisecondActInTheirOrder) {
       bench.chain.move(0, false, forwards ? 20'000 : -20'000);
       bench.finish();
       EXPECT_EQ(bench.chain.output(0, 1), !first_sets) << forwards;
-      // Back again they are passed in the other order.
+      // On the way back they are passed in the other order.
       bench.chain.arm(0, 1, 1, first_sets, forwards ? 5010 : -5010);
       bench.chain.arm(0, 2, 1, !first_sets, forwards ? 5020 : -5020);
       bench.chain.move(0, false, forwards ? -20'000 : 20'000);

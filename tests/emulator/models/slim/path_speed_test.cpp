@@ -1,4 +1,4 @@
-// TVM, PR3 and TVA: for all modules at once, of one module, in motion.
+// TVM, PR3 and TVA: for all modules, for one module, during motion.
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -1,4 +1,4 @@
-// TAPZ and TAREDO with jogs and thrust: what a pause stops goes on after it.
+// TAPZ and TAREDO with jogs and thrust: stopped motion continues after the pause.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/slim/one_chain.h"
@@ -25,7 +25,7 @@ TEST(SlimPauseTable, AJogGoesOnAfterThePause) {
   EXPECT_EQ(bench.travel(6), 1000);
   EXPECT_FALSE(bench.chain.moving(6));
   EXPECT_TRUE(bench.chain.busy(6));
-  // What is to be done in its turn is not done in between.
+  // A buffered command does not run in between.
   EXPECT_EQ(bench.chain.set_coordinate(6, 7), Error::none);
   EXPECT_EQ(bench.chain.coordinate(6), 1000);
   bench.chain.resume();
@@ -63,7 +63,7 @@ TEST(SlimPauseTable, AMoveBehindAJogStillWaitsAfterThePause) {
 }
 
 TEST(SlimPauseTable, WhatAJogWasAboutToBeGoesOn) {
-  // Turning round, and being stopped, when the pause comes.
+  // The pause comes while it reverses, and while it is being stopped.
   OneChain turning = at_jog();
   turning.chain.jog(6, -1);
   turning.steps(50);

@@ -27,7 +27,8 @@ void line_and_arc(OneChain& bench, int mode = 1) {
   ASSERT_EQ(bench.chain.arc({.centre_x_units = 50, .centre_y_units = 50, .sweep_deg = 180}), Error::none);
 }
 
-/// How far the modules are from the nearest place of that path, in pulses, and how far along it.
+/// Returns how far the modules are from the nearest place of that path, in pulses, and how far along it they
+/// are.
 struct OnPath {
   double off_pulses = 0;
   double along = 0;
@@ -193,7 +194,7 @@ TEST(SlimPauseTable, RunAndTastopStopsNowAndForgetsEverything) {
     EXPECT_FALSE(bench.chain.moving(module));
     EXPECT_EQ(bench.chain.module_at(module).fifo.size(), 0U);
   }
-  // Motion is accepted at once, and counts from where it stands.
+  // Motion is accepted at once, and starts from the present position.
   const double x = bench.chain.coordinate(0);
   EXPECT_EQ(bench.line({10, 0}), Error::none);
   bench.finish();

@@ -17,7 +17,7 @@ const std::string kPauseNames[kPauses] = {"no pause", "PZ's pause", "TAPZ's paus
 const std::string kWhatNames[kInPause] = {"PZ",    "REDO",   "CLR BUF", "TAPZ",     "TAREDO",
                                           "TAUPZ", "TASTOP", "RESET",   "a motion", "a jog"};
 
-// What is under way: T0 and T1 on a line with another one behind it, a move of T5 with another one, T6's jog.
+// The running motion: T0 and T1 on a line with another one after it, a move of T5 with another one, T6's jog.
 constexpr int kOnPath = 0;
 constexpr int kOnMove = 5;
 constexpr int kOnJog = 6;
@@ -100,7 +100,7 @@ class PauseCell {
     return error;
   }
 
-  /// All kinds are answered alike.
+  /// All kinds have the same reply.
   Error give_motions() {
     const Error error = chain().move(kIdle, false, 100);
     EXPECT_EQ(chain().home(4), error);
@@ -112,13 +112,13 @@ class PauseCell {
     return error;
   }
 
-  /// So many of two commands each are there still, and the jog; they stand, or go as before.
+  /// This many of two commands each remain, and the jog; they are at rest, or run as before.
   void expect_kept(std::size_t commands, bool stands) {
     EXPECT_EQ(chain().module_at(kOnPath).fifo.size(), commands);
     EXPECT_EQ(chain().module_at(kOnMove).fifo.size(), commands);
     EXPECT_TRUE(chain().busy(kOnJog));
     EXPECT_EQ(speeds(), stands ? kStanding : running_);
-    // What a pause holds is shown as what it is.
+    // Held motion is shown as what it is.
     EXPECT_EQ(chain().status(kOnPath).mode, Mode::coordinated);
     EXPECT_EQ(chain().status(kOnMove).mode, Mode::position);
     EXPECT_EQ(chain().status(kOnJog).mode, Mode::jog);
@@ -166,7 +166,7 @@ class PauseCell {
   Speeds running_{};
 };
 
-/// Whether PZ's pause can be, by these options.
+/// Returns true if PZ's pause is possible with these options.
 bool can_be(Pauses pauses, const ChainOptions& options) {
   return !options.chose(option("pauses", "one_pause")) || !has_pz(pauses);
 }

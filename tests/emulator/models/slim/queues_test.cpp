@@ -95,7 +95,7 @@ TEST(SlimQueues, ClrBufInAPathStopsAtTheFirstBorderWithinReach) {
     bench.chain.clear_queues();
     EXPECT_EQ(bench.finish() - 1, row.ms) << row.after;
     EXPECT_EQ(bench.travel(0), row.end) << row.after;
-    // And what comes then is joined to nothing.
+    // A later command is not joined to anything.
     bench.line({20, 0});
     bench.finish();
     EXPECT_EQ(bench.travel(0), row.end + 2000);

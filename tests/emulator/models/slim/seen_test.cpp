@@ -1,4 +1,4 @@
-// What is shown of a chain: the modules that it has, and AIN as the number it is.
+// What observers see of a chain: its modules, and AIN as a number.
 #include <algorithm>
 #include <set>
 

@@ -56,7 +56,7 @@ TEST(SlimServo, OffEndsAJogAndWhatWaitsForItIsDroppedWithItsError) {
   bench.chain.jog(0, 0);
   bench.chain.jog(0, +1);
   const std::int64_t at = bench.travel(0);
-  // Behind the waiting move: its turn does not come.
+  // After the waiting move: its turn does not come.
   bench.chain.set_servo(0, false);
   bench.step();
   EXPECT_TRUE(bench.chain.axis(0).servo_on);

@@ -1,6 +1,5 @@
-// SLIM's state in the middle of programs: saved and restored into another device it goes on alike; spoilt
-// bytes are refused or can be lived on; quiet ticks that are left out make no difference; and what a power
-// cut leaves.
+// SLIM's state during programs: saved and restored into another device, it continues in the same way; damaged
+// bytes are refused or harmless; skipped quiet ticks make no difference; and what a power cut leaves.
 #include <memory>
 #include <vector>
 
@@ -17,7 +16,7 @@ namespace understudy::emulator::models::slim {
 
 namespace state_test {
 
-/// A script up to a moment in the middle of something, and what goes on from there.
+/// A script up to a moment in the middle of something, and its continuation.
 struct Moment {
   const char* name;
   std::string until;
@@ -26,7 +25,7 @@ struct Moment {
 
 std::string program(const std::string& lines) { return "> PG\n" + lines + ">\n> G\n"; }
 
-/// A buffer with all of its 32 places taken.
+/// A buffer with all its 32 places occupied.
 std::string full_buffer() {
   std::string lines = "> MR 300000\n";
   for (int i = 0; i < 31; ++i) lines += i % 3 == 0 ? "> CHG P4\n" : "> MR 1000\n";
@@ -74,7 +73,7 @@ std::vector<Moment> moments() {
       {"a program in front of a full buffer", "> PG\n> $L MR 3000\n> CHG P1\n> JP $L\n>\n> G\n@ 200\n"},
       {"jogging by the analog input", "AIN = 300\n@ 1\n> AVM\n> JGF\n> T1JGR\n@ 200\n",
        "AIN = 700\n@ 100\nAIN = 0\n@ 90\nAIN = 50\n@ 300\n> JG0\n"},
-      // Nothing else happens that it could be woken by.
+      // Nothing else happens that could wake it.
       {"jogging without a speed", "> AVM\n> JGF\n@ 100\n",
        "@ 50\nAIN = 400\n@ 200\nAIN = 0\n@ 200\nAIN = 90\n"},
       {"turning a jog round", "> JGF\n@ 100\n> JGR\n@ 4\n", "@ 400\n> JG0\n"},
@@ -93,7 +92,7 @@ std::vector<Moment> moments() {
 constexpr int kModulesHere = 4;
 constexpr Tick kCompared = 3000;
 
-/// All that a host and a machine can see of it.
+/// Everything that a host and a machine can see of it.
 std::string seen_of(DialogueScript& script) {
   std::string seen;
   for (std::string line = script.next(); line != "(nothing)"; line = script.next()) seen += line + "|";
@@ -121,13 +120,13 @@ std::vector<std::string> lived(DialogueScript& script, const Moment& moment) {
     }
   };
   live(20, 1);
-  // What is said in between is compared by the script itself, unless the program said it by then.
+  // The script itself compares the text in between, unless the program has sent it by then.
   script.play(moment.afterwards);
   live(kCompared - 20, 37);
   return all;
 }
 
-/// The levels from outside are of its environment, not its own.
+/// The levels from outside belong to its environment, not to its state.
 void put_inputs(DialogueScript& from, DialogueScript& to) {
   const world::World& world = from.world();
   for (int i = 0; i < static_cast<int>(model().terminals.size()); ++i) {
@@ -191,7 +190,7 @@ TEST(SlimState, TheMomentsAreWhatTheySay) {
   EXPECT_TRUE(state_at("a program in front of a full buffer").chain.full(0));
 }
 
-/// Each byte of `stride` spoilt: refused with nothing changed, or a state that can be lived on.
+/// Changes each byte of `stride`: the state is refused without changes, or it can continue.
 TEST(SlimState, SpoiltBytesAreRefusedOrCanBeLivedOn) {
   int refused = 0;
   int taken = 0;
@@ -254,7 +253,7 @@ TEST(SlimState, QuietTicksMakeNoDifference) {
   EXPECT_GT(crossed, 100'000u);
 }
 
-/// It comes back as one that has never done anything but keep its memory, for good.
+/// It returns like a device that has only kept its memory, permanently.
 TEST(SlimState, APowerCutLeavesOnlyWhatIsKept) {
   for (const Moment& moment : moments()) {
     SCOPED_TRACE(moment.name);
@@ -295,7 +294,7 @@ TEST(SlimState, APowerCutLeavesOnlyWhatIsKept) {
   }
 }
 
-/// A kept program starts again only when it is told to, from its beginning.
+/// A stored program starts only on command, from its beginning.
 TEST(SlimState, AKeptProgramIsStartedAnewAfterAPowerCut) {
   DialogueScript script(kModulesHere);
   script.play(R"(

@@ -1,5 +1,4 @@
-// Every cell of transitions.h, brought about from the host, from a program's own line and from an event's
-// routine.
+// Every cell of transitions.h, caused by the host, by a line of a program and by the routine of an event.
 #include "emulator/models/slim/rules/transitions.h"
 #include "emulator/device/terminals.h"
 
@@ -23,7 +22,7 @@ const std::string kCommands[kEvents] = {"TAPZ", "TAREDO", "TAUPZ", "TASTOP", "PZ
 
 bool is_of_program(Doing doing) { return doing >= Doing::program_runs; }
 
-/// What is typed for a motion to run for long.
+/// The lines that start a long motion.
 Lines motion_of(Doing doing) {
   switch (doing) {
     case Doing::line: return {"TX=0", "TY=1", "2MR 3000,4000"};
@@ -35,7 +34,7 @@ Lines motion_of(Doing doing) {
   }
 }
 
-/// Lines of a program that come to it, and go on with saying B.
+/// Lines of a program that reach it, and then print B.
 Lines lines_of(Doing doing) {
   const Lines loop{"OUT \"B\"", "$L CHG P1", "JP $L"};
   Lines lines;
@@ -142,7 +141,7 @@ class Cell {
     }
   }
 
-  /// Only where the motion that DN waits for is given up the program has something to say.
+  /// The program prints something only if the motion that DN waits for is abandoned.
   std::string said_by(Outcome expected) const {
     const bool is_over = row_.doing == Doing::program_waits_for_motion && row_.event == Event::give_up;
     return is_over && expected == Outcome::goes_on ? "B" : "(nothing)";
@@ -181,7 +180,7 @@ TEST(SlimMeetings, ComeOutAsTheTableSays) {
       ++cells;
     }
   }
-  // A program that waits says nothing itself.
+  // A waiting program prints nothing itself.
   EXPECT_EQ(cells, static_cast<int>(kDoings * kEvents * kSources - 3 * kEvents));
 }
 

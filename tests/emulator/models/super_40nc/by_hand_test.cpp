@@ -1,4 +1,4 @@
-// SUPER-40NC moved by hand: jog, ZERO, the hand-wheel, the panel's keys, and what stops them. Positions and
+// A SUPER-40NC moved by hand: jog, ZERO, the hand wheel, the panel's keys, and what stops them. Positions and
 // times are closed forms of the manual's ramps: 4000 pulses a revolution, 0 to 5000 rpm in 500 ms.
 #include <gtest/gtest.h>
 

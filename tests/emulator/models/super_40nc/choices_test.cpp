@@ -1,5 +1,5 @@
-// Choices of the SUPER-40NC where they meet what else it does; each one alone is told apart by
-// docs/fidelity/proofs/super-40nc/.
+// Choices of the SUPER-40NC where they interact with the rest of it; docs/fidelity/proofs/super-40nc/ shows
+// each one alone.
 #include "emulator/models/super_40nc/rows/choices.h"
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
@@ -26,7 +26,7 @@ struct Case {
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{
-      // What a program writes beyond the range is refused as well: it stays as it was.
+      // A program's write beyond the range is refused as well: the value is unchanged.
       {"range_checks",
        "AREA X\nMOV K9 D9003\nEND",
        {},
@@ -39,7 +39,7 @@ const std::vector<Case>& cases() {
        {{{{"M8103", 1}}, 100}},
        "D8123",
        {{"d8022", 65500}, {"always_medium", 65533}, {"d8022_also_while_it_runs", 65500}}},
-      // The keys that the table has jog all the same.
+      // The keys in the table still jog.
       {"jog_aliases", "", {}, {{{{"M8560", 1}}, 5}}, "M8103", {{"jog_keys", 1}, {"plain_contacts", 1}}},
       {"jog_aliases", "", {}, {{{{"M8561", 1}}, 5}}, "M8104", {{"jog_keys", 1}, {"plain_contacts", 1}}},
       {"lock_scope",

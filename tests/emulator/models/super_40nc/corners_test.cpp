@@ -1,5 +1,5 @@
-// Where things meet: what is ON at a start, numbers beyond what the chip or the box has room for, and which
-// line an error tells of.
+// Corner cases: levels that are ON at a start, numbers beyond the capacity of the chip or the controller, and
+// the line that an error names.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -155,7 +155,7 @@ TEST(Super40ncCorners, AJogOfThePlcTellsItsLine) {
   }
 }
 
-/// Only the start of a program, or of a motion by hand, clears it.
+/// Only the start of a program, or of a manual motion, clears it.
 TEST(Super40ncCorners, ALineLeavesTheErrorOfAnother) {
   OneSuper40nc one({.program = "AREA X\nDIV K1 K0 D0\nDRV K100\nEND"});
   one.set("M8100", 1);
@@ -168,7 +168,7 @@ TEST(Super40ncCorners, ALineLeavesTheErrorOfAnother) {
   EXPECT_EQ(one.get("D8094"), 0);
 }
 
-/// By what the chip's comparators do not watch: when the tick is over that has brought it about.
+/// By values that the chip's comparators do not watch: at the end of the tick in which they change.
 TEST(Super40ncCorners, ComparatorsSeeEveryNumber) {
   struct Case {
     Value source;
@@ -264,7 +264,7 @@ TEST(Super40ncCorners, AJogKeyThatIsLetGoAlwaysStops) {
       EXPECT_EQ(one.on("M8144"), is_locked ? is_back : !is_back) << key;
     }
   }
-  // The other key of the axis goes on with its own.
+  // The other key of the axis continues with its own jog.
   OneSuper40nc one;
   one.set("M8560", 1);
   one.run(100);
@@ -279,7 +279,7 @@ TEST(Super40ncCorners, AJogKeyThatIsLetGoAlwaysStops) {
   EXPECT_FALSE(one.on("M8120"));
 }
 
-/// A program that is loaded takes the place of its own area's: what others move goes on.
+/// A loaded program replaces only that of its own area: motion of other programs continues.
 TEST(Super40ncCorners, LoadingStopsWhatThatAreaMovesAlone) {
   OneSuper40nc one({.set = {{"D9003", 1}},
                     .program =

@@ -14,7 +14,7 @@
 namespace understudy::emulator::models::super_40nc {
 namespace crossing_test {
 
-/// They settle: nothing changes in a scan but what counts.
+/// They settle: only counters change in a scan.
 constexpr const char* kPlc =
     "AREA PLC\nLD M1\nOUT T0 K700\nLD T0\nOUT Y20\nLDP X20\nINC D0\nLD M2\nOUT C0 K3\nLD C0\nSET Y21\nEND\n";
 constexpr const char* kCuriousPlc =
@@ -157,7 +157,7 @@ TEST(Super40ncCrossing, ARestoredWorldIsTheOneThatWasSaved) {
   }
 }
 
-/// A settled PLC and standing axes cost next to nothing: an hour of it.
+/// A settled PLC and axes at rest cost almost nothing: an hour of it.
 TEST(Super40ncCrossing, ASettledDeviceCostsNoTicks) {
   OneSuper40nc one({.program = kPlc});
   one.set("M1", 1);

@@ -1,6 +1,6 @@
-// What the chip's comparators, its latch and the pins LTC and CLR read, set or stop is of their pulse: the
-// table kind of motion x kind of edge x what is done, at speeds from a pulse in 100 ms to 4,000 in one,
-// against closed forms.
+// The effects of the chip's comparators, its latch and the pins LTC and CLR belong to their pulse: the table
+// kind of motion x kind of edge x effect, at speeds from a pulse in 100 ms to 4,000 in one, compared with
+// closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -111,7 +111,7 @@ Given bench_of(const Cell& cell) {
   return given;
 }
 
-/// Sets a comparator, 3 to stop at once, 4 to latch, and 5 where the others cannot.
+/// Sets a comparator: 3 to stop at once, 4 to latch, and 5 for what the others cannot do.
 void compare(OneSuper40nc& one, const Cell& cell, Value source, Value number) {
   const bool stops = cell.does == Does::stops;
   const bool is_fifth = source > 3 || cell.edge == Edge::counter1_as_the_fifth;
@@ -158,7 +158,7 @@ void set_speed(OneSuper40nc& one, const Speed& by) {
   for (const char* const name : {"D9176", "D9177", "D9194", "D9195", "D9196"}) one.set(name, by.rpm);
 }
 
-/// What the wheel has turned by a tick: as evenly as whole counts can.
+/// The counts of the wheel up to a tick: as even as whole counts can be.
 void turn(OneSuper40nc& one, const Speed& by, Tick ticks) {
   one.input("MPG", static_cast<std::int32_t>(by.pps * ticks / 1000));
 }
@@ -219,7 +219,7 @@ TEST(Super40ncEdgesInATick, AreOfTheirPulseInEveryCellOfTheTable) {
   }
 }
 
-/// A latch reads all counters at its pulse; with D9x55 they begin anew there.
+/// A latch reads all counters at its pulse; with D9x55 they restart there.
 TEST(Super40ncEdgesInATick, ALatchReadsAndClearsAllCounters) {
   for (const Speed& by : kSpeeds) {
     for (const Edge edge : {Edge::dog, Edge::ltc, Edge::counter3_of_the_encoder, Edge::counter4_of_pulses}) {

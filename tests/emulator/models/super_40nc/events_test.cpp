@@ -11,7 +11,7 @@ namespace events_test {
 
 enum class Comes { on, ramp, stop };
 
-/// Of a motion of X that runs.
+/// The state of a running motion of X.
 struct Motion {
   std::string name;
   std::function<void(OneSuper40nc&)> begin;
@@ -47,7 +47,7 @@ const std::vector<Motion>& motions() {
 
 bool moves(OneSuper40nc& one) { return one.on("M8120"); }
 
-/// Under way, at a constant speed or following.
+/// Running at a constant speed, or following.
 void bring_about(OneSuper40nc& one, const Motion& motion) {
   set(one, "D8117", -900000);
   motion.begin(one);
@@ -113,7 +113,7 @@ TEST(Super40ncEvents, MeetMotionsAsTheTableSays) {
   }
 }
 
-/// Nothing goes on by itself when they fall, while a level stays ON.
+/// Nothing continues automatically when they go OFF while a level stays ON.
 TEST(Super40ncEvents, LevelsNeedANewEdgeBehindAStop) {
   for (const char* stop : {"M8002", "M8102"}) {
     for (const char* level : {"M8103", "M8110", "M1"}) {

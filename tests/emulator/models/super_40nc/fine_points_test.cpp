@@ -1,5 +1,5 @@
-// Fine points that only a careful look shows: each of the panel's parameters, levels that act once,
-// comparators that come late, who moves an axis, pauses within a ramp.
+// Details: each of the panel's parameters, levels that act once, late comparators, who moves an axis, pauses
+// within a ramp.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -91,7 +91,7 @@ TEST(Super40ncFinePoints, RisingContactsActOnce) {
   EXPECT_TRUE(one.on("M8000"));
 }
 
-/// Comparators 1 and 2 as soft limits of COUNTER2, which the tick's end looks at.
+/// Comparators 1 and 2 as soft limits of COUNTER2, which is checked at the end of a tick.
 TEST(Super40ncFinePoints, SoftLimitsOfAnotherCounterStop) {
   for (const int direction : {+1, -1}) {
     OneSuper40nc one;
@@ -113,7 +113,7 @@ TEST(Super40ncFinePoints, SoftLimitsOfAnotherCounterStop) {
   }
 }
 
-/// What has been passed before a comparator is asked for has not met it.
+/// A value that was passed before a comparator is set has not met it.
 TEST(Super40ncFinePoints, AComparatorThatComesLateMeetsNothing) {
   for (const int number : {1, 3}) {
     OneSuper40nc one({.set = {{"D9123", 1}}});  // COUNTER2: pulses
@@ -163,7 +163,7 @@ TEST(Super40ncFinePoints, AMotionWithoutARampFeedsAtFl) {
   EXPECT_EQ(one.get("D8164"), 10);
 }
 
-/// On from the speed that it still has.
+/// It continues from its present speed.
 TEST(Super40ncFinePoints, APauseThatIsTakenBackInItsRampGoesOn) {
   OneSuper40nc one({.program = "AREA X\nRPM K500\nDRV K50000\nEND"});
   one.set("M8100", 1);
@@ -181,7 +181,7 @@ TEST(Super40ncFinePoints, APauseThatIsTakenBackInItsRampGoesOn) {
   EXPECT_EQ(one.get("D8117"), 50'000);
 }
 
-/// In the text that it tells of, whatever base that numbers by.
+/// In the text that it names, whatever base that uses.
 TEST(Super40ncFinePoints, APlaceIsALineOfTheText) {
   for (const char* base : {"", " BASE 500", " BASE 0"}) {
     OneSuper40nc one({.program = std::string("AREA X") + base + "\nNOP\nTMR K10000\nEND"});
@@ -198,7 +198,7 @@ TEST(Super40ncFinePoints, APlaceIsALineOfTheText) {
   }
 }
 
-/// Observers see why a program stands, or what it has passed over, beside its line.
+/// Observers see why a program stopped, or which line it has skipped, next to its line.
 TEST(Super40ncFinePoints, AnObserverSeesWhatWentWrong) {
   using enum ProgramLocation::State;
   struct Case {
@@ -233,7 +233,8 @@ TEST(Super40ncFinePoints, AnObserverSeesWhatWentWrong) {
   }
 }
 
-/// A limit is told of the program that it stops, not of one that stands, nor a jog's of any; M8002 stops all.
+/// A limit is reported for the program that it stops, not for an axis at rest or a jog; M8002 stops
+/// everything.
 TEST(Super40ncFinePoints, AnObserverSeesWhatStoppedAProgram) {
   OneSuper40nc one({.program = "AREA C\nNOP\nEND\nAREA X\nDRV K90000\nEND\n"});
   const auto why = [&](std::size_t program) { return one.it().program_locations().at(program).why; };
@@ -254,8 +255,8 @@ TEST(Super40ncFinePoints, AnObserverSeesWhatStoppedAProgram) {
   EXPECT_EQ(why(1), why(0));
 }
 
-/// A target that another zero has moved while the axis went there is no base of what follows: the present
-/// position is.
+/// If another zero has moved a target while the axis went there, it is not the base of the next move: the
+/// present position is.
 TEST(Super40ncFinePoints, APositionSetOnTheWayIsTheNextBase) {
   for (const char* line : {"DRV", "LIN"}) {
     for (const char* set : {"PSET K0", "MOV K0 D8117", "MOV K0 D8140"}) {

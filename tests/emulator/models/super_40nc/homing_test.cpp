@@ -1,4 +1,4 @@
-// SUPER-40NC's 13 ways home (《X20.》), to the pulse. The DOG lies from 50,000 to 70,000, the limit at
+// SUPER-40NC's 13 homing modes (《X20.》), to the pulse. The DOG is from 50,000 to 70,000, the limit at
 // 100,000, a C signal at every multiple of 4,000; from 500 rpm the axis slows down within 833 pulses.
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ Given machine(int direction, int stands_at = 0) {
   return {.plant = {{0, plant}}};
 }
 
-/// So that D8140 tells where it came to: it keeps its pulses.
+/// This lets D8140 show where it stopped: it keeps its pulses.
 void prepare(OneSuper40nc& one, int mode, int direction) {
   one.set("D9121", mode);
   one.set("D9181", direction > 0 ? 0 : 1);
@@ -73,8 +73,8 @@ struct Found {
   bool is_home = true;
 };
 
-/// By the manual's words alone. Ramps are as long up as down: whoever has come less far than a whole ramp
-/// when he begins to slow down, goes as far again.
+/// From the manual's text alone. Ramps down are as long as ramps up: if an axis begins to slow down before it
+/// has completed its ramp, it needs the same distance again.
 Found by_hand(const Search& search) {
   const double slope = 5000 * 4000 / 60.0 / 0.5;
   const double speed = search.rpm * 4000 / 60;
@@ -91,7 +91,7 @@ Found by_hand(const Search& search) {
     const double turns_at = from >= kLimit ? from : behind(kLimit, from);
     const double index = index_below(turns_at) - others;
     if (search.mode == 6) return {kLimit - 1};
-    // The way back to it is barred beyond the limit.
+    // The way back to it is blocked beyond the limit.
     if (search.mode == 12) return {index, index < kLimit};
     return {search.mode == 8 ? before(index, turns_at) : index};
   }

@@ -1,5 +1,5 @@
-// The manual's 69 listings at work on the whole controller: what its text says of each is a function beside
-// its name, and a listing without one fails. Times are closed forms of the factory's ramps.
+// Runs the manual's 69 listings on the whole controller. A function for each listing checks what the manual
+// says about it; a listing without one fails. Times are closed forms of the factory ramps.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Listing {
 };
 inline std::string name_of_listing(const testing::TestParamInfo<Listing>& info) { return info.param.name; }
 
-/// Every file of a group, of these numbers, has its row.
+/// Checks that every file of a group, with these numbers, has a row.
 inline void expect_all_of(char group, int first, int last, std::span<const Listing> rows) {
   std::set<std::string> files;
   for (const auto& file : std::filesystem::directory_iterator(std::string(PROJECT_FOLDER) +
@@ -42,7 +42,7 @@ inline constexpr double kSlope = 5000 * 4000 / 60.0 / 0.5;
 inline constexpr double kTolerance_ms = 3;
 
 inline double pps_of(double rpm) { return rpm * 4000 / 60; }
-/// A trapezoid, or a triangle where it is too short for one.
+/// The time of a trapezoid, or of a triangle if the distance is too short.
 inline double move_s(double distance, double speed) {
   return distance >= speed * speed / kSlope ? distance / speed + speed / kSlope
                                             : 2 * std::sqrt(distance / kSlope);
@@ -54,7 +54,7 @@ inline Places positions(const OneSuper40nc& one) {
   return {one.get("D8117"), one.get("D8217"), one.get("D8317"), one.get("D8417")};
 }
 
-/// "X3" is switched from outside, all else is written by a host; "T0" is the contact.
+/// The test switches "X3" from outside and writes everything else as a host; "T0" is the contact.
 inline void put(OneSuper40nc& one, const std::string& contact, bool on) {
   if (contact[0] == 'X') {
     one.input(contact, on ? 1 : 0);
@@ -63,7 +63,7 @@ inline void put(OneSuper40nc& one, const std::string& contact, bool on) {
   }
 }
 
-/// All states of some contacts, a scan behind each.
+/// Goes through all states of some contacts, with a scan after each.
 template <class Look>
 void each_state(OneSuper40nc& one, const std::vector<std::string>& contacts, Look look) {
   for (unsigned states = 0; states < (1U << contacts.size()); ++states) {
@@ -76,13 +76,13 @@ void each_state(OneSuper40nc& one, const std::vector<std::string>& contacts, Loo
   }
 }
 
-/// As long as a step program stood at one of its lines, tick by tick.
+/// How long a step program stayed at one of its lines, in ticks.
 struct Lap {
   Value step = 0;
   std::vector<Places> course{};
 };
 
-/// Starts program 0 (C) to 4 (U), and tells its lines until it is over.
+/// Starts program 0 (C) to 4 (U), and records its lines until it ends.
 inline std::vector<Lap> laps(OneSuper40nc& one, int program, Tick at_most = 200'000) {
   const std::string contact = "M8" + std::to_string(program) + "00";
   const std::string pointer = "D8" + std::to_string(program) + "00";
@@ -104,7 +104,7 @@ struct Leg {
   Places end;
 };
 
-/// The laps at the lines that legs name are these, in time and to the pulse. Returns them.
+/// Checks that the motions of the named lines match in time and to the pulse. Returns them.
 inline std::vector<Lap> expect_legs(OneSuper40nc& one, int program, const std::vector<Leg>& legs,
                                     Tick at_most = 200'000) {
   std::vector<Lap> found = laps(one, program, at_most);
@@ -121,7 +121,7 @@ inline std::vector<Lap> expect_legs(OneSuper40nc& one, int program, const std::v
   return found;
 }
 
-/// Ticks until a contact is ON, and how many it stays so.
+/// Returns the ticks until a contact is ON, and how many it stays ON.
 struct Pulse {
   Tick before = 0;
   Tick lasts = 0;
@@ -133,7 +133,7 @@ inline Pulse pulse_of(OneSuper40nc& one, const std::string& contact, Tick at_mos
   return pulse;
 }
 
-/// A program that is over at once.
+/// A program that ends at once.
 inline void run_through(OneSuper40nc& one, const char* contact) {
   one.set(contact, 1);
   one.run(6);

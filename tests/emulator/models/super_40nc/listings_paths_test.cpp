@@ -1,5 +1,5 @@
-// The manual's listings of interpolated moves on the whole controller: where each line ends and when, and
-// that arcs go round their centres.
+// The manual's listings of interpolated moves on the whole controller: where and when each line ends, and
+// that arcs keep to their circles.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/super_40nc/listings.h"

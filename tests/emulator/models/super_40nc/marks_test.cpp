@@ -1,5 +1,5 @@
-// What a motion, a search, a key or a program has marked is gone when it is over, whichever way it ends:
-// every motion by every way out, and then a DRV that has to show its FSH for its time.
+// The marks of a motion, a search, a key or a program are gone when it ends, in any way: every motion with
+// every way to end, followed by a DRV that must show its FSH for its time.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -30,7 +30,7 @@ struct Given {
   std::map<std::string, std::string> choices{};
 };
 
-/// A listing of the manual, by the name that its tests have: "S2".
+/// Returns a listing of the manual by its name in the tests: "S2".
 inline std::string sample(const std::string& name) {
   std::ifstream file(std::string(PROJECT_FOLDER) + "/tests/interpreter/super_40nc/samples/" + name + ".lst");
   EXPECT_TRUE(file) << name;
@@ -62,7 +62,7 @@ class OneSuper40nc {
               Refusal::none)
         << name << " = " << value;
   }
-  /// Switches a contact ON, lets a scan see it, and OFF again.
+  /// Switches a contact ON, runs a scan, and switches it OFF again.
   void press(std::string_view name) {
     set(name, 1);
     run(1);
@@ -70,10 +70,10 @@ class OneSuper40nc {
     run(1);
   }
 
-  // --- time and the outside ----------------------------------------------------------------------------
+  // --- time and inputs ---------------------------------------------------------------------------------
   Tick now() const { return tick_at(world_.now()); }
   void run(Tick ticks) { world_.advance_to(time_of(now() + ticks)); }
-  /// Ticks until a contact is OFF.
+  /// Returns the ticks until a contact is OFF.
   Tick run_while(std::string_view name, Tick at_most = 100'000) {
     const Tick begin = now();
     while (on(name) && now() - begin < at_most) run(1);
@@ -91,7 +91,7 @@ class OneSuper40nc {
     world_.receive(line, frame);
     world_.advance_to(world_.now() + std::chrono::milliseconds(200));
   }
-  /// What has come since, without its checksum.
+  /// Returns what was received since then, without its checksum.
   std::string came(std::size_t line) {
     const auto output = world_.line(line).line.output();
     const world::Bytes bytes(output.begin(), output.end());

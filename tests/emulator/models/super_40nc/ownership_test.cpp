@@ -53,7 +53,7 @@ constexpr const char* kPlc =
     "M205\nSTP K1\n"
     "LD M206\nSTP * * * *\nEND\n";
 
-/// As a line of a step program, or none.
+/// As a line of a step program; empty if there is none.
 std::string line_of(const std::string& what) {
   if (what.starts_with("held ")) return line_of(what.substr(5));
   for (const auto& [name, line] : {std::pair{"DRV", "DRV K20000"},
@@ -124,7 +124,7 @@ class Bench {
       one_.set(held_by_ == ask_ || (held_by_ == "jog" && ask_ == "jog +") ? again(contact) : contact, 1);
     }
   }
-  /// The one who holds lets go, or comes to its end by itself.
+  /// The holder releases the axis, or ends on its own.
   void let_go() {
     if (const char* contact = contact_that_holds()) one_.set(contact, 0);
     if (held_by_.starts_with("held ")) one_.set(holding_program(), 1);
@@ -184,7 +184,7 @@ class Bench {
 
 constexpr Value kTaken = 21;
 
-/// What X has done is the same as if nobody had asked.
+/// The motion of X is the same as without the request.
 void expect_undisturbed(Bench& asked, Bench& left_alone, const std::string& cell) {
   for (Bench* bench : {&asked, &left_alone}) bench->turn_wheel(3);
   EXPECT_EQ(asked.one().get("D8140"), left_alone.one().get("D8140")) << cell;
@@ -194,7 +194,7 @@ void expect_undisturbed(Bench& asked, Bench& left_alone, const std::string& cell
       << cell;
 }
 
-/// The asking program's line is done, in its own way.
+/// The line of the requesting program is done, in its own way.
 void expect_done(Bench& bench, const std::string& ask, const std::string& cell) {
   OneSuper40nc& one = bench.one();
   for (Tick tick = 0; tick < 30'000 && !one.on("M60"); ++tick) one.run(1);
@@ -334,7 +334,7 @@ TEST(Super40ncOwnership, TheFirstWheelContactKeepsItsAxis) {
   }
 }
 
-/// The keys of the panel ask as their contacts do; M8x02, M8002 and the STOP key stop whatever there is.
+/// The keys of the panel request like their contacts; M8x02, M8002 and the STOP key stop everything.
 TEST(Super40ncOwnership, KeysAskAsTheirContactsDo) {
   for (const Row& row : kTable) {
     const std::string held_by = row.held_by;

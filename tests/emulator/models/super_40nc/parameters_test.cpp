@@ -1,5 +1,5 @@
-// SUPER-40NC's parameters at work: direction, mask, backlash, counters and their sources, ramps and sections,
-// units.
+// The effects of SUPER-40NC's parameters: direction, mask, backlash, counters and their sources, ramps and
+// sections, units.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Terminals that are there by choice alone (pins.cpp), and what parameters make of them.
+// Terminals that exist only by choice (pins.cpp), and the parameters that use them.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"

@@ -1,5 +1,5 @@
 // What a power cut leaves of a SUPER-40NC, at random moments of writes, of changes of files and recipes, of
-// loads and of programs at work: a plain model of what is kept says it. UNDERSTUDY_SEED overrides.
+// loads and of running programs, compared with a plain model of its memory. UNDERSTUDY_SEED overrides.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -18,10 +18,10 @@ constexpr const char* kForgotten[] = {"D0",    "D499",       "M0",      "M399", 
                                       "M8590", "holding.T5", "coil.C5", "D8023"};
 constexpr const char* kRecipe[] = {"D500", "D777", "D999"};
 
-/// A C program that says which it is.
+/// A C program that shows which one it is.
 std::string program(int number) { return "AREA C\nMOV K" + std::to_string(number) + " D0\nEND\n"; }
 
-/// What is to be there behind a cut.
+/// The expected contents after a power cut.
 struct Kept {
   std::map<std::string, Value> latched;
   std::map<Value, std::map<std::string, Value>> recipes;
@@ -59,7 +59,7 @@ void expect_kept(OneSuper40nc& one, Kept& kept, const std::string& when) {
   one.set("D0", 0);
 }
 
-/// What a file of the memory says makes the same controller.
+/// The contents of a memory file make the same controller.
 void expect_same_by_its_file(OneSuper40nc& one, Kept kept, const std::string& when) {
   const std::string text = to_json(one.device().memory()->nv_image());
   OneSuper40nc other;
@@ -87,7 +87,7 @@ TEST(Super40ncPowerCut, LeavesWhatIsKeptWhole) {
   for (std::uint64_t seed = first; seed < first + 40; ++seed) {
     std::mt19937_64 random(seed);
     const auto below = [&](int most) { return std::uniform_int_distribution<int>(0, most - 1)(random); };
-    // X moves all the while, so that there is something to be in the midst of.
+    // X moves all the time, so that motion is interrupted.
     OneSuper40nc one({.program = "AREA X\nLAB K1\nDRV K9000\nDRV K0\nJMP K1\nEND\n"});
     Kept kept;
     for (int acts = 0; acts < 60; ++acts) {
@@ -177,7 +177,7 @@ TEST(Super40ncPowerCut, RecipesInACycleAreNeverMixed) {
   }
 }
 
-/// Of two registers that one slice writes, a cut leaves both or neither.
+/// After a power cut, both or neither of two registers that one slice writes have changed.
 TEST(Super40ncPowerCut, ASliceIsKeptWholeOrNotAtAll) {
   for (Tick cut = 1; cut < 30; ++cut) {
     OneSuper40nc one({.program = "AREA C\nLAB K1\nINC D600\nMOV D600 D601\nJMP K1\nEND\n"

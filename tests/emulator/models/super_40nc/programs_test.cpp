@@ -1,5 +1,5 @@
-// SUPER-40NC's programs on the machine: pauses in the midst of moves, who resets whom, files, power, and what
-// a snapshot keeps.
+// SUPER-40NC's programs on the machine: pauses during moves, which events reset which programs, files, power,
+// and the contents of a snapshot.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -279,7 +279,7 @@ TEST(Super40ncPrograms, ThePlcSwitchStopsTheScan) {
   EXPECT_EQ(one.get("D0"), 15);
 }
 
-/// A state in the midst of everything goes on alike.
+/// A state in the middle of everything continues in the same way.
 TEST(Super40ncPrograms, ASnapshotGoesOnAsTheOriginal) {
   const Given given{.set = Set{{"D9003", 2}},
                     .program =
@@ -301,7 +301,7 @@ TEST(Super40ncPrograms, ASnapshotGoesOnAsTheOriginal) {
   }
 }
 
-/// What a snapshot was made with runs behind it, whatever has been loaded since.
+/// A snapshot runs its own program, whatever has been loaded since.
 TEST(Super40ncPrograms, ARestoredSnapshotHasItsOwnPrograms) {
   const auto program = [](int number) {
     const std::string text = std::to_string(number);
@@ -377,7 +377,7 @@ TEST(Super40ncPrograms, ALineGoesOnOnlyWhereItsPointerStands) {
   EXPECT_EQ(moved.get("D7"), 1);
 }
 
-/// The user table takes the place of C, and is gone when it is over; the line is X's own.
+/// The user table replaces C, and is gone when it is over; the line is X's own.
 TEST(Super40ncPrograms, ALineMayHaveADirectCommandCarriedOut) {
   OneSuper40nc one({.program = "AREA X\nMOV K105 D8020\nINC D5\nMOV K100 D8020\nINC D5\nEND\n",
                     .choices = {{"user_table", "on"}}});

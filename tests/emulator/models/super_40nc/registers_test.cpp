@@ -1,4 +1,4 @@
-// Every contact and register of the SUPER-40NC against what was read out of its manual.
+// Every contact and register of the SUPER-40NC compared with the facts from its manual.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,5 +1,5 @@
-// The manual's listings are loaded with their printed steps; moves take the times of the factory's ramps; and
-// a mark is looked for behind the target. What each listing does: listings_*_test.cpp.
+// The manual's listings are loaded with their printed steps; moves take the times of the factory ramps; and a
+// mark is searched for after the target. listings_*_test.cpp test what each listing does.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/super_40nc/listings.h"

@@ -1,5 +1,5 @@
-// What an axis of a SUPER-40NC is told of its machine, in the levels of its inputs, becomes signals that are
-// ON at the right places: with either polarity, and for an axis that counts against its motor's sense.
+// An axis of a SUPER-40NC gets its machine as levels of inputs, which become signals at the right places:
+// with either polarity, and for an axis that counts against the motor's direction.
 #include <gtest/gtest.h>
 
 #include "emulator/device/machine_edges.h"

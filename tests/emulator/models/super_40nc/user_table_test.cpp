@@ -1,5 +1,5 @@
-// The user table and the direct command, which a bench has to choose: of their codes only 1, a line, is
-// printed (《命令範例》 24), so what is held against it is what the header of user_table.h says.
+// The user table and the direct command, which a bench must select. Only code 1, a line, is printed
+// (《命令範例》 24), so the others are compared with the header of user_table.h.
 #include "emulator/models/super_40nc/programs/user_table.h"
 
 #include <gtest/gtest.h>

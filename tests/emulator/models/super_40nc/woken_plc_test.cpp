@@ -1,5 +1,5 @@
-// A PLC that has settled is woken by everything that it reads, whoever changes it: each lamp follows its
-// contact within two scans, also where all stands and time is advanced in one piece.
+// Everything that a settled PLC reads wakes it, whoever changes it: each lamp follows its contact within two
+// scans, also if everything is at rest and time advances in one step.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
@@ -7,7 +7,7 @@
 namespace understudy::emulator::models::super_40nc {
 namespace woken_plc_test {
 
-/// What is done, how long later, and what the lamp Y15 shows then.
+/// An action, a delay, and what the lamp Y15 shows then.
 struct Step {
   std::string does;  // "ALM_X", "X0": an input; "M400", "D0": a write; "frame": one that cannot be read
   std::int32_t level;
@@ -95,7 +95,7 @@ TEST(WokenPlc, SeesThePanelsTime) {
   EXPECT_TRUE(one.output("Y15"));
 }
 
-/// Where it looks at nothing that goes with the pulses, ticks are crossed while an axis moves.
+/// If it reads nothing that changes with the pulses, ticks are skipped while an axis moves.
 TEST(WokenPlc, SleepsWhileAnAxisMovesThatItDoesNotLookAt) {
   for (const auto& [condition, crosses] :
        {std::pair{"LD M8139", true}, std::pair{"LD X20", true}, std::pair{"LD M8155", true},

@@ -1,5 +1,5 @@
-// Who writes last in a scan: host, PLC, keys, then C, X, Y, Z and U, and the system behind them. Each pair of
-// writers of a contact and of a register, and what command contacts make of two.
+// The last writer in a scan: host, PLC, keys, then C, X, Y, Z and U, and finally the system. Each pair of
+// writers of a contact and of a register, and the result for command contacts.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/super_40nc/listings.h"
@@ -22,7 +22,7 @@ std::string line_of(const std::string& item, Value value) {
   return (value != 0 ? "SET " : "RST ") + item;
 }
 
-/// The item behind the scan in which all of them have written it.
+/// The item after the scan in which all of them have written it.
 Value value_behind(const std::string& item, const std::vector<Write>& writes, const Set& set = {}) {
   std::string text;
   for (const Write& write : writes) {
@@ -99,7 +99,7 @@ TEST(Super40ncWriters, TheNextReaderSeesWhatWasWritten) {
 
 // --- command contacts --------------------------------------------------------------------------------------
 
-/// A level counts by what the PLC has left of it; an edge by wire counts all the same.
+/// A level counts as the PLC has left it; an edge by wire still counts.
 TEST(Super40ncWriters, ThePlcClearsLevelsButNoEdges) {
   OneSuper40nc one({.program = "AREA PLC\nLD M1\nOUT M8103\nOUT M8105\nEND\n"});
   one.run(2);

@@ -1,6 +1,6 @@
-// Every rule with its boundary. At 19200 8E1 a character takes 11 bits, 572,916.7 ns; a request of 8 is over
-// after 4,583,333 ns, a Simple2-R3 takes its end for 0.75 ms of silence and answers then, at 5,333,333 ns.
-// The answer of 7 characters is over 4,010,416 ns later, at 9,343,749 ns.
+// Every rule with its boundary. At 19200 8E1 a character takes 11 bits, 572,916.7 ns. A request of 8
+// characters ends after 4,583,333 ns; a Simple2-R3 waits for 0.75 ms of silence and then answers, at
+// 5,333,333 ns. The answer of 7 characters ends 4,010,416 ns later, at 9,343,749 ns.
 #include "emulator/play/lint/lint.h"
 #include "emulator/models/models.h"
 

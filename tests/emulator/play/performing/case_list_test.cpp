@@ -1,5 +1,4 @@
-// Which cases of which files are played: patterns, identities, shards; and that each is read when its turn
-// comes.
+// Which cases of which files run: patterns, IDs, shards; each case is read only when its turn comes.
 #include "emulator/play/performing/case_list.h"
 
 #include <gtest/gtest.h>

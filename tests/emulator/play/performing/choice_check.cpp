@@ -17,7 +17,7 @@ constexpr std::size_t kMinExplanation = 30;  // letters behind the question
 
 Steps without_expectations(const Steps& steps);
 
-/// A step as somebody makes it who wants to know nothing: what he does then is the same whatever comes.
+/// A step without its expectations: its actions are the same whatever the result is.
 struct Unasking {
   const Step& step;
   Steps& made;
@@ -39,7 +39,7 @@ struct Unasking {
     send.reply.reset();
     add(std::move(send));
   }
-  /// Lines that would be waited for are given their time.
+  /// Gives lines that would be waited for their time.
   void operator()(TextStep text) const {
     const bool waits = text.lines.has_value();
     const SimTime within = text.within;
@@ -79,7 +79,7 @@ Scenario without_expectations(Scenario scenario) {
   return scenario;
 }
 
-/// The options that its devices were given for a row.
+/// Returns the options that its devices were given for a row.
 std::set<std::string> chosen_in(const Scenario& scenario, const std::string& id) {
   std::set<std::string> chosen;
   for (const world::DeviceSetup& device : scenario.bench.devices) {
@@ -97,7 +97,7 @@ Scenario choosing(Scenario scenario, const std::string& id, const std::string& o
   return scenario;
 }
 
-/// Of the scenario and each of its branches.
+/// For the scenario and each of its branches.
 using Outcome = std::vector<std::uint64_t>;
 
 Outcome outcome_of(const std::vector<ScenarioResult>& results) {
@@ -112,7 +112,7 @@ std::vector<ScenarioResult> played_with_hash(const Scenario& scenario) {
   return run_scenario(scenario, options);
 }
 
-/// The comment above each play: the plays are the items that are two letters in.
+/// The comment above each play; plays are the items that are indented by two.
 std::vector<std::string> comments_in(const std::string& text) {
   std::vector<std::string> comments;
   std::string comment;

@@ -1,4 +1,4 @@
-// Whether a play tells the options of a choice apart: those of docs/fidelity/proofs/MODEL/.
+// Checks that a play distinguishes the options of a choice: those of docs/fidelity/proofs/MODEL/.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Proof {
   std::vector<Scenario> cases;
 };
 
-/// The plays of a file's text, each on a choice. Throws FileError.
+/// Returns the plays of a file's text, each about a choice. Throws FileError.
 std::vector<Proof> proofs_in(const std::string& text, const std::string& path);
 
 /// What is wrong with the proof of a row, a sentence each that names the row; nothing if it is as it should

@@ -1,4 +1,4 @@
-// What is wrong with the proof of a choice is found.
+// Faults in the proof of a choice are found.
 #include "tests/emulator/play/performing/choice_check.h"
 
 #include <gtest/gtest.h>
@@ -65,10 +65,10 @@ TEST(ChoiceCheck, FindsWhatIsWrong) {
       {proof_file(wrong_order), "the cases choose bcd, hundredths; expected"},
       {proof_file(twice, "      - advance: 1ms\n"), "makes a second scenario called"},
       {proof_file(wrong_value), "d.Version is 338; expected 339"},
-      // The truth is looked at, but nothing of it is on the wire.
+      // The true state is checked, but nothing of it is on the wire.
       {proof_file(kOptions, "      - assert: d.Version == ${version}\n"),
        "what comes out is the same for hundredths and bcd"},
-      // What differs is what the host does.
+      // Only the host's actions differ.
       {proof_file(kOptions, kSteps + "      - write: { d.Aaxis_Speed: \"${version}\" }\n"),
        "the case of bcd does something else than the first one"},
       {proof_file(kOptions, kSteps + "      - advance: ${version}ms\n"),

@@ -1,4 +1,4 @@
-// Each choice that can be made otherwise has a play that tells its options apart, and there is no other.
+// Each choice with several options has a scenario that shows their difference, and there are no others.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a play was is in its recording, wherever it went back to an earlier state.
+// A play is recorded completely, also if it goes back to an earlier state.
 #include "emulator/play/performing/performance_recorder.h"
 #include "emulator/models/models.h"
 
@@ -62,7 +62,7 @@ TEST(PerformanceRecorder, ARecordingLeadsToTheSameEnd) {
   const Again replayed = again(result);
   EXPECT_EQ(replayed.result.reached, result.failure->at);
   EXPECT_EQ(replayed.pulses, 32000);
-  // Said were: two writes done (8 bytes each), one read of a word (7) of two, and one of two words (9).
+  // The bytes sent: two writes done (8 bytes each), one read of a word (7) of two, and one of two words (9).
   EXPECT_EQ(replayed.result.bytes_said, 8U + 8U + 7U + 9U);
   EXPECT_EQ(replayed.header.snapshot, "");
 }

@@ -1,4 +1,4 @@
-// Scenarios as texts, played in tests.
+// Scenarios as texts, run in tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::play {
 
-/// One Simple2-R3 at 19200 baud, and the steps, one a line.
+/// One Simple2-R3 at 19200 baud, with the steps, one a line.
 inline std::string scenario_text(const std::string& steps, const std::string& more = "") {
   return "understudy: 1\n"
          "name: test\n"
@@ -44,14 +44,14 @@ inline bool has_passed(const ScenarioResult& result) {
   return result.verdict == ScenarioResult::Verdict::passed && !result.failure;
 }
 
-/// Plays, and expects it to pass.
+/// Runs it, and expects it to pass.
 inline ScenarioResult passing(const std::string& steps, const std::string& more = "") {
   ScenarioResult result = played(steps, more);
   EXPECT_TRUE(has_passed(result)) << steps << why(result);
   return result;
 }
 
-/// Plays, and expects it to fail at its last step that was played.
+/// Runs it, and expects it to fail at the last step that ran.
 inline Failure failing(const std::string& steps, const std::string& more = "") {
   const ScenarioResult result = played(steps, more);
   EXPECT_EQ(result.verdict, ScenarioResult::Verdict::failed) << steps;
@@ -68,9 +68,9 @@ inline const std::string kServoOn = "  - write: { feeder.Aaxis_SVON: 1 }\n";
 inline const std::string kExampleMove =
     "  - write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Speed: 200, feeder.Aaxis_AccTime: 5, "
     "feeder.Aaxis_DecTime: 5, feeder.Aaxis_Move_INC: 1 }\n";
-// Both begin with nothing on the line. The first request is carried out at 5.333 ms, its reply is over at
-// 9,916,666 ns. The second one begins 2,005,209 ns later, has 21 characters (12,031,250 ns) and is carried
-// out 750 us after them, at 24,703,125 ns: the move begins with tick 25. Its reply is over at 29,286,458 ns.
+// Both begin with an idle line. The first request is carried out at 5.333 ms, and its reply ends at 9,916,666
+// ns. The second request begins 2,005,209 ns later, has 21 characters (12,031,250 ns) and is carried out 750
+// us after them, at 24,703,125 ns, so the move begins with tick 25. Its reply ends at 29,286,458 ns.
 inline constexpr Tick kExampleBegins = 25;
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// What a scenario in real time hears and sees: the host's replies, and when a write was carried out.
+// What a scenario in real time receives and observes: the host's replies, and when a write was carried out.
 #include "emulator/play/stages/real_executor.h"
 #include "emulator/play/stages/write_clock.h"
 #include "tests/emulator/play/performing/played.h"
@@ -23,7 +23,7 @@ TEST(RealTime, BringsWhatIsReadAndWhatIsRefused) {
   EXPECT_EQ(bad.failure->what, "feeder.Aaxis_Speed is 200; expected 201");
 }
 
-/// When the clock says the last write was carried out, once a frame is over and answered.
+/// When the clock reports that the last write was carried out, once a frame is complete and answered.
 class WriteClockTest : public testing::Test {
  protected:
   Tick after(const std::vector<std::uint8_t>& frame) {
@@ -40,7 +40,7 @@ TEST_F(WriteClockTest, TellsTheTickThatAWriteActsFrom) {
   EXPECT_EQ(clock_.tick_of_last_write(), 0);
   // Aaxis_Speed = 200 at 0: 8 characters of 11 bits at 19200 baud (4.58 ms) and 750 us of silence.
   EXPECT_EQ(after({0x01, 0x06, 0x10, 0x02, 0x00, 0xC8, 0x2D, 0x5C}), 6);
-  // Neither a read, nor a write to somebody else, nor one that is refused (HW_Code) is one.
+  // Reads, writes to another device, and refused writes (HW_Code) do not count.
   EXPECT_EQ(after({0x01, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xCA}), 6);
   EXPECT_EQ(after({0x02, 0x06, 0x10, 0x02, 0x00, 0xC8, 0x2D, 0x6F}), 6);
   EXPECT_EQ(after({0x01, 0x06, 0x00, 0x01, 0x00, 0x01, 0x19, 0xCA}), 6);

@@ -1,4 +1,4 @@
-// Faults with triggers in scenarios: what the host sees of them, and where they are mended.
+// Faults with triggers in scenarios: what the host sees of them, and where they are cleared.
 #include <algorithm>
 
 #include "tests/emulator/play/performing/played.h"

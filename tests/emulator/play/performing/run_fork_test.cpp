@@ -80,7 +80,7 @@ TEST(RunnerForks, EachBranchIsAResultAndTheMainLineGoesOnToo) {
             (std::vector<std::string>{"passed test", "passed test / to its end", "failed test / stopped",
                                       "passed test / with a stall", "passed test / with a stall / short",
                                       "passed test / with a stall / long"}));
-  // A branch tells its own steps, at the world's time.
+  // A branch reports its own steps, at the world's time.
   EXPECT_EQ(results[1].steps.size(), 2U);
   EXPECT_EQ(results[1].steps[0].begin, SimTime{129'286'458});
   EXPECT_EQ(results[1].steps[0].end, time_of(kExampleBegins + 3050));
@@ -129,7 +129,7 @@ TEST(RunnerForks, TheHostIsSilentAsLongInABranchAsOnTheMainLine) {
   for (const std::string between : {"", "  - advance: 1ms\n"}) {
     const auto results = all_of(kServoOn + kExampleMove + between + "  - fork: { one: " + reads + "  }\n" +
                                     "  - snapshot: there\n" + read_here +
-                                    // The line was busy since, and is not now.
+                                    // The line has been busy, and is idle now.
                                     "  - restore: there\n" + read_here,
                                 true);
     ASSERT_EQ(verdicts(results), (std::vector<std::string>{"passed test", "passed test / one"}));

@@ -1,4 +1,4 @@
-// write, expect and send: which requests go over the line, in which order, and what is made of their replies.
+// write, expect and send: which requests go over the line, in which order, and how their replies are judged.
 #include "pty/rtu_crc.h"
 #include "tests/emulator/play/performing/played.h"
 
@@ -71,7 +71,7 @@ TEST(RunnerOverTheLine, NeighboursThatAscendShareARequest) {
   const std::vector<Case> cases = {
       {"write: { feeder.Aaxis_Speed: 200 }", {"write 1 0x1002: 200"}},
       {"write: { feeder.Aaxis_Speed: 200, feeder.Aaxis_AccTime: 5 }", {"write 1 0x1002: 200 5"}},
-      // Written order counts, so what descends goes alone.
+      // The written order counts, so descending addresses need a request each.
       {"write: { feeder.Aaxis_AccTime: 5, feeder.Aaxis_Speed: 200 }",
        {"write 1 0x1003: 5", "write 1 0x1002: 200"}},
       {"write: { feeder.Aaxis_Speed: 200, feeder.Aaxis_DecTime: 5 }",
@@ -237,7 +237,7 @@ TEST(RunnerOverTheLine, SentBytesAreAnsweredExactly) {
   EXPECT_EQ(failure.details, std::vector<std::string>{"that is: feeder.HW_Code = 49153"});
   failure = failing("  - send: { bytes: 01 03 00 01 00 01 +crc, reply: nothing, within: 30ms }\n");
   EXPECT_EQ(failure.what, "the reply is 01 03 02 C0 01 29 84; expected nothing");
-  // One that goes on after what was expected is another reply.
+  // A longer reply than expected is a different reply.
   failure = failing("  - send: { bytes: 01 03 00 01 00 01 +crc, reply: 01 03 02 C0 01 }\n");
   EXPECT_EQ(failure.came, "01 03 02 C0 01 29");
   failure = failing("  - send: { bytes: 09 03 00 01 00 01 +crc, reply: 09 }\n");

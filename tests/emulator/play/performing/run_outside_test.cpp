@@ -1,4 +1,4 @@
-// Inputs, faults, power, programs and memories, as scenarios play them.
+// Inputs, faults, power, programs and memories in scenarios.
 #include <filesystem>
 #include <fstream>
 
@@ -8,7 +8,7 @@
 namespace understudy::emulator::play {
 namespace runner_outside_test {
 
-/// A folder of the test's own; a scenario's paths are relative to it.
+/// The test's own folder; a scenario's paths are relative to it.
 class Folder {
  public:
   Folder() {
@@ -46,7 +46,7 @@ TEST(RunnerOutside, InputsReachTheDeviceAtTheNextTick) {
 }
 
 TEST(RunnerOutside, FaultsHoldUntilTheyAreCleared) {
-  // A stalled motor loses every pulse; the controller counts them all the same.
+  // A stalled motor loses every pulse, but the controller counts them all.
   passing(kServoOn + "  - inject: { stall: feeder.A, name: blocked }\n" + kExampleMove +
           "  - wait: { until: feeder.STATUS.4 == 0, within: 4s }\n"
           "  - assert: [ feeder.A.pulses == 32000, feeder.A.position == 0, feeder.A.lost == 32000 ]\n"
@@ -90,7 +90,7 @@ TEST(RunnerOutside, AProgramIsLoadedAndRun) {
 
 TEST(RunnerOutside, AMemoryIsSavedAndComparedWithAFile) {
   const Folder folder;
-  // 0xF000 is kept: its EEPROM is written within a moment.
+  // 0xF000 is persistent: its EEPROM is written within a moment.
   ScenarioResult result = folder.play(
       "  - write: { feeder.Aaxis_Home_Speed: 77 }\n"
       "  - wait: { until: feeder.EEPROM_Writing == 0, within: 5s }\n"

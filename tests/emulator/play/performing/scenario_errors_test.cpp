@@ -1,4 +1,4 @@
-// Scenario files that are wrong: each gets one line that says where, what, and what was expected.
+// Wrong scenario files: each error is one line with its place, what is wrong and what was expected.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/play/performing/scenario_folder.h"
@@ -18,7 +18,7 @@ class ScenarioErrors : public testing::Test {
       EXPECT_EQ(folder_.diagnostic(file.text), "scenario.yaml:" + file.diagnostic) << file.text;
     }
   }
-  /// Of single steps; the step stands in line 4.
+  /// Errors of single steps; the step is in line 4.
   void expect_step_diagnostics(const std::vector<Bad>& steps) const {
     for (const Bad& step : steps) {
       EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of("  - " + step.text + "\n")),
@@ -81,7 +81,7 @@ TEST_F(ScenarioErrors, TheBench) {
        "3: nv.feder: no device is called 'feder'; the nearest is 'feeder'"},
       {with("nv: after.json"), "3: nv: expected a map, as in `key: value`"},
   });
-  // What is wrong elsewhere is told of where it is.
+  // Errors in other files are reported with their places.
   EXPECT_EQ(
       folder_.diagnostic("understudy: 1\nbench: none.yaml\nsteps: []\n"),
       "scenario.yaml:2: bench: none.yaml cannot be read (No such file or directory); expected a bench file");
@@ -156,7 +156,7 @@ TEST_F(ScenarioErrors, WhatIsNoStep) {
   });
 }
 
-/// A value that the device would take in its own way can be written, to see which.
+/// A value that the device may treat in its own way can be written, to see how.
 TEST_F(ScenarioErrors, AreNotOfWhatADeviceTakes) {
   for (const char* const option : {"exception_03", "clamped"}) {
     const std::string text =
@@ -366,14 +366,14 @@ TEST_F(ScenarioErrors, TheCourseOfThings) {
   const auto diagnostic = [&](const std::string& steps) {
     return folder_.diagnostic(ScenarioFolder::scenario_of(steps));
   };
-  // What a continuation makes is not there beside it, nor after it.
+  // Names that a continuation defines do not exist next to it or after it.
   const std::string fork = "  - fork:\n      a: [ snapshot: inner ]\n";
   EXPECT_EQ(diagnostic(fork + "      b: [ restore: inner ]\n"),
             "scenario.yaml:6: steps[0].fork.b[0].restore: no earlier snapshot is called 'inner'; there "
             "is none");
   EXPECT_EQ(diagnostic(fork + "  - restore: inner\n"),
             "scenario.yaml:6: steps[1].restore: no earlier snapshot is called 'inner'; there is none");
-  // The faults are again what they were.
+  // The faults are as they were before.
   EXPECT_EQ(diagnostic("  - snapshot: well\n  - inject: { stall: feeder.A, name: jam }\n  - restore: well\n"
                        "  - clear: jam\n"),
             "scenario.yaml:7: steps[3].clear: no fault in force here is called 'jam'; there is none");

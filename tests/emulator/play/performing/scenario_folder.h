@@ -1,4 +1,4 @@
-// A folder with a bench of two controllers and what else scenarios name, and how scenarios are read in it.
+// A folder with a bench of two controllers and the other files that scenarios name; reads scenarios in it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -49,16 +49,16 @@ class ScenarioFolder {
   }
   std::string path(const std::string& name) const { return path_ + "/" + name; }
 
-  /// As if it stood in "scenario.yaml" there.
+  /// Reads a text as "scenario.yaml" in that folder.
   std::vector<Scenario> parse(const std::string& text) const {
     return parse_scenarios(models::all_models(), text, path("scenario.yaml"));
   }
-  /// A scenario of steps alone, which begin in its fourth line.
+  /// Reads a scenario of steps only, which begin in its fourth line.
   Steps steps(const std::string& steps) const { return parse(scenario_of(steps)).front().steps; }
   static std::string scenario_of(const std::string& steps) {
     return "understudy: 1\nbench: feeder.yaml\nsteps:\n" + steps;
   }
-  /// What is wrong with a text, the folder's path taken out; empty if nothing is.
+  /// Returns the error of a text, without the folder's path; empty if there is none.
   std::string diagnostic(const std::string& text) const {
     try {
       parse(text);
@@ -76,7 +76,7 @@ class ScenarioFolder {
   std::string path_;
 };
 
-/// What the steps do, as they say it themselves; of a fork the continuations as well.
+/// Returns the steps' own descriptions, including the continuations of a fork.
 inline std::vector<std::string> texts_of(const Steps& steps) {
   std::vector<std::string> texts;
   for (const Step& step : steps) {

@@ -1,5 +1,4 @@
-// Whatever stands in a scenario file: it is a scenario, or it gets one diagnostic. Nothing crashes, nothing
-// hangs.
+// Any text as a scenario file is a scenario or gets one diagnostic. Nothing crashes, nothing hangs.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -1,5 +1,5 @@
-// What a scenario saves is nothing that it is read from, and no two cases save one file. Refused when the
-// file is read: nothing has run by then.
+// A scenario does not save over the files that it reads, and no two cases save the same file. Such files are
+// refused when they are read, before anything runs.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -37,7 +37,7 @@ TEST_F(ScenarioOutputs, AreNothingThatIsRead) {
        "4: steps[0].save.feeder: feeder.yaml is the bench itself" + own},
       {"programmed.yaml", "  - save: { feeder: indexing.lst }\n",
        "4: steps[0].save.feeder: indexing.lst is the program of 'feeder'" + own},
-      // Not there yet, but the next run would begin with it.
+      // It does not exist yet, but the next run would read it.
       {"programmed.yaml", "  - save: { feeder: kept.json }\n",
        "4: steps[0].save.feeder: kept.json is the initial memory of 'feeder'" + own},
       {"feeder.yaml\nnv: { turner: after.json }", "  - save: { feeder: after.json }\n",
@@ -46,7 +46,7 @@ TEST_F(ScenarioOutputs, AreNothingThatIsRead) {
        "5: steps[1].save.feeder: indexing.lst is a program that a step loads" + own},
       {"feeder.yaml", "  - memory: { feeder: after.json }\n  - save: { feeder: after.json }\n",
        "5: steps[1].save.feeder: after.json is a memory that a step compares with" + own},
-      // Whatever is read may also come later.
+      // A file that is read may also appear later.
       {"feeder.yaml", "  - save: { feeder: homing.yaml }\n  - include: homing.yaml\n",
        "4: steps[0].save.feeder: homing.yaml is a file of steps that is included" + own},
       {"feeder.yaml", "  - save: { feeder: indexing.lst }\n  - include: loading.yaml\n",
@@ -108,7 +108,7 @@ TEST_F(ScenarioOutputs, ReplaceNothingButImages) {
   ASSERT_EQ(::mkfifo(folder_.path("there").c_str(), 0600), 0);
   EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of(steps)),
             where + "it is a pipe; expected a regular file, or a free path");
-  // What has come there since it was read.
+  // A file that has appeared there since it was read.
   std::filesystem::remove(folder_.path("there"));
   const auto scenario = folder_.parse(ScenarioFolder::scenario_of(steps));
   folder_.write("there", "precious");

@@ -1,4 +1,4 @@
-// Each kind of step, as written and as it is played.
+// Each kind of step, as it is written and as it runs.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/play/performing/scenario_folder.h"
@@ -181,7 +181,7 @@ TEST_F(ScenarioSteps, ProgramsAndMemoriesAreFiles) {
   const auto memory = only<MemoryStep>("memory: { feeder: after.json }");
   EXPECT_EQ(memory.what, MemoryStep::What::expect);
   EXPECT_EQ(memory.file, folder_.path("after.json"));
-  // What a step before has saved is there by then.
+  // A file that an earlier step has saved exists by then.
   EXPECT_EQ(texts("  - save: { feeder: new.json }\n  - memory: { turner: ./new.json }\n"),
             (Strings{"save feeder new.json", "memory turner ./new.json"}));
 }

@@ -1,4 +1,4 @@
-// A play beside a daemon whose loop ends: it is given up, and nobody waits for ever.
+// A scenario that runs next to a daemon whose loop ends: it is abandoned, and nobody waits for it.
 #include "emulator/play/performing/side_scenario.h"
 
 #include <gtest/gtest.h>
@@ -49,14 +49,14 @@ class Trap {
   int descriptor_;
 };
 
-/// Beside steps that last an hour, or that wait as long.
+/// Next to steps that last an hour, or wait that long.
 void end_beside(const std::string& steps, bool by_failure) {
   const Scenario scenario = scenario_of(steps);
   const auto daemon = make_daemon(scenario);
   const Trap trap(*daemon);
   bool was_over = false;
   SideScenario side_scenario(scenario, *daemon, [&] { was_over = true; });
-  // It is in the midst of its play by then, or has not got that far: the end is the same.
+  // It is in the middle of its steps by then, or not that far: the result is the same.
   std::thread springs([&] {
     std::this_thread::sleep_for(30ms);
     if (by_failure) return trap.spring();

@@ -1,4 +1,4 @@
-// The state that a failure tells of, where the terminals and the registers are of different moments.
+// The state in a failure, when the terminals and the registers belong to different moments.
 #include "emulator/play/performing/state_text.h"
 #include "emulator/models/models.h"
 

@@ -1,4 +1,4 @@
-// On how many threads cases are played, and that it makes no difference.
+// The number of threads that run cases makes no difference.
 #include "emulator/play/performing/suite.h"
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// Steps with lines of text, in free time and over a real pty: the same verdicts.
+// Steps with lines of text, in virtual time and over a real pty: the same verdicts.
 #include <gtest/gtest.h>
 
 #include "emulator/models/models.h"
@@ -58,18 +58,18 @@ const Strings kPassing{
     "  - send: { line: serial, text: LIST 3, reply: [ line 1, line 2, line 3 ] }\n",
     "  - send: { text: N0=5, reply: nothing, within: 50ms }\n  - send: { text: \"?N0\", reply: \"5\" }\n",
     "  - send: { text: \"\", reply: ERR 1 }\n",
-    // Without a reply the device has heard it when the step is over.
+    // Without a reply, the device has received it when the step is over.
     "  - send: { text: N0=6 }\n  - expect: { robot.N0: 6, robot.R0: 0 +- 0.5 }\n  - assert: N0 == 6\n",
     "  - send: { text: R0=2.5 }\n  - wait: { until: robot.R0 == 2.5, within: 1s }\n",
-    // Unasked, in its time; several at once are heard one after the other.
+    // Without a request, at its time; several lines at once are received one after the other.
     "  - send: { text: AT 300 }\n  - hear: { text: TICK 300, within: 1s }\n  - assert: time >= 300ms\n",
     "  - send: { text: AT 200 }\n  - hear: { text: nothing, within: 50ms }\n",
     "  - send: { text: LIST 3 }\n  - advance: 100ms\n  - hear: { text: line 1 }\n"
     "  - hear: { text: [ line 2, line 3 ] }\n",
-    // What nobody has heard before the next line is said is heard no more.
+    // Text that nobody has received before the next line is sent is discarded.
     "  - send: { text: SAY a }\n  - advance: 100ms\n  - send: { text: SAY b, reply: b }\n",
     "  - send: { bytes: 1B, reply: 42 52 45 41 4B 0D 0A }\n",
-    // An echo is what comes as well.
+    // An echo is part of the received text.
     "  - send: { text: ECHO=1 }\n  - send: { text: SAY a, reply: [ SAY a, a ] }\n",
     "  - advance: 50ms\n  - send: { text: SAY a, reply: a }\n  - power: { robot: cycle }\n  - hear: { text: "
     "HELLO }\n",
@@ -118,8 +118,8 @@ TEST(TextSteps, FailInFreeTimeWithWhatCame) {
   }
 }
 
-/// Over a pty the clock on the wall counts: on a machine that stands still for a moment a pause ends a reply,
-/// and a power cut comes later into what is being said. So a verdict that differs gets two more attempts.
+/// Over a pty the wall clock counts: on a machine that stands still for a moment a pause ends a reply, and a
+/// power cut comes later into what is being said. So a verdict that differs gets two more attempts.
 Outcome play_really(const std::string& steps, const std::string& expected_why) {
   Outcome outcome;
   for (int attempt = 0; attempt < 3; ++attempt) {

@@ -1,4 +1,4 @@
-// What is wrong with a trace is told with its line; and what a plot is made of.
+// Errors in a trace are reported with their line; and the contents of a plot.
 #include "emulator/play/plot/trace_table.h"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,7 @@ TEST(PlotScript, HasAPanelForEachKindOfThing) {
   EXPECT_NE(script.find("set ytics ('f.DIN_1' 0.5)"), std::string::npos);
   // It stays at 0 until the tick before the change.
   EXPECT_NE(script.find("$c4 << END\n0 0\n0.099 0\n0.1 1\nEND\n"), std::string::npos);
-  // Pulses that were followed, what stood still, and what nobody asked for.
+  // Pulses that the machine followed, values that did not change, and columns that nobody requested.
   for (const char* name : {"'f.A.pulses'", "'f.B.position'", "'f.MODE'"}) {
     EXPECT_EQ(script.find(name), std::string::npos) << name;
   }

@@ -1,4 +1,4 @@
-// ${...}: what it stands for, and what it complains of.
+// ${...}: its value, and its errors.
 #include "emulator/play/reading/parameters.h"
 
 #include <gtest/gtest.h>

@@ -119,7 +119,7 @@ TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
        "3: plays[0].stepz: is not a key here; expected one of name, bench, nv, firmware, gap, seed, "
        "parameters, cases, choice, vary, steps (the nearest is 'steps')"},
       {head + "steps: [ advance: 1ms ]\nplays: [ { name: a, steps: [ advance: 1ms ] } ]\n",
-       "3: steps: stands beside `plays`; expected them in one of the plays"},
+       "3: steps: cannot be combined with `plays`; expected them in one of the plays"},
       {head + "parameters: { far: 1 }\nplays: [ { name: a, steps: [ advance: 1ms ] } ]\n",
        "3: parameters.far: 'far' is not used; expected ${far} in one of the plays"},
       {head + "parameters: { far: 1 }\nplays: [ { name: a, parameters: { near: 1 }, steps: [ advance: "
@@ -137,7 +137,7 @@ TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
       {of_choice("{ loop_count: [ passes ], boot_time: [ 1s ] }"),
        "3: choice: names 2 choices; expected one, as in `alarm_stop: [ at_once, by_ramp ]`"},
       {of_choice("{ loop_count: [ passes ] }\ncases: [ { speed: 1 } ]"),
-       "3: choice: stands beside `cases`; expected one of them"},
+       "3: choice: cannot be combined with `cases`; expected one of the two"},
       {of_choice("{ loop_count: { passes: { speed: 1 }, further_passes: { sped: 1 } } }"),
        "3: choice.loop_count.further_passes.sped: is neither a parameter nor a name of the first case; the "
        "nearest "

@@ -47,7 +47,7 @@ TEST_F(ScenarioFile, TheBenchMayStandInIt) {
       "  lines: { a: { stations: [ { name: lone, model: simple2-r3, firmware: \"${version}\" } ] } }\n"
       "steps: [ expect: { Cord_A: 0, 0x1014: 0, lone.STATUS.4: 0 } ]\n");
   EXPECT_EQ(scenarios.at(0).bench.devices.at(0).settings.firmware, 140);
-  // Where there is one device its name may be left out.
+  // If there is only one device, its name can be omitted.
   EXPECT_EQ(texts_of(scenarios.at(0).steps), Strings{"expect Cord_A: 0, 0x1014: 0, lone.STATUS.4: 0"});
 }
 
@@ -148,8 +148,7 @@ TEST_F(ScenarioFile, AHundredThousandStepsAreEnough) {
 }
 
 TEST_F(ScenarioFile, StepsMayNotGrowBeyondAllBounds) {
-  // A few short lines, but 64 MiB of text after some 6,700 steps: each is said, and stands in its step's
-  // text.
+  // A few short lines, but 64 MiB of text after some 6,700 steps, because each is part of its step's text.
   const std::string scenario =
       "understudy: 1\nbench: feeder.yaml\nparameters:\n  a: " + std::string(100, 'x') +
       "\n  b: ${a}${a}${a}${a}${a}${a}${a}${a}${a}${a}\n  c: ${b}${b}${b}${b}${b}\nsteps:\n";
@@ -159,7 +158,7 @@ TEST_F(ScenarioFile, StepsMayNotGrowBeyondAllBounds) {
   EXPECT_EQ(folder_.diagnostic(scenario + "  - repeat: { times: 6000, steps: [ { say: '${c}' } ] }\n"), "");
   EXPECT_EQ(folder_.diagnostic(scenario + "  - repeat: { times: 99999, steps: [ { say: '${c}' } ] }\n"),
             beyond);
-  // And a program is counted with all its remarks, wherever they come from.
+  // A program is counted with all its comments, wherever they come from.
   folder_.write("long.lst", std::string(1 << 20, ';') + "\n        END\n");
   EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of(
                 "  - repeat: { times: 99999, steps: [ program: { feeder: long.lst } ] }\n")),

@@ -1,4 +1,4 @@
-// The inventory of each bench that is shipped, alone or in a scenario, is that of its world.
+// The inventory of each shipped bench, alone or in a scenario, equals that of its world.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What one entry of `vary` makes of a parameter: amounts, ranges, draws.
+// The values of one entry of `vary`: amounts, ranges, draws.
 #include "emulator/play/reading/variation.h"
 
 #include <gtest/gtest.h>

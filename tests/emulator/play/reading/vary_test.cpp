@@ -1,4 +1,4 @@
-// `vary`: how many cases there are, in which order, what each is called, and what tells it from all others.
+// `vary`: the number of cases, their order, their names, and their IDs.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -63,7 +63,7 @@ TEST_F(Vary, DrawsOncePerCaseWhateverElseThereIs) {
   EXPECT_EQ(to_text(few->case_of(0)), to_text(more->case_of(2)));
   EXPECT_EQ(to_text(few->case_of(1)), to_text(more->case_of(1)));
   EXPECT_NE(few->case_of(0).values[1], few->case_of(1).values[1]);
-  // Another seed for all draws other values.
+  // A different common seed draws different values.
   EXPECT_NE(to_text(open(text("vary: { a: [ 1, 2 ]" + draw, {"a", "d"}), 7)->case_of(0)),
             to_text(few->case_of(0)));
 }
@@ -150,7 +150,7 @@ TEST_F(Vary, TypicalCasesHaveEachListedValueAndBothEnds) {
   for (std::uint64_t i = 0; i < 50; ++i) {
     EXPECT_TRUE(seen.contains("c=" + file->case_of(i).values[3].second)) << i;
   }
-  // Of a few it is all.
+  // For a few cases, all are read.
   std::size_t few = 0;
   open(text("vary: { a: { from: 1, to: 999, step: 1 } }\n", {"a"}))->check([&](const Scenario&) { ++few; });
   EXPECT_EQ(few, 999U);

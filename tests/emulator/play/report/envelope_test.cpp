@@ -84,7 +84,7 @@ TEST(Envelope, HasTheExtremesOfEveryStretch) {
   }
 }
 
-/// To stay is to be added again at every tick, however long, and whatever comes after it.
+/// A constant value is like one that is added again at every tick, however long, and whatever follows.
 TEST(Envelope, StaysAsIfItWereAddedAtEveryTick) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     std::mt19937 random(seed);

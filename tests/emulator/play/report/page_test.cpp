@@ -1,5 +1,5 @@
-// The page as a browser and a reader see it: whole in itself, well formed, with the failing moment where it
-// was.
+// The report as a browser and a reader see it: complete in one file, well formed, with the failure at its
+// moment.
 #include "emulator/play/report/page.h"
 
 #include <unistd.h>
@@ -129,7 +129,7 @@ TEST(ReportPage, MarksTheFailingMoment) {
   EXPECT_EQ(well.find("failed at "), std::string::npos);
 }
 
-/// The numbers that stand behind each `before` on the page.
+/// The numbers that follow each `before` on the page.
 std::vector<double> numbers_behind(const std::string& page, const std::string& before) {
   std::vector<double> numbers;
   for (std::size_t at = page.find(before); at != std::string::npos; at = page.find(before, at + 1)) {
@@ -138,7 +138,7 @@ std::vector<double> numbers_behind(const std::string& page, const std::string& b
   return numbers;
 }
 
-/// Where the texts of a kind stand, from the picture's top.
+/// The places of the texts of a kind, from the top of the picture.
 std::vector<double> heights_of(const std::string& page, const std::string& kind) {
   std::vector<double> heights;
   const std::string begin = "<text class=\"" + kind + "\"";
@@ -192,8 +192,8 @@ TEST(ReportPage, NamesTheRecordingThatWasKept) {
 
 TEST(ReportPage, DrawsWhatMovedWithItsData) {
   const std::string page = page_of(kServoOn + kExampleMove + "  - advance: 3200ms\n");
-  // By hand: the library's regular expressions recurse once a character, and sanitizers give them no room for
-  // it.
+  // Parsed by hand: the library's regular expressions recurse once a character, and sanitizers give them too
+  // little stack.
   const std::size_t curve = page.find("data-name=\"feeder.A.position\" data-base=\"0\"");
   ASSERT_NE(curve, std::string::npos);
   const std::string attribute = " points=\"";
@@ -202,7 +202,7 @@ TEST(ReportPage, DrawsWhatMovedWithItsData) {
   const std::string points = page.substr(begin, page.find('"', begin) - begin);
   EXPECT_TRUE(points.starts_with("0,0 ")) << points.substr(0, 20);
   EXPECT_TRUE(points.ends_with(",32000")) << points.substr(points.size() - 20);
-  // The machine has followed, so the pulses say nothing more; B stood still; no input changed.
+  // The machine has followed, so the pulses show nothing new; B was at rest; no input changed.
   for (const char* name : {"feeder.A.pulses", "feeder.B.position", "feeder.DIN_10"}) {
     EXPECT_EQ(page.find("data-name=\"" + std::string(name)), std::string::npos) << name;
   }

@@ -1,4 +1,4 @@
-// What a report sees of the manual's example move (played.h has its times).
+// A report on the manual's example move (played.h has its times).
 #include "emulator/play/report/run_logger.h"
 
 #include "tests/emulator/play/performing/played.h"

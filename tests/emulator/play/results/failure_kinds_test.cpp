@@ -1,4 +1,4 @@
-// Failures by kind: the step and the words, whatever the numbers.
+// Failures by kind: the step and the words, ignoring numbers.
 #include "emulator/play/results/failure_kinds.h"
 
 #include <gtest/gtest.h>

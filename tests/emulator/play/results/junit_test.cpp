@@ -1,4 +1,4 @@
-// JUnit XML, read back by a parser that knows nothing of it: Python's.
+// JUnit XML, read back by an independent parser: Python's.
 #include "emulator/play/results/junit.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Results as rows: read back by Python's json and sqlite3, which know nothing of us; and gone on with.
+// Results as rows: read back by Python's json and sqlite3, which are independent of this code; and resumed.
 #include "emulator/play/results/results_file.h"
 
 #include <gtest/gtest.h>
@@ -192,7 +192,7 @@ TEST(JsonLines, ALineWithoutAnEndIsDropped) {
   const std::string path = folder + "/rows.jsonl";
   const std::string first = json_text(row_of(result_of(1), 77, true)) + "\n";
   const std::string second = json_text(row_of(result_of(2), 77, true)) + "\n";
-  // Torn anywhere, also between two bytes of one row; a branch alone is not the case.
+  // Torn anywhere, also between two bytes of one row; a branch alone does not count as the case.
   const std::string branch = json_text(row_of(result_of(2, Verdict::passed, "b"), 77, true)) + "\n";
   for (std::size_t length = 0; length < second.size(); length += 7) {
     std::ofstream(path) << first << branch << second.substr(0, length);

@@ -1,4 +1,4 @@
-// The schema of one bench's scenarios: its names suit, misspelt ones do not.
+// The schema of one bench's scenarios accepts its names and rejects misspelt ones.
 #include "emulator/play/schema/bench_names.h"
 
 #include <gtest/gtest.h>

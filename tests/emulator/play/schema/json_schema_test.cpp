@@ -1,4 +1,4 @@
-// The schemas suit what the readers take, and refuse what they refuse for its form.
+// The schemas accept what the readers accept, and reject what they reject because of its form.
 #include "emulator/play/schema/json_schema.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(JsonSchema, SuitsEveryExampleOfTheDocumentation) {
   EXPECT_EQ(of_scenario(contents(PROJECT_FOLDER "/examples/campaign/move.yaml")), "");
 }
 
-/// What readers refuse because of its form, the schema refuses.
+/// The schema rejects what readers reject because of its form.
 TEST(JsonSchema, RefusesBenchesOfAnotherForm) {
   const std::string station = "stations: [ { name: x, model: simple2-r3 } ]";
   const auto with_line = [](const std::string& line) {
@@ -193,7 +193,7 @@ TEST(JsonSchema, KnowsTheKindsOfTextsOfEachModel) {
                        std::string(model->name) + ", nv: kept.json } ] } }\n"),
               "");
   }
-  // What a model of one's own keeps is not known.
+  // The blocks of a user's own model are unknown.
   EXPECT_EQ(
       of_bench(
           "understudy: 1\nlines: { a: { stations: [ { name: x, model: own.yaml, nv: { files: { a: b } } } "

@@ -1,12 +1,13 @@
-// A small judge of JSON Schema (draft 7), for YAML as an editor reads it: as much of it as our schemas use.
+// A small validator of JSON Schema (draft 7) for YAML as an editor reads it; it supports what our schemas
+// use.
 #pragma once
 
 #include <string>
 
 namespace understudy::emulator::play {
 
-/// Why a YAML text does not suit the schema; empty if it does. Throws std::logic_error for a keyword it does
-/// not know, since a schema whose parts are passed over would be judged to suit everything.
+/// Returns why a YAML text does not match the schema; empty if it does. Throws std::logic_error for an
+/// unknown keyword, because a schema whose parts are ignored would accept everything.
 std::string schema_diagnostic(const std::string& schema, const std::string& yaml);
 
 }  // namespace understudy::emulator::play

@@ -22,7 +22,7 @@ constexpr const char* kAt115200 =
 
 SimTime ns(std::int64_t count) { return SimTime{count}; }
 
-/// A free executor, and what is heard on its only line: when each request's and each reply's first character
+/// A free executor and the traffic on its only line: when each request's and each reply's first character
 /// begins.
 class HeardStage : public pty::LineObserver {
  public:
@@ -156,7 +156,7 @@ TEST(FreeExecutor, APowerCutGarblesAReplyButNotTheNextRequest) {
   EXPECT_EQ(reply.kind, Kind::garbled);
   // The reply begins at 5,333,333; at 7 ms its third character is on its way, which is over at 7,052,083.
   EXPECT_EQ(reply.bytes, (std::vector<std::uint8_t>{0x01, 0x03, 0x02}));
-  // A character and t3.5 later it is plain that there is no more: + 572,916 + 2,005,209.
+  // A character and t3.5 later it is clear that the reply is over: + 572,916 + 2,005,209.
   EXPECT_EQ(heard.executor.now(), ns(7'052'083 + 572'916 + 2'005'209));
   heard.executor.with_world([&](world::World& world) {
     world.remove_watcher(*cut);
@@ -228,7 +228,7 @@ TEST(FreeExecutor, RunUntilStopsAtTheVeryTick) {
   EXPECT_EQ(executor.now(), ns(9'500'000));
 }
 
-/// Where nothing happens it looks only where what it waits for says so, and stops there.
+/// If nothing happens, it checks only when its condition says so, and stops there.
 TEST(FreeExecutor, RunUntilLooksOnlyWhereSomethingMayBeDifferent) {
   HeardStage heard(kAt19200);
   FreeExecutor& executor = heard.executor;

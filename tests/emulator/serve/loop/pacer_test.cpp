@@ -1,4 +1,4 @@
-// How simulated time follows a wall clock that the test makes up.
+// How simulated time follows a wall clock that the test controls.
 #include "emulator/serve/loop/pacer.h"
 
 #include <gtest/gtest.h>

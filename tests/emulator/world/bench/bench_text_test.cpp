@@ -1,4 +1,4 @@
-// A bench as text: read again it is the same.
+// A bench as text reads back as the same bench.
 #include "emulator/world/bench/bench_text.h"
 #include "emulator/models/models.h"
 

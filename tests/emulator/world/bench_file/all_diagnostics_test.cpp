@@ -1,4 +1,4 @@
-// All that is wrong with a file is told at once, in the file's order, and nothing twice.
+// All errors of a file are reported at once, in the file's order, and each only once.
 #include <gtest/gtest.h>
 
 #include "emulator/world/bench_file/diagnostics.h"

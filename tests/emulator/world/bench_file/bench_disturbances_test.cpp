@@ -1,4 +1,4 @@
-// What a bench file says of drives, switches, memories, programs, inputs and faults: right and wrong.
+// Drives, switches, memories, programs, inputs and faults in bench files: right and wrong.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// Bench files that are wrong: each gets one line that says where, what, and what was expected.
+// Wrong bench files: each error is one line with its place, what is wrong and what was expected.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/world/bench_file/bench_texts.h"
@@ -122,7 +122,7 @@ TEST(BenchErrors, Lines) {
       {"understudy: 1\nlines: a\n", "2: lines: expected a map, as in `key: value`"},
       {"understudy: 1\nlines:\n  a.b: { " + kStation + " }\n",
        "3: lines.a.b: 'a.b' is not a name; expected letters, digits, _ and -"},
-      // No file can be called so: ports and memories are named after them.
+      // No file can have this name: ports and memories are named after devices.
       {"understudy: 1\nlines:\n  " + std::string(101, 'a') + ": { " + kStation + " }\n",
        "3: lines." + std::string(101, 'a') + ": has a name of 101 characters; expected at most 100"},
       {"understudy: 1\nlines:\n  a: { link: /tmp/" + std::string(201, 'p') + ", " + kStation + " }\n",
@@ -226,7 +226,7 @@ TEST(BenchErrors, Devices) {
        "5: lines.a.stations[0].device: no device is called 'x'; there is none"},
       {with_station("{ device: mil }") + mill,
        "5: lines.a.stations[0].device: no device is called 'mil'; the nearest is 'mill'"},
-      {and_then(mill), "7: devices.mill: the device is on no line; expected a station that names it"},
+      {and_then(mill), "7: devices.mill: the device is not on a line; expected a station that names it"},
       {with_station("{ device: mill }\n      - { device: mill, address: 2 }") + mill,
        "6: lines.a.stations[1]: the device is already on a line; expected it on one line"},
       {and_then("devices: [ mill ]\n"), "6: devices: expected a map, as in `key: value`"},

@@ -1,4 +1,4 @@
-// Bench files that are right.
+// Correct bench files.
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/models/models.h"
 

@@ -1,4 +1,4 @@
-// Whatever stands in a bench file: it is a bench, or it gets one diagnostic. Nothing crashes.
+// Any text as a bench file is a bench or gets one diagnostic. Nothing crashes.
 #include <gtest/gtest.h>
 
 #include <random>

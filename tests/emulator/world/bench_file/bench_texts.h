@@ -1,4 +1,4 @@
-// Valid benches that use everything a bench file can say, and how one is read in tests.
+// Valid benches that use all keys of bench files, and a function that reads one in tests.
 #pragma once
 
 #include <string>
@@ -69,7 +69,7 @@ inline Bench parse(const std::string& text) {
   return parse_bench(models::all_models(), text, "bench.yaml", "/benches");
 }
 
-/// The diagnostic about a text; empty if there is none.
+/// Returns the diagnostic about a text; empty if there is none.
 inline std::string diagnostic(const std::string& text) {
   try {
     parse(text);

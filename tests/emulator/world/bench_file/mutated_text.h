@@ -1,4 +1,4 @@
-// What may become of a file on its way: cut short, a byte spoilt, pieces moved, repeated and lost.
+// Damage to a file: it is cut short, a byte is changed, pieces are moved, repeated or lost.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::world {
 
-/// What is done with a spoilt text, and how it was spoilt.
+/// Handles a damaged text and the description of the damage.
 using TryText = std::function<void(const std::string& text, const std::string& how)>;
 
 inline void try_every_beginning(const std::string& whole, const TryText& try_text) {
@@ -17,7 +17,8 @@ inline void try_every_beginning(const std::string& whole, const TryText& try_tex
   }
 }
 
-/// Each byte in turn is another, `times` over: those that mean something in YAML, and those that are no text.
+/// Replaces each byte in turn, `times` over, by bytes that mean something in YAML and by bytes that are not
+/// text.
 inline void try_every_byte(const std::string& whole, std::mt19937& random, int times,
                            const TryText& try_text) {
   static const std::string kBytes("\0\n\t:-[}\"|&*!#$\x80\xFF", 16);
@@ -30,7 +31,8 @@ inline void try_every_byte(const std::string& whole, std::mt19937& random, int t
   }
 }
 
-/// One to four changes: a piece is lost, repeated elsewhere, or put over another; or one of `words` comes in.
+/// Makes one to four changes: a piece is lost, repeated elsewhere, or put over another; or one of `words` is
+/// inserted.
 inline std::string with_pieces_moved(std::string text, std::mt19937& random,
                                      std::span<const std::string> words) {
   const int changes = 1 + static_cast<int>(random() % 4);

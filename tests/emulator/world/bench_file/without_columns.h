@@ -1,4 +1,4 @@
-// Diagnostics about files without the columns that they tell, for tests of what they say.
+// Removes the columns from diagnostics about files, for tests of their words.
 #pragma once
 
 #include <regex>

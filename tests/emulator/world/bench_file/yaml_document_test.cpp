@@ -16,7 +16,7 @@
 namespace understudy::emulator::world {
 namespace yaml_document_test {
 
-/// What is said of a text; empty if nothing is.
+/// Returns the message about a text; empty if there is none.
 std::string diagnostic(const std::string& text) {
   try {
     parse_yaml(text, "a.yaml", "bench");
@@ -103,7 +103,7 @@ void try_all(const std::string& text, int most) {
 }
 
 TEST(YamlDocument, AllFilesOfThreeTokensAreReadAtOnce) {
-  // In a process of its own, which is ended when it takes too much memory or time.
+  // In its own process, which is ended when it takes too much memory or time.
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {

@@ -1,4 +1,4 @@
-// A small world for expressions: a table of names and their present values. Counts what is asked for.
+// A small world for expressions: a table of names and their present values. It counts the look-ups.
 #pragma once
 
 #include <map>
@@ -45,7 +45,7 @@ class BenchOfNames : public NameResolver, public ValueSource {
   std::int32_t handle_of(const std::string& name) const { return resolve(name).handle; }
 
  private:
-  // Handles are the resolver's business: neither dense nor from 0.
+  // The resolver chooses the handles: here they are neither dense nor from 0.
   static constexpr std::int32_t kFirstHandle = 7;
   static std::int32_t handle_of(std::size_t index) {
     return kFirstHandle + 3 * static_cast<std::int32_t>(index);
@@ -77,7 +77,7 @@ inline BenchOfNames a_feeder() {
                        {"smallest", INT64_MIN}});
 }
 
-/// What the expression comes to, or the one line that says why it does not.
+/// Returns the value of the expression, or the error in one line.
 inline std::string outcome(std::string_view text, const BenchOfNames& bench) {
   try {
     const Expression expression = parse_expression(text, bench);

@@ -1,9 +1,10 @@
-// Where the language is C, the C++ compiler is the oracle: each expression is compiled and parsed.
+// For the part of the language that is C, the C++ compiler is the oracle: each expression is compiled and
+// parsed.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/world/expression/bench_of_names.h"
 
-// What compilers warn of is the point here.
+// Compilers warn about these expressions, which are the subject of this test.
 #pragma GCC diagnostic ignored "-Wparentheses"
 #ifdef __clang__
 #pragma GCC diagnostic ignored "-Wconstant-logical-operand"

@@ -1,4 +1,4 @@
-// The examples of docs/expressions.md come to what the page says.
+// The examples of docs/expressions.md have the values on the page.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// What expressions come to. The values are those of a_feeder(); the working stands behind each case.
+// The values of expressions. Names have the values of a_feeder(); the calculation follows each case.
 #include "emulator/world/expression/expression.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Whatever text comes, it is taken or refused in one line; what is taken gives a number or one line.
+// Any text is accepted, or refused in one line; an accepted text gives a number or one line.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -1,5 +1,5 @@
-// Random expressions: a tree is drawn, written down with as few parentheses as its shape allows, and computed
-// by walking the tree with wider numbers; the text must come to the same.
+// Random expressions: a tree is drawn, written with as few parentheses as possible, and evaluated by walking
+// the tree with wider numbers; the text must give the same value.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What is not an expression, and how it is said: one line, the column, what was expected.
+// Texts that are not expressions, and their messages: one line, the column, what was expected.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/world/expression/bench_of_names.h"

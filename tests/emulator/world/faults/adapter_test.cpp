@@ -20,7 +20,7 @@ struct Came {
   std::uint8_t byte = 0;
 };
 
-/// Each byte that comes within 100 ms of a request at a whole tenth of a second, and when.
+/// Each byte that arrives within 100 ms of a request at a multiple of 100 ms, and its time.
 std::vector<Came> ask_and_time(World& world, const Bytes& request) {
   const SimTime begin = (world.now() / 100ms + 1) * 100ms;
   world.advance_to(begin);
@@ -107,7 +107,7 @@ TEST(Lumps, AreHandedOverAtMultiplesOfTheirTime) {
   EXPECT_EQ(ask_and_time(line.world(), kAskFeeder).front().at, kReplyBegins + character(1));
 }
 
-// An adapter hands over what it has as soon as it is full: 62 bytes.
+// An adapter passes on its data as soon as it is full: 62 bytes.
 TEST(Lumps, ComeSoonerWhereTheAdapterIsFull) {
   FaultyLine line;
   line.inject("lumps rs485 by=1s");

@@ -1,4 +1,4 @@
-// Faults as text: what they are read as, how they are printed, and what is refused with which line.
+// Faults as text: how they are read, how they are printed, and what is refused with which line.
 #include "emulator/world/faults/fault.h"
 #include "emulator/models/models.h"
 
@@ -196,7 +196,7 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
 }
 
 TEST(FaultForm, HasEveryKindAndField) {
-  // What editors are told is what the reader takes.
+  // Editors get the same fields that the reader accepts.
   std::vector<std::string> known;
   for (const FaultKindRow& kind : fault_kinds()) known.emplace_back(kind.name);
   for (const FaultKindRow& kind : fault_kinds()) {

@@ -1,4 +1,4 @@
-// Faults in a world: what they override, several at one place, what is there again when they are cleared.
+// Faults in a world: what they override, several at one place, and what returns when they are cleared.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -121,7 +121,7 @@ TEST(Faults, OfOtherKindsCoexistAndLeaveOtherPlacesAlone) {
 }
 
 TEST(Faults, AnUnrelatedOneDoesNotDisturbTheCountOfLostSteps) {
-  // 1 pulse a tick; one of ten is lost, whatever else is broken and mended meanwhile.
+  // 1 pulse a tick; one in ten is lost, whatever other faults are added and cleared meanwhile.
   for (const bool disturbed : {false, true}) {
     World world = make_faulty_world();
     set(world, "feeder.Aaxis_SVON", 1);
@@ -178,7 +178,7 @@ TEST(Faults, InAQuietWorldAlsoTakeEffectInTheNextTick) {
   };
   for (const Case& c : std::vector<Case>{
            {"stuck", "feeder.DIN_1", {{"level", 1}}, reads("feeder.DIN_1", 1), 1},
-           // A contact of the machine moves with its tick, and the controller looks in the next one.
+           // A contact of the machine moves in its tick, and the controller reads it in the next one.
            {"alarm", "feeder.A", {}, reads("feeder.DIN_0", 1), 2},
            {"alarm", "turner.B", {}, reads("turner.DIN_5", 0), 2},
            {"alarm", "turner.B", {}, [](const World& w) { return !w.plant(1, 1).ready(); }, 1},
@@ -234,7 +234,7 @@ TEST(ClearFaults, LeavesWhatClearingEachInTurnLeaves) {
 }
 
 TEST(ClearFaults, OfThousandsCostsLessThanInjectingThem) {
-  // Each that comes or goes alone has all the others' conditions read anew.
+  // Each fault that is added or cleared alone causes all conditions of the others to be read again.
   using Clock = std::chrono::steady_clock;
   World world = make_faulty_world();
   const auto begin = Clock::now();

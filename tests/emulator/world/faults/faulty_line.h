@@ -14,7 +14,7 @@ namespace understudy::emulator::world {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Bit by bit, as the standard's appendix has it.
+/// Computes the checksum bit by bit, as in the standard's appendix.
 inline Bytes with_crc(Bytes bytes) {
   unsigned crc = 0xFFFF;
   for (const unsigned byte : bytes) {
@@ -37,7 +37,7 @@ inline std::string hex(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-/// "drop feeder nth=3 when=\"a > 5\"" by its words.
+/// Makes a fault from words: "drop feeder nth=3 when=\"a > 5\"".
 inline FaultText fault_words(const std::string& text) {
   FaultText fault{};
   std::vector<std::string> words{""};
@@ -92,7 +92,7 @@ class FaultyLine {
   }
   const FaultCourse& course(std::size_t number) const { return world_.faults().at(number).course; }
 
-  /// Sends the frame at the next whole 100 ms, and gathers what comes until the ones after.
+  /// Sends the frame at the next multiple of 100 ms, and collects what is received until the next one.
   Answer ask(const Bytes& frame) {
     const SimTime begin = (world_.now() / kEvery + 1) * kEvery;
     world_.advance_to(begin);
@@ -137,8 +137,8 @@ inline const Bytes kMove{0x01, 0x06, 0x10, 0x05, 0x00, 0x01, 0x5C, 0xCB};
 inline const Bytes kAskTurner{0x02, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xF9};
 inline const Bytes kTurnerSays{0x02, 0x03, 0x02, 0xC0, 0x01, 0x6D, 0x84};
 
-// A request of 8 characters at 19200 8E1 is over after 8 * 11 bits = 4,583,333 ns; the device waits 750 us,
-// and the reply's first character takes 572,916 ns.
+// A request of 8 characters at 19200 8E1 ends after 8 * 11 bits = 4,583,333 ns; the device waits 750 us, and
+// the reply's first character takes 572,916 ns.
 inline constexpr SimTime kUsual{4'583'333 + 750'000 + 572'916};
 
 }  // namespace understudy::emulator::world

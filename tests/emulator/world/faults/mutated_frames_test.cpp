@@ -10,7 +10,7 @@
 namespace understudy::emulator::world {
 namespace mutated_frames_test {
 
-/// Whether any run of bytes in it is a frame with a right checksum: then it is not a mutant but another
+/// Returns true if any part of it is a frame with a correct checksum: then it is not a mutant but another
 /// request.
 bool holds_a_good_frame(const Bytes& bytes) {
   for (std::size_t first = 0; first + 4 <= bytes.size(); ++first) {

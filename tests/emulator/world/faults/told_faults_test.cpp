@@ -1,5 +1,4 @@
-// What observers are told of faults that act on messages: each kind, on replies and on requests, as a capture
-// has it.
+// What observers see of faults that act on messages: each kind, on replies and on requests, as in a capture.
 #include "emulator/models/models.h"
 #include "emulator/world/faults/kinds.h"
 #include "pty/capture_frames.h"
@@ -11,7 +10,7 @@ namespace told_faults_test {
 
 using Lines = std::vector<std::string>;
 
-/// What a capture of the one line says, without times.
+/// Returns the capture of the one line, without times.
 class Captured {
  public:
   explicit Captured(FaultyLine& line)
@@ -64,16 +63,16 @@ const std::vector<Told>& cells() {
        {kAsked, "out L 01 03 02  # fault 1 split: said in two pieces", "out L C0 01 29 84"}},
       {"split feeder keep=0 by=20ms", {kAsked, "out L  # fault 1 split: said in two pieces", kSaid}},
       {"split feeder keep=7 by=20ms", {kAsked, kSaid + "  # fault 1 split: said in two pieces"}},
-      // On its way from a gateway; on the wire it stays what it is.
+      // On the connection from a gateway; on the wire it is unchanged.
       {"wrong_transaction feeder",
        {kAsked, kSaid + "  # fault 1 wrong_transaction: wrong transaction over TCP"}},
       {"wrong_unit rs485", {kAsked, kSaid + "  # fault 1 wrong_unit: wrong unit over TCP"}},
       {"hang_up feeder keep=3", {kAsked, kSaid + "  # fault 1 hang_up: the connection ends"}},
-      // On the adapter, struck by a request.
+      // On the adapter, triggered by a request.
       {"echo rs485 nth=1", {kAsked, "in  L  # fault 1 echo: begins", kSaid}},
       {"lumps rs485 by=16ms nth=1", {kAsked, "in  L  # fault 1 lumps: begins", kSaid}},
       {"unplug rs485 nth=1", {kAsked, "in  L  # fault 1 unplug: begins", kSaid}},
-      // On the request. The host's own bytes stay what they were.
+      // On the request. The host's own bytes are unchanged.
       {"drop feeder of=request", {kAsked, "in  L  # fault 1 drop: not heard"}},
       {"drop rs485 of=request", {kAsked, "in  L  # fault 1 drop: not heard"}},
       {"delay feeder by=20ms of=request", {kAsked, "in  L  # fault 1 delay: heard later", kSaid}},
@@ -84,13 +83,13 @@ const std::vector<Told>& cells() {
       {"noise feeder before=FF of=request", {kAsked, "in  L  # fault 1 noise: noise around it", kSaid}},
       {"collision feeder with=00 of=request", {kAsked, "in  L  # fault 1 collision: somebody else talked"}},
       {"drop feeder of=both", {kAsked, "in  L  # fault 1 drop: not heard"}},
-      // On what the device makes of it.
+      // On the device's reply to it.
       {"slow feeder by=20ms", {kAsked, "in  L  # fault 1 slow: carried out later", kSaid}},
       {"busy feeder", {kAsked, "in  L  # fault 1 busy: refused", "out L 01 83 06 C1 32"}},
       {"exception rs485 code=4", {kAsked, "in  L  # fault 1 exception: refused", "out L 01 83 04 40 F3"}},
       {"early_reply feeder", {"in  L  # fault 1 early_reply: taken for over at once", kSaid, kAsked}},
       {"power_cut feeder nth=1", {kAsked, "in  L  # fault 1 power_cut: begins"}},
-      // On the machine, struck by a request.
+      // On the machine, triggered by a request.
       {"stall feeder.A nth=1", {kAsked, "in  L  # fault 1 stall: begins", kSaid}},
       {"lost_steps feeder.A one_in=5 nth=1", {kAsked, "in  L  # fault 1 lost_steps: begins", kSaid}},
       {"slip feeder.A pulses=5 nth=1", {kAsked, "in  L  # fault 1 slip: pushed", kSaid}},

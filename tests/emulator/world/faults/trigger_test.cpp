@@ -1,4 +1,4 @@
-// Triggers by themselves: which occasions they hit, worked out by hand; what is looked at when.
+// Triggers alone: which occasions they hit, worked out by hand; and when their conditions are checked.
 #include "emulator/world/faults/trigger.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Faults of machines and devices with triggers: exactly when they begin and end, and what that does.
+// Faults of machines and devices with triggers: exactly when they begin and end, and their effect.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -241,7 +241,7 @@ TEST(PowerCut, AndTheSwitchAreTwoThings) {
         world.switch_power(0, on);
         EXPECT_FALSE(world.device(0).powered()) << "it is cut";
       }
-      // Another world that goes on from here knows how the switch stands.
+      // Another world that continues from here knows the state of the switch.
       FaultyLine other;
       restore(other.world(), save(world));
       for (World* one : {&world, &other.world()}) {
@@ -338,7 +338,7 @@ TEST(FaultState, IsSavedAndRestoredWithAllThatIsUnderWay) {
 TEST(FaultState, OfWhatNoFaultCanBeIsRefused) {
   FaultyLine line("faults: [ { drop: feeder, when: time > 5ms } ]\n");
   const WorldState good = save(line.world());
-  // The condition is the only text in it that reads so.
+  // The condition is the only text in it of this form.
   WorldState bad = good;
   auto& bytes = bad.parts[0].bytes;
   const std::string_view text = "time > 5ms";

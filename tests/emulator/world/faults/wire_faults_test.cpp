@@ -1,4 +1,5 @@
-// Every stage on a line with wire time: which frame was hit, and the exact bytes and times that came instead.
+// Every stage on a line with wire time: which frame was hit, and the exact bytes and times that arrive
+// instead.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace wire_faults_test {
 
 using namespace std::chrono_literals;
 
-/// A stage's text, and what it makes of a good reply.
+/// A stage's text, and its effect on a good reply.
 struct Stage {
   std::string text;  // without a trigger; % stands for the place
   std::function<Answer(const Answer&)> of_hit;
@@ -77,7 +78,7 @@ const std::vector<Stage>& stages() {
       {"duplicate % of=request", twice},
       {"duplicate % after=40ms of=request", twice},
       {"collision % of=request", nothing},
-      // Tolerant framing finds a good frame behind noise.
+      // Tolerant framing finds a good frame after noise.
       {"noise % before=FF of=request", [](const Answer& good) { return good; }},
   };
   return all;
@@ -165,12 +166,11 @@ const std::vector<TriggerCase>& line_triggers() {
   return all;
 }
 
-/// What stages make of requests is counted when they are heard, of replies when they are said: the same
-/// frames here.
+/// Stages count requests when they are received and replies when they are sent: here the same frames.
 TEST(WireFaults, EveryStageWithEveryTriggerHitsExactlyItsFrames) {
   for (const Stage& stage : stages()) {
     for (const TriggerCase& trigger : line_triggers()) {
-      // Where both sides are frames, the counts are others.
+      // If both directions count as frames, the counts differ.
       const bool is_both = stage.text.find("of=both") != std::string::npos;
       const bool counts = trigger.text.find("nth") != std::string::npos ||
                           trigger.text.find("every") != std::string::npos ||

@@ -1,5 +1,5 @@
-// Wires that lead to a drive, and how its alarm is cleared where the controller has no output for that: on
-// every model.
+// Wires that lead to a drive, and how its alarm is cleared if the controller has no output for that: on every
+// model.
 #include <gtest/gtest.h>
 
 #include "emulator/models/models.h"
@@ -10,7 +10,8 @@
 namespace understudy::emulator::world {
 namespace drive_wires_test {
 
-/// A controller d, and a Simple2-R3 h whose outputs are at hand. The machine on an axis of d has a drive.
+/// A controller d, and a Simple2-R3 h whose outputs the test can switch. The machine on an axis of d has a
+/// drive.
 std::string text_of(const std::string& model, const std::string& axis, const std::string& drive,
                     const std::string& wires, const std::string& steps) {
   return "understudy: 1\n"
@@ -44,7 +45,7 @@ std::string diagnostic_of(const std::string& wires) {
   }
 }
 
-/// An alarm that comes and goes; it is latched behind that.
+/// An alarm that comes and goes; after that it is latched.
 std::string an_alarm(const std::string& axis) {
   return "  - inject: { alarm: d." + axis +
          ", name: a }\n  - advance: 50ms\n  - clear: a\n  - advance: 50ms\n" + "  - assert: d." + axis +
@@ -84,7 +85,7 @@ TEST(DriveWires, ClearAnAlarmOnEveryModel) {
         controller.off + "  - advance: 5ms\n  - assert: " + axis +
             ".ready == 0\n  - write: { h.DOUT_ALL: 0x10 }\n" + "  - advance: 12ms\n  - assert: " + axis +
             ".ready == 1\n" + an_alarm(controller.axis) + "  - assert: " + axis + ".ready == 0\n" +
-            // Disabling it is not enough where a wire leads to the input.
+            // Disabling it is not enough if a wire leads to the input.
             "  - write: { h.DOUT_ALL: 0 }\n  - advance: 50ms\n  - assert: " + axis +
             ".alarm == 1\n  - write: { h.DOUT_ALL: 0x20 }\n  - advance: 2ms\n  - assert: " + axis +
             ".alarm == 0\n  - write: { h.DOUT_ALL: 0x10 }\n  - advance: 13ms\n  - assert: " + axis +

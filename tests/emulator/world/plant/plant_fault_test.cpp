@@ -1,4 +1,4 @@
-// What is wrong with a machine: stalled, losing steps, pushed by force.
+// Faults of a machine: stalled, losing steps, pushed by force.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Switches with hysteresis: where they come on, and where they let go, from either side.
+// Switches with hysteresis: where they turn on and off, from either side.
 #include <gtest/gtest.h>
 
 #include <random>

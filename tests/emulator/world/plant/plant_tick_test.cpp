@@ -1,5 +1,5 @@
-// A machine that is stepped only when it says so, or when something comes from outside, is the machine that
-// is stepped every tick.
+// A machine that is stepped only when it requests it, or when something changes from outside, equals a
+// machine that is stepped every tick.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -42,7 +42,7 @@ PlantSetup random_setup(Random& random) {
   return setup;
 }
 
-/// What comes from outside: held until it changes.
+/// Levels from outside, held until they change.
 struct Outside {
   DriveInputs inputs;
   MachineFaults faults;  // but for slips

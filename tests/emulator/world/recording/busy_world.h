@@ -1,4 +1,4 @@
-// A world that everything happens to, and the recording of it.
+// A world in which everything happens, and its recording.
 #pragma once
 
 #include <memory>
@@ -28,8 +28,8 @@ class BusyWorld {
     begin();
   }
 
-  /// Hosts come, write good and bad frames, in one lump or in pieces, and go; inputs, power, faults,
-  /// registers and programs change; time goes on in odd steps.
+  /// Hosts come, write good and bad frames, at once or in pieces, and leave; inputs, power, faults, registers
+  /// and programs change; time advances in irregular steps.
   void play(int events) {
     for (int i = 0; i < events; ++i) {
       world_.advance_to(world_.now() + SimTime{below(20) == 0 ? below(3'000'000'000) : below(30'000'000)});
@@ -38,7 +38,7 @@ class BusyWorld {
     world_.advance_to(world_.now() + std::chrono::seconds(1));
   }
 
-  /// Forgets what was recorded; what comes is another recording, from a snapshot.
+  /// Discards what was recorded, and begins a new recording from a snapshot.
   void begin_again() {
     header_.snapshot = to_text(save(world_), bench_hash(bench_));
     recorder_.reset();

@@ -1,4 +1,4 @@
-// What happened to a world, in words: for the pages about recordings.
+// Events of a world in words, for the pages about recordings.
 #include "emulator/world/recording/event_text.h"
 #include "emulator/models/models.h"
 

@@ -1,4 +1,4 @@
-// A recording that is as large as it may be begins again, and what it was is kept beside it.
+// A recording that reaches its size limit starts again, and its earlier part is kept in another file.
 #include "emulator/world/recording/recording_spool.h"
 #include "emulator/models/models.h"
 
@@ -31,7 +31,7 @@ struct SpooledWorld {
   std::function<void(const std::string&)> logger() {
     return [this](const std::string& line) { log.push_back(line); };
   }
-  /// A request and its reply, so many times.
+  /// A request and its reply, this many times.
   void talk(RecordingSpool& recording, int times) {
     for (int i = 0; i < times; ++i) {
       world.receive(0, write_request(1, 0x1002, i % 500 + 1));
@@ -77,7 +77,7 @@ TEST(RecordingSpool, BeyondItsCapBeginsAgainAndKeepsTheOneBefore) {
   }
   EXPECT_EQ(rig.log, std::vector<std::string>{});
   ASSERT_TRUE(fs::exists(rig.path + ".1"));
-  // One that ends holds the state that it ends in.
+  // A recording that ends contains its final state.
   const std::size_t state = to_text(save(rig.world), kBenchOfRecording).size();
   EXPECT_LT(fs::file_size(rig.path + ".1"), 101'000U + state + state / 10);
   std::uint64_t end = 0;

@@ -1,4 +1,4 @@
-// A recording played again says every byte again, or tells the first that differs.
+// A replayed recording sends every byte again, or reports the first that differs.
 #include "emulator/world/recording/replay.h"
 #include "emulator/models/models.h"
 
@@ -89,7 +89,7 @@ TEST(Replay, TellsTheFirstByteThatDiffers) {
   EXPECT_EQ(changed, 20);
 }
 
-// One byte of the state that a recording ended in is another: the field is named.
+// One byte of the final state of a recording is changed: the field is named.
 TEST(Replay, NamesTheFieldInWhichItEndsInAnotherState) {
   BusyWorld busy(4);
   busy.play(300);
@@ -110,7 +110,7 @@ TEST(Replay, NamesTheFieldInWhichItEndsInAnotherState) {
   WorldState other = state;
   other.parts.back().bytes.back() ^= std::byte{1};  // at the edge
   EXPECT_EQ(ended_with(other).verdict, Verdict::same) << "what a host has not taken yet is nobody's concern";
-  // All that differs of a world that was given one pulse more from outside.
+  // The complete difference of a world that got one more pulse from outside.
   busy.world().set_external_input(0, 0, busy.world().device(0).input(0) == 0 ? 1 : 0);
   const ReplayResult moved = ended_with(save(busy.world()));
   EXPECT_EQ(moved.verdict, Verdict::different);
@@ -258,7 +258,7 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
 }
 
 TEST(Replay, ARecordingNamesNoPaths) {
-  // It may come from anybody: what it could have read or written is refused before anything is.
+  // It may come from anyone: anything that it could read or write is refused first.
   for (const auto& [key, path] : {std::pair<std::string, std::string>{"nv", "/tmp/precious"},
                                   {"nv", "feeder.json"},
                                   {"program", "/etc/passwd"}}) {

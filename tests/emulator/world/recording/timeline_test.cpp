@@ -1,4 +1,4 @@
-// Any moment of a recording is what a replay up to it comes to, in whatever order they are visited.
+// Any moment of a recording equals a replay up to it, in whatever order moments are visited.
 #include "emulator/world/recording/timeline.h"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(Timeline, ComesToWhatAReplayComesTo) {
   }
 }
 
-/// What led to a moment is seen as well: by one keyframe more, where they are not too far apart.
+/// Events before the moment are visible as well, by one more keyframe, if it is not too far away.
 TEST(Timeline, BeginsAtTheKeyframeBeforeTheLast) {
   using namespace std::chrono_literals;
   const struct {

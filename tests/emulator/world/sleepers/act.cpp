@@ -113,7 +113,7 @@ Act any_fault(Draw& draw, const Model& model) {
           }};
 }
 
-/// Of Modbus: reads and writes anywhere, and what is none.
+/// Modbus messages: reads and writes anywhere, and invalid ones.
 Act any_frame(Draw& draw) {
   const auto byte = [&](std::int64_t number) { return static_cast<std::uint8_t>(number); };
   std::vector<std::uint8_t> bytes{byte(draw.between(0, 2))};
@@ -206,7 +206,7 @@ Act any_act(Draw& draw, const Model& model) {
     case 9:
       if (draw.one_in(3)) return sleepers_act::power_act(draw);
       return {.words = "all faults are mended", .carry_out = [](World& world) {
-                // But for the one that makes the world run every tick.
+                // Except the one that makes the world run every tick.
                 while (!world.faults().empty()) {
                   const auto last = std::prev(world.faults().end());
                   if (last->second.fault.kind == Fault::Kind::drop) break;

@@ -1,4 +1,4 @@
-// Something that comes to a world from outside, as a value that can be given to several worlds, and told.
+// An event from outside as a value, which can be applied to several worlds, and described.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ struct Act {
   SimTime before{0};  // since the act before it
 };
 
-// Each of these does nothing where the world does not have it, or refuses it.
+// Each of these does nothing if the world lacks the target or refuses it.
 Act write_act(const std::string& name, Value value);
 Act assign_act(const std::string& name, double value);
 Act command_act(const std::string& text);
@@ -24,8 +24,8 @@ Act line_act(const std::string& text);
 Act program_act(const std::string& text);
 Act frame_act(std::vector<std::uint8_t> bytes, std::size_t line = 0);
 
-/// What can come to any controller, with all that its model lists: registers, inputs, faults, the power,
-/// frames. Device 0 is `m`, device 1 a neighbour.
+/// The events that any controller can receive, from everything that its model lists: registers, inputs,
+/// faults, the power, frames. Device 0 is `m`, device 1 a neighbour.
 Act any_act(Draw& draw, const Model& model);
 
 }  // namespace understudy::emulator::world::sleepers

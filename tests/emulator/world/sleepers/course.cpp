@@ -11,7 +11,7 @@ namespace understudy::emulator::world::sleepers {
 
 namespace sleepers_course {
 
-/// It tells what it sees: so that what comes late to it shows later, too.
+/// It shows what it sees, so a late effect on it becomes visible, too.
 constexpr const char* kNeighbour =
     "JMP1: Wait_IO DIN_3 ON\nCounter_Increase 1\nOut DOUT_4 ON\nWait_IO DIN_3 OFF\nOut DOUT_4 OFF\nJump "
     "JMP1\n";
@@ -73,7 +73,7 @@ std::string indented(const std::string& listing) {
 
 }  // namespace sleepers_course
 
-/// A bench that cannot be is drawn anew.
+/// A bench that is not possible is drawn again.
 Course course_of(std::string_view name, std::uint64_t seed) {
   using namespace sleepers_course;
   const std::unique_ptr<Life> life = life_of(name);

@@ -1,5 +1,5 @@
-// A course: a bench of a controller `m` and a Simple2-R3 `n` that are wired to each other, and what comes to
-// them from outside; all of it drawn from a seed.
+// A course: a bench of a controller `m` and a Simple2-R3 `n` that are wired to each other, and events from
+// outside. Everything is drawn from a seed.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Numbers at random, of a seed.
+// Random numbers from a seed.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// What only somebody who knows a controller can think of: how its machines stand, programs for it, and what
-// makes it move. The rest of a course is drawn from its model's tables (act.h).
+// What only a person who knows a controller can provide: its machines, programs for it, and what makes it
+// move. The rest of a course is drawn from its model's tables (act.h).
 #pragma once
 
 #include <memory>
@@ -15,18 +15,18 @@ namespace understudy::emulator::world::sleepers {
 class Life {
  public:
   virtual ~Life() = default;
-  /// For `model:` of a bench.
+  /// The value of `model:` in a bench.
   virtual std::string model(Draw& draw) const = 0;
   /// Further keys of the device, each with its comma: ", modules: 3".
   virtual std::string keys(Draw& /*draw*/) const { return ""; }
   /// Lines of a listing; empty: it has no program.
   virtual std::string program(Draw& /*draw*/) const { return ""; }
   virtual Act act(Draw& draw) const = 0;
-  /// That make something possible, before all others.
+  /// Events that enable others, before all of them.
   virtual std::vector<Act> first_acts(Draw& /*draw*/) const { return {}; }
 };
 
-/// By the name of a model; "imported" stands for those that files describe.
+/// Finds a life by the model's name; "imported" means controllers that files describe.
 std::unique_ptr<Life> life_of(std::string_view model);
 
 }  // namespace understudy::emulator::world::sleepers

@@ -64,7 +64,7 @@ std::string some_line(Draw& draw, bool of_macro) {
   }
 }
 
-/// What makes something move, and what looks at it.
+/// Commands that start motion, and commands that read it.
 std::string lively_line(Draw& draw) {
   const std::string axis(1, "XYZU"[draw.between(0, 3)]);
   const std::string far = std::to_string(draw.of_any_size_and_sign(30'000));
@@ -132,7 +132,7 @@ class RsM8194hLife final : public Life {
   }
 
  private:
-  /// No line of a block, which would want its other one.
+  /// No line of a block, which would need its counterpart.
   static std::string plain_macro_line(Draw& draw) {
     for (;;) {
       std::string line = some_line(draw, true);

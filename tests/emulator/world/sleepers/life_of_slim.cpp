@@ -5,7 +5,7 @@
 namespace understudy::emulator::world::sleepers {
 namespace sleepers_slim {
 
-/// What may stand in a program, and most of it typed as well.
+/// Commands that are allowed in a program; most of them also typed.
 std::string some_line(Draw& draw) {
   const std::string module = draw.one_in(2) ? "" : draw.one_in(2) ? "T1" : "T2";
   const std::string far = std::to_string(draw.of_any_size_and_sign(40'000));
@@ -40,7 +40,7 @@ std::string some_line(Draw& draw) {
   }
 }
 
-/// What waits, jumps and asks.
+/// Commands that wait, jump and query.
 std::string flow_line(Draw& draw) {
   const std::string input = draw.number(1, 8);
   switch (draw.between(0, 12)) {

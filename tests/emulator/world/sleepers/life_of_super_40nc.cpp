@@ -5,15 +5,14 @@
 namespace understudy::emulator::world::sleepers {
 namespace sleepers_super_40nc {
 
-/// What a PLC and step programs may look at: everything that shows something, and some of what keeps
-/// something.
+/// Operands of a PLC and of step programs: everything that shows something, and some that only store.
 std::string contact(Draw& draw) {
   switch (draw.between(0, 11)) {
     case 0:
     case 1: return "X" + draw.number(0, 12);
     case 2: return "X" + draw.number(20, 24);
     case 3: return "Y" + draw.number(0, 9);
-    // Seldom what the ladder itself switches: then it may never come to rest.
+    // Seldom contacts that the ladder itself switches, because then it may never settle.
     case 4: return "M" + (draw.one_in(8) ? draw.number(0, 6) : draw.number(20, 32));
     case 5: return "T" + draw.number(0, 5);
     case 6: return "M" + draw.number(8000, 8023);

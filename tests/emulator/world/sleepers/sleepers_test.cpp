@@ -1,7 +1,6 @@
-// Whoever sleeps is woken by all that matters to it: a world that is brought to its times in long pieces is
-// the same as one that is made to run every tick, whatever makes it do so. Random courses of everything, for
-// each controller; all that can be read is compared at each stop. UNDERSTUDY_SEED and UNDERSTUDY_COURSES
-// override.
+// Everything that matters to a sleeping device wakes it: a world that advances in long steps equals one that
+// must run every tick, for whatever reason. Random courses of everything, for each controller; all readable
+// values are compared at each stop. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -49,7 +48,7 @@ testing::AssertionResult same_terminals(const World& plain, const World& awake, 
   return testing::AssertionSuccess();
 }
 
-/// Those that show something: what is simply stored is in the state.
+/// Registers that show something; stored ones are in the state.
 testing::AssertionResult same_views(const Device& one, const Device& other) {
   const RegisterBank* const bank = one.register_bank();
   for (const RegisterRow& row : register_rows(one.model())) {
@@ -102,8 +101,8 @@ testing::AssertionResult same_worlds(World& plain, World& awake) {
   return testing::AssertionSuccess();
 }
 
-/// Whether what rows and outputs say of themselves is so: by single ticks, of a few in each tick that may be
-/// left out or crossed.
+/// Checks the promises of rows and outputs by single ticks, for a few registers in each tick that could be
+/// skipped or fast-forwarded.
 class Promises {
  public:
   Promises(const World& world, std::uint64_t seed) : draw_(seed) {

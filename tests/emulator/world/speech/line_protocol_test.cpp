@@ -1,4 +1,4 @@
-// What differs from one protocol to another is asked of one object.
+// One object knows everything that differs from one protocol to another.
 #include "emulator/world/speech/line_protocol.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(LineProtocol, IsRefusedWhereTheWorldHasNone) {
   EXPECT_EQ(diagnostic, "chief: no line of a world carries smoke signs");
 }
 
-/// What it is spoken to in, it does not speak.
+/// It does not speak the protocol in which it is addressed.
 class Mute final : public Device {
  public:
   using Device::Device;

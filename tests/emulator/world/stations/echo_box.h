@@ -34,7 +34,7 @@
 
 namespace understudy::emulator::world {
 
-/// All that it is.
+/// Its whole state.
 struct EchoState {
   std::string speech{};
   Tick speaks_at = kNever;
@@ -266,7 +266,7 @@ inline std::unique_ptr<Device> EchoLanguage::make_echo_box(const DeviceSettings&
   return std::make_unique<EchoBox>(echo_box(), settings);
 }
 
-/// A bench with one of them, "robot" on the line "serial".
+/// A bench with one of them, "robot", on the line "serial".
 inline Bench echo_bench(pty::Timing timing = pty::Timing::wire, DeviceSettings settings = {}) {
   Bench bench;
   settings.name = "robot";
@@ -275,7 +275,7 @@ inline Bench echo_bench(pty::Timing timing = pty::Timing::wire, DeviceSettings s
   return bench;
 }
 
-/// The controllers that there are, and this one.
+/// All controllers, and this one.
 inline ModelList models_and_echo_box() {
   static const std::vector<ListedModel> models = [] {
     std::vector<ListedModel> list(models::all_models().begin(), models::all_models().end());

@@ -1,4 +1,4 @@
-// What stands between a line and a station when something is broken there, without either of them.
+// The faulty wire between a line and a station, tested without either of them.
 #include "emulator/world/stations/faulty_wire.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace faulty_wire_test {
 using namespace std::chrono_literals;
 using Kind = pty::WireFault::Kind;
 
-/// Says what it was asked about, and does to messages what a test gives it.
+/// Reports what it was asked about, and does to messages what a test requests.
 struct Faults final : FrameFaults {
   bool is_early(const HeardFrame&) override { return true; }
   std::vector<pty::WireFault> on_request(const HeardFrame& frame) override {
@@ -37,7 +37,7 @@ struct Silence final : pty::Transmitter {
   void answer(std::span<const std::uint8_t>, std::uint64_t) override {}
 };
 
-/// A station that writes down what gets through to it, and out of it.
+/// A station that records what reaches it, and what leaves it.
 struct Rig final : FaultyWire::End {
   void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::SimTime,
                    pty::Transmitter&) override {

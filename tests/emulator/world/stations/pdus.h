@@ -1,4 +1,4 @@
-// Modbus requests and replies in tests: hexadecimal text, words, and what a device answers.
+// Modbus requests and replies in tests: hexadecimal text, words, and a device's replies.
 #pragma once
 
 #include <cstdint>
@@ -76,7 +76,7 @@ inline std::string answer(Device& device, const Bytes& pdu) {
   return text(Bytes(reply.pdu.begin(), reply.pdu.begin() + static_cast<std::ptrdiff_t>(reply.size)));
 }
 
-/// The words at an address, or none if reading them is refused.
+/// Returns the words at an address, or none if the read is refused.
 inline Words read(Device& device, std::size_t address, std::size_t quantity) {
   const ModbusReply reply = serve(device, read_pdu(0x03, address, quantity));
   Words words;

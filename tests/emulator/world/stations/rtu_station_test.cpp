@@ -32,7 +32,7 @@ Bytes framed(std::uint8_t address, const Bytes& pdu) {
   return frame;
 }
 
-/// One station alone, spoken to in frames that are long apart.
+/// A single station that gets frames far apart.
 struct StationRig final : pty::Transmitter {
   explicit StationRig(const DeviceSettings& settings = {}, pty::RtuFraming framing = kTolerant)
       : device(make_simple2(settings)), station(*device, 0, framing) {}
@@ -40,7 +40,7 @@ struct StationRig final : pty::Transmitter {
   void transmit(std::span<const std::uint8_t> bytes) override { said.push_back(text(bytes)); }
   void answer(std::span<const std::uint8_t> bytes, std::uint64_t) override { transmit(bytes); }
 
-  /// Sends a frame and waits; what the station said, one text a transmission.
+  /// Sends a frame and waits. Returns what the station sent, one text for each transmission.
   std::vector<std::string> exchange(const Bytes& frame) {
     said.clear();
     for (const std::uint8_t value : frame) {
@@ -239,7 +239,7 @@ TEST(RtuStation, WhatItHalfHeardIsForgottenWhenAnotherStationSpeaks) {
 
 // --- on a line: what silence means (specification 1.1: END time, idle from stop bit to start bit) ---------
 
-/// What comes back for a frame sent in two parts with an idle gap between them.
+/// Returns the reply to a frame that is sent in two parts with an idle gap between them.
 std::string reply_to_split(const Bytes& frame, std::size_t first_part, SimTime gap, int baud) {
   DeviceSettings settings;
   settings.bauds = {baud};

@@ -1,4 +1,4 @@
-// A device that speaks text, on its line: what it hears, what it says, and when.
+// A device that speaks text, on its line: what it receives, what it sends, and when.
 #include "emulator/world/stations/text_station.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ struct Rig {
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
     world.receive(0, bytes);
   }
-  /// What has come since the last call.
+  /// Returns what was received since the last call.
   std::string heard() {
     const auto output = world.line(0).line.output();
     std::string text(output.begin(), output.end());
@@ -193,7 +193,7 @@ TEST(TextStation, ActsFromOutsideMayMakeItSpeakAndAreSentAtTheirTime) {
   EXPECT_EQ(rig.answer("?N0\r"), "7\r\n");
 }
 
-// At every point of a dialogue: half a line heard, an answer half said, unasked speech waiting.
+// At every point of a dialogue: half a line received, a reply half sent, unrequested text waiting.
 TEST(TextStation, AWorldThatIsRestoredSaysTheSameBytes) {
   for (const pty::Timing timing : {pty::Timing::wire, pty::Timing::instant}) {
     Rig first(timing);

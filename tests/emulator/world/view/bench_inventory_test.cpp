@@ -1,4 +1,5 @@
-// Names and faults are judged by what is on a bench, as they are in the world that is made of it.
+// Names and faults are checked with the contents of a bench in the same way as in the world that is made from
+// it.
 #include "emulator/world/view/bench_inventory.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Whether what is said to be on a bench is what is in the world that is made of it.
+// Compares the description of a bench with the world that is made from it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ inline void expect_same_machine(const PlantSetup& here, const PlantSetup& there)
   EXPECT_EQ(here.drive.has_value(), there.drive.has_value());
 }
 
-/// What names ask of a device.
+/// What names request from a device.
 inline void expect_same_device(const Device& here, const Device& there) {
   EXPECT_EQ(here.name(), there.name());
   EXPECT_EQ(&here.model(), &there.model());

@@ -32,7 +32,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// Something from outside at ms `at`: the machine, an operator or the host.
+/// An event from outside at ms `at`: from the machine, an operator or the host.
 struct Deed {
   Tick at = 0;
   std::function<void(OneSimple2&)> does;
@@ -41,7 +41,7 @@ struct Deed {
 Deed input_goes(Tick at, int number, bool on);
 /// DIN `number` is on from ms `from` to before `to`.
 std::vector<Deed> input_is_on(Tick from, Tick to, int number);
-/// By a Modbus frame.
+/// Writes by a Modbus frame.
 Deed host_writes(Tick at, std::string_view name, Value value);
 
 struct Play {
@@ -54,8 +54,8 @@ struct Play {
   Tick until = 0;  // the last ms that is looked at
 };
 
-/// Loads the listing over Modbus, starts it, and compares all that happens with the table. Plays it a second
-/// time in leaps, without looking, and expects the same state at the end.
+/// Loads the listing over Modbus, starts it, and compares everything that happens with the table. Then runs
+/// it again with fast-forward and without observers, and expects the same final state.
 void expect_course(const Play& play, std::string_view wanted);
 
 }  // namespace understudy::emulator::models::simple2_r3

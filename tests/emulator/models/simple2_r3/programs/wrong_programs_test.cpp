@@ -1,6 +1,5 @@
-// Programs that are wrong, and what is done to programs at the wrong moment: each ends or goes on as the
-// manual or a choice says, and whatever it does the host is heard. The rules are those in
-// positioning_programs_test.cpp.
+// Wrong programs, and changes of programs at the wrong moment: each ends or continues as the manual or a
+// choice says, and the host is always served. The rules are those in positioning_programs_test.cpp.
 #include "tests/emulator/models/simple2_r3/programs/course.h"
 
 namespace understudy::emulator::models::simple2_r3 {
