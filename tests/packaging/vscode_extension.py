@@ -4,8 +4,9 @@
 usage: vscode_extension.py PROJECT UNDERSTUDY MODULES [unittest's arguments]
 
 MODULES is a folder for Node modules. If they are missing, npm fetches them if UNDERSTUDY_HEAVY_HOSTS is 1; otherwise the
-tests of colours are skipped.
+tests of colours and schemas are skipped.
 """
+import filecmp
 import functools
 import json
 import os
@@ -61,6 +62,22 @@ def findings(model, texts):
         said = understudy("check", "--model", model, "--format", "json", *paths)
         by_path = {file["file"]: file["findings"] for file in json.loads(said.stdout)["files"]}
         return [by_path[path] for path in paths]
+
+
+@functools.cache
+def fetch_modules():
+    """Fetches the Node modules if that is allowed. Skips the test if they are missing, or not those of the lock file."""
+    lock = os.path.join(MODULES, "package-lock.json")
+    is_here = os.path.isdir(os.path.join(MODULES, "node_modules")) and filecmp.cmp(
+        lock, os.path.join(HERE, "package-lock.json"), shallow=False)
+    if is_here:
+        return
+    if os.environ.get("UNDERSTUDY_HEAVY_HOSTS") != "1":
+        raise unittest.SkipTest("UNDERSTUDY_HEAVY_HOSTS=1 is not set (it needs npm and 80 MB of modules)")
+    os.makedirs(MODULES, exist_ok=True)
+    for name in ("package.json", "package-lock.json"):
+        shutil.copy(os.path.join(HERE, name), MODULES)
+    subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--silent"], cwd=MODULES, check=True)
 
 
 class Generated(unittest.TestCase):
@@ -180,16 +197,39 @@ class Package(unittest.TestCase):
             self.assertEqual(*made)
 
 
+class Schemas(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        fetch_modules()
+
+    def findings(self, name, schema, text):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, name)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+            said = subprocess.run(["node", os.path.join(HERE, "schemas.mjs"), MODULES, f"{path}={schema}"],
+                                  capture_output=True, text=True, check=False)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        return json.loads(said.stdout)
+
+    def test_the_manifest_is_valid(self):
+        self.assertEqual(self.findings("package.json", "vscode-extensions", read("package.json")), [])
+
+    def test_a_wrong_manifest_is_not(self):
+        wrong = read("package.json").replace('[".lst"]', '".lst"')
+        self.assertEqual([what for *_, what in self.findings("package.json", "vscode-extensions", wrong)],
+                         ['Incorrect type. Expected "array".'])
+
+    def test_the_language_configuration_is_valid(self):
+        """The newest schema wants an object for a line comment; all versions of VS Code read a text."""
+        text = read("language-configuration.json").replace('"lineComment": ";"', '"lineComment": { "comment": ";" }')
+        self.assertEqual(self.findings("language-configuration.json", "language-configuration", text), [])
+
+
 class Colours(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        if not os.path.isdir(os.path.join(MODULES, "node_modules", "vscode-textmate")):
-            if os.environ.get("UNDERSTUDY_HEAVY_HOSTS") != "1":
-                raise unittest.SkipTest("UNDERSTUDY_HEAVY_HOSTS=1 is not set (it needs npm and two modules)")
-            os.makedirs(MODULES, exist_ok=True)
-            for name in ("package.json", "package-lock.json"):
-                shutil.copy(os.path.join(HERE, name), MODULES)
-            subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--silent"], cwd=MODULES, check=True)
+        fetch_modules()
 
     def coloured(self, cases):
         """Returns the words of each (model, text) with their scopes."""
