@@ -72,6 +72,7 @@ install(CODE "
   set(DOCUMENTATION \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR})
   set(COMPLETIONS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR})
   set(SCHEMAS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/understudy/schemas)
+  set(EXTENSION \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/understudy/vscode)
   set(SCENARIOS \${CMAKE_INSTALL_PREFIX}/${scenarios_folder})
   # systemd looks here below /usr and /usr/local, whatever the name of the libraries' folder is.
   set(UNITS \${CMAKE_INSTALL_PREFIX}/lib/systemd/system)")

@@ -80,4 +80,13 @@ schema(bench)
 schema(scenario)
 schema(model)
 
+find_program(PYTHON3 python3)
+if(PYTHON3)
+  execute_process(COMMAND "${PYTHON3}" "${PACKAGING}/vscode/vsix.py" "${STAGING}" "${PROGRAM}"
+                  OUTPUT_VARIABLE extension OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  file(INSTALL "${extension}" DESTINATION "${EXTENSION}")
+else()
+  message(STATUS "Without the extension for VS Code: python3 is not installed")
+endif()
+
 file(REMOVE_RECURSE "${STAGING}")

@@ -9,7 +9,7 @@ import re
 WIDTH = 120  # of lines of prose
 PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "changes", "docs", ".github",
          "scenarios/README.md", "benchmarks/README.md", "python/README.md", "emulator/play/README.md",
-         "third_party/README.md", "packaging/understudy.1.in")
+         "third_party/README.md", "packaging/vscode/README.md", "packaging/understudy.1.in")
 HELP = "emulator/command_line"
 
 # Made from the models' rows (`describe MODEL choices --format markdown`), whose sentences are the product's.

@@ -178,6 +178,12 @@ TEST_F(Installation, BringsSchemasForEditors) {
   EXPECT_TRUE(fs::exists(prefix() + "/share/understudy/recipes/vscode/settings.json"));
 }
 
+TEST_F(Installation, BringsTheExtensionForVsCode) {
+  if (!is_here("python3")) GTEST_SKIP() << "python3 is not installed";
+  const std::string version = lines_of(understudy({"--version"}).output).front();
+  EXPECT_TRUE(fs::exists(prefix() + "/share/understudy/vscode/understudy-" + version + ".vsix"));
+}
+
 TEST_F(Installation, HasAManPageWithEveryCommandAndFlagThatHelpTellsOf) {
   std::string text = run({"zcat", page()}).output;
   for (const auto& [roff, plain] : {std::pair<const char*, const char*>{"\\\\-", "-"},
