@@ -1,11 +1,15 @@
-"""The archive that runs anywhere."""
+"""The archive that runs anywhere, and the wheel that has the program."""
 import fcntl
+import importlib.util
 import json
 import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tarfile
+import venv
+import zipfile
 
 import pytest
 
@@ -87,3 +91,37 @@ def test_nothing_in_the_archive_tells_when_or_by_whom_it_was_packed(archive):
     names = [member.name.encode() for member in members]
     assert names == sorted(names, key=lambda name: name.split(b"/"))
     assert archive.read_bytes()[4:8] == b"\0\0\0\0", "gzip keeps no time"
+
+
+@pytest.fixture(scope="module")
+def wheel(archive, tmp_path_factory):
+    for module in ("pip", "setuptools", "wheel"):
+        if importlib.util.find_spec(module) is None:
+            pytest.skip(f"python3-{module} is not installed")
+    return pathlib.Path(said_by(sys.executable, PROJECT / "packaging/program_wheel.py", archive,
+                                tmp_path_factory.mktemp("wheel")))
+
+
+def test_the_wheel_says_what_it_needs(wheel, tree):
+    glibc = json.loads((tree / "sbom.cdx.json").read_text())["components"][0]
+    tag = f"manylinux_{glibc['version'].replace('.', '_')}_{os.uname().machine}"
+    assert wheel.name.endswith(f"-py3-none-{tag}.whl")
+    with zipfile.ZipFile(wheel) as whole:
+        assert whole.testzip() is None
+        said = whole.read(next(name for name in whole.namelist() if name.endswith(".dist-info/WHEEL"))).decode()
+    assert f"Tag: py3-none-{tag}\n" in said and "Root-Is-Purelib: false\n" in said
+
+
+def test_the_wheel_brings_program_client_and_plugin(wheel, tmp_path):
+    venv.create(tmp_path / "v", system_site_packages=True)  # for pytest
+    said_by(sys.executable, "-m", "pip", "--disable-pip-version-check", f"--python={tmp_path}/v/bin/python", "install",
+            "-q", "--no-index", "--ignore-installed", wheel)
+    assert said_by(tmp_path / "v/bin/understudy", "models") == said_by(PROGRAM, "models")
+    (tmp_path / "test_it.py").write_text("import understudy, sys\n"
+                                         "def test_it(bench):\n    assert bench.advance('1ms') == 1_000_000\n"
+                                         "    assert understudy.__file__.startswith(sys.prefix)\n"
+                                         "    from understudy.daemon import program_path\n"
+                                         "    assert program_path() == sys.prefix + '/bin/understudy'\n")
+    plain = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "UNDERSTUDY_PROGRAM")}
+    said_by(tmp_path / "v/bin/python", "-m", "pytest", "-q", "-p", "no:cacheprovider", tmp_path / "test_it.py", env=plain,
+            cwd=tmp_path)
