@@ -1,5 +1,6 @@
 #include "pty/port_link.h"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -19,8 +20,6 @@
 
 namespace understudy::pty {
 namespace {
-
-std::string error_text(int error) { return std::generic_category().message(error); }
 
 /// Returns the target of a symbolic link, or an empty string if `path` is not one.
 std::string link_target(const std::string& path) {
@@ -70,7 +69,7 @@ int replace_link(const std::string& path, const std::string& target) {
 }
 
 PortError cannot_link(const std::string& path, int error) {
-  return PortError(path + ": the link cannot be made: " + error_text(error) +
+  return PortError(path + ": the link cannot be made: " + port_trouble(error) +
                    "; expected a writable directory");
 }
 
@@ -85,6 +84,13 @@ void require_directory(const std::string& path, const std::filesystem::path& abs
 
 }  // namespace
 
+std::string port_trouble(int error) {
+  const std::string said = std::generic_category().message(error);
+  rlimit files = {};
+  if (error != EMFILE || ::getrlimit(RLIMIT_NOFILE, &files) != 0) return said;
+  return said + "; `ulimit -n` is " + std::to_string(files.rlim_cur) + ", and each port needs 3";
+}
+
 PortLink::PortLink(const std::string& path, std::string target) {
   const std::filesystem::path absolute_path = std::filesystem::absolute(path);
   require_directory(path, absolute_path);
@@ -95,6 +101,7 @@ PortLink::PortLink(const std::string& path, std::string target) {
   try {
     claim_ = PortClaim((canonical_parent / absolute_path.filename()).string());
   } catch (const std::system_error& error) {
+    if (error.code().value() == EMFILE) throw PortError(path + ": " + port_trouble(EMFILE));
     throw PortError(path + ": cannot tell whether the link is in use: " + error.what() +
                     "; expected to make and lock that file");
   }

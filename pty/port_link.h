@@ -14,6 +14,9 @@ struct PortError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Says what an error of the kernel means, and how many files this program may open if that is the trouble.
+std::string port_trouble(int error);
+
 class PortLink {
  public:
   PortLink() = default;  // no link

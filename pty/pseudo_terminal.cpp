@@ -13,14 +13,14 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
+#include <memory>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "base/files/descriptor.h"
 #include "pty/port_link.h"
+#include "pty/presence_watch.h"
 #include "pty/terminal_settings.h"
 
 namespace understudy::pty {
@@ -28,7 +28,7 @@ namespace {
 
 PortError cannot_have(const std::string& link_path, const std::string& what, int error) {
   return PortError((link_path.empty() ? std::string("/dev/ptmx") : link_path) + ": " + what + ": " +
-                   std::generic_category().message(error));
+                   port_trouble(error));
 }
 
 /// Our descriptor is read-only, so that its closing (IN_CLOSE_NOWRITE) differs from a usual host's.
@@ -87,20 +87,6 @@ Pair open_pair(const std::string& link_path) {
   return pair;
 }
 
-/// Watches a slave for opens and closes.
-Descriptor watch_of(const std::string& path, const std::string& link_path) {
-  Descriptor watch(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
-  if (!watch) {
-    throw cannot_have(
-        link_path,
-        "no inotify instance is available; expected fewer than fs.inotify.max_user_instances in use", errno);
-  }
-  if (::inotify_add_watch(watch.get(), path.c_str(), IN_OPEN | IN_CLOSE_WRITE | IN_CLOSE_NOWRITE) < 0) {
-    throw cannot_have(link_path, path + " cannot be watched", errno);
-  }
-  return watch;
-}
-
 /// Gives the new file the owner and permissions of the old one.
 void give_same_access(const std::string& from, const std::string& to) {
   struct stat access = {};
@@ -112,12 +98,13 @@ void give_same_access(const std::string& from, const std::string& to) {
 
 }  // namespace
 
-PseudoTerminal::PseudoTerminal(const std::string& link_path) : link_path_(link_path) {
+PseudoTerminal::PseudoTerminal(const std::string& link_path, std::shared_ptr<PresenceWatch> watch)
+    : link_path_(link_path), watch_(std::move(watch)) {
   Pair pair = open_pair(link_path);
   master_ = std::move(pair.master);
   slave_ = std::move(pair.slave);
   path_ = std::move(pair.path);
-  watch_ = watch_of(path_, link_path);
+  place_ = PresenceWatch::Place(*watch_, path_);
   if (!link_path.empty()) link_ = PortLink(link_path, path_);
 }
 
@@ -155,13 +142,14 @@ std::size_t PseudoTerminal::write(std::span<const std::uint8_t> bytes) {
 //
 // inotify tells about every opening and closing in their order, but merges equal neighbours (two hosts
 // that open at once are one event), so its count is a hint only. What decides is the kernel's own: when
-// something has closed, we close our slave for a moment and see whether the master hangs up.
+// something has closed, we close our slave for a moment and see whether the master hangs up. Without inotify,
+// each poll_presence() does.
 //
 // inotify is also early: a host's closing is told a moment before the kernel lets go of the terminal. So
 // "somebody is there", against the count, is believed at the second look only: until then it is in doubt.
 
 PseudoTerminal::Presence PseudoTerminal::poll_presence() {
-  follow_presence(false);
+  follow_presence(!is_watched());
   return std::exchange(news_, {});
 }
 
@@ -189,19 +177,9 @@ void PseudoTerminal::follow_presence(bool must_look) {
 
 /// Returns true if a descriptor has been closed.
 bool PseudoTerminal::read_presence_events() {
+  watch_->collect();
   bool has_closed = false;
-  alignas(inotify_event) std::array<char, 4096> buffer;
-  for (;;) {
-    const ssize_t size = ::read(watch_.get(), buffer.data(), buffer.size());
-    if (size < 0 && errno == EINTR) continue;
-    if (size <= 0) break;
-    for (std::size_t at = 0; at < static_cast<std::size_t>(size);) {
-      inotify_event event = {};
-      std::memcpy(&event, buffer.data() + at, sizeof event);
-      at += sizeof event + event.len;
-      has_closed = count_event(event.mask) || has_closed;
-    }
-  }
+  for (const std::uint32_t mask : place_.take_events()) has_closed = count_event(mask) || has_closed;
   own_opens_ = own_closes_ = 0;  // or they were merged with a host's
   return has_closed;
 }
@@ -287,12 +265,11 @@ bool PseudoTerminal::recover() {
   try {
     Pair fresh = open_pair(link_path_);
     give_same_access(path_, fresh.path);
-    Descriptor watch = watch_of(fresh.path, link_path_);
     link_.point_to(fresh.path);
+    place_ = PresenceWatch::Place(*watch_, fresh.path);
     path_ = std::move(fresh.path);
     master_ = std::move(fresh.master);
     slave_ = std::move(fresh.slave);
-    watch_ = std::move(watch);
     opens_ = own_opens_ = own_closes_ = 0;
     return true;
   } catch (const PortError&) {

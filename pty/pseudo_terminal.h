@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,25 +12,26 @@
 #include "base/files/descriptor.h"
 #include "pty/line_settings.h"
 #include "pty/port_link.h"
+#include "pty/presence_watch.h"
 
 namespace understudy::pty {
 
 /// To serve it: when data_descriptor() is readable, call read(); before using the bytes, call
-/// poll_presence() if has_presence_news(), and poll_host_settings(). When presence_descriptor() is readable,
-/// call poll_presence().
+/// poll_presence() if has_presence_news(), and poll_host_settings(). When the watch has collected something,
+/// call poll_presence() if has_presence_news().
 class PseudoTerminal {
  public:
   /// Creates the pty, raw and at the resting speed, and links `link_path` to it. It replaces a stale
   /// symbolic link (dangling, or to a /dev/pts entry) and leaves anything else alone. `link_path` may be
-  /// empty. Throws PortError.
-  explicit PseudoTerminal(const std::string& link_path);
+  /// empty. Terminals that are served together share a watch. Throws PortError.
+  explicit PseudoTerminal(const std::string& link_path,
+                          std::shared_ptr<PresenceWatch> watch = std::make_shared<PresenceWatch>());
   /// Removes the link if it still leads to this terminal.
   ~PseudoTerminal();
   PseudoTerminal(const PseudoTerminal&) = delete;
   PseudoTerminal& operator=(const PseudoTerminal&) = delete;
 
   int data_descriptor() const { return master_.get(); }        // readable when the host has written
-  int presence_descriptor() const { return watch_.get(); }     // readable when a host has opened or closed
   const std::string& path() const { return path_; }            // /dev/pts/N
   const std::string& link_path() const { return link_path_; }  // as it was given
 
@@ -47,9 +49,12 @@ class PseudoTerminal {
         false;  // the last host closed it: bytes it had not read are dropped, bytes it wrote are not
   };
   Presence poll_presence();
-  /// Returns true if read() has noticed something that poll_presence() will report. presence_descriptor()
-  /// may then no longer be readable.
-  bool has_presence_news() const { return news_.opened || news_.closed; }
+  /// Returns true if the watch has collected something, or read() has noticed something, that
+  /// poll_presence() may report.
+  bool has_presence_news() const { return news_.opened || news_.closed || place_.has_events(); }
+  /// Returns false if the kernel does not tell who opens and closes the line (it has no inotify instance or
+  /// watch left). Then call poll_presence() now and then. It notices who is there at that moment.
+  bool is_watched() const { return static_cast<bool>(place_); }
   bool host_present() const { return is_present_; }
   /// A host seems to have gone, but the kernel has not released the line yet: call poll_presence() again in
   /// a few milliseconds. This is rare. Without that call the doubt lasts until the next host.
@@ -85,7 +90,8 @@ class PseudoTerminal {
   Descriptor master_;
   Descriptor slave_;  // our own descriptor, so that the master never hangs up; rarely none (is_lost(),
                       // holds_slave())
-  Descriptor watch_;  // inotify on the slave
+  std::shared_ptr<PresenceWatch> watch_;
+  PresenceWatch::Place place_;  // of the slave
   PortLink link_;
 
   bool is_present_ = false;

@@ -5,6 +5,7 @@ import select
 import shutil
 import signal
 import subprocess
+import sysconfig
 import tempfile
 import time
 import weakref
@@ -43,12 +44,19 @@ exit $code
 BAD_SETUP = 2  # the program's exit code for flags and files that it rejects
 
 
+def program_path() -> str:
+    """What UNDERSTUDY_PROGRAM names; else the program that was installed together with this client, as by the wheel that
+    has it; else the first one on PATH."""
+    beside = os.path.join(sysconfig.get_path("scripts"), "understudy")
+    return os.environ.get("UNDERSTUDY_PROGRAM") or (beside if os.access(beside, os.X_OK) else "understudy")
+
+
 class Daemon:
     """The program and its guard. A process that is forked from this one does not own them."""
 
     def __init__(self, arguments: Sequence[str], program: Optional[str] = None, ready_within_s: float = 30.0,
                  bench_text: str = "") -> None:
-        program = program or os.environ.get("UNDERSTUDY_PROGRAM") or "understudy"
+        program = program or program_path()
         if shutil.which(program) is None:
             raise NotThere(f"{program}: no such program; set UNDERSTUDY_PROGRAM to its path")
         command: List[str] = ["/bin/sh", "-c", GUARD, "understudy-guard", program, _folders(), bench_text]

@@ -2,7 +2,6 @@
 import contextlib
 import difflib
 import inspect
-import os
 import subprocess
 from pathlib import Path
 from typing import Any, Callable, Dict, Generator, List, Mapping
@@ -10,6 +9,7 @@ from typing import Any, Callable, Dict, Generator, List, Mapping
 import pytest
 
 from .bench import Bench, start
+from .daemon import program_path
 
 REPLAYED_WITHIN_S = 60.0
 KEPT = pytest.StashKey[List[Path]]()
@@ -41,7 +41,7 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, Any, None]:
 def draw(folder: Path) -> List[str]:
     """Makes the report and the frames from the recording. Returns which files exist then, and what went wrong."""
     recording, page, frames = folder / "understudy.rec", folder / "report.html", folder / "frames.txt"
-    program = os.environ.get("UNDERSTUDY_PROGRAM") or "understudy"
+    program = program_path()
     said = []
     try:
         done = subprocess.run([program, "replay", str(recording), "--report", str(page), "--capture", str(frames)],

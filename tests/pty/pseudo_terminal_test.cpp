@@ -21,10 +21,6 @@ int unread_by_host(const Host& host) {
   return count;
 }
 
-bool is_quiet(const PseudoTerminal& port) {
-  return !is_readable(port.data_descriptor(), 0) && !is_readable(port.presence_descriptor(), 0);
-}
-
 TEST(PseudoTerminal, CarriesBytesBothWays) {
   PseudoTerminal port("");
   EXPECT_TRUE(port.path().starts_with("/dev/pts/")) << port.path();
@@ -52,37 +48,39 @@ TEST(PseudoTerminal, NeverBlocks) {
 }
 
 TEST(PseudoTerminal, TellsWhoComesAndGoes) {
-  PseudoTerminal port("");
+  WatchedTerminal terminal;
+  PseudoTerminal& port = terminal.port;
   EXPECT_FALSE(port.host_present());
-  EXPECT_TRUE(is_quiet(port));
+  EXPECT_TRUE(terminal.is_quiet());
   for (int i = 0; i < 3; ++i) {
     Host host(port.path());
-    ASSERT_TRUE(is_readable(port.presence_descriptor(), kTimeoutMs));
+    ASSERT_TRUE(terminal.has_news(kTimeoutMs));
     auto presence = port.poll_presence();
     EXPECT_TRUE(presence.opened);
     EXPECT_FALSE(presence.closed);
     EXPECT_TRUE(port.host_present());
-    EXPECT_TRUE(is_quiet(port));
+    EXPECT_TRUE(terminal.is_quiet());
     host.close();
-    ASSERT_TRUE(is_readable(port.presence_descriptor(), kTimeoutMs));
+    ASSERT_TRUE(terminal.has_news(kTimeoutMs));
     presence = port.poll_presence();
     EXPECT_FALSE(presence.opened);
     EXPECT_TRUE(presence.closed);
     EXPECT_FALSE(port.host_present());
-    EXPECT_TRUE(is_quiet(port));  // our own looking makes no news, and nothing hangs up
+    EXPECT_TRUE(terminal.is_quiet());  // our own looking makes no news, and nothing hangs up
     presence = port.poll_presence();
     EXPECT_FALSE(presence.opened || presence.closed);
   }
 }
 
 TEST(PseudoTerminal, SeesAHostThatCameAndWent) {
-  PseudoTerminal port("");
+  WatchedTerminal terminal;
+  PseudoTerminal& port = terminal.port;
   Host(port.path()).close();
   const auto presence = port.poll_presence();
   EXPECT_TRUE(presence.opened);
   EXPECT_TRUE(presence.closed);
   EXPECT_FALSE(port.host_present());
-  EXPECT_TRUE(is_quiet(port));
+  EXPECT_TRUE(terminal.is_quiet());
 }
 
 TEST(PseudoTerminal, SeesAQuickReopening) {
@@ -98,7 +96,8 @@ TEST(PseudoTerminal, SeesAQuickReopening) {
 }
 
 TEST(PseudoTerminal, StaysTakenUntilTheLastOfSeveralHostsHasGone) {
-  PseudoTerminal port("");
+  WatchedTerminal terminal;
+  PseudoTerminal& port = terminal.port;
   // inotify merges both openings into one event, and later both closings.
   Host first(port.path());
   Host second(port.path());
@@ -119,7 +118,7 @@ TEST(PseudoTerminal, StaysTakenUntilTheLastOfSeveralHostsHasGone) {
   reader.close();
   EXPECT_TRUE(port.poll_presence().closed);
   EXPECT_FALSE(port.host_present());
-  EXPECT_TRUE(is_quiet(port));
+  EXPECT_TRUE(terminal.is_quiet());
 }
 
 TEST(PseudoTerminal, AClaimEndsWithTheLastHost) {
@@ -296,7 +295,8 @@ TEST(PseudoTerminal, KeepsTheReplyToAHostThatReopenedBeforeAnyoneLooked) {
 }
 
 TEST(PseudoTerminal, SurvivesAHostThatIsKilled) {
-  PseudoTerminal port("");
+  WatchedTerminal terminal;
+  PseudoTerminal& port = terminal.port;
   for (int i = 0; i < 5; ++i) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -311,7 +311,7 @@ TEST(PseudoTerminal, SurvivesAHostThatIsKilled) {
     EXPECT_TRUE(WIFSIGNALED(status));
     port.poll_presence();
     EXPECT_FALSE(port.host_present());
-    EXPECT_TRUE(is_quiet(port));
+    EXPECT_TRUE(terminal.is_quiet());
   }
   Host host(port.path());
   EXPECT_TRUE(host.set_even_parity(B19200));
@@ -320,9 +320,10 @@ TEST(PseudoTerminal, SurvivesAHostThatIsKilled) {
 // --- with a server in a thread of its own ----------------------------------------------------------
 
 TEST(PseudoTerminalServed, LetsAHostReopenAtOnceWithParityAgainAndAgain) {
-  PseudoTerminal port("");
+  WatchedTerminal terminal;
+  PseudoTerminal& port = terminal.port;
   {
-    ComplementServer server(port);
+    ComplementServer server(terminal);
     for (int i = 0; i < 50; ++i) {
       Host host(port.path());
       ASSERT_TRUE(host.set_even_parity(B19200)) << i;
@@ -336,8 +337,9 @@ TEST(PseudoTerminalServed, LetsAHostReopenAtOnceWithParityAgainAndAgain) {
 }
 
 TEST(PseudoTerminalServed, AnswersALongStream) {
-  PseudoTerminal port("");
-  ComplementServer server(port);
+  WatchedTerminal terminal;
+  PseudoTerminal& port = terminal.port;
+  ComplementServer server(terminal);
   Host host(port.path());
   ASSERT_TRUE(host.set_even_parity(B19200));
   for (int i = 0; i < 300; ++i) {

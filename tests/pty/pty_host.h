@@ -81,6 +81,18 @@ class ScratchDirectory {
   std::string path_;
 };
 
+/// A terminal with a watch of its own.
+struct WatchedTerminal {
+  bool has_news(int timeout_ms = 0) {
+    if (is_readable(watch->descriptor(), timeout_ms)) watch->collect();
+    return port.has_presence_news();
+  }
+  bool is_quiet() { return !is_readable(port.data_descriptor(), 0) && !has_news(); }
+
+  std::shared_ptr<PresenceWatch> watch = std::make_shared<PresenceWatch>();
+  PseudoTerminal port{"", watch};
+};
+
 /// Reads what comes within the time-out, at least one byte.
 inline Bytes read_some(PseudoTerminal& port) {
   if (!is_readable(port.data_descriptor(), kTimeoutMs)) return {};
@@ -92,7 +104,8 @@ inline Bytes read_some(PseudoTerminal& port) {
 /// A thread that answers every byte with its complement.
 class ComplementServer {
  public:
-  explicit ComplementServer(PseudoTerminal& port) : port_(port), thread_([this] { serve(); }) {}
+  explicit ComplementServer(WatchedTerminal& terminal)
+      : port_(terminal.port), watch_(*terminal.watch), thread_([this] { serve(); }) {}
   ~ComplementServer() {
     is_stopping_ = true;
     thread_.join();
@@ -107,7 +120,7 @@ class ComplementServer {
  private:
   void serve() {
     std::array<pollfd, 2> entries = {pollfd{port_.data_descriptor(), POLLIN, 0},
-                                     pollfd{port_.presence_descriptor(), POLLIN, 0}};
+                                     pollfd{watch_.descriptor(), POLLIN, 0}};
     std::array<std::uint8_t, 256> buffer{};
     while (!is_stopping_) {
       ::poll(entries.data(), entries.size(), 20);
@@ -123,6 +136,7 @@ class ComplementServer {
   }
 
   PseudoTerminal& port_;
+  PresenceWatch& watch_;
   std::atomic<bool> is_stopping_{false};
   std::thread thread_;
 };

@@ -1,6 +1,5 @@
 #include "emulator/serve/daemon/daemon.h"
 
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/eventfd.h>
 #include <sys/signalfd.h>
@@ -12,7 +11,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -31,10 +29,8 @@
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/pacer.h"
 #include "emulator/serve/ports/port.h"
-#include "emulator/serve/ports/tcp_door.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench/bench_text.h"
-#include "emulator/world/bench/listening.h"
 #include "emulator/world/events/event_log.h"
 #include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/recording_spool.h"
@@ -43,7 +39,6 @@
 #include "emulator/world/trace/trace_file.h"
 #include "emulator/world/trace/world_capture.h"
 #include "emulator/world/world.h"
-#include "pty/port_link.h"
 
 namespace understudy::emulator::serve {
 
@@ -94,6 +89,7 @@ Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
   if (options.watch_signals) watch_signals();
   watch_posts();
   make_ports(bench);
+  watch_presence();
   make_doors(bench);
   if (options.door) door_ = options.door(*this, log_);
   memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
@@ -173,40 +169,6 @@ void Daemon::watch_signals() {
   sigprocmask(SIG_BLOCK, &stop, nullptr);
   signals_ = signalfd(-1, &stop, SFD_NONBLOCK | SFD_CLOEXEC);
   loop_.watch(signals_, EventLoop::readable, [this](std::uint32_t) { stopping_ = true; });
-}
-
-void Daemon::make_ports(const world::Bench& bench) {
-  for (std::size_t i = 0; i < bench.lines.size(); ++i) {
-    if (!bench.lines[i].has_pty) {
-      ports_.push_back(std::make_unique<Port>(
-          loop_, world_, i, Port::Link(), [this] { catch_up_for_bytes(); }, log_));
-      continue;
-    }
-    std::string link = bench.lines[i].link;
-    if (link.empty()) link = private_folder_.path() + "/" + bench.lines[i].name + ".port";
-    try {
-      ports_.push_back(std::make_unique<Port>(
-          loop_, world_, i, link, [this] { catch_up_for_bytes(); }, log_));
-    } catch (const pty::PortError& error) {
-      const auto folder = std::filesystem::absolute(link).parent_path();
-      const bool is_there = faccessat(AT_FDCWD, folder.c_str(), F_OK, AT_EACCESS) == 0;
-      if (!is_there || faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) == 0) throw;
-      throw pty::PortError(std::string(error.what()) + " (--links FOLDER puts the links elsewhere)");
-    }
-  }
-}
-
-/// Opens all doors before the log names any, because one may fail.
-void Daemon::make_doors(const world::Bench& bench) {
-  for (std::size_t i = 0; i < bench.lines.size(); ++i) {
-    for (const world::TcpAddress& address : bench.lines[i].tcp) {
-      doors_.push_back(std::make_unique<TcpDoor>(loop_, *ports_[i], address, log_));
-    }
-  }
-  for (const auto& port : ports_) {
-    for (const std::string& place : port->tcp_places())
-      log_("line " + port->line().name() + " listens at " + place);
-  }
 }
 
 FileClaims Daemon::files() const {

@@ -27,6 +27,7 @@
 #include "emulator/world/trace/trace_file.h"
 #include "emulator/world/trace/world_capture.h"
 #include "emulator/world/world.h"
+#include "pty/presence_watch.h"
 
 namespace understudy::emulator::serve {
 
@@ -118,6 +119,7 @@ class Daemon {
   void watch_posts();
   void end_posts();
   void make_ports(const world::Bench& bench);
+  void watch_presence();
   void make_doors(const world::Bench& bench);
   void open_files(const world::Bench& bench, const DaemonOptions& options);
   void judge_stall(WallTime now);
@@ -146,6 +148,7 @@ class Daemon {
   std::unique_ptr<world::TraceFile> trace_;
   Pacer pacer_;
   PrivateFolder private_folder_;  // for links that the user did not ask for
+  std::shared_ptr<pty::PresenceWatch> presence_ = std::make_shared<pty::PresenceWatch>();
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<std::unique_ptr<TcpDoor>> doors_;
   std::unique_ptr<Door> door_;

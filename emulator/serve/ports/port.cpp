@@ -25,6 +25,7 @@
 #include "pty/line_observer.h"
 #include "pty/line_settings.h"
 #include "pty/port_link.h"
+#include "pty/presence_watch.h"
 #include "pty/station.h"
 
 namespace understudy::emulator::serve {
@@ -33,6 +34,9 @@ namespace {
 
 // The kernel reports a host's close a moment before it takes effect. After this time it has.
 constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
+
+// Where the kernel does not tell who opens and closes a terminal, this is how often it is checked.
+constexpr WallTime kUnwatchedLook = std::chrono::milliseconds(50);
 
 // A lost terminal is tried again after this time.
 constexpr WallTime kRecovery = std::chrono::milliseconds(100);
@@ -76,24 +80,22 @@ class Port::Overflow final : public pty::LineObserver {
 };
 
 Port::Port(EventLoop& loop, world::World& world, std::size_t line_number, const Link& link,
-           std::function<void()> catch_up, std::function<void(const std::string&)> log)
+           std::shared_ptr<pty::PresenceWatch> presence, std::function<void()> catch_up,
+           std::function<void(const std::string&)> log)
     : loop_(loop),
       world_(world),
       line_number_(line_number),
       catch_up_(std::move(catch_up)),
       log_(std::move(log)),
       link_(link),
+      presence_(std::move(presence)),
       overflow_(std::make_unique<Overflow>(*this)) {
   if (!link_) return;
-  terminal_.emplace(*link_);
+  terminal_.emplace(*link_, presence_);
   watch();
 }
 
 void Port::watch() {
-  loop_.watch(terminal_->presence_descriptor(), EventLoop::readable, [this](std::uint32_t) {
-    on_presence({});
-    keep_watch();
-  });
   loop_.watch(terminal_->data_descriptor(), EventLoop::readable, [this](std::uint32_t ready) {
     on_data(ready);
     keep_watch();
@@ -110,7 +112,6 @@ void Port::keep_watch() {
   }
   if (is_watching_) {
     loop_.unwatch(terminal_->data_descriptor());
-    loop_.unwatch(terminal_->presence_descriptor());
     is_watching_ = false;
   }
   const std::string path_before = terminal_->path();
@@ -127,9 +128,13 @@ void Port::keep_watch() {
 }
 
 Port::~Port() {
-  if (!terminal_) return;
-  loop_.unwatch(terminal_->data_descriptor());
-  loop_.unwatch(terminal_->presence_descriptor());
+  if (terminal_) loop_.unwatch(terminal_->data_descriptor());
+}
+
+void Port::follow_hosts() {
+  if (!terminal_ || !is_watching_ || !terminal_->has_presence_news()) return;
+  on_presence({});
+  keep_watch();
 }
 
 /// Tells the line which hosts came and went. `bytes` were read just before.
@@ -237,21 +242,26 @@ WallTime Port::patience() const {
 
 std::optional<WallTime> Port::next_look(bool clock_stands) {
   if (next_recovery_ > WallTime{0}) return next_recovery_;
-  if (!terminal_ || !terminal_->is_in_doubt()) {
-    second_look_ = WallTime{0};
-  } else {
-    if (second_look_ == WallTime{0}) second_look_ = wall_now() + kSecondLook;
-    return second_look_;
+  const bool is_in_doubt = terminal_ && terminal_->is_in_doubt();
+  if (!is_in_doubt && (!terminal_ || terminal_->is_watched())) {
+    next_presence_ = WallTime{0};
+  } else if (next_presence_ == WallTime{0}) {
+    next_presence_ = wall_now() + (is_in_doubt ? kSecondLook : kUnwatchedLook);
   }
+  std::optional<WallTime> next;
+  if (next_presence_ > WallTime{0}) next = next_presence_;
+  if (terminal_ && terminal_->has_presence_news()) next = WallTime{0};  // another port has collected them
   // With a stopped clock, patience with an incomplete frame would never end.
-  if (clock_stands && last_bytes_ > WallTime{0} && line().due()) return last_bytes_ + patience();
-  return std::nullopt;
+  if (clock_stands && last_bytes_ > WallTime{0} && line().due())
+    next = std::min(next.value_or(WallTime::max()), last_bytes_ + patience());
+  return next;
 }
 
 void Port::look(WallTime now, bool clock_stands) {
   if (next_recovery_ > WallTime{0} && now >= next_recovery_) terminal_ ? keep_watch() : follow_plug();
-  if (second_look_ > WallTime{0} && now >= second_look_) {
-    second_look_ = WallTime{0};
+  follow_hosts();
+  if (next_presence_ > WallTime{0} && now >= next_presence_) {
+    next_presence_ = WallTime{0};
     on_presence({});
     keep_watch();
   }
@@ -327,14 +337,13 @@ void Port::follow_plug() {
 /// Acts like an adapter that is pulled out: the link disappears, and hosts get a hang-up.
 void Port::pull_out() {
   is_pulled_out_ = true;
-  next_recovery_ = second_look_ = WallTime{0};
+  next_recovery_ = next_presence_ = WallTime{0};
   left_behind_.clear();
   if (guest_ != nullptr) guest_->hang_up();
   if (!terminal_) return;
   if (stat(terminal_->path().c_str(), &access_) != 0) access_ = {};
   if (is_watching_) {
     loop_.unwatch(terminal_->data_descriptor());
-    loop_.unwatch(terminal_->presence_descriptor());
     is_watching_ = false;
   }
   if (terminal_->host_present()) world_.host_closed(line_number_);
@@ -347,7 +356,7 @@ void Port::plug_in() {
   next_recovery_ = WallTime{0};
   if (!link_) return;
   try {
-    terminal_.emplace(*link_);
+    terminal_.emplace(*link_, presence_);
   } catch (const pty::PortError& error) {
     if (!std::exchange(has_told_, true)) log_("line " + line().name() + ": " + error.what());
     is_pulled_out_ = true;

@@ -21,10 +21,12 @@ class Port {
  public:
   /// The link to its pseudo-terminal; nothing: it has none, only guests.
   using Link = std::optional<std::string>;
-  /// `catch_up` brings the world to the present moment; `log` receives messages for the user. Throws
-  /// pty::PortError.
+  /// Ports that are served together share a `presence` watch; whoever serves them calls follow_hosts() when
+  /// it has collected something. `catch_up` brings the world to the present moment; `log` receives messages
+  /// for the user. Throws pty::PortError.
   Port(EventLoop& loop, world::World& world, std::size_t line_number, const Link& link,
-       std::function<void()> catch_up, std::function<void(const std::string&)> log);
+       std::shared_ptr<pty::PresenceWatch> presence, std::function<void()> catch_up,
+       std::function<void(const std::string&)> log);
   ~Port();
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
@@ -38,9 +40,11 @@ class Port {
   /// Returns how long the line can send to its host until its buffer is full, or nothing if it will not
   /// send.
   std::optional<SimTime> time_until_full() const;
-  /// Returns when look() should be called even if nothing is readable: a host may have gone, a frame is
-  /// incomplete while the clock is stopped, or a lost or unplugged pseudo-terminal could not be opened again
-  /// yet.
+  /// Tells the line which hosts came and went, if the watch has collected anything about them.
+  void follow_hosts();
+  /// Returns when look() should be called even if nothing is readable: a host may have come or gone, a frame
+  /// is incomplete while the clock is stopped, or a lost or unplugged pseudo-terminal could not be opened
+  /// again yet.
   std::optional<WallTime> next_look(bool clock_stands);
   void look(WallTime now, bool clock_stands);
   /// The world has another state: its line gets the host that is there now, and the old line's unsent bytes
@@ -113,13 +117,14 @@ class Port {
   std::function<void()> catch_up_;
   std::function<void(const std::string&)> log_;
   Link link_;
+  std::shared_ptr<pty::PresenceWatch> presence_;
   std::optional<pty::PseudoTerminal> terminal_;  // none as well while it is pulled out
   Guest* guest_ = nullptr;                       // has the line instead
   std::optional<pty::HostSettings> guest_settings_;
   std::vector<std::string> tcp_places_;
   std::vector<std::uint8_t> left_behind_;  // from hosts that have closed; at most kLeftBehindCapacity
-  WallTime second_look_{0};                // when to check again whether the host has gone; 0: not needed
-  bool is_watching_ = false;               // the terminal's descriptors
+  WallTime next_presence_{0};              // when to check again who is there; 0: not needed
+  bool is_watching_ = false;               // the terminal's descriptor
   bool is_pulled_out_ = false;             // by a fault
   bool has_told_ = false;                  // why it cannot be plugged in again
   struct stat access_ {};                  // of the terminal that was

@@ -32,7 +32,7 @@ class DoorRig {
   explicit DoorRig(const std::string& address, const std::string& bench = kOneFeeder)
       : world(world::parse_bench(models::all_models(), bench, "bench.yaml", "."), {}, {}) {
     port = std::make_unique<Port>(
-        loop, world, 0, Port::Link(), [this] { catch_up(); },
+        loop, world, 0, Port::Link(), std::make_shared<pty::PresenceWatch>(), [this] { catch_up(); },
         [this](const std::string& line) { log.push_back(line); });
     door = std::make_unique<TcpDoor>(loop, *port, world::parse_tcp_address(address),
                                      [this](const std::string& line) { log.push_back(line); });

@@ -40,6 +40,7 @@ class LostPort : public testing::Test {
     while (!holds()) {
       if (wall_now() > until) return false;
       loop.wait(wall_now() + 1ms);
+      presence->collect();
       port.look(wall_now(), false);
     }
     return true;
@@ -57,7 +58,8 @@ class LostPort : public testing::Test {
       {}};
   EventLoop loop;
   std::vector<std::string> log;
-  Port port{loop, world, 0, link, [] {}, [this](const std::string& line) { log.push_back(line); }};
+  std::shared_ptr<pty::PresenceWatch> presence = std::make_shared<pty::PresenceWatch>();
+  Port port{loop, world, 0, link, presence, [] {}, [this](const std::string& line) { log.push_back(line); }};
 };
 
 // It lets go of the line to see who is there, and cannot have it back: its kernel has no descriptor left.

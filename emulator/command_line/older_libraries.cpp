@@ -1,0 +1,15 @@
+// What the program would otherwise need from a newer C library than Ubuntu 22.04 has (glibc 2.35).
+#include <sys/random.h>
+#include <sys/types.h>
+
+#include <cstdint>
+
+/// The C++ library of g++ 12, which is part of the program, takes random numbers from this function of glibc
+/// 2.36 (the websockets of the live page ask it for some). The program's own definition comes first.
+extern "C" __attribute__((visibility("hidden"))) std::uint32_t arc4random() noexcept {
+  std::uint32_t number = 0;
+  while (::getrandom(&number, sizeof number, 0) != static_cast<ssize_t>(sizeof number)) {
+    // Only a signal can interrupt it.
+  }
+  return number;
+}

@@ -1,0 +1,73 @@
+// The doors of a daemon to the outside: pseudo-terminals, who opens them, and TCP addresses.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/ports/port.h"
+#include "emulator/serve/ports/tcp_door.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/bench/listening.h"
+#include "pty/port_link.h"
+#include "pty/presence_watch.h"
+
+namespace understudy::emulator::serve {
+
+void Daemon::make_ports(const world::Bench& bench) {
+  for (std::size_t i = 0; i < bench.lines.size(); ++i) {
+    if (!bench.lines[i].has_pty) {
+      ports_.push_back(std::make_unique<Port>(
+          loop_, world_, i, Port::Link(), presence_, [this] { catch_up_for_bytes(); }, log_));
+      continue;
+    }
+    std::string link = bench.lines[i].link;
+    if (link.empty()) link = private_folder_.path() + "/" + bench.lines[i].name + ".port";
+    try {
+      ports_.push_back(std::make_unique<Port>(
+          loop_, world_, i, link, presence_, [this] { catch_up_for_bytes(); }, log_));
+    } catch (const pty::PortError& error) {
+      const auto folder = std::filesystem::absolute(link).parent_path();
+      const bool is_there = faccessat(AT_FDCWD, folder.c_str(), F_OK, AT_EACCESS) == 0;
+      if (!is_there || faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) == 0) throw;
+      throw pty::PortError(std::string(error.what()) + " (--links FOLDER puts the links elsewhere)");
+    }
+  }
+}
+
+void Daemon::watch_presence() {
+  const auto is_unwatched = [](const std::unique_ptr<Port>& port) {
+    return port->terminal() != nullptr && !port->terminal()->is_watched();
+  };
+  if (const auto unwatched = std::count_if(ports_.begin(), ports_.end(), is_unwatched)) {
+    log_(std::to_string(unwatched) + (unwatched == 1 ? " port is" : " ports are") +
+         " checked for hosts every 50 ms, because the kernel has no inotify instance or watch left "
+         "(fs.inotify.max_user_instances, max_user_watches)");
+  }
+  if (presence_->descriptor() < 0) return;
+  loop_.watch(presence_->descriptor(), EventLoop::readable, [this](std::uint32_t) {
+    presence_->collect();
+    for (const auto& port : ports_) port->follow_hosts();
+  });
+}
+
+/// Opens all doors before the log names any, because one may fail.
+void Daemon::make_doors(const world::Bench& bench) {
+  for (std::size_t i = 0; i < bench.lines.size(); ++i) {
+    for (const world::TcpAddress& address : bench.lines[i].tcp) {
+      doors_.push_back(std::make_unique<TcpDoor>(loop_, *ports_[i], address, log_));
+    }
+  }
+  for (const auto& port : ports_) {
+    for (const std::string& place : port->tcp_places())
+      log_("line " + port->line().name() + " listens at " + place);
+  }
+}
+
+}  // namespace understudy::emulator::serve

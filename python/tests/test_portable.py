@@ -1,0 +1,127 @@
+"""The archive that runs anywhere, and the wheel that has the program."""
+import fcntl
+import importlib.util
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tarfile
+import venv
+import zipfile
+
+import pytest
+
+PROJECT = pathlib.Path(__file__).parents[2]
+PROGRAM = pathlib.Path(os.environ.get("UNDERSTUDY_PROGRAM") or shutil.which("understudy") or "understudy").resolve()
+
+
+def said_by(*command, **options):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout.strip()
+
+
+@pytest.fixture(scope="module")
+def archive(tmp_path_factory):
+    if not (PROGRAM.parent / "cmake_install.cmake").exists():
+        pytest.skip(f"{PROGRAM.parent} is not a build folder")
+    for tool in ("cmake", "objdump", "dpkg-query"):
+        if shutil.which(tool) is None:
+            pytest.skip(f"{tool} is not installed")
+    # Packing takes seconds: the processes of xdist share one.
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent
+    with open(folder / "portable.lock", "w", encoding="ascii") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        there = list((folder / "portable").glob("*.tar.gz"))
+        # A system that is newer than the archive's own is good enough for a test.
+        return there[0] if there else pathlib.Path(
+            said_by(PROJECT / "packaging/portable.sh", folder / "portable", PROGRAM.parent,
+                    env={**os.environ, "UNDERSTUDY_ANY_GLIBC": "1"}))
+
+
+@pytest.fixture(scope="module")
+def tree(archive, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("a tree")
+    with tarfile.open(archive) as whole:
+        whole.extractall(folder)
+    (found,) = folder.iterdir()
+    assert found.name + ".tar.gz" == archive.name
+    return found
+
+
+def test_the_archive_is_small_and_runs_where_it_lies(archive, tree):
+    assert archive.stat().st_size <= 5_000_000
+    program = tree / "bin/understudy"
+    loaded = dict(line.strip().split(" => ") for line in said_by("ldd", program).splitlines() if " => /" in line)
+    own = {name for name, place in loaded.items() if str(tree) in place}
+    assert own == {path.name for path in (tree / "lib/understudy").iterdir()} - {"tty_shim.so"}
+    assert "libmodbus.so.5" in own or "libmodbus.so.5" not in loaded
+    assert said_by(program, "models") == said_by(PROGRAM, "models")
+    assert said_by(program, "tty-shim") == str(tree / "lib/understudy/tty_shim.so")
+    said_by(program, "run", tree / "share/understudy/scenarios/simple2-r3/absolute_positions.yaml")
+
+
+def test_the_archive_has_pages_schemas_and_licences(tree):
+    for file in ("README.md", "LICENSE", "CHANGELOG.md", "share/understudy/schemas/bench.schema.json",
+                 "share/man/man1/understudy-serve.1.gz", "share/bash-completion/completions/understudy",
+                 "share/understudy/recipes/ci/gitlab.yml", "licences/libmodbus5", "licences/LGPL-2.1", "licences/uplot"):
+        assert (tree / file).stat().st_size > 0, file
+    assert not [path for path in tree.rglob("*") if path.is_symlink()]
+
+
+def test_the_archive_lists_its_parts(tree):
+    parts = json.loads((tree / "sbom.cdx.json").read_text())
+    assert (parts["bomFormat"], parts["specVersion"]) == ("CycloneDX", "1.5")
+    assert parts["metadata"]["component"]["version"] == said_by(PROGRAM, "--version")
+    versions = {part["name"]: part["version"] for part in parts["components"]}
+    assert all(version[0].isdigit() for version in versions.values()), versions
+    assert {"glibc", "libmodbus5", "libyaml-cpp-dev", "libsqlite3-dev", "htm", "preact", "uplot"} <= versions.keys()
+
+
+def test_nothing_in_the_archive_tells_when_or_by_whom_it_was_packed(archive):
+    with tarfile.open(archive) as whole:
+        members = whole.getmembers()
+    assert len({member.mtime for member in members}) == 1
+    assert {(member.uid, member.gid, member.uname, member.gname) for member in members} == {(0, 0, "", "")}
+    assert {member.mode for member in members} <= {0o755, 0o644}
+    names = [member.name.encode() for member in members]
+    assert names == sorted(names, key=lambda name: name.split(b"/"))
+    assert archive.read_bytes()[4:8] == b"\0\0\0\0", "gzip keeps no time"
+
+
+@pytest.fixture(scope="module")
+def wheel(archive, tmp_path_factory):
+    for module in ("pip", "setuptools", "wheel"):
+        if importlib.util.find_spec(module) is None:
+            pytest.skip(f"python3-{module} is not installed")
+    return pathlib.Path(said_by(sys.executable, PROJECT / "packaging/program_wheel.py", archive,
+                                tmp_path_factory.mktemp("wheel")))
+
+
+def test_the_wheel_says_what_it_needs(wheel, tree):
+    glibc = json.loads((tree / "sbom.cdx.json").read_text())["components"][0]
+    tag = f"manylinux_{glibc['version'].replace('.', '_')}_{os.uname().machine}"
+    assert wheel.name.endswith(f"-py3-none-{tag}.whl")
+    with zipfile.ZipFile(wheel) as whole:
+        assert whole.testzip() is None
+        said = whole.read(next(name for name in whole.namelist() if name.endswith(".dist-info/WHEEL"))).decode()
+    assert f"Tag: py3-none-{tag}\n" in said and "Root-Is-Purelib: false\n" in said
+
+
+def test_the_wheel_brings_program_client_and_plugin(wheel, tmp_path):
+    venv.create(tmp_path / "v", system_site_packages=True)  # for pytest
+    said_by(sys.executable, "-m", "pip", "--disable-pip-version-check", f"--python={tmp_path}/v/bin/python", "install",
+            "-q", "--no-index", "--ignore-installed", wheel)
+    assert said_by(tmp_path / "v/bin/understudy", "models") == said_by(PROGRAM, "models")
+    (tmp_path / "test_it.py").write_text("import understudy, sys\n"
+                                         "def test_it(bench):\n    assert bench.advance('1ms') == 1_000_000\n"
+                                         "    assert understudy.__file__.startswith(sys.prefix)\n"
+                                         "    from understudy.daemon import program_path\n"
+                                         "    assert program_path() == sys.prefix + '/bin/understudy'\n")
+    plain = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "UNDERSTUDY_PROGRAM")}
+    said_by(tmp_path / "v/bin/python", "-m", "pytest", "-q", "-p", "no:cacheprovider", tmp_path / "test_it.py", env=plain,
+            cwd=tmp_path)
