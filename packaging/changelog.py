@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""The changelog, made of fragments: changes/NAME.KIND.md is one change, as a user of the program sees it.
+"""Makes the changelog of fragments: changes/NAME.KIND.md describes one change for users.
 
 usage: changelog.py check [--since COMMIT]    are the fragments and CHANGELOG.md well formed?
        changelog.py show                      print the section of the changes that are not released yet
        changelog.py release VERSION [DATE]    write that section into CHANGELOG.md, and remove the fragments
 
 With --since, `check` also demands a fragment that was added or changed after that commit if the product was.
-CONTRIBUTING.md says how to write a fragment. Exit 1, with a line for each fault.
+CONTRIBUTING.md says how to write a fragment. Prints a line for each fault, and then exits with 1.
 """
 import datetime
 import os
@@ -15,7 +15,7 @@ import subprocess
 import sys
 
 KINDS = {"added": "Added", "changed": "Changed", "deprecated": "Deprecated", "removed": "Removed",
-         "fixed": "Fixed", "security": "Security"}  # as keepachangelog.com has them, in this order
+         "fixed": "Fixed", "security": "Security"}  # the kinds and order of keepachangelog.com
 FRAGMENT = re.compile(rf"[a-z0-9][a-z0-9-]*\.({'|'.join(KINDS)})\.md")
 NOT_FRAGMENTS = ("README.md",)
 WIDTH = 120
@@ -29,7 +29,7 @@ def read(path):
 
 
 def fragments_of(project):
-    """(kind, path below the project, text) of each, in the order of their names."""
+    """Yields (kind, path below the project, text) of each fragment, sorted by name."""
     folder = os.path.join(project, "changes")
     names = sorted(os.listdir(folder)) if os.path.isdir(folder) else []
     for name in names:
@@ -47,7 +47,7 @@ def faults_of_names(project):
 
 
 def faults_of_fragment(text):
-    """(line, what is wrong and what was expected)."""
+    """Yields (line, what is wrong and what was expected)."""
     lines = text.split("\n")
     if not text.strip():
         yield 1, "is empty; expected what changes for a user, in a sentence or a few"
@@ -59,14 +59,14 @@ def faults_of_fragment(text):
     if not text.rstrip().endswith((".", ")", "`")):
         yield len(lines), "does not end as a sentence does; expected a full stop"
     for number, line in enumerate(lines, 1):
-        if len(line) > WIDTH - 2:  # a bullet moves it by two
+        if len(line) > WIDTH - 2:  # a bullet indents it by two
             yield number, f"is {len(line)} letters wide; expected at most {WIDTH - 2}"
         if line.startswith(("#", "-", "* ")):
             yield number, "is a heading or a bullet; expected prose: one fragment is one bullet"
 
 
 def faults_of_changelog(text, version):
-    """(line, what is wrong and what was expected); `version` is the project's."""
+    """Yields (line, what is wrong and what was expected); `version` is the project's version."""
     last = None
     kinds = []
     for number, line in enumerate(text.split("\n"), 1):
@@ -109,7 +109,7 @@ def faults_since(project, commit):
 
 
 def faults_of(project):
-    """(path, line, what is wrong and what was expected) of all fragments and of the changelog, if there is one."""
+    """Yields (path, line, what is wrong and what was expected) for all fragments and the changelog, if it exists."""
     yield from faults_of_names(project)
     for _, path, text in fragments_of(project):
         yield from ((path, line, what) for line, what in faults_of_fragment(text))
@@ -130,7 +130,7 @@ def section_of(project, heading):
 
 
 def release(project, version, date):
-    """Returns the faults that keep it from being done, as faults_of() does."""
+    """Writes the section, or returns the faults that prevent it, like faults_of()."""
     faults = list(faults_of(project))
     expected = ".".join(map(str, version_of(project)))
     if version != expected:

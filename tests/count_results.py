@@ -1,25 +1,25 @@
 #!/usr/bin/python3
-"""Counts what ctest has run, and tells why each skipped test was skipped.
+"""Counts the tests that ctest ran, and says why tests were skipped.
 
 usage: count_results.py RESULTS.xml SHARDS
 
-RESULTS.xml is ctest's JUnit file. Where ctest has run a shard of many tests, SHARDS holds NAME.xml, in which GoogleTest
-tells of each of them; a shard without one ended before its end, and has failed.
-Prints a line `skipped: NAME: reason` for each that was skipped, then `PASSED FAILED SKIPPED`.
+RESULTS.xml is ctest's JUnit file. If ctest ran a shard of many tests, the folder SHARDS contains NAME.xml, in which
+GoogleTest reports each of them. A shard without this file ended too early, and counts as failed.
+Prints a line `skipped: NAME: reason` for each skipped test, then `PASSED FAILED SKIPPED`.
 """
 import os
 import re
 import sys
 import xml.etree.ElementTree
 
-# XML has no such characters, and a test may print them.
+# Tests may print these characters, which XML does not allow.
 NOT_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f]")
 REFERENCE = re.compile("&#(x[0-9a-fA-F]+|[0-9]+);")
 NO_REASON = "no reason is given"
 
 
 def read(path):
-    # A parser makes a space of a line's end in an attribute, but not of one that is written as a reference.
+    # In an attribute, a parser replaces the end of a line with a space, unless it is written as a reference.
     with open(path, encoding="utf-8", errors="replace") as file:
         text = NOT_XML.sub("?", file.read())
     return xml.etree.ElementTree.fromstring(REFERENCE.sub(lambda found: "&#10;" if is_line_end(found.group(1)) else "?", text))
@@ -30,13 +30,13 @@ def is_line_end(digits):
 
 
 def reason(output):
-    """GoogleTest prints `FILE:LINE: Skipped`, then the reason; a script prints `skipped: reason`."""
+    """Returns the reason: GoogleTest prints it after `FILE:LINE: Skipped`, a script as `skipped: reason`."""
     found = re.search(r": Skipped\n(.+)", output) or re.search(r"^skipped: (.+)", output, re.M)
     return found.group(1).strip() if found and found.group(1).strip() else NO_REASON
 
 
 def count_shard(path):
-    """GoogleTest's own file: `FILE:LINE`, and the reason in the next line, is the message of a test that was skipped."""
+    """Counts in GoogleTest's own file. A skipped test has a message: `FILE:LINE`, and the reason in the next line."""
     passed = failed = skipped = 0
     for case in read(path).iter("testcase"):
         if case.get("status") != "run":

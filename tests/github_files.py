@@ -1,7 +1,7 @@
-"""The files of .github/, as far as a script can judge them without GitHub: they parse, and have what they need.
+"""Checks the files in .github/ as far as possible without GitHub: they parse, and have the necessary keys.
 
-github_files.faults_of(project) yields (path, line, what is wrong and what was expected). Without python3-yaml nothing
-is judged.
+github_files.faults_of(project) yields (path, line, what is wrong and what was expected). Without python3-yaml it
+checks nothing.
 """
 import os
 
@@ -17,7 +17,7 @@ def faults_of_workflow(workflow):
     if not isinstance(workflow, dict) or not isinstance(workflow.get("jobs"), dict) or not workflow["jobs"]:
         yield "is not a workflow; expected `on` and `jobs`"
         return
-    if not workflow.get("on", workflow.get(True)):  # to YAML 1.1 `on` is a truth value
+    if not workflow.get("on", workflow.get(True)):  # YAML 1.1 reads `on` as true
         yield "says not when it runs; expected `on`"
     for name, job in workflow["jobs"].items():
         steps = job.get("steps") if isinstance(job, dict) else None

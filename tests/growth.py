@@ -1,9 +1,9 @@
-"""How large the project's inside is: circles of files by calls of members, member functions of a class, lines of a
-function. Each has a limit. What is above it today is in a table with today's figure, which it may not exceed: so each
-figure can only shrink, and an entry that is too high for what it names is refused as well.
+"""Measures the structure of the code: circles of files by calls of members, member functions of a class, and lines of a
+function. Each figure has a limit. A table has the exceptions with their present figures, which they must not exceed, so
+they can only shrink. An entry that is higher than its figure is refused as well.
 
 growth.faults_of(project) yields (path, line, what is wrong and what was expected); growth.largest(project) yields a
-line for the largest of each.
+line for the largest figure of each kind.
 """
 import os
 
@@ -16,7 +16,7 @@ ITSELF = "tests/growth.py"
 
 
 class Rule:
-    """`limit` holds for all but `exceptions`; an entry may be higher than its figure by `slack`."""
+    """`limit` applies to everything except `exceptions`; an entry may exceed its figure by `slack`."""
 
     def __init__(self, what, limit, slack, exceptions):
         self.what, self.limit, self.slack, self.exceptions = what, limit, slack, exceptions
@@ -43,7 +43,7 @@ def outlines_of(project):
 
 
 def circles_by_calls(outlines):
-    """The largest circle of a folder is called by the folder's name, the next one NAME (2), and so on."""
+    """Yields the sizes of circles. The largest one of a folder has its name, the next one NAME (2), and so on."""
     folders = {}
     for path, one in outlines.items():
         folder, name = os.path.split(path)
@@ -63,7 +63,7 @@ def members_of_classes(outlines):
 
 
 def lines_of_functions(outlines):
-    """Not of a function that is mostly a table."""
+    """Yields the lengths of functions, except those that are mostly tables."""
     for path, one in outlines.items():
         for function in one.functions:
             if not function.is_table:
@@ -71,7 +71,7 @@ def lines_of_functions(outlines):
 
 
 def figures_of(project):
-    """Of each key the largest, in the order of rules and files."""
+    """Returns the largest figure of each key, in the order of rules and files."""
     outlines = dict(outlines_of(project))
     found = {}
     for measure in (circles_by_calls, members_of_classes, lines_of_functions):
@@ -83,7 +83,7 @@ def figures_of(project):
 
 
 def fault_of(figure):
-    """None, or what is wrong with a figure, whether it has an entry or not."""
+    """Returns the fault of a figure, with or without an entry, or None."""
     rule = figure.rule
     entry = rule.exceptions.get(figure.key)
     if figure.value > (rule.limit if entry is None else entry):
@@ -93,7 +93,7 @@ def fault_of(figure):
 
 
 def fault_of_entry(rule, key, value):
-    """None, or what is wrong with an entry; `value` is today's, None if there is nothing of that name."""
+    """Returns the fault of an entry, or None. `value` is the present figure, or None if the name does not exist."""
     entry = rule.exceptions[key]
     if value is None:
         return f"the entry of {key} names nothing; delete it"

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""What ./test looks at before it builds anything: formatting, a few rules of style that a script can judge, the
-wording of the documentation and of --help (plain_words.py), the changelog with its fragments (packaging/changelog.py),
-the files of .github/ (github_files.py), whether the page's scripts parse (page_scripts.py), and how large circles of
-files, classes and functions are (growth.py).
+"""Checks the sources before ./test builds anything: the formatting, a few rules of style, the wording of the
+documentation and of --help (plain_words.py), the changelog and its fragments (packaging/changelog.py), the files in
+.github/ (github_files.py), the syntax of the page's scripts (page_scripts.py), and the sizes of circles of files,
+classes and functions (growth.py).
 
 usage: house_style.py [PROJECT]
 
-Prints a line for each fault, "file:line: what is wrong; what was expected", and exits 1 if there is any; at
-the end the largest circle, class and function.
+Prints a line for each fault, "file:line: what is wrong; what was expected", and at the end the largest circle, class
+and function. The exit code is 1 if there is a fault.
 """
 import concurrent.futures
 import os
@@ -16,7 +16,7 @@ import shutil
 import subprocess
 import sys
 
-sys.dont_write_bytecode = True  # this project's folders stay as they are
+sys.dont_write_bytecode = True  # leaves no files in this project's folders
 sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "packaging"))
 import changelog  # noqa: E402
 import github_files  # noqa: E402
@@ -28,7 +28,7 @@ LONGEST_FILE = 450  # lines; about 400 is the aim
 LONGEST_TEST_NAME = 50
 PRODUCT = ("base/", "motion/", "interpreter/", "pty/", "emulator/")
 TEST = re.compile(r"^(?:TEST|TEST_F|TEST_P)\((\w+), *(\w+)\)")
-FOREIGN = [  # what a native speaker would not write, in messages and comments of the product; and what instead
+FOREIGN = [  # phrases in messages and comments of the product that a native speaker would not write, and replacements
     (re.compile(r'"[^"]*(?<!here )\bis no (?!longer|more|other|less|better|such)\w'), '"X is not a Y" for "X is no Y"'),
     (re.compile(r"\b(?:to|cannot|can|could not|could) be had\b"), '"is available", "can be opened" for "can be had"'),
     (re.compile(r"\b(?:two|three|four) there (?:is|are)\b", re.IGNORECASE), '"There are two" for "Two there are"'),
@@ -44,7 +44,7 @@ FOREIGN = [  # what a native speaker would not write, in messages and comments o
 
 
 def files_of(project):
-    """All sources below the folder, as a tarball or a clone has them: without git, which need not be installed."""
+    """Returns all sources below the folder. It does not need git, so it also works in a tarball."""
     found = []
     for folder, folders, names in os.walk(project):
         folders[:] = sorted(name for name in folders if not name.startswith(".") and name != "build" and
@@ -86,7 +86,7 @@ def badly_formatted(project, paths):
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         told = [line for lines in pool.map(look, [paths[i:i + share] for i in range(0, len(paths), share)]) for line in lines]
     first = {}
-    for line in told:  # one a file is enough
+    for line in told:  # one finding per file is enough
         first.setdefault(line.split(":")[0], line)
     return list(first.values())
 

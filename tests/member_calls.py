@@ -1,11 +1,11 @@
-"""Which files of a folder call member functions that other files of the same folder define.
+"""Finds the files of a folder that call member functions defined in other files of the same folder.
 
 calls_of(outlines) takes the folder's sources, {name: outline.Outline}, and returns {file: {other: the call that shows
-it}}. A header and the source that bears its name count as one file, by that name without its ending.
+it}}. A header and the source of the same name count as one file, under that name without its ending.
 
-A call is `name(...)` in a member function of the class, `object.name(...)`, or `&Class::name`. An object is known by
-its name: the file, or a header of the folder, declares it with the class in its type. Calls of objects that are not
-found this way are not counted.
+A call is `name(...)` in a member function of the class, `object.name(...)`, or `&Class::name`. An object is
+recognized by its name if the file, or a header of the folder, declares it with the class in its type. Calls of other
+objects are not counted.
 """
 import collections
 import os
@@ -24,13 +24,13 @@ def stem(name):
 
 
 def is_declaration(before):
-    """Whether what stands before `name(` is a type, so that the statement declares a variable."""
+    """Returns whether a type precedes `name(`, so that the statement declares a variable."""
     found = TYPE.search(before)
     return bool(found) and found["word"] not in BEFORE_A_CALL
 
 
 def bare_calls(body):
-    """The names called without an object, or by `this`."""
+    """Yields the names that are called without an object, or through `this`."""
     for call in CALL.finditer(body):
         begin = max(0, call.start("name") - 60)
         if not call["receiver"] and not is_declaration(body[begin:call.start("name")]):
@@ -40,7 +40,7 @@ def bare_calls(body):
 
 
 def name_before(text, end):
-    """The last name before a dot: of `chip(axis).step()` and `chips_[0].step()` as well."""
+    """Returns the last name before a dot, also in `chip(axis).step()` and `chips_[0].step()`."""
     while end and (text[end - 1].isspace() or text[end - 1] in ")]"):
         end -= 1
         if text[end] in ")]":
@@ -78,7 +78,7 @@ class Folder:
                 self.add_objects(one.text, self.shared)
 
     def add_objects(self, text, found):
-        """The names of objects, and of functions that return one, with their classes."""
+        """Adds the names of objects, and of functions that return one, with their classes."""
         for owner, pattern in self.patterns.items():
             for name in pattern.findall(text):
                 found[name].add(owner)
@@ -93,14 +93,14 @@ class Folder:
         return found
 
     def files_of(self, owner, member, seen=()):
-        """Where a class, or one that it inherits from, defines the member."""
+        """Returns the files in which a class, or one of its bases, defines the member."""
         here = self.homes.get(owner, {}).get(member, set())
         if here or owner in seen:
             return here
         return set().union(*(self.files_of(base, member, (*seen, owner)) for base in self.bases.get(owner, ())))
 
     def calls_in(self, one):
-        """(class, member) of each call that may be one."""
+        """Yields (class, member) of each possible call."""
         for function in one.functions:
             if function.owner:
                 yield from ((function.owner, name) for name in bare_calls(function.body))

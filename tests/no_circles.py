@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
-"""Refuses circles of includes between the folders of the house, and so between its rooms.
+"""Refuses circles of includes between folders, and therefore between rooms.
 
-usage: no_circles.py PROJECT [EXTRA_EDGE...]      an edge is FOLDER:FOLDER, as if one file included another
-       no_circles.py PROJECT --calls FOLDER       which calls of members make circles of the files in a folder
+usage: no_circles.py PROJECT [EXTRA_EDGE...]      an edge is FOLDER:FOLDER, and counts as an include
+       no_circles.py PROJECT --calls FOLDER       shows calls of members that form circles of files
 
-Which room may know which is checked when the build is configured (cmake/rooms.cmake); that the folders inside
-a room form no circle is checked here. Exit 1, with a line for each circle. Circles by calls are shown only: growth.py
-says how large they may be.
+The configuration of the build checks the dependencies between rooms (cmake/rooms.cmake); this script checks the folders
+inside a room. It prints a line for each circle and exits with 1. It only shows circles by calls; growth.py has the
+limits of their sizes.
 """
 import collections
 import os
 import re
 import sys
 
-sys.dont_write_bytecode = True  # this project's folders stay as they are
+sys.dont_write_bytecode = True  # leaves no files in this project's folders
 import member_calls  # noqa: E402
 import outline  # noqa: E402
 
@@ -42,7 +42,7 @@ def edges_of(project):
 
 
 def circles_of(edges):
-    """Groups of folders, or of files, that reach each other (Tarjan)."""
+    """Returns the groups of folders, or of files, that reach each other (Tarjan)."""
     order, lowest, waiting, circles = {}, {}, [], []
 
     def visit(folder):

@@ -1,8 +1,8 @@
-"""An outline of C++ sources, as far as a script needs it to count: classes with the functions they declare, functions
-with their lines, and the text without comments, strings and directives.
+"""Reads the outline of C++ sources for scripts that count: classes with the functions that they declare, functions with
+their lines, and the text without comments, strings and directives.
 
-Outline(text) reads one file. It relies on what clang-format and the compiler have checked (brackets match), and knows
-nothing of types.
+Outline(text) reads one file. It relies on the checks of clang-format and the compiler (brackets match), and knows
+nothing about types.
 """
 import bisect
 import re
@@ -22,7 +22,7 @@ BRACKETS = {")": "(", "}": "{", "]": "["}
 
 
 def without_text(source):
-    """The same lines and columns of brackets; a string is left as one quotation mark."""
+    """Returns the text with brackets at the same places; each string becomes one quotation mark."""
     def blank(found):
         kept = '"' if found["string"] or found["raw"] or found["letter"] else " "
         return kept + "\n" * found[0].count("\n")
@@ -30,7 +30,7 @@ def without_text(source):
 
 
 class Function:
-    """One with a body. `owner` is the class whose member it is, "" for a free one."""
+    """A function with a body. `owner` is its class, or "" for a free function."""
 
     def __init__(self, owner, name, line, last_line, body, is_table):
         self.owner, self.name, self.line, self.last_line = owner, name, line, last_line
@@ -53,7 +53,7 @@ class Outline:
         self.starts = [one.start() for one in found]
         self.newlines = [place for place, letter in enumerate(self.text) if letter == "\n"]
         self.functions = []
-        self.declared = {}  # class -> names of the functions that it declares, an overload each
+        self.declared = {}  # class -> names of the functions that it declares, one entry per overload
         self.bases = {}     # class -> classes whose members it inherits
         self.lines_of_class = {}
         self.partner = self.matched()
@@ -72,7 +72,7 @@ class Outline:
         return bisect.bisect_left(self.newlines, self.starts[place]) + 1
 
     def behind(self, place):
-        """The place behind a bracket and what it encloses."""
+        """Returns the place behind a bracket and its contents."""
         return self.partner.get(place, len(self.tokens)) + 1
 
     def behind_angle(self, place, end):
@@ -94,7 +94,7 @@ class Outline:
             place = self.read_statement(place, end, owner)
 
     def read_statement(self, place, end, owner):
-        """One declaration in a namespace or class; returns the place behind it."""
+        """Reads a declaration in a namespace or class, and returns the place behind it."""
         begin, name_at, is_value, has_initializers = place, None, False, False
         while place < end:
             token = self.tokens[place]
@@ -137,7 +137,7 @@ class Outline:
         return end
 
     def opens_scope(self, begin, brace, owner):
-        """Reads a namespace or class whose brace this is."""
+        """Reads the namespace or class that this brace opens."""
         head = self.tokens[begin:brace]
         inside = brace + 1, self.behind(brace) - 1
         if "namespace" in head or head[:1] == ["extern"]:
@@ -175,7 +175,7 @@ class Outline:
         return "operator" + "".join(self.tokens[name_at + 1:end])
 
     def declare(self, begin, name_at, end, owner):
-        """A function without a body; those that the compiler makes do not count."""
+        """Records a function without a body, unless the compiler makes it."""
         if owner and name_at is not None and not NO_FUNCTIONS & set(self.tokens[begin:name_at]):
             if self.tokens[end - 2:end] not in (["=", "default"], ["=", "delete"]):
                 self.declared[owner].append(self.name_of(name_at))
@@ -207,7 +207,7 @@ class Outline:
         return self.tokens[place] if self.tokens[place].isidentifier() else ""
 
     def rows_of_data(self, brace, end):
-        """How many lines of a body begin inside of an initializer, or of a string."""
+        """Returns how many lines of a body begin inside an initializer or a string."""
         kinds, lines = [], set()
         for place in range(brace, min(end, len(self.tokens))):
             token = self.tokens[place]

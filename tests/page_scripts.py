@@ -1,5 +1,5 @@
-"""The live page's scripts parse: a script with an error in its syntax leaves the whole page empty, and no other test
-that runs by default opens the page in a browser (house_style.py asks)."""
+"""Checks the syntax of the live page's scripts for house_style.py: a syntax error leaves the whole page empty, and no
+other test that runs by default opens the page in a browser."""
 import os
 import re
 import shutil
@@ -17,7 +17,7 @@ def faults_of(project):
     if names and program is None:
         yield SCRIPTS, 1, "node is not installed; expected it, to parse the scripts (apt-get install nodejs)"
         return
-    with tempfile.TemporaryDirectory() as copies:  # node takes a file for a module by its suffix
+    with tempfile.TemporaryDirectory() as copies:  # node recognizes a module by its suffix
         for name in names:
             copy = os.path.join(copies, name[:-3] + ".mjs")
             shutil.copyfile(os.path.join(folder, name), copy)

@@ -1,7 +1,7 @@
-"""What a native speaker would not write, in the documentation and in --help; and what instead.
+"""Finds phrases in the documentation and --help that a native speaker would not write, and suggests replacements.
 
-plain_words.faults_of(project) yields (path, line, what is wrong and what was expected). A row is a pattern and what to
-write instead; a phrase may go over the end of a line. What stands in code blocks and in `code` is not looked at.
+plain_words.faults_of(project) yields (path, line, what is wrong and what was expected). A row is a pattern and its
+replacement; a phrase may continue in the next line. Code blocks and `code` are not checked.
 """
 import os
 import re
@@ -12,7 +12,7 @@ PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "changes
          "third_party/README.md", "packaging/vscode/README.md", "packaging/understudy.1.in")
 HELP = "emulator/command_line"
 
-# Made from the models' rows (`describe MODEL choices --format markdown`), whose sentences are the product's.
+# These pages are made from the models' rows (`describe MODEL choices --format markdown`).
 GENERATED = ("docs/fidelity/",)
 
 BEGIN = r"(?:^|(?<=[.!?:;] ))"  # of a sentence
@@ -75,13 +75,13 @@ NOT_PROSE = re.compile(r"\s*(?:\||<|\[[^\]]+\]: |!\[|\.[A-Z\\]|- name:|\S+$)")  
 
 
 def without_code(text):
-    """The text with `code` and the targets of links as blanks of the same length."""
+    """Returns the text with `code` and the targets of links replaced by blanks of the same length."""
     text = re.sub(r"`[^`]*`", lambda found: "`" + " " * (len(found.group()) - 2) + "`", text)
     return re.sub(r"\]\([^)]*\)", lambda found: "]" + " " * (len(found.group()) - 1), text)
 
 
 def paragraphs_of(lines):
-    """(number of its first line, its lines) of each paragraph, item, row and heading; code blocks are left out."""
+    """Yields (number of the first line, lines) of each paragraph, item, row and heading, without code blocks."""
     found, is_code = [], False
     begins = re.compile(r"\s*(?:[-*+] |\d+\. |\||#|\.[A-Z])")
     for number, line in enumerate(lines, 1):
@@ -118,7 +118,7 @@ def faults_of_page(text):
 
 
 def faults_of_strings(text):
-    """Of the string literals of a source, which are what --help and messages say."""
+    """Yields the faults of the string literals of a source: the texts of --help and messages."""
     for number, line in enumerate(text.split("\n"), 1):
         if line.lstrip().startswith(("#include", "//")):
             continue

@@ -1,22 +1,22 @@
 #!/usr/bin/python3
-"""Says whether the machine is too busy to judge what goes by the wall clock: it sleeps for 10 ms, again and again, and
-looks how late it wakes.
+"""Says whether the machine is too busy for tests that depend on the wall clock: it repeatedly sleeps for 10 ms, and
+measures how late it wakes.
 
 usage: reference_timer.py           until SIGTERM; then prints one line if the machine was too busy, and nothing if not
-       reference_timer.py --judge   the same of latenesses in ms, one a line, from standard input
+       reference_timer.py --judge   the same for delays in ms, one per line, from standard input
 """
 import signal
 import sys
 import time
 
 SLEEP_MS = 10
-LATE_MS = 50  # a host's bytes are cut, a reply comes after its time, by less than that
-OFTEN = 0.01  # this share of wakes may be late
-EVER_MS = 500  # and none as late as this: hosts wait for replies that long
+LATE_MS = 50  # shorter delays already cut a host's frame, or make a reply late
+OFTEN = 0.01  # the share of wakes that may be late
+EVER_MS = 500  # no wake may be this late, because hosts wait this long for a reply
 
 
 def verdict(latenesses):
-    """One line, or nothing."""
+    """Returns one line, or nothing."""
     late = sum(1 for ms in latenesses if ms > LATE_MS)
     most = max(latenesses, default=0)
     if late <= OFTEN * len(latenesses) and most < EVER_MS:
@@ -44,7 +44,7 @@ def measured():
             time.sleep(SLEEP_MS / 1000)
             latenesses.append(1000 * (time.monotonic() - begin) - SLEEP_MS)
     except Ended:
-        # The round that the end came into counts too: a busy machine may not let it wake before.
+        # The last round counts as well: on a busy machine, the signal may come before the wake.
         latenesses.append(max(0.0, 1000 * (time.monotonic() - begin) - SLEEP_MS))
         return latenesses
 
