@@ -9,6 +9,7 @@ Equal input gives equal bytes.
 """
 import json
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -22,8 +23,10 @@ TYPES = {"json": "application/json", "md": "text/markdown", "txt": "text/plain",
 def said_by(program, *arguments):
     try:
         return subprocess.run([program, *arguments], capture_output=True, text=True, check=True).stdout
-    except (OSError, subprocess.CalledProcessError) as error:
-        sys.exit(f"{program} {arguments[0]}: {error}; expected the program `understudy`")
+    except OSError as error:
+        sys.exit(f"vsix.py: {program}: {error.strerror}; expected the program `understudy`")
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"vsix.py: {program} {arguments[0]}: exit code {error.returncode}; expected the program `understudy`")
 
 
 def manifest_of_packages(package):
@@ -77,7 +80,9 @@ def text_of(path):
 def contents(program):
     """Returns the text of each file of the package by its path, in the order of the archive."""
     package = json.loads(text_of(os.path.join(HERE, "package.json")))
-    package["version"] = said_by(program, "--version").split()[-1]
+    package["version"] = said_by(program, "--version").strip()
+    if not re.fullmatch(r"\d+\.\d+\.\d+", package["version"]):
+        sys.exit(f"vsix.py: {program}: does not print a version such as 1.2.3; expected the program `understudy`")
     del package["scripts"]
     made = {"extension.vsixmanifest": manifest_of_packages(package), "[Content_Types].xml": content_types(),
             "extension/package.json": json.dumps(package, indent=2) + "\n",
@@ -109,4 +114,7 @@ def build(folder=".", program="understudy"):
 if __name__ == "__main__":
     if len(sys.argv) > 3 or sys.argv[1:2] in (["-h"], ["--help"]):
         sys.exit(__doc__)
-    print(build(*sys.argv[1:]))
+    try:
+        print(build(*sys.argv[1:]))
+    except OSError as error:
+        sys.exit(f"vsix.py: {error.filename}: {error.strerror}")

@@ -188,6 +188,14 @@ class Package(unittest.TestCase):
         self.assertEqual({"extension/" + path.removeprefix("./") for path in named} - names, set())
         self.assertEqual({name.rsplit(".", 1)[-1] for name in names} - {"xml"}, set(vsix.TYPES))
 
+    def test_another_program_is_refused(self):
+        for program, what in {"/bin/false": "exit code 1", "/bin/true": "version such as", "/nonsense": "No such file"}.items():
+            with tempfile.TemporaryDirectory() as folder:
+                said = subprocess.run([sys.executable, os.path.join(EXTENSION, "vsix.py"), folder, program],
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual((said.returncode, said.stdout, os.listdir(folder)), (1, "", []))
+                self.assertRegex(said.stderr, f"^vsix.py: {program}.*{what}.*; expected the program `understudy`\n$")
+
     def test_equal_input_gives_equal_bytes(self):
         with tempfile.TemporaryDirectory() as folder:
             made = []
