@@ -125,3 +125,41 @@ def test_the_wheel_brings_program_client_and_plugin(wheel, tmp_path):
     plain = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "UNDERSTUDY_PROGRAM")}
     said_by(tmp_path / "v/bin/python", "-m", "pytest", "-q", "-p", "no:cacheprovider", tmp_path / "test_it.py", env=plain,
             cwd=tmp_path)
+
+
+def test_run_takes_the_program_of_an_archive_beside_it(tmp_path):
+    project = tmp_path / "a project"
+    for file in ("run", "packaging/debian_packages.sh"):
+        (project / file).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(PROJECT / file, project / file)
+    (project / "CMakeLists.txt").write_text("project(understudy VERSION 9.8.7)\n")
+    # Nothing is installed by a test, and nothing can be built.
+    quiet = {**os.environ, "PATH": f"{tmp_path}/bin:{os.environ['PATH']}"}
+    (tmp_path / "bin").mkdir()
+    for name, script in (("cmake", "echo cmake was called >&2; exit 1"), ("id", "echo 1000"), ("sudo", "exit 1")):
+        (tmp_path / "bin" / name).write_text(f"#!/bin/sh\n{script}\n")
+        (tmp_path / "bin" / name).chmod(0o755)
+
+    def pack(version, says):
+        name = f"understudy-{version}-linux-{os.uname().machine}"
+        program = tmp_path / "tree" / name / "bin/understudy"
+        program.parent.mkdir(parents=True)
+        program.write_text(f"#!/bin/sh\n[ \"$1\" = --version ] && echo {version} || echo {says} \"$@\"\n")
+        program.chmod(0o755)
+        with tarfile.open(tmp_path / f"{name}.tar.gz", "w:gz") as whole:
+            whole.add(tmp_path / "tree" / name, name)
+        shutil.rmtree(tmp_path / "tree")
+
+    pack("9.8.6", "old")
+    failed = subprocess.run([project / "run", "models"], env=quiet, capture_output=True, text=True, timeout=60)
+    assert (failed.returncode, "cmake was called" in failed.stderr) == (4, True), "another version is not taken"
+    pack("9.8.7", "first")
+    assert said_by(project / "run", "models", env=quiet) == "first models"
+    pack("9.8.7", "second")
+    assert said_by(project / "run", "models", env=quiet) == "second models", "a newer archive is unpacked again"
+    built = project / "build/release/understudy"
+    built.parent.mkdir(parents=True)
+    built.write_text("")
+    built.chmod(0o755)
+    failed = subprocess.run([project / "run", "models"], env=quiet, capture_output=True, text=True, timeout=60)
+    assert failed.returncode == 4, "what was built is kept up to date"
