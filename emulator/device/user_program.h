@@ -24,6 +24,7 @@ struct ProgramLocation {
   std::string waits_for;           // of one that waits: "input 3 is ON", "a delay"
   std::string why;                 // why it has stopped or failed, or what went wrong on its way, if known
   std::optional<SimTime> until{};  // of one that waits for a time: when it is over
+  std::vector<int> callers{};      // the lines at which its callers go on, the innermost first
 };
 
 class UserProgram {
