@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace understudy {
 
@@ -26,6 +27,31 @@ class Watched {
 
  private:
   ProgramWatch* watch_ = nullptr;
+};
+
+/// Several onlookers of one program. Each is told everything, in the order in which they came.
+class ProgramWatches final : public ProgramWatch {
+ public:
+  void add(ProgramWatch& watch) { watches_.push_back(&watch); }
+  void remove(const ProgramWatch& watch) { std::erase(watches_, &watch); }
+  /// Returns what is to be told: null if nobody looks on, and the onlooker itself if it is the only one.
+  ProgramWatch* watch() {
+    if (watches_.size() > 1) return this;
+    return watches_.empty() ? nullptr : watches_.front();
+  }
+
+  void look(std::uint64_t mark) override {
+    for (ProgramWatch* const watch : watches_) watch->look(mark);
+  }
+  void runs(int part, int line, std::int64_t times) override {
+    for (ProgramWatch* const watch : watches_) watch->runs(part, line, times);
+  }
+  void decides(int part, int line, bool outcome, std::int64_t times) override {
+    for (ProgramWatch* const watch : watches_) watch->decides(part, line, outcome, times);
+  }
+
+ private:
+  std::vector<ProgramWatch*> watches_;
 };
 
 }  // namespace understudy

@@ -366,8 +366,9 @@ int control(const ControlArguments& arguments) {
     }
     if (accepted && !reply.value("reached", true)) {
       if (!arguments.json) {
-        std::fprintf(stderr, "understudy: ctl run-until: '%s' did not become true within %s\n",
-                     one_line(arguments.operands[0]).c_str(), arguments.within.c_str());
+        const std::string until = reply.contains("stop") ? "before a stop" : "within " + arguments.within;
+        std::fprintf(stderr, "understudy: ctl run-until: '%s' did not become true %s\n",
+                     one_line(arguments.operands[0]).c_str(), until.c_str());
       }
       return kExitFailed;
     }

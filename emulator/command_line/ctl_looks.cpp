@@ -68,6 +68,64 @@ void add_page_words(const ControlArguments& arguments, Json& message) {
   }
 }
 
+void add_step_words(const ControlArguments& arguments, Json& message) {
+  const std::vector<std::string>& words = arguments.operands;
+  if (words.empty()) return;
+  if (parse_integer(words[0])) {
+    if (words.size() > 1) throw extra_word(arguments);
+    message["ticks"] = require_whole(arguments, words[0], "a number of ticks, such as 10");
+    return;
+  }
+  message["what"] = words[0];
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const auto pair = keyed(words[i]);
+    if (!pair) {
+      message["device"] = words[i];
+    } else if (pair->key == "program" || pair->key == "within") {
+      message[pair->key] = pair->value;
+    } else {
+      throw stray_word(arguments, words[i], "DEVICE, program=NAME or within=1h");
+    }
+  }
+}
+
+void add_variables_words(const ControlArguments& arguments, Json& message) {
+  for (const std::string& word : arguments.operands) {
+    const auto pair = keyed(word);
+    if (pair && pair->key != "scope")
+      throw stray_word(arguments, word, "DEVICE or scope=program|axes|terminals");
+    message[pair ? "scope" : "device"] = pair ? pair->value : word;
+  }
+}
+
+void add_break_words(const ControlArguments& arguments, Json& message) {
+  constexpr const char* kExpected =
+      "DEVICE LINE, instruction=N, program=NAME, write=NAME, by=WHO, on=EVENT, when=CONDITION, nth=N or "
+      "log=TEXT";
+  const std::vector<std::string>& words = arguments.operands;
+  if (!words.empty() && words[0] == "delete") {
+    if (words.size() != 2) throw UsageError("ctl break: expected a number behind delete, or all");
+    message["delete"] = words[1];
+    if (words[1] != "all") message["delete"] = require_whole(arguments, words[1], "a number, or all");
+    return;
+  }
+  for (const std::string& word : words) {
+    const auto pair = keyed(word);
+    if (!pair && parse_integer(word)) {
+      message["line"] = require_whole(arguments, word, kExpected);
+    } else if (!pair) {
+      message["device"] = word;
+    } else if (pair->key == "instruction" || pair->key == "nth") {
+      message[pair->key] = require_whole(arguments, pair->value, kExpected);
+    } else if (pair->key == "program" || pair->key == "write" || pair->key == "by" || pair->key == "on" ||
+               pair->key == "when" || pair->key == "log") {
+      message[pair->key] = pair->value;
+    } else {
+      throw stray_word(arguments, word, kExpected);
+    }
+  }
+}
+
 void add_scope_words(const ControlArguments& arguments, Json& message) {
   if (arguments.operands.empty()) return;
   if (arguments.operands[0] == "off") {
@@ -135,6 +193,35 @@ void print_programs(const Json& programs) {
   }
 }
 
+void print_breakpoint(const Json& breakpoint) {
+  std::string text = breakpoint.at("number").dump();
+  for (const auto& [key, value] : breakpoint.items()) {
+    if (key == "number" || key == "kind") continue;
+    text += " " + key + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  std::printf("%s\n", one_line(text).c_str());
+}
+
+void print_stacks(const Json& reply) {
+  for (const Json& stack : reply.at("stacks")) {
+    const std::string program = stack.value("program", std::string());
+    std::printf(
+        "%s\n",
+        one_line(program + (program.empty() ? "" : " ") + stack.at("state").get<std::string>()).c_str());
+    for (const Json& frame : stack.at("frames")) {
+      std::printf("  line %s %s\n", frame.at("line").dump().c_str(),
+                  one_line(frame.value("text", std::string())).c_str());
+    }
+  }
+}
+
+void print_scopes(const Json& reply) {
+  for (const Json& scope : reply.at("scopes")) {
+    for (const auto& [name, value] : scope.at("values").items())
+      std::printf("%s %s\n", one_line(name).c_str(), value.dump().c_str());
+  }
+}
+
 void print_registers(const Json& reply) {
   for (const Json& row : reply.at("registers")) {
     std::string text =
@@ -155,7 +242,7 @@ void print_registers(const Json& reply) {
 
 bool add_look_words(const ControlArguments& arguments, Json& message) {
   const std::string& verb = arguments.verb;
-  if (verb == "bench" || verb == "where" || verb == "choices") {
+  if (verb == "bench" || verb == "where" || verb == "stack" || verb == "choices") {
     add_one_device(arguments, message);
   } else if (verb == "registers") {
     add_page_words(arguments, message);
@@ -163,10 +250,19 @@ bool add_look_words(const ControlArguments& arguments, Json& message) {
     if (arguments.operands.size() > 1) throw extra_word(arguments);
     if (!arguments.operands.empty())
       message["last"] = require_whole(arguments, arguments.operands[0], "a number of events, such as 10");
+  } else if (verb == "variables") {
+    add_variables_words(arguments, message);
   } else if (verb == "step") {
+    add_step_words(arguments, message);
+  } else if (verb == "break") {
+    add_break_words(arguments, message);
+  } else if (verb == "continue") {
     if (arguments.operands.size() > 1) throw extra_word(arguments);
-    if (!arguments.operands.empty())
-      message["ticks"] = require_whole(arguments, arguments.operands[0], "a number of ticks, such as 10");
+    if (!arguments.operands.empty()) {
+      const auto pair = keyed(arguments.operands[0]);
+      if (!pair || pair->key != "within") throw stray_word(arguments, arguments.operands[0], "within=10s");
+      message["within"] = pair->value;
+    }
   } else if (verb == "speed") {
     if (arguments.operands.size() != 1)
       throw UsageError("ctl speed: expected real, free, manual or a factor");
@@ -184,6 +280,16 @@ bool add_look_words(const ControlArguments& arguments, Json& message) {
 bool print_look(const Json& reply) {
   if (reply.contains("events")) {
     print_events(reply.at("events"));
+  } else if (reply.contains("breakpoints")) {
+    for (const Json& breakpoint : reply.at("breakpoints")) print_breakpoint(breakpoint);
+  } else if (reply.contains("breakpoint")) {
+    print_breakpoint(reply.at("breakpoint"));
+  } else if (reply.contains("stacks")) {
+    print_stacks(reply);
+  } else if (reply.contains("scopes")) {
+    print_scopes(reply);
+  } else if (reply.contains("stop")) {
+    std::printf("%s\n", one_line(reply.at("stop").at("text").get<std::string>()).c_str());
   } else if (reply.contains("programs")) {
     print_programs(reply.at("programs"));
   } else if (reply.contains("registers")) {

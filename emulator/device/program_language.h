@@ -69,6 +69,8 @@ class ProgramLanguage {
   virtual std::vector<ProgramMistake> warnings(std::string_view, const DeviceSettings&) const { return {}; }
   /// Returns the parts of a text that loads, for onlookers of the program; of one that does not, none.
   virtual std::vector<ProgramPart> parts(std::string_view, const DeviceSettings&) const { return {}; }
+  /// Returns true if each part is a program that runs beside the others; false if parts call each other.
+  virtual bool parts_run_at_once() const { return false; }
   virtual std::span<const ProgramControl> controls() const { return {}; }
   virtual const ProgramCells* cells() const { return nullptr; }
 

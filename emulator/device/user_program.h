@@ -8,12 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/program_watch.h"
 #include "base/simulated_time.h"
 #include "emulator/device/program_error.h"  // IWYU pragma: keep, load_program() throws it
-
-namespace understudy {
-class ProgramWatch;
-}
 
 namespace understudy::emulator {
 
@@ -27,6 +24,7 @@ struct ProgramLocation {
   std::string waits_for;           // of one that waits: "input 3 is ON", "a delay"
   std::string why;                 // why it has stopped or failed, or what went wrong on its way, if known
   std::optional<SimTime> until{};  // of one that waits for a time: when it is over
+  std::vector<int> callers{};      // the lines at which its callers go on, the innermost first
 };
 
 class UserProgram {
@@ -38,11 +36,25 @@ class UserProgram {
   virtual std::string program_text() const = 0;
   /// Returns the positions for observers.
   virtual std::vector<ProgramLocation> program_locations() const { return {}; }
-  /// Sets an onlooker, or none (null). It is not state. Before lines run, it is told a mark of the program.
-  virtual void watch_program(ProgramWatch* /*watch*/) {}
+  /// Onlookers are not state. Each is told everything from the next lines on; before lines run, it is told a
+  /// mark of the program.
+  void add_watch(ProgramWatch& watch) {
+    watches_.add(watch);
+    watch_program(watches_.watch());
+  }
+  void remove_watch(const ProgramWatch& watch) {
+    watches_.remove(watch);
+    watch_program(watches_.watch());
+  }
 
  protected:
   ~UserProgram() = default;
+
+ private:
+  /// Sets what is told of the lines, or nothing (null).
+  virtual void watch_program(ProgramWatch* /*watch*/) {}
+
+  ProgramWatches watches_;
 };
 
 }  // namespace understudy::emulator

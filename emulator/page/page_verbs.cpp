@@ -20,7 +20,7 @@ struct PassedVerb {
   bool changes = false;
   std::array<std::string_view, 2> only_with{};
 };
-constexpr std::array<PassedVerb, 33> kPassedVerbs{{{"status"},
+constexpr std::array<PassedVerb, 37> kPassedVerbs{{{"status"},
                                                    {"identify"},
                                                    {"bench"},
                                                    {"registers"},
@@ -32,6 +32,10 @@ constexpr std::array<PassedVerb, 33> kPassedVerbs{{{"status"},
                                                    {"frames"},
                                                    {"events"},
                                                    {"where"},
+                                                   {"stack"},
+                                                   {"variables"},
+                                                   {"break", true},
+                                                   {"continue", true},
                                                    {"snapshots", true, {"drop"}},
                                                    {"scope", true, {"names", "off"}},
                                                    {"program", true, {"text"}},

@@ -139,7 +139,7 @@ def test_a_recording_is_whole_at_the_end(tmp_path):
 def test_another_protocol_is_refused_and_ends(monkeypatch, folders, needed):
     monkeypatch.setattr("understudy.bench.NEEDED", needed)
     monkeypatch.setattr("tempfile.tempdir", str(folders))
-    with pytest.raises(understudy.WrongVersion, match=rf"speaks protocol 1\.0 .* needs {needed[0]}\.{needed[1]},"):
+    with pytest.raises(understudy.WrongVersion, match=rf"speaks protocol 1\.1 .* needs {needed[0]}\.{needed[1]},"):
         understudy.start(model="simple2-r3")
     assert list(folders.iterdir()) == []
 
@@ -406,6 +406,23 @@ def test_a_path_is_no_program(bench, tmp_path):
     with pytest.raises(understudy.Refused) as refused:
         bench.program("Nonsense 1")
     assert "takes the text" not in str(refused.value)
+
+
+def test_a_program_is_debugged(bench):
+    bench.program("again:  VAR_Inc VAR32\n        Delay_mSec 5\n        Jump again\n        END\n")
+    number = bench.set_break(line=2, when="PROG_VAR0 == 3")["number"]
+    bench.set({"PROG_MAIN_RunTime_START": 0})
+    stop = bench.go_on(within="1s")
+    assert stop["breakpoint"] == number and stop["line"] == 2
+    assert bench.stack()[0]["frames"][0]["line"] == 2
+    assert bench.variables()["program"] == {"device.PROG_VAR0": 3}
+    assert bench.step_program("line")["line"] == 3
+    assert [one["hits"] for one in bench.breaks()] == [1]
+    bench.delete_break(number)
+    assert bench.breaks() == [] and bench.go_on(within="50ms") is None
+    bench.delete_break()
+    with pytest.raises(understudy.Refused, match="no routine runs"):
+        bench.step_program("out")
 
 
 @pytest.mark.parametrize("asked, says", [

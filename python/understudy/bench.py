@@ -109,6 +109,34 @@ class Bench:
     def step(self, ticks: int = 1) -> int:
         return int(self.ask("step", ticks=ticks)["simulated_time_ns"])
 
+    def set_break(self, **where: Any) -> Dict[str, Any]:
+        """Sets a breakpoint: device and line, instruction, when, write or on; with when, nth, log."""
+        return cast(Dict[str, Any], self.ask("break", **where)["breakpoint"])
+
+    def breaks(self) -> List[Dict[str, Any]]:
+        return cast(List[Dict[str, Any]], self.ask("break")["breakpoints"])
+
+    def delete_break(self, number: Optional[int] = None) -> None:
+        """Deletes a breakpoint; without a number all of them."""
+        self.ask("break", delete="all" if number is None else number)
+
+    def go_on(self, within: Optional[str] = None) -> Optional[Dict[str, Any]]:
+        """Lets time run; with `within` until the next stop, which it returns, or None if there was none."""
+        return cast(Optional[Dict[str, Any]], self.ask("continue", **_given({"within": within})).get("stop"))
+
+    def step_program(self, what: str = "line", device: Optional[str] = None, program: Optional[str] = None,
+                     within: Optional[str] = None) -> Optional[Dict[str, Any]]:
+        """Steps by instruction, line, over, out or stand; returns the stop, or None if time was over."""
+        asked = {"what": what, "device": device, "program": program, "within": within}
+        return cast(Optional[Dict[str, Any]], self.ask("step", **_given(asked)).get("stop"))
+
+    def stack(self, device: Optional[str] = None) -> List[Dict[str, Any]]:
+        return cast(List[Dict[str, Any]], self.ask("stack", **_of(device))["stacks"])
+
+    def variables(self, device: Optional[str] = None) -> Dict[str, Dict[str, Value]]:
+        """Returns the values of the scopes `program`, `axes` and `terminals`."""
+        return {scope["name"]: scope["values"] for scope in self.ask("variables", **_of(device))["scopes"]}
+
     def pause(self) -> int:
         return int(self.ask("pause")["simulated_time_ns"])
 

@@ -204,6 +204,41 @@ TEST(CtlProgram, LoadsAFullDeviceAndGivesItBack) {
   }
 }
 
+TEST(CtlBreak, DebugsAProgram) {
+  const RunningUnderstudy daemon({"--speed", "manual"});
+  const std::string file = daemon.folder().write(
+      "count.lst", "again:  VAR_Inc VAR32\n        Delay_mSec 5\n        Jump again\n        END\n");
+  ASSERT_EQ(daemon.ctl({"program", "device", file}).exit_code, 0);
+  EXPECT_EQ(daemon.ctl({"break", "2", "when=PROG_VAR0 == 3"}).output,
+            "1 device=device found=true line=2 when=PROG_VAR0 == 3 hits=0\n");
+  ASSERT_EQ(daemon.ctl({"set", "PROG_MAIN_RunTime_START=0"}).exit_code, 0);
+  EXPECT_EQ(daemon.ctl({"continue", "within=1s"}).output, "breakpoint 1: device line 2: Delay_mSec 5\n");
+  EXPECT_EQ(daemon.ctl({"stack"}).output, "waiting\n  line 2 Delay_mSec 5\n");
+  EXPECT_EQ(daemon.ctl({"variables", "scope=program"}).output, "device.PROG_VAR0 3\n");
+  EXPECT_EQ(daemon.ctl({"step", "line"}).output.substr(0, 20), "step: device line 3:");
+  EXPECT_EQ(daemon.ctl({"break"}).output, "1 device=device found=true line=2 when=PROG_VAR0 == 3 hits=1\n");
+  EXPECT_EQ(daemon.ctl({"break", "delete", "1"}).exit_code, 0);
+  EXPECT_EQ(daemon.ctl({"break"}).output, "");
+  EXPECT_EQ(daemon.ctl({"step", "3"}).exit_code, 0) << "ticks";
+  daemon.ctl({"break", "write=PROG_VAR0"});
+  const Finished until = daemon.ctl({"run-until", "PROG_VAR0 == 99"});
+  EXPECT_EQ(until.exit_code, 1);
+  EXPECT_EQ(until.errors, "understudy: ctl run-until: 'PROG_VAR0 == 99' did not become true before a stop\n");
+  const std::pair<Words, const char*> wrong[] = {
+      {{"break", "device"}, "nothing to stop at; expected line, instruction, when, write or on"},
+      {{"break", "colour=red"}, "expected DEVICE LINE, instruction=N"},
+      {{"break", "delete"}, "expected a number behind delete, or all"},
+      {{"step", "back"}, "what: 'back' is unknown"},
+      {{"continue", "soon"}, "expected within=10s"},
+      {{"variables", "sort=axes"}, "expected DEVICE or scope="}};
+  for (const auto& [words, why] : wrong) {
+    const Finished refused = daemon.ctl(words);
+    EXPECT_EQ(refused.exit_code, 2) << why;
+    EXPECT_NE(refused.errors.find(why), std::string::npos) << refused.errors;
+    EXPECT_EQ(lines_of(refused.errors).size(), 1U) << refused.errors;
+  }
+}
+
 TEST(CtlCommand, GivesADeviceACommandByItsName) {
   const auto daemon = RunningUnderstudy::of_model("rs-m8194h", {"--speed", "manual"});
   EXPECT_EQ(daemon->ctl({"command", "RSM_SET_V X 1000"}).exit_code, 0);

@@ -57,7 +57,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > kLongest) return 0;
   const bool is_checked_wholly = fuzzing::is_checked_wholly({data, size}, 32);
   rig.daemon.pause();
-  if (!rig.is_as_made || is_checked_wholly) rig.daemon.restore(rig.as_made);
+  if (!rig.is_as_made || is_checked_wholly) {
+    rig.daemon.observers().debugger.remove_all();
+    rig.daemon.restore(rig.as_made);
+  }
   rig.is_as_made = true;
   emulator::world::WorldState before;
   if (is_checked_wholly) before = save(rig.daemon.world());

@@ -32,8 +32,8 @@ void look_at_address(std::string_view text) {
 
 void look_at_message(std::string_view text, bool is_read_only) {
   static const std::set<std::string> kLooks{
-      "status", "identify", "bench",  "registers", "choices", "faults",    "get",     "eval",
-      "list",   "frames",   "events", "where",     "scope",   "snapshots", "program", "timeline"};
+      "status", "identify", "bench", "registers", "choices",   "faults",  "get",      "eval",  "list",
+      "frames", "events",   "where", "scope",     "snapshots", "program", "timeline", "stack", "variables"};
   BrowserMessage message;
   try {
     message = parse_browser_message(text, 2, is_read_only);

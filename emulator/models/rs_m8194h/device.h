@@ -89,7 +89,6 @@ class RsM8194h final : public StatefulDevice<RsM8194h, State>,
   void load_program(std::string_view text) override { module_.load_program(text); }
   std::string program_text() const override { return module_.programs.text(); }
   std::vector<ProgramLocation> program_locations() const override { return module_.programs.locations(); }
-  void watch_program(ProgramWatch* watch) override { module_.programs.set_watch(watch); }
 
  protected:
   void power_up() override { module_.power_up(); }
@@ -100,6 +99,8 @@ class RsM8194h final : public StatefulDevice<RsM8194h, State>,
   void read_memory(const NvImage& image) override;
 
  private:
+  void watch_program(ProgramWatch* watch) override { module_.programs.set_watch(watch); }
+
   const MapPolicy policy_;
   const Ground ground_;
   Module module_;

@@ -75,7 +75,6 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   void load_program(std::string_view listing) override { programs().load(listing); }
   std::string program_text() const override;
   std::vector<ProgramLocation> program_locations() const override { return {program_location(state_)}; }
-  void watch_program(ProgramWatch* watch) override { program_watch_ = watch; }
 
   // --- time ----------------------------------------------------------------------------------------
   void sample_inputs(Tick tick) override;
@@ -113,6 +112,8 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   void read_memory(const NvImage& image) override;
 
  private:
+  void watch_program(ProgramWatch* watch) override { program_watch_ = watch; }
+
   std::span<const int> line_bauds() const { return Device::model().line.ports.front().bauds; }
   /// Returns the next active tick, without regard to the axes.
   Tick next_tick_without_axes(Tick done) const;

@@ -71,7 +71,6 @@ class Slim final : public StatefulDevice<Slim, State>,
   /// Returns the mistakes in a program text, for a device with these settings.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
   std::vector<ProgramPart> parts_of(std::string_view text) const;
-  void watch_program(ProgramWatch* watch) override { set_watch(watch); }
 
   // --- time ---
   void sample_inputs(Tick tick) override;
@@ -107,6 +106,8 @@ class Slim final : public StatefulDevice<Slim, State>,
   void read_memory(const NvImage& image) override { read_image(state_, setup_, image); }
 
  private:
+  void watch_program(ProgramWatch* watch) override { set_watch(watch); }
+
   // The machine on which a program runs: interpreter/slim/machine.h.
   bool input(int number) const override { return ((state_.inputs[0] >> (number - 1)) & 1) != 0; }
   double value(const lang::Operand& operand) const override;

@@ -1,5 +1,6 @@
 #include "emulator/models/slim/program_text.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -112,6 +113,9 @@ std::string_view word_for_hold(lang::Hold hold) {
 std::vector<ProgramLocation> program_locations(const State& state, const Setup& setup) {
   const lang::Execution& execution = state.execution;
   ProgramLocation place;
+  const auto& stack = execution.stack;
+  std::for_each(stack.rbegin(), stack.rend(),
+                [&](const lang::Frame& frame) { place.callers.push_back(frame.line + 1); });
   const bool has_run = execution.running || execution.ending != lang::Ending::not_started;
   if (has_run && execution.line >= 0 && execution.line < state.program.size()) {
     place.line = execution.line + 1;

@@ -64,7 +64,6 @@ class Super40nc final : public StatefulDevice<Super40nc, State>,
   std::vector<ProgramLocation> program_locations() const override {
     return parts_.programs.program_locations();
   }
-  void watch_program(ProgramWatch* watch) override { parts_.programs.set_watch(watch); }
 
   // --- time ----------------------------------------------------------------------------------------
   void sample_inputs(Tick tick) override;
@@ -98,6 +97,7 @@ class Super40nc final : public StatefulDevice<Super40nc, State>,
   void read_memory(const NvImage& image) override;
 
  private:
+  void watch_program(ProgramWatch* watch) override { parts_.programs.set_watch(watch); }
   const Chips& chips() const { return parts_.axes.chips; }
   void look_at_inputs();
   bool has_voltage_inputs() const;

@@ -91,6 +91,7 @@ class ProgramListing final : public ProgramLanguage {
   std::vector<ProgramPart> parts(std::string_view text, const DeviceSettings& settings) const override {
     return Super40nc(settings).parts().programs.stored().parts_of(text);
   }
+  bool parts_run_at_once() const override { return true; }
   /// A key acts when it goes ON, so it is released first.
   std::span<const ProgramControl> controls() const override {
     using By = ProgramControl::By;

@@ -2,6 +2,9 @@
 // and its events. As in verbs.h, nothing has changed if one throws.
 #pragma once
 
+#include <string_view>
+
+#include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/reply_task.h"
 
@@ -28,6 +31,8 @@ ReplyTask faults_message(Daemon& daemon, Json message);
 /// {"do":"events","since":17}, {"do":"events","last":10}
 ReplyTask events_message(Daemon& daemon, Json message);
 
+/// Returns the word for a program's state.
+std::string_view state_word(ProgramLocation::State state);
 /// {"do":"where","device":"feeder"}: the positions of its programs.
 Json where_message(Daemon& daemon, const Json& message);
 /// {"do":"speed","to":"0.5"}

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/text/one_line.h"
+#include "emulator/serve/control/debug_messages.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/reply_task.h"
@@ -35,7 +36,7 @@ struct Verb {
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
   ReplyTask (*tell)(Daemon& daemon, Json message) = nullptr;
 };
-constexpr std::array<Verb, 32> kVerbs{{{"status", nullptr, nullptr, status_message},
+constexpr std::array<Verb, 36> kVerbs{{{"status", nullptr, nullptr, status_message},
                                        {"identify", identify_message},
                                        {"get", nullptr, nullptr, get_message},
                                        {"eval", eval_message},
@@ -66,7 +67,11 @@ constexpr std::array<Verb, 32> kVerbs{{{"status", nullptr, nullptr, status_messa
                                        {"send", send_message},
                                        {"snapshots", snapshots_message},
                                        {"speed", speed_message},
-                                       {"step", nullptr, step_message}}};
+                                       {"step", nullptr, step_message},
+                                       {"break", break_message},
+                                       {"continue", nullptr, continue_message},
+                                       {"stack", stack_message},
+                                       {"variables", variables_message}}};
 
 const Verb& require_verb(const Json& message) {
   if (!message.is_object() || !message.contains("do") || !message["do"].is_string()) {

@@ -21,18 +21,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::uint64_t kMaxTicks = 3'600'000;  // an hour
 constexpr std::size_t kLongestName = 64;
-
-std::string_view state_word(ProgramLocation::State state) {
-  switch (state) {
-    case ProgramLocation::State::stopped: return "stopped";
-    case ProgramLocation::State::running: return "running";
-    case ProgramLocation::State::waiting: return "waiting";
-    case ProgramLocation::State::failed: return "failed";
-  }
-  return {};
-}
 
 std::string require_name(const Json& message) {
   require_keys(message, {"do", "name"});
@@ -46,6 +35,16 @@ Json time_of_now(const Daemon& daemon) {
 }
 
 }  // namespace
+
+std::string_view state_word(ProgramLocation::State state) {
+  switch (state) {
+    case ProgramLocation::State::stopped: return "stopped";
+    case ProgramLocation::State::running: return "running";
+    case ProgramLocation::State::waiting: return "waiting";
+    case ProgramLocation::State::failed: return "failed";
+  }
+  return {};
+}
 
 Json where_message(Daemon& daemon, const Json& message) {
   require_keys(message, {"do", "device"});
@@ -81,18 +80,6 @@ Json speed_message(Daemon& daemon, const Json& message) {
   Json reply = time_of_now(daemon);
   reply["speed"] = format_speed(*speed);
   return reply;
-}
-
-void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
-  require_keys(message, {"do", "ticks"});
-  const std::uint64_t ticks = message.contains("ticks") ? require_count(message, "ticks", kMaxTicks) : 1;
-  const SimTime now = daemon.world().now();
-  const SimTime end = time_of(tick_at(now) + static_cast<Tick>(ticks));
-  if (ticks == 0 || end > kHorizon) throw MessageError("ticks: expected 1 to " + std::to_string(kMaxTicks));
-  const bool begun = daemon.advance(end - now, [&daemon, reply] { reply(time_of_now(daemon).dump()); });
-  if (!begun) {
-    throw MessageError("time is already running; expected --speed manual, or `pause` first");
-  }
 }
 
 Json snapshots_message(Daemon& daemon, const Json& message) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/simulated_time.h"
+#include "emulator/serve/control/debug_messages.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/verbs.h"
@@ -16,8 +17,6 @@
 #include "emulator/world/probe/probes.h"
 
 namespace understudy::emulator::serve {
-
-namespace {
 
 SimTime require_duration(const Daemon& daemon, const Json& message, const std::string& key) {
   const Json& field = require(message, key.c_str());
@@ -32,8 +31,7 @@ SimTime require_duration(const Daemon& daemon, const Json& message, const std::s
   return *duration;
 }
 
-constexpr std::string_view kRunsByItself =
-    "time is already running; expected --speed manual, or `pause` first";
+namespace {
 
 /// The condition that `run-until` waits for.
 struct Condition {
@@ -86,8 +84,9 @@ void run_until_message(Daemon& daemon, const Json& message, const ControlServer:
     if (!condition->no_result.empty()) {
       return reply(Json{{"ok", false}, {"error", "condition: " + condition->no_result}}.dump());
     }
-    const SimTime now = daemon.world().now();
-    reply(Json{{"ok", true}, {"reached", reached}, {"simulated_time_ns", now.count()}}.dump());
+    Json told = time_and_stop(daemon);
+    told["reached"] = reached;
+    reply(told.dump());
   };
   if (!daemon.advance(within, done, [condition] { return condition->is_there(); })) {
     throw MessageError(std::string(kRunsByItself));
@@ -97,7 +96,7 @@ void run_until_message(Daemon& daemon, const Json& message, const ControlServer:
 void advance_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
   require_keys(message, {"do", "by"});
   const SimTime duration = require_duration(daemon, message, "by");
-  const bool begun = daemon.advance(duration, [&daemon, reply] { reply(time_reply(daemon).dump()); });
+  const bool begun = daemon.advance(duration, [&daemon, reply] { reply(time_and_stop(daemon).dump()); });
   if (!begun) throw MessageError(std::string(kRunsByItself));
 }
 

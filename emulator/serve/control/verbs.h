@@ -13,7 +13,7 @@ namespace understudy::emulator::serve {
 
 /// The version of the messages and replies, MAJOR.MINOR. A change that breaks no client raises MINOR, any
 /// other change raises MAJOR. docs/control.md lists the changes.
-inline constexpr std::string_view kControlProtocol = "1.0";
+inline constexpr std::string_view kControlProtocol = "1.1";
 
 /// Replies with the result of `make`, or with the reason why there is none. A null result means that the
 /// reply comes later.
@@ -62,8 +62,6 @@ Json pause_message(Daemon& daemon, const Json& message);
 Json resume_message(Daemon& daemon, const Json& message);
 /// {"do":"advance","by":"250ms"}. The reply follows when simulated time has got there.
 void advance_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
-/// {"do":"step","ticks":10} runs to the end of the tenth tick from now. The clock must be stopped.
-void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"run-until","condition":"feeder.STATUS.4 == 0","within":"10s"}. The reply follows at the end of the
 /// first tick at which it is true, or when the time is over; "reached" tells which.
 void run_until_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);

@@ -1,9 +1,7 @@
 #include "emulator/serve/daemon/daemon.h"
 
 #include <signal.h>
-#include <sys/eventfd.h>
 #include <sys/signalfd.h>
-#include <sys/types.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -111,52 +108,6 @@ Daemon::~Daemon() {
   if (posted_signal_ >= 0) close(posted_signal_);
 }
 
-void Daemon::watch_posts() {
-  posted_signal_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-  if (posted_signal_ < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
-  loop_.watch(posted_signal_, EventLoop::readable, [this](std::uint32_t) {
-    std::uint64_t ignored = 0;
-    [[maybe_unused]] const ssize_t got = read(posted_signal_, &ignored, sizeof ignored);
-    std::vector<std::function<void()>> acts;
-    {
-      const std::lock_guard lock(posted_mutex_);
-      acts.swap(posted_);
-    }
-    catch_up();
-    const SimTime before = world_.now();
-    for (const auto& act : acts) act();
-    if (world_.now() != before) pacer_.moved_to(world_.now(), wall_now());
-  });
-}
-
-bool Daemon::post(std::function<void()> act) {
-  {
-    const std::lock_guard lock(posted_mutex_);
-    if (is_over_) return false;
-    posted_.push_back(std::move(act));
-  }
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const ssize_t put = write(posted_signal_, &one, sizeof one);
-  return true;
-}
-
-void Daemon::do_aside(std::function<std::function<void()>()> work) {
-  helper_->give([this, work = std::move(work)] { post(work()); });
-}
-
-bool Daemon::is_over() {
-  const std::lock_guard lock(posted_mutex_);
-  return is_over_;
-}
-
-/// Drops the posted functions. Their destruction tells those who wait that they will never run.
-void Daemon::end_posts() {
-  std::vector<std::function<void()>> dropped;
-  const std::lock_guard lock(posted_mutex_);
-  is_over_ = true;
-  dropped.swap(posted_);
-}
-
 const std::string& Daemon::control_path() const {
   static const std::string none;
   return door_ ? door_->path() : none;
@@ -217,7 +168,7 @@ void Daemon::catch_up(WallTime longest) {
   judge_stall(now);
   const bool is_free = pacer_.speed().kind == Speed::Kind::free;
   const SimTime target = std::max(world_.now(), pacer_.target(now));
-  work_towards(target, now + (is_free ? kWorkSlice : longest));
+  if (work_towards(target, now + (is_free ? kWorkSlice : longest))) return;
   if (world_.now() >= target) {
     behind_since_.reset();
   } else if (is_free) {
@@ -242,13 +193,27 @@ void Daemon::judge_stall(WallTime now) {
   }
 }
 
+/// If the debugger has stopped the world, holds the clock there.
+bool Daemon::is_held() {
+  if (!observers_.debugger.take_stop()) return false;
+  if (advance_done_) advance_target_ = world_.now();
+  if (!pacer_.standing()) pacer_.pause(wall_now());
+  pacer_.moved_to(world_.now(), wall_now());
+  behind_since_.reset();
+  return true;
+}
+
 /// Advances the world to `target`, or until that moment. Steps grow, so that quiet spans pass quickly.
-void Daemon::work_towards(SimTime target, WallTime until) {
+/// Returns true if the debugger has stopped it.
+bool Daemon::work_towards(SimTime target, WallTime until) {
   for (SimTime step = kSimSlice; world_.now() < target; step *= 2) {
+    if (is_held()) return true;
     step = std::min(step, longest_step());
     world_.advance_to(target - world_.now() > step ? world_.now() + step : target);
-    if (world_.now() >= target || wall_now() >= until || waits_for_hosts()) return;
+    if (is_held()) return true;
+    if (world_.now() >= target || wall_now() >= until || waits_for_hosts()) return false;
   }
+  return false;
 }
 
 void Daemon::pause() {
@@ -287,12 +252,13 @@ bool Daemon::advance(SimTime duration, std::function<void()> done, std::function
 /// Advances tick by tick, for a slice of wall time at most. If the condition is true, the target moves here.
 void Daemon::work_towards_condition() {
   const WallTime until = wall_now() + kWorkSlice;
-  while (world_.now() < advance_target_ && wall_now() < until) {
+  while (world_.now() < advance_target_ && wall_now() < until && !is_held()) {
     if (advance_is_there_()) {
       advance_target_ = world_.now();
       return;
     }
     world_.advance_to(std::min(advance_target_, time_of(tick_at(world_.now()) + 1)));
+    if (is_held()) return;
     if (waits_for_hosts()) return;
   }
 }
@@ -352,6 +318,7 @@ void Daemon::restore(const world::WorldState& state) {
   observers_.events.restored();
   ++observers_.restores;
   if (observers_.scope) observers_.scope->begin_anew();
+  observers_.debugger.begin_anew();
   planned_.reset();
   behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());
@@ -361,7 +328,7 @@ void Daemon::restore(const world::WorldState& state) {
 
 std::optional<WallTime> Daemon::next_wake() const {
   const auto due = world_.next_due();
-  if (!trace_) return due ? pacer_.wall_time_of(*due) : std::nullopt;
+  if (!trace_ && !observers_.debugger.is_watching()) return due ? pacer_.wall_time_of(*due) : std::nullopt;
   return pacer_.wall_time_of(std::min(due.value_or(kHorizon), world_.now() + kTracedSpan));
 }
 

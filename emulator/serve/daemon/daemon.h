@@ -84,6 +84,7 @@ class Daemon {
   const world::FrameLog& frames() const { return frames_; }
   /// Data for observers.
   Observers& observers() { return observers_; }
+  const Observers& observers() const { return observers_; }
 
   /// Pauses the clock. An advance in progress ends.
   void pause();
@@ -124,7 +125,8 @@ class Daemon {
   void open_files(const world::Bench& bench, const DaemonOptions& options);
   void judge_stall(WallTime now);
   void catch_up(WallTime longest);
-  void work_towards(SimTime target, WallTime until);
+  bool work_towards(SimTime target, WallTime until);
+  bool is_held();
   void work_on_advance();
   bool makes_time_go() const;
   bool waits_for_hosts();

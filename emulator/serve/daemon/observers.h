@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "emulator/world/debug/debugger.h"
 #include "emulator/world/events/event_log.h"
 #include "emulator/world/frames/frame_log.h"
 #include "emulator/world/look/looked_names.h"
@@ -19,13 +20,15 @@ namespace understudy::emulator::serve {
 struct Observers {
   static constexpr std::size_t kMaxSnapshots = 16;
 
-  Observers(world::World& world, const world::FrameLog& frames) : events(world, frames), names(world) {}
+  Observers(world::World& world, const world::FrameLog& frames)
+      : events(world, frames), names(world), debugger(world, events) {}
 
   world::EventLog events;
   std::uint64_t restores =
       0;  // how often the world was put into another state, which makes earlier reports invalid
   world::LookedNames names;
   std::unique_ptr<world::Scope> scope;  // null: not armed
+  world::Debugger debugger;
   struct Kept {
     SimTime at{0};
     world::WorldState state;

@@ -80,9 +80,9 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
  public:
   explicit DeviceCounts(Device& device) : device_(device) {
     program_ = &present();
-    device_.user_program()->watch_program(this);
+    device_.user_program()->add_watch(*this);
   }
-  ~DeviceCounts() override { device_.user_program()->watch_program(nullptr); }
+  ~DeviceCounts() override { device_.user_program()->remove_watch(*this); }
   DeviceCounts(const DeviceCounts&) = delete;
   DeviceCounts& operator=(const DeviceCounts&) = delete;
 

@@ -21,7 +21,7 @@ struct ProgramSource {
 
 class ProgramCoverage {
  public:
-  /// Counts from this moment on. The world must outlive it, and no device may have two onlookers.
+  /// Counts from this moment on. The world must outlive it.
   explicit ProgramCoverage(World& world);
   ~ProgramCoverage();
   ProgramCoverage(const ProgramCoverage&) = delete;

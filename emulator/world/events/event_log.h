@@ -21,8 +21,8 @@ namespace understudy::emulator::world {
 struct Event {
   std::uint64_t number = 0;
   SimTime time{0};
-  /// one of write, input, power, program, inject, clear, fault, exception, dropped, restored, paused,
-  /// resumed, speed
+  /// one of write, input, power, program, command, inject, clear, fault, exception, dropped, restored, speed,
+  /// stop, logpoint
   std::string_view what;
   std::string by;      // host, control or page; empty if no one caused it
   std::string line{};  // the line of the host that caused it
@@ -47,6 +47,8 @@ class EventLog final : private OutsideListener {
   const std::string& author() const { return author_; }
   /// Notes an event that the world does not know about.
   void note(std::string_view what, std::string text);
+  /// The same, with more about it. Its time is now.
+  void note(Event event);
   /// Notes that the world was put into another state.
   void restored();
   /// Notes that the world was put into another state after these events, the oldest first. They get new
@@ -79,7 +81,6 @@ class EventLog final : private OutsideListener {
   void on_command(std::size_t device, std::string_view text) override;
   void on_fault(std::size_t number, bool in_force) override;
 
-  void note(Event event);
   void add(Event event);
   void take_frame(const FrameLog::Told& frame);
   void add_writes(const FrameLog::Told& request, SimTime at);

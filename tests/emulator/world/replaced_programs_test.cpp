@@ -21,6 +21,7 @@
 #include "emulator/world/names/names.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
+#include "tests/emulator/world/debug/stopping_debugger.h"
 #include "tests/emulator/world/stepping.h"
 #include "tests/sanitized.h"
 
@@ -142,11 +143,12 @@ const Language kLanguages[] = {
 class Course {
  public:
   /// Who looks at its programs, and how its ticks run.
-  enum class Looks { nobody, at_ticks_in_bulk, at_single_ticks };
+  enum class Looks { nobody, at_ticks_in_bulk, at_single_ticks, with_breakpoints };
 
   Course(const Language& language, std::uint64_t seed, Looks looks = Looks::nobody)
       : language_(language), random_(seed), world_(bench(), {}, {}) {
     if (looks != Looks::nobody) coverage_.emplace(world_);
+    if (looks == Looks::with_breakpoints) debugging_.emplace(world_);
     world_.set_bulk_ticks(looks != Looks::at_single_ticks);
   }
 
@@ -160,6 +162,7 @@ class Course {
     return told_;
   }
   int loaded() const { return loaded_; }
+  int stops() const { return stops_; }
   CoverageReport coverage() const { return coverage_->report(); }
 
  private:
@@ -222,6 +225,7 @@ class Course {
     try {
       world_.load_program(0, text);
       ++loaded_;
+      if (debugging_) debugging_->set_some();
     } catch (const ProgramError& error) {
       told_ += "refused: " + in_text(error.first()) + "\n";
     }
@@ -260,7 +264,9 @@ class Course {
         break;
       case 2: kept_ = save(world_); break;
       case 3:
-        if (kept_ && below(2) == 0) restore(world_, *kept_);
+        if (!kept_ || below(2) != 0) break;
+        restore(world_, *kept_);
+        if (debugging_) debugging_->debugger.begin_anew();
         break;
       case 4: {
         const std::string terminal = any(language_.inputs);
@@ -280,12 +286,23 @@ class Course {
     if (below(3) == 0) wait();
   }
 
-  void wait() { world_.advance_to(world_.now() + kTickLength * below(25)); }
+  void wait() {
+    const SimTime end = world_.now() + kTickLength * below(25);
+    world_.advance_to(end);
+    while (world_.now() < end) {
+      EXPECT_TRUE(debugging_ && debugging_->debugger.take_stop()) << "an advance ends early at stops alone";
+      ++stops_;
+      debugging_->step(stops_);
+      world_.advance_to(end);
+    }
+  }
 
   const Language& language_;
   std::mt19937_64 random_;
   World world_;
   std::optional<ProgramCoverage> coverage_;
+  std::optional<StoppingDebugger> debugging_;
+  int stops_ = 0;
   std::optional<WorldState> kept_;
   std::string told_;
   int loaded_ = 0;
@@ -333,6 +350,22 @@ TEST_P(ReplacedPrograms, AreCountedTheSameByAnyTicks) {
   EXPECT_GT(all.files.size(), courses);
   EXPECT_GT(all.totals().lines_run, static_cast<std::int64_t>(courses) * 5);
   EXPECT_LT(all.totals().lines_run, all.totals().lines);
+}
+
+/// A debugger only looks on, wherever it stops.
+TEST_P(ReplacedPrograms, AreTheSameWithBreakpointsAndSteps) {
+  const Language& language = kLanguages[GetParam()];
+  const std::uint64_t first = seed_or(2026);
+  const std::uint64_t courses = is_sanitized() ? 10 : 200;
+  int stops = 0;
+  for (std::uint64_t seed = first; seed < first + courses; ++seed) {
+    // A debugger looks at single ticks. That ticks in bulk come to the same is a proof of its own.
+    const std::string unseen = Course(language, seed, Course::Looks::at_single_ticks).run(20);
+    Course course(language, seed, Course::Looks::with_breakpoints);
+    ASSERT_EQ(course.run(20), unseen) << language.model << ", UNDERSTUDY_SEED=" << seed;
+    stops += course.stops();
+  }
+  EXPECT_GT(stops, static_cast<int>(courses) * 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, ReplacedPrograms, testing::Range(0, 4), [](const auto& test) {

@@ -63,6 +63,12 @@ std::vector<ProgramLocation> Programs::locations() const {
       place.text = lang::text_of(found->lines[static_cast<std::size_t>(line)]);
       place.line = line_in(text, head, line);
     }
+    for (std::size_t i = run.levels.size() - 1; i-- > 0;) {
+      const lang::Level& caller = run.levels[i];
+      const std::string head =
+          std::string(run.is_isr && i == 0 ? "ISR " : "MP ") + std::to_string(caller.number);
+      place.callers.push_back(line_in(text, head, caller.line));
+    }
     const bool is_timed = run.hold == lang::Hold::begin || run.hold == lang::Hold::timer;
     if (is_timed) place.until = time_of(run.until_ms);
     all.push_back(std::move(place));

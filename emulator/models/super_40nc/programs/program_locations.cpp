@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -67,12 +68,19 @@ std::vector<ProgramLocation> Programs::program_locations() const {
     // Show where it is, or what stopped it.
     const int at =
         is_of_error ? ground_.state().error.step - language::base_of(row.area, options_) : step.step;
-    if (const int line = code.line_at(at); line >= 0 && (!is_idle || (is_of_error && !place.why.empty()))) {
-      place.text = language::text_of(code.line(line));
+    const auto listed = [&](int number) {
+      const int line = code.line_at(number);
+      if (line < 0) return std::pair(0, std::string());
+      const std::string code_text = language::text_of(code.line(line));
       for (const int base : {row.base, row.older_base, 0}) {
-        if (place.line != 0) break;
-        place.line = line_of_step(text, row.name, std::to_string(base + at) + " " + place.text);
+        const int found = line_of_step(text, row.name, std::to_string(base + number) + " " + code_text);
+        if (found != 0) return std::pair(found, code_text);
       }
+      return std::pair(0, code_text);
+    };
+    if (!is_idle || (is_of_error && !place.why.empty())) std::tie(place.line, place.text) = listed(at);
+    for (auto call = step.calls.rbegin(); call != step.calls.rend(); ++call) {
+      place.callers.push_back(listed(call->back).first);
     }
     switch (step.phase) {
       case language::Phase::idle: break;

@@ -1,46 +1,17 @@
 // A daemon that runs, spoken to through its socket: time moves only when it is told to.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <fstream>
 #include <thread>
 
 #include "base/files/text_file.h"
-#include "emulator/serve/control/server.h"
 #include "emulator/world/snapshot_file.h"
-#include "tests/emulator/serve/control/daemon_rig.h"
+#include "tests/emulator/serve/control/running_daemon.h"
 #include "tests/sanitized.h"
 
 namespace understudy::emulator::serve {
 namespace running_daemon_test {
-
-/// The daemon's loop in a thread of its own, until the end of the test.
-struct Running {
-  explicit Running(Speed speed = {.kind = Speed::Kind::manual})
-      : rig(speed), thread([this] { rig.daemon.run(); }) {}
-  ~Running() {
-    // It takes its signals from a descriptor; they are blocked in every thread.
-    kill(getpid(), SIGTERM);
-    thread.join();
-    sigset_t term;
-    sigemptyset(&term);
-    sigaddset(&term, SIGTERM);
-    const timespec now{};
-    sigtimedwait(&term, nullptr, &now);  // it may still be pending
-  }
-  Json ask(const std::string& message) {
-    return Json::parse(ask_control(rig.folder.path + "/control", message));
-  }
-  std::int64_t get(const std::string& name) {
-    return ask(Json{{"do", "get"}, {"names", {name}}}.dump())["values"][name].get<std::int64_t>();
-  }
-
-  DaemonRig rig;
-  std::thread thread;
-};
 
 TEST(RunningDaemon, AnAdvanceEndsExactlyWhereItWasToEnd) {
   Running daemon;

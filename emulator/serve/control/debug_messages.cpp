@@ -1,0 +1,354 @@
+#include "emulator/serve/control/debug_messages.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
+#include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/device/named_values.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/terminals.h"
+#include "emulator/device/user_program.h"
+#include "emulator/serve/control/look_messages.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/verbs.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/debug/breakpoint.h"
+#include "emulator/world/debug/debugger.h"
+#include "emulator/world/debug/program_lines.h"
+#include "emulator/world/expression/tokens.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/probe/probes.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+using PointKind = world::BreakpointSetup::Kind;
+
+constexpr std::uint64_t kMaxStepTicks = 3'600'000;  // an hour
+constexpr std::uint64_t kMaxLine = 1'000'000;
+constexpr std::size_t kMaxWords = 1'000;  // of a program, that are looked up
+constexpr std::array<std::string_view, 5> kKinds{"line", "instruction", "when", "write", "on"};
+constexpr std::array<std::pair<std::string_view, world::StepKind>, 5> kSteps{
+    {{"instruction", world::StepKind::instruction},
+     {"line", world::StepKind::line},
+     {"over", world::StepKind::over},
+     {"out", world::StepKind::out},
+     {"stand", world::StepKind::stand}}};
+
+std::string_view reason_word(world::DebugStop::Reason reason) {
+  switch (reason) {
+    case world::DebugStop::Reason::breakpoint: return "breakpoint";
+    case world::DebugStop::Reason::step: return "step";
+    case world::DebugStop::Reason::program: return "program";
+    case world::DebugStop::Reason::power: return "power";
+  }
+  return {};
+}
+
+Json json_of_breakpoint(const Daemon& daemon, const world::Breakpoint& breakpoint) {
+  const world::BreakpointSetup& setup = breakpoint.setup;
+  Json entry{{"number", breakpoint.number}, {"kind", kKinds.at(static_cast<std::size_t>(setup.kind))}};
+  const auto add = [&](const char* key, const std::string& text) {
+    if (!text.empty()) entry[key] = text;
+  };
+  if (setup.kind == PointKind::line || setup.kind == PointKind::instruction) {
+    entry["device"] = daemon.world().device(setup.device).name();
+    add("program", setup.program);
+    entry["found"] = breakpoint.line != 0;
+    if (breakpoint.line != 0) entry["line"] = breakpoint.line;
+    if (setup.kind == PointKind::instruction) entry["instruction"] = setup.line;
+    if (setup.kind == PointKind::line && breakpoint.line != setup.line) entry["moved_from"] = setup.line;
+  }
+  if (setup.kind == PointKind::write) add("write", setup.name);
+  if (setup.kind == PointKind::event) add("on", setup.name);
+  add("by", setup.by);
+  add("when", setup.condition);
+  if (setup.nth != 1) entry["nth"] = setup.nth;
+  add("log", setup.log);
+  entry["hits"] = breakpoint.hits;
+  return entry;
+}
+
+world::BreakpointSetup setup_of(const Daemon& daemon, const Json& message) {
+  world::BreakpointSetup setup;
+  std::string_view chosen;
+  for (const std::string_view kind : {kKinds[0], kKinds[1], kKinds[3], kKinds[4]}) {
+    if (!message.contains(kind)) continue;
+    if (!chosen.empty())
+      throw MessageError(std::string(kind) + ": stands beside " + std::string(chosen) +
+                         "; expected one of them");
+    chosen = kind;
+  }
+  if (message.contains("when")) setup.condition = require_text(message, "when");
+  if (message.contains("log")) setup.log = require_text(message, "log");
+  if (message.contains("nth")) setup.nth = require_count(message, "nth", INT64_MAX);
+  if (setup.nth == 0) throw MessageError("nth: 0 is too small; expected 1 or more");
+  if (chosen.empty()) {
+    if (setup.condition.empty())
+      throw MessageError("nothing to stop at; expected line, instruction, when, write or on");
+    setup.kind = PointKind::condition;
+  } else if (chosen == "write" || chosen == "on") {
+    setup.kind = chosen == "write" ? PointKind::write : PointKind::event;
+    setup.name = require_text(message, std::string(chosen).c_str());
+  } else {
+    setup.kind = chosen == "line" ? PointKind::line : PointKind::instruction;
+    setup.line = static_cast<int>(require_count(message, std::string(chosen).c_str(), kMaxLine));
+    setup.device = require_device(daemon, message);
+  }
+  const bool is_of_program = setup.kind == PointKind::line || setup.kind == PointKind::instruction;
+  if (message.contains("by")) setup.by = require_text(message, "by");
+  if (!setup.by.empty() && setup.kind != PointKind::write)
+    throw MessageError("by: stands without write; expected both, or neither");
+  if (message.contains("program")) setup.program = require_text(message, "program");
+  if (!setup.program.empty() && setup.kind != PointKind::instruction)
+    throw MessageError("program: stands without instruction; expected both, or neither");
+  if (message.contains("device") && !is_of_program)
+    throw MessageError("device: stands without line or instruction; expected one of them");
+  return setup;
+}
+
+/// Returns the register that a program writes as the parameter "VAR32", or the word as it is.
+std::string register_of(const Device& device, const std::string& word) {
+  const std::int64_t number = word.starts_with("VAR") ? parse_integer(word.substr(3)).value_or(-1) : -1;
+  for (const ParameterRow& row : device.model().parameters) {
+    const bool is_in = row.letter.empty() && number >= row.first && number < row.first + row.count;
+    if (!is_in) continue;
+    std::string name(row.register_name);
+    if (const std::size_t place = name.find("{}"); place != std::string::npos)
+      name.replace(place, 2, std::to_string(number - row.first));
+    return name;
+  }
+  return word;
+}
+
+/// Adds the value of a register, or of a device without registers.
+void add_value(const Device& device, const std::string& word, Json& values) {
+  if (device.named_values() != nullptr) {
+    if (const auto value = device.named_values()->value_named(word))
+      values[device.name() + "." + word] = json_of(*value);
+    return;
+  }
+  const std::string name = register_of(device, word);
+  const RegisterBank* const bank = device.register_bank();
+  const auto place = bank == nullptr ? std::nullopt : bank->find(name);
+  if (!place || place->place.row->message != nullptr) return;
+  values[device.name() + "." + name] = json_of(number_of(*place, read_value(*bank, *place)));
+}
+
+/// Returns the values of the words of the device's program that are its registers or values.
+Json values_of_program(const Daemon& /*daemon*/, const Device& device) {
+  Json values = Json::object();
+  const std::string text = device.user_program()->program_text();
+  std::set<std::string> seen;
+  const auto is_of_word = [](char letter) {
+    return (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'z') ||
+           (letter >= 'A' && letter <= 'Z') || letter == '_';
+  };
+  for (std::size_t at = 0; at < text.size() && seen.size() < kMaxWords;) {
+    const std::size_t begin = at;
+    while (at < text.size() && is_of_word(text[at])) ++at;
+    const std::string word = text.substr(begin, at - begin);
+    if (word.empty()) ++at;
+    const bool is_number = !word.empty() && word[0] >= '0' && word[0] <= '9';
+    if (word.empty() || is_number || !seen.insert(word).second) continue;
+    add_value(device, word, values);
+  }
+  return values;
+}
+
+Json values_of_axes(const Daemon& daemon, const Device& device) {
+  Json values = Json::object();
+  const world::Probes probes(daemon.world());
+  for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
+    if (device.axes() == nullptr || !device.axes()->has_axis(static_cast<int>(a))) continue;
+    for (const char* what : {"position", "pulses", "target", "speed"}) {
+      const std::string name = device.name() + "." + std::string(device.model().axes[a].name) + "." + what;
+      values[name] = json_of(probes.value(probes.resolve(name).handle).real());
+    }
+  }
+  return values;
+}
+
+Json values_of_terminals(const Daemon& /*daemon*/, const Device& device) {
+  Json values = Json::object();
+  for (const TerminalSight& sight : terminal_sights(device))
+    values[device.name() + "." + sight.name] = value_of(device, sight);
+  return values;
+}
+
+struct ScopeRow {
+  std::string_view name;
+  Json (*values)(const Daemon& daemon, const Device& device);
+};
+constexpr std::array<ScopeRow, 3> kScopes{
+    {{"program", values_of_program}, {"axes", values_of_axes}, {"terminals", values_of_terminals}}};
+
+const Device& require_program(Daemon& daemon, const Json& message) {
+  const Device& device = daemon.world().device(require_device(daemon, message));
+  require_power(device);
+  if (device.user_program() == nullptr)
+    throw MessageError(device.name() + " runs no program; expected a device that does");
+  return device;
+}
+
+}  // namespace
+
+Json time_and_stop(const Daemon& daemon) {
+  Json reply{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}};
+  const world::DebugStop* const stop = daemon.observers().debugger.stop();
+  if (stop == nullptr) return reply;
+  Json entry{{"reason", reason_word(stop->reason)}, {"text", stop->text}};
+  if (stop->breakpoint != 0) entry["breakpoint"] = stop->breakpoint;
+  if (!stop->device.empty()) entry["device"] = stop->device;
+  if (!stop->place.program.empty()) entry["program"] = stop->place.program;
+  if (stop->place.line != 0) {
+    entry["line"] = stop->place.line;
+    entry["instruction"] = stop->place.number;
+    entry["code"] = stop->place.text;
+    entry["callers"] = stop->depth;
+  }
+  reply["stop"] = std::move(entry);
+  return reply;
+}
+
+Json break_message(Daemon& daemon, const Json& message) {
+  require_keys(message, {"do", "device", "program", "line", "instruction", "when", "write", "by", "on", "nth",
+                         "log", "delete"});
+  world::Debugger& debugger = daemon.observers().debugger;
+  daemon.catch_up();
+  if (message.contains("delete")) {
+    require_keys(message, {"do", "delete"});
+    if (message["delete"] == "all") {
+      debugger.remove_all();
+    } else {
+      const auto number = static_cast<int>(require_count(message, "delete", INT32_MAX));
+      if (!debugger.remove(number))
+        throw MessageError("delete: there is no breakpoint " + std::to_string(number) +
+                           "; expected one of `break`");
+    }
+    return Json{{"ok", true}};
+  }
+  if (message.size() > 1) {
+    try {
+      return Json{{"ok", true},
+                  {"breakpoint", json_of_breakpoint(daemon, debugger.add(setup_of(daemon, message)))}};
+    } catch (const world::ExpressionError& error) {
+      throw MessageError(std::string(message.contains("log") ? "when or log: " : "when: ") + error.what());
+    }
+  }
+  Json breakpoints = Json::array();
+  for (const world::Breakpoint& breakpoint : debugger.breakpoints())
+    breakpoints.push_back(json_of_breakpoint(daemon, breakpoint));
+  return Json{{"ok", true}, {"breakpoints", std::move(breakpoints)}};
+}
+
+void continue_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  require_keys(message, {"do", "within"});
+  if (!daemon.pacer().standing() || daemon.is_advancing()) throw MessageError(std::string(kRunsByItself));
+  if (message.contains("within")) {
+    const SimTime within = require_duration(daemon, message, "within");
+    daemon.advance(within, [&daemon, reply] { reply(time_and_stop(daemon).dump()); });
+    return;
+  }
+  if (daemon.pacer().speed().kind == Speed::Kind::manual)
+    throw MessageError("'within' is missing, and the speed is manual; expected a duration");
+  daemon.resume();
+  reply(Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}}.dump());
+}
+
+void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  if (!message.contains("what")) {
+    require_keys(message, {"do", "ticks"});
+    const std::uint64_t ticks =
+        message.contains("ticks") ? require_count(message, "ticks", kMaxStepTicks) : 1;
+    const SimTime now = daemon.world().now();
+    const SimTime end = time_of(tick_at(now) + static_cast<Tick>(ticks));
+    if (ticks == 0 || end > kHorizon)
+      throw MessageError("ticks: expected 1 to " + std::to_string(kMaxStepTicks));
+    const bool begun = daemon.advance(end - now, [&daemon, reply] { reply(time_and_stop(daemon).dump()); });
+    if (!begun) throw MessageError(std::string(kRunsByItself));
+    return;
+  }
+  require_keys(message, {"do", "what", "device", "program", "within"});
+  const std::string what = require_text(message, "what");
+  const auto* const found =
+      std::find_if(kSteps.begin(), kSteps.end(), [&](const auto& row) { return row.first == what; });
+  if (found == kSteps.end()) {
+    throw MessageError("what: " + understudy::quoted(what) +
+                       " is unknown; expected instruction, line, over, out or stand");
+  }
+  world::Debugger& debugger = daemon.observers().debugger;
+  if (!daemon.pacer().standing() || daemon.is_advancing()) throw MessageError(std::string(kRunsByItself));
+  Json where = message;
+  const world::DebugStop* const stop = debugger.stop();
+  if (!where.contains("device") && stop != nullptr && !stop->device.empty()) where["device"] = stop->device;
+  const std::size_t device = require_device(daemon, where);
+  const std::string program = message.contains("program") ? require_text(message, "program") : std::string();
+  const SimTime within =
+      message.contains("within") ? require_duration(daemon, message, "within") : std::chrono::hours(1);
+  debugger.begin_step(found->second, device, program);
+  const bool begun = daemon.advance(within, [&daemon, reply] {
+    daemon.observers().debugger.end_step();
+    reply(time_and_stop(daemon).dump());
+  });
+  if (!begun) {
+    debugger.end_step();
+    throw MessageError("within: is beyond the end of simulated time; expected less");
+  }
+}
+
+Json stack_message(Daemon& daemon, const Json& message) {
+  require_keys(message, {"do", "device"});
+  daemon.catch_up();
+  const Device& device = require_program(daemon, message);
+  const world::ProgramLines lines(device);
+  Json programs = Json::array();
+  for (const ProgramLocation& place : device.user_program()->program_locations()) {
+    Json frames = Json::array();
+    if (place.line > 0) frames.push_back({{"line", lines.source_line(place.line)}, {"text", place.text}});
+    for (const int caller : place.callers) frames.push_back({{"line", lines.source_line(caller)}});
+    Json entry{{"state", state_word(place.state)}};
+    if (!place.program.empty()) entry["program"] = place.program;
+    if (!place.waits_for.empty()) entry["waits_for"] = place.waits_for;
+    entry["frames"] = std::move(frames);
+    programs.push_back(std::move(entry));
+  }
+  Json reply = time_and_stop(daemon);
+  if (!lines.source().empty()) reply["source"] = lines.source();
+  reply["stacks"] = std::move(programs);
+  return reply;
+}
+
+Json variables_message(Daemon& daemon, const Json& message) {
+  require_keys(message, {"do", "device", "scope"});
+  const std::string wanted = message.contains("scope") ? require_text(message, "scope") : std::string();
+  const auto is_wanted = [&](const ScopeRow& row) { return wanted.empty() || row.name == wanted; };
+  if (std::none_of(kScopes.begin(), kScopes.end(), is_wanted))
+    throw MessageError("scope: " + understudy::quoted(wanted) +
+                       " is unknown; expected program, axes or terminals");
+  daemon.catch_up();
+  const Device& device = require_program(daemon, message);
+  Json scopes = Json::array();
+  for (const ScopeRow& row : kScopes) {
+    if (is_wanted(row)) scopes.push_back({{"name", row.name}, {"values", row.values(daemon, device)}});
+  }
+  Json reply = time_and_stop(daemon);
+  reply["scopes"] = std::move(scopes);
+  return reply;
+}
+
+}  // namespace understudy::emulator::serve

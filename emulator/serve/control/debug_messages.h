@@ -1,0 +1,37 @@
+// The control messages of a debugger (docs/debugging.md). As in verbs.h, nothing has changed if one throws.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/simulated_time.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/server.h"
+
+namespace understudy::emulator::serve {
+
+inline constexpr std::string_view kRunsByItself =
+    "time is already running; expected --speed manual, or `pause` first";
+
+/// {"do":"break","device":"feeder","line":12,"when":"...","nth":3,"log":"..."} sets a breakpoint; so do
+/// "instruction", "write" and "on" in the place of "line", or "when" alone. {"do":"break"} lists them,
+/// {"do":"break","delete":1} deletes one, or "all".
+Json break_message(Daemon& daemon, const Json& message);
+/// {"do":"continue"} lets time run; {"do":"continue","within":"10s"} advances it. The reply to that follows
+/// at the next stop, or when the time is over.
+void continue_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
+/// {"do":"step","ticks":10} runs to the end of the tenth tick from now; {"do":"step","what":"line",
+/// "device":"feeder","within":"10s"} to the program's next line. The clock must be stopped.
+void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
+/// {"do":"stack","device":"feeder"}: where its programs are, and their callers.
+Json stack_message(Daemon& daemon, const Json& message);
+/// {"do":"variables","device":"feeder","scope":"axes"}: the values of the names in its program, of its axes,
+/// of its terminals; without "scope" all of these.
+Json variables_message(Daemon& daemon, const Json& message);
+
+/// Returns a duration from now on. Throws MessageError.
+SimTime require_duration(const Daemon& daemon, const Json& message, const std::string& key);
+/// Returns the time, and the stop if the world is at one.
+Json time_and_stop(const Daemon& daemon);
+
+}  // namespace understudy::emulator::serve

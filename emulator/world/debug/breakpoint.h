@@ -1,0 +1,70 @@
+// Breakpoints and stops of a debugger (debugger.h), as values.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "base/simulated_time.h"
+
+namespace understudy::emulator::world {
+
+/// The message is one line: what cannot be watched, and what was expected.
+struct BreakpointError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct BreakpointSetup {
+  enum class Kind : std::uint8_t {
+    line,         // the first instruction of `line` begins
+    instruction,  // instruction number `line` of the part `program` begins, counted from 0
+    condition,    // `condition` becomes true
+    write,        // the register `name` is written
+    event,        // an event of the kind `name` happens
+  } kind = Kind::line;
+  std::size_t device = 0;  // of a line or an instruction
+  std::string program{};   // of an instruction: "PLC", "MP21"; empty if there is only one
+  int line = 0;            // of the source, from 1
+  std::string name{};
+  std::string by{};         // of a write: host, control, page or device; empty: anyone
+  std::string condition{};  // of all other kinds: a hit counts only while it holds; may be empty
+  std::uint64_t nth = 1;    // the first hit at which it acts
+  std::string log{};        // not empty: it prints this and never stops; {expressions} are replaced
+};
+
+struct Breakpoint {
+  int number = 0;
+  BreakpointSetup setup{};
+  int line = 0;  // of the source, where it really is; 0: nowhere in the present program
+  std::uint64_t hits = 0;
+};
+
+/// Where an instruction is.
+struct InstructionPlace {
+  std::string program{};  // the part; empty if there is only one
+  int number = 0;         // within the part, from 0
+  int line = 0;           // of the source, from 1
+  std::string text{};
+};
+
+struct DebugStop {
+  enum class Reason : std::uint8_t { breakpoint, step, program, power } reason = Reason::breakpoint;
+  SimTime time{0};
+  int breakpoint = 0;    // its number
+  std::string text{};    // for people
+  std::string device{};  // of an instruction; otherwise empty
+  InstructionPlace place{};
+  std::size_t depth = 0;  // callers there
+};
+
+/// How far a step goes.
+enum class StepKind : std::uint8_t {
+  instruction,  // to the next instruction
+  line,         // to the next instruction on another line
+  over,         // to the next instruction that no routine called from here runs
+  out,          // to the next instruction behind the routine that runs
+  stand,        // until no axis of the device moves
+};
+
+}  // namespace understudy::emulator::world

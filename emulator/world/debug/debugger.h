@@ -1,0 +1,116 @@
+// Breakpoints, logpoints and steps. A debugger looks on and changes nothing: a run with breakpoints has the
+// same states as one without.
+//
+// What happens within a tick is judged at its end: conditions have the values of that moment, a stop is
+// there, and the state is whole. While nothing is set, the debugger costs nothing. While it looks at
+// instructions, the world runs each tick.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/device/user_program.h"
+#include "emulator/world/debug/breakpoint.h"
+#include "emulator/world/debug/program_lines.h"
+#include "emulator/world/events/event_log.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/probe/probes.h"
+#include "emulator/world/view/world_view.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+class Debugger final : private TickWatcher {
+ public:
+  static constexpr std::size_t kMaxBreakpoints = 256;
+
+  /// Both must outlive it.
+  Debugger(World& world, EventLog& events);
+  ~Debugger() override;
+  Debugger(const Debugger&) = delete;
+  Debugger& operator=(const Debugger&) = delete;
+
+  /// Throws BreakpointError, NameError or ExpressionError; then nothing has changed.
+  const Breakpoint& add(const BreakpointSetup& setup);
+  /// Returns false if there is none of that number.
+  bool remove(int number);
+  void remove_all();
+  /// Returns them in the order of their numbers.
+  std::vector<Breakpoint> breakpoints() const;
+
+  /// Begins a step of the device's program (empty: the one that has stopped, or any). Throws BreakpointError.
+  void begin_step(StepKind kind, std::size_t device, const std::string& program);
+  void end_step();
+  bool is_stepping() const { return step_ != nullptr; }
+  bool is_watching() const { return is_watching_; }
+
+  /// Returns the stop at which the world is, if it has not moved on.
+  const DebugStop* stop() const;
+  /// Returns true once after each stop.
+  bool take_stop();
+  /// The world was put into another state.
+  void begin_anew();
+
+ private:
+  struct Point;
+  struct Step;
+  class DeviceWatch;
+
+  void on_tick(Tick tick) override;
+  Tick next_look(Tick done) const override;
+
+  /// What machines and programs show that is no event of the log.
+  struct Sign {
+    std::string_view what;  // the kind of the event: "limit"
+    std::size_t device = 0;
+    int axis = 0;
+    Contact contact = Contact::alarm;
+    bool is_on = false;
+  };
+  std::vector<Sign> signs_of_machines() const;
+  bool shows(const Sign& sign) const;
+  std::string text_of(const Sign& sign) const;
+  void require_values(const Expression& expression) const;
+  void parse_log(Point& point) const;
+  std::string log_text(const Point& point) const;
+  void locate(Point& point);
+  void require_place(const Point& point) const;
+  void find_write(Point& point);
+  void begin_events();
+  bool needs(std::size_t device) const;
+  void settle();
+  void look_at_events();
+  void look_at_signs();
+  bool waits_for_events() const;
+  static bool holds(Point& point, const Probes& probes);
+  std::uint64_t new_hits(Point& point);
+  void judge(Point& point);
+  void begin_at(Step& step, const std::string& program) const;
+  std::optional<ProgramLocation> location_of(std::size_t device, const std::string& program) const;
+  bool stands(std::size_t device) const;
+  bool has_ended(const Step& step) const;
+  void judge_step();
+  void stop_with(DebugStop stop);
+
+  World& world_;
+  EventLog& events_;
+  Probes probes_;
+  std::vector<std::unique_ptr<Point>> points_;
+  std::map<std::size_t, std::unique_ptr<DeviceWatch>> watches_;
+  std::unique_ptr<Step> step_;
+  std::optional<DebugStop> stop_;
+  bool is_fresh_ = false;  // nobody has taken the stop
+  bool is_watching_ = false;
+  int last_number_ = 0;
+  std::uint64_t next_event_ = 0;
+  std::vector<Event> new_events_;  // of this tick
+  std::vector<Sign> signs_;        // at the end of the last tick
+};
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,130 @@
+// What a debugger keeps for each breakpoint, device and step.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/program_watch.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/device/program_language.h"
+#include "emulator/device/user_program.h"
+#include "emulator/world/debug/debugger.h"
+#include "emulator/world/expression/number.h"
+
+namespace understudy::emulator::world {
+
+struct Debugger::Point {
+  /// A piece of a log: text, or the value of an expression.
+  using Piece = std::variant<std::string, Expression>;
+
+  Breakpoint told{};
+  Expression condition{};
+  std::vector<Piece> log{};
+  std::vector<ProgramLines::Told> places{};  // of a line or an instruction
+  std::uint64_t ran = 0;                     // how often these began in this tick
+  std::optional<ProgramLines::Told> ran_last{};
+  std::size_t depth = 0;          // callers there
+  bool was_true = false;          // of a condition
+  std::string written{};          // of a write: the register, as events name it
+  std::int32_t handle = 0;        // its value
+  std::optional<Number> value{};  // at the end of the last tick
+  std::string who{};              // of the last hit of a write or an event: what happened
+  std::string no_result{};        // why the condition has none; empty if it has one
+  bool is_of(std::size_t device) const {
+    using Kind = BreakpointSetup::Kind;
+    return (told.setup.kind == Kind::line || told.setup.kind == Kind::instruction) &&
+           told.setup.device == device;
+  }
+};
+
+struct Debugger::Step {
+  StepKind kind = StepKind::instruction;
+  std::size_t device = 0;
+  std::optional<int> part{};                // only this one's; without it any
+  std::string program{};                    // that one's name
+  int line = 0;                             // where it began; 0: unknown
+  std::size_t depth = 0;                    // callers there; of one that is far enough: at its end
+  std::optional<ProgramLines::Told> end{};  // the instruction at which it is far enough
+};
+
+/// Looks at a device's program for breakpoints and steps.
+class Debugger::DeviceWatch final : public ProgramWatch {
+ public:
+  DeviceWatch(Debugger& debugger, std::size_t number) : debugger_(debugger), number_(number) {
+    device().user_program()->add_watch(*this);
+    find_lines();
+  }
+  ~DeviceWatch() override { device().user_program()->remove_watch(*this); }
+  DeviceWatch(const DeviceWatch&) = delete;
+  DeviceWatch& operator=(const DeviceWatch&) = delete;
+
+  void look(std::uint64_t mark) override {
+    if (mark_ == mark) return;
+    mark_ = mark;
+    look_at_program();
+  }
+  /// Finds the lines anew if the device has another program than before.
+  void look_at_program() {
+    if (device().user_program()->program_text() == text_) return;
+    has_changed = true;
+    find_lines();
+    for (const auto& point : debugger_.points_) {
+      if (point->is_of(number_)) debugger_.locate(*point);
+    }
+  }
+  void runs(int part, int line, std::int64_t times) override {
+    const ProgramLines::Told told{part, line};
+    last = told;
+    for (const auto& point : debugger_.points_) {
+      if (!point->is_of(number_)) continue;
+      if (std::find(point->places.begin(), point->places.end(), told) == point->places.end()) continue;
+      point->ran += static_cast<std::uint64_t>(times);
+      point->ran_last = told;
+      point->depth = depth_at(part);
+    }
+    Step* const step = debugger_.step_.get();
+    if (step == nullptr || step->device != number_ || (step->part && *step->part != part)) return;
+    if (step->end) return;
+    const auto place = lines->place(told);
+    if (step->kind == StepKind::line && place && place->line == step->line) return;
+    const std::size_t depth = depth_at(part);
+    if (step->kind == StepKind::over && depth > step->depth) return;
+    if (step->kind == StepKind::out && depth >= step->depth) return;
+    step->end = told;
+    step->depth = depth;
+  }
+  void decides(int /*part*/, int /*line*/, bool /*outcome*/, std::int64_t /*times*/) override {}
+
+  void find_lines() {
+    text_ = device().user_program()->program_text();
+    lines.emplace(device());
+  }
+  /// Returns how many callers the program has that runs this part.
+  std::size_t depth_at(int part) const {
+    const bool is_one_of_many = device().model().language->parts_run_at_once();
+    const auto first = is_one_of_many ? lines->place({part, 0}) : std::nullopt;
+    const auto place = debugger_.location_of(number_, first ? first->program : std::string());
+    return place ? place->callers.size() : 0;
+  }
+
+  std::optional<ProgramLines> lines{};
+  std::optional<ProgramLines::Told> last{};
+  bool has_changed = false;  // the program is another one since the last tick
+
+ private:
+  Device& device() const { return debugger_.world_.device(number_); }
+
+  Debugger& debugger_;
+  std::size_t number_;
+  std::optional<std::uint64_t> mark_{};
+  std::string text_{};  // of the program whose lines these are
+};
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,51 @@
+// The lines of the program that a device has: from the source to its instructions and back. The source is the
+// bench's program if the device still has it, otherwise the listing that is read back from the device.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/device/device.h"
+#include "emulator/device/program_parts.h"
+#include "emulator/world/debug/breakpoint.h"
+
+namespace understudy::emulator::world {
+
+class ProgramLines {
+ public:
+  /// An instruction as interpreters tell it (base/program_watch.h).
+  struct Told {
+    int part = 0;
+    int number = 0;
+    bool operator==(const Told&) const = default;
+  };
+
+  /// The device must have power and take a program.
+  explicit ProgramLines(const Device& device);
+
+  /// Returns the bench's file, or an empty text for the listing.
+  const std::string& source() const { return source_; }
+  /// Returns the first line from `line` on that has an instruction, or 0.
+  int line_from(int line) const;
+  /// Returns the last line that has an instruction, or 0.
+  int last_line() const;
+  /// Returns the first instruction of each part on that line.
+  std::vector<Told> at(int line) const;
+  /// Returns the part of that name. An empty name is the only part's.
+  const ProgramPart* find_part(const std::string& name) const;
+  std::vector<std::string> part_names() const;
+  std::optional<InstructionPlace> place(Told told) const;
+  /// Returns the line of the source for one of the listing; 0 if it has none.
+  int source_line(int listing_line) const;
+
+ private:
+  void take_texts(const std::string& source);
+
+  std::string source_;
+  std::vector<std::string> texts_;    // of the source, by line
+  std::vector<ProgramPart> parts_;    // of the source; of those with one number the first
+  std::vector<ProgramPart> listing_;  // likewise, with the lines of the listing
+};
+
+}  // namespace understudy::emulator::world
