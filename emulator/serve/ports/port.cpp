@@ -90,6 +90,7 @@ Port::Port(EventLoop& loop, world::World& world, std::size_t line_number, const 
 }
 
 void Port::watch() {
+  if (is_on_demand_) return terminal_->settle_writes();
   loop_.watch(terminal_->presence_descriptor(), EventLoop::readable, [this](std::uint32_t) {
     on_presence({});
     keep_watch();
@@ -101,18 +102,41 @@ void Port::watch() {
   is_watching_ = true;
 }
 
+void Port::unwatch() {
+  if (!is_watching_) return;
+  loop_.unwatch(terminal_->data_descriptor());
+  loop_.unwatch(terminal_->presence_descriptor());
+  is_watching_ = false;
+}
+
+void Port::serve_on_demand() {
+  is_on_demand_ = true;
+  if (!terminal_) return;
+  unwatch();
+  terminal_->settle_writes();
+}
+
+void Port::attend() {
+  if (!terminal_ || guest_ != nullptr) return flush();
+  on_presence({});
+  constexpr int kMaxReadings = 64;  // more than the kernel holds
+  for (int i = 0; i < kMaxReadings && terminal_ && room() > 0; ++i) {
+    const std::uint64_t before = line().counters().bytes_in;
+    on_data(EventLoop::readable);
+    if (line().counters().bytes_in == before) break;
+  }
+  keep_watch();
+  flush();
+}
+
 /// Stops watching a lost terminal, which would report its hang-up without end, and tries to recover it.
 void Port::keep_watch() {
   if (!terminal_) return;  // a fault has just unplugged it
   if (!terminal_->is_lost()) {
-    if (!is_watching_) watch();
+    if (!is_watching_ && !is_on_demand_) watch();
     return;
   }
-  if (is_watching_) {
-    loop_.unwatch(terminal_->data_descriptor());
-    loop_.unwatch(terminal_->presence_descriptor());
-    is_watching_ = false;
-  }
+  unwatch();
   const std::string path_before = terminal_->path();
   if (!terminal_->recover()) {
     next_recovery_ = wall_now() + kRecovery;
@@ -126,11 +150,7 @@ void Port::keep_watch() {
   }
 }
 
-Port::~Port() {
-  if (!terminal_) return;
-  loop_.unwatch(terminal_->data_descriptor());
-  loop_.unwatch(terminal_->presence_descriptor());
-}
+Port::~Port() { unwatch(); }
 
 /// Tells the line which hosts came and went. `bytes` were read just before.
 void Port::on_presence(std::span<const std::uint8_t> bytes) {
@@ -243,8 +263,10 @@ std::optional<WallTime> Port::next_look(bool clock_stands) {
     if (second_look_ == WallTime{0}) second_look_ = wall_now() + kSecondLook;
     return second_look_;
   }
-  // With a stopped clock, patience with an incomplete frame would never end.
-  if (clock_stands && last_bytes_ > WallTime{0} && line().due()) return last_bytes_ + patience();
+  // With a stopped clock, patience with an incomplete frame would never end; a host in simulated time has its
+  // own.
+  if (clock_stands && !is_on_demand_ && last_bytes_ > WallTime{0} && line().due())
+    return last_bytes_ + patience();
   return std::nullopt;
 }
 
@@ -256,7 +278,7 @@ void Port::look(WallTime now, bool clock_stands) {
     keep_watch();
   }
   // This happens twice, because after a pause a frame that has begun waits longer.
-  if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + patience()) {
+  if (clock_stands && !is_on_demand_ && last_bytes_ > WallTime{0} && now >= last_bytes_ + patience()) {
     if (std::exchange(has_paused_, true)) last_bytes_ = WallTime{0};
     world_.nothing_more(line_number_);
   }
@@ -332,11 +354,7 @@ void Port::pull_out() {
   if (guest_ != nullptr) guest_->hang_up();
   if (!terminal_) return;
   if (stat(terminal_->path().c_str(), &access_) != 0) access_ = {};
-  if (is_watching_) {
-    loop_.unwatch(terminal_->data_descriptor());
-    loop_.unwatch(terminal_->presence_descriptor());
-    is_watching_ = false;
-  }
+  unwatch();
   if (terminal_->host_present()) world_.host_closed(line_number_);
   terminal_.reset();
 }
