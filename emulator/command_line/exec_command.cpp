@@ -18,6 +18,7 @@
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/exec_courses.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/serving.h"
@@ -256,13 +257,7 @@ void require_apart(const play::Scenario& scenario, const ServeArguments& serve, 
   files.add(scenario.files);
 }
 
-}  // namespace
-
-int execute(ModelList models, const ExecArguments& arguments) {
-  if (!arguments.stray_words.empty() || arguments.command.empty()) {
-    throw UsageError("exec: expected -- and a command after it, such as `exec bench.yaml -- ./my_host`");
-  }
-  timeout_of(arguments);
+int execute_once(ModelList models, const ExecArguments& arguments) {
   Serving serving = make_serving(models, arguments.serve, "exec");
   require_variables(serving.bench);
   if (arguments.host_time) require_host_time(arguments, serving.bench);
@@ -298,6 +293,53 @@ int execute(ModelList models, const ExecArguments& arguments) {
                  serving.options.record_path.c_str());
   }
   return code;
+}
+
+/// Runs the command several times, and compares what happened.
+int execute_repeatedly(ModelList models, const ExecArguments& arguments, int times) {
+  if (!arguments.host_time)
+    throw UsageError("--repeat: runs differ in real time; expected --host-time as well");
+  if (!arguments.serve.nv.empty())
+    throw UsageError("--repeat: each run would begin with the memory of the run before; expected no --nv");
+  serve::PrivateFolder folder;
+  Courses courses;
+  int first_failure = kExitWell;
+  for (int run = 1; run <= times; ++run) {
+    ExecArguments once = arguments;
+    once.serve.record = arguments.serve.record.empty() ? folder.path() + "/run" : arguments.serve.record;
+    if (run > 1) once.serve.record += "." + std::to_string(run);
+    const int code = execute_once(models, once);
+    if (code == kExitNotStarted || code == kExitNoHostTime) return code;
+    if (first_failure == kExitWell) first_failure = code;
+    const std::string difference = courses.add(once.serve.record);
+    if (!difference.empty()) std::fprintf(stderr, "understudy: exec: %s\n", difference.c_str());
+    const bool is_kept =
+        run == 1 || !difference.empty() || code != kExitWell || !arguments.serve.record.empty();
+    std::error_code ignored;
+    if (!is_kept) std::filesystem::remove(once.serve.record, ignored);
+  }
+  std::fprintf(stderr, "understudy: exec: %s\n", courses.summary().c_str());
+  const bool are_same = courses.count() == 1;
+  if (are_same && first_failure == kExitWell && arguments.serve.record.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove(folder.path() + "/run", ignored);
+  }
+  if (first_failure != kExitWell) return first_failure;
+  return are_same ? kExitWell : kExitFailed;
+}
+
+}  // namespace
+
+int execute(ModelList models, const ExecArguments& arguments) {
+  if (!arguments.stray_words.empty() || arguments.command.empty()) {
+    throw UsageError("exec: expected -- and a command after it, such as `exec bench.yaml -- ./my_host`");
+  }
+  timeout_of(arguments);
+  if (arguments.repeat && *arguments.repeat < 1)
+    throw UsageError("--repeat: " + std::to_string(*arguments.repeat) +
+                     " is too few; expected 1 or more runs");
+  if (arguments.repeat) return execute_repeatedly(models, arguments, *arguments.repeat);
+  return execute_once(models, arguments);
 }
 
 int print_tty_shim() {

@@ -117,6 +117,10 @@ struct CommandLine {
                      "Preload a library that lets hosts that insist on parity use a pseudo-terminal");
     command.add_flag("--host-time", exec.host_time,
                      "Put the command into simulated time as well; it includes --tty-shim");
+    command.add_option("--repeat", exec.repeat,
+                       "Run it so many times, and compare the recordings (with --host-time)");
+    command.add_flag_callback(
+        "--twice", [this] { exec.repeat = 2; }, "The same as --repeat 2");
     command.add_option("--timeout", exec.timeout, "End the command after this much real time [never]")
         ->check(kNotEmpty);
     command.callback([this, &command] {

@@ -248,6 +248,28 @@ TEST_F(HostTime, EndsEveryWaitOfAHostOfThreeThreads) {
             "beats 21\n");
 }
 
+TEST_F(HostTime, TellsHowManyCoursesRunsHad) {
+  const std::string script = R"(
+import os, time
+port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
+time.sleep(1 if os.path.exists("FILE") else 2)
+open("FILE", "w")
+)";
+  const std::string mark = folder() / "mark";
+  std::string changing = script;
+  for (std::size_t at = 0; (at = changing.find("FILE")) != std::string::npos;) changing.replace(at, 4, mark);
+  const Finished different = python(changing, {"--repeat", "3"});
+  EXPECT_EQ(different.exit_code, 1);
+  EXPECT_NE(different.errors.find("run 2 differs from run 1 at 1s: "), std::string::npos) << different.errors;
+  EXPECT_NE(different.errors.find("3 runs, 2 different courses: 1 2\n"), std::string::npos)
+      << different.errors;
+  const Finished same = python(changing, {"--twice"});
+  EXPECT_EQ(same.exit_code, 0);
+  EXPECT_EQ(same.errors, "understudy: exec: 2 runs, all the same\n");
+  EXPECT_EQ(python("pass", {"--repeat", "0"}).errors,
+            "understudy: --repeat: 0 is too few; expected 1 or more runs\n");
+}
+
 TEST_F(HostTime, HoldsForWhatAShellStarts) {
   const Finished host = exec({"sh", "-c", "sleep 60; sleep 3600 & sleep 1800; wait; date -u '+%F %T'"});
   EXPECT_EQ(host.exit_code, 0) << host.errors;
