@@ -10,6 +10,7 @@
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/program_texts.h"
 #include "emulator/command_line/text_argument.h"
+#include "emulator/device/firmware_message.h"
 #include "emulator/device/mistakes_told.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_cells.h"
@@ -87,10 +88,7 @@ DeviceSettings program_settings(const Model& model, const ProgramTextArguments& 
   DeviceSettings settings;
   if (!arguments.firmware.empty()) {
     settings.firmware = parse_firmware(arguments.firmware);
-    if (settings.firmware == 0) {
-      throw UsageError("--firmware: " + quoted(arguments.firmware) +
-                       " is not a version; expected one with two decimals, like 1.52");
-    }
+    if (settings.firmware == 0) throw UsageError("--firmware: " + why_no_firmware(model, arguments.firmware));
   }
   for (const std::string& choice : arguments.choices) {
     const std::size_t equals = choice.find('=');

@@ -22,6 +22,7 @@
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/output_paths.h"
+#include "emulator/device/firmware_message.h"
 #include "emulator/device/model.h"
 #include "emulator/serve/control/control_door.h"
 #include "emulator/serve/daemon/daemon.h"
@@ -77,10 +78,8 @@ world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
   device.settings.bauds.assign(device.model->line.ports.size(), arguments.baud.value_or(0));
   if (!arguments.firmware.empty()) {
     device.settings.firmware = parse_firmware(arguments.firmware);
-    if (device.settings.firmware == 0) {
-      throw UsageError("--firmware: " + understudy::quoted(arguments.firmware) +
-                       " is not a version; expected one with two decimals, like 1.52");
-    }
+    if (device.settings.firmware == 0)
+      throw UsageError("--firmware: " + why_no_firmware(*device.model, arguments.firmware));
   }
   require_possible(device);
   std::string link = arguments.link;

@@ -20,6 +20,7 @@
 #include "base/text/suggestion.h"
 #include "emulator/device/command_window.h"
 #include "emulator/device/device.h"
+#include "emulator/device/firmware_message.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
@@ -137,9 +138,19 @@ std::string list_of(const Items& items, Format format) {
   return text;
 }
 
+}  // namespace
+
 std::string why_no_firmware(const Model& model, const std::string& version) {
   return quoted(version) + " is unknown for " + std::string(model.name) + "; expected one of " +
          list_of(model.firmwares, version_text);
+}
+
+namespace {
+
+/// Returns why a choice is refused, with the command that lists all if the message does not.
+std::string why_no_choice(const std::string& why) {
+  const bool has_all = why.find("expected one such as") == std::string::npos;
+  return has_all ? why : why + " (`understudy describe` lists them)";
 }
 
 void check(const Model& model, const DeviceSettings& settings) {
@@ -190,7 +201,7 @@ void require_choices(const Model& model, const DeviceSettings& settings) {
     try {
       resolve_choices(model.choices, {{id, option}});
     } catch (const ChoiceError& error) {
-      throw SettingEntryError("choices", id, error.what());
+      throw SettingEntryError("choices", id, why_no_choice(error.what()));
     }
   }
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
@@ -53,6 +54,8 @@ ReadList read_list(const YamlFields& field, bool may_read, std::vector<FileClaim
   const std::string path = field.path();
   auto text = read_text_file(path);
   if (!text) field.fail(path + " " + text.why + "; expected a list of registers (CSV)");
+  if (const std::string why = is_another_kind(*text, ContentKind::registers); !why.empty())
+    field.fail(path + " " + why + " (CSV)");
   files.push_back({path, "the list of registers of " + understudy::quoted(field.file())});
   return {*std::move(text), {.file = path}};
 }

@@ -142,6 +142,7 @@ TEST_F(ClaimedPort, StaysClaimedWhileItsHostIsThere) {
 // wants it back.
 TEST_F(ClaimedPort, IsServedAnewWhenTheDaemonWasKeptOut) {
   const std::filesystem::path first = std::filesystem::read_symlink(port());
+  ASSERT_EQ(chmod(first.c_str(), 0666), 0);
   const auto is_anew = [&] { return std::filesystem::read_symlink(port()) != first; };
   const auto claim_all_the_time = [&] {
     Host host(port());
@@ -171,6 +172,9 @@ TEST_F(ClaimedPort, IsServedAnewWhenTheDaemonWasKeptOut) {
     EXPECT_EQ(as_ordinary_user([&] { return ask_for_hardware_code(port()); }), 0) << attempt;
   }
   if (!is_anew()) GTEST_SKIP() << "the daemon was never kept out";
+  struct stat access {};
+  EXPECT_EQ(stat(port().c_str(), &access), 0);
+  EXPECT_EQ(access.st_mode & 0777U, 0666U) << "who was let in before is still let in";
   EXPECT_TRUE(eventually([&] {
     return daemon().errors().find("left " + first.string() + " claimed (TIOCEXCL)") != std::string::npos;
   })) << daemon().errors();

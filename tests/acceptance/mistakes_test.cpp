@@ -201,6 +201,23 @@ TEST_F(Mistakes, OfProgramsAreToldWithTheirFile) {
   EXPECT_NE(finished.errors.find(" more)\n"), std::string::npos) << finished.errors;
 }
 
+// What fails before a pipe leaves an empty text, which is no wish to lose the program.
+TEST_F(Mistakes, AnEmptyProgramIsRefused) {
+  const RunningUnderstudy daemon({"--speed", "manual"});
+  folder_.write("some.lst", "Out 4 1\nEND\n");
+  folder_.write("empty.lst", " \n\n");
+  ASSERT_EQ(daemon.ctl({"program", "device", at("some.lst")}).exit_code, 0);
+  const std::string before = daemon.ctl({"program", "device"}).output;
+  const Finished piped = run({"/bin/sh", "-c", "exec \"$0\" ctl --control \"$1\" program device - </dev/null",
+                              UNDERSTUDY_BINARY, daemon.control()});
+  EXPECT_EQ(piped.exit_code, 2);
+  EXPECT_EQ(piped.errors, "understudy: ctl program: standard input is empty; expected a listing\n");
+  const Finished read = daemon.ctl({"program", "device", at("empty.lst")});
+  EXPECT_EQ(read.exit_code, 2);
+  EXPECT_EQ(read.errors, "understudy: ctl program: " + at("empty.lst") + ": is empty; expected a listing\n");
+  EXPECT_EQ(daemon.ctl({"program", "device"}).output, before);
+}
+
 TEST_F(Mistakes, OfTheKindOfAFileNameWhatItIs) {
   folder_.write("bench.yaml",
                 "understudy: 1\nlines: { a: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n");

@@ -193,10 +193,10 @@ TEST(ModbusTcpLine, TellsOfAnAbsentStationAsSoonAsItIsToldTo) {
   std::uint16_t value = 0;
   EXPECT_EQ(modbus_read_registers(host.get(), 1, 1, &value), -1);
   EXPECT_EQ(errno, EMBXGTAR);
-  EXPECT_TRUE(eventually([&] {
-    return served.errors().find("asks for unit 9, which is not on the line; the line has 1 (device)") !=
-           std::string::npos;
-  })) << served.errors();
+  const std::string told =
+      "understudy: line line: a host asks for station 9, which does not exist; the line has 1 (device)\n";
+  EXPECT_TRUE(eventually([&] { return served.errors().find(told) != std::string::npos; })) << served.errors();
+  EXPECT_EQ(served.errors().find("unit 9"), std::string::npos) << "it is told once: " << served.errors();
 }
 
 TEST(ModbusTcpLine, IsRefusedWhereLinesOfTextAreSpoken) {

@@ -140,6 +140,18 @@ void expect_licences_in(const std::string& copyright) {
   }
 }
 
+TEST_F(Installation, HasTheChangesThatAreNotReleasedYet) {
+  const std::string project = PROJECT_FOLDER;
+  const std::string released = contents(project + "/CHANGELOG.md");
+  const std::size_t newest = released.find("\n## ");
+  ASSERT_NE(newest, std::string::npos);
+  const Finished shown = run({"/usr/bin/python3", project + "/packaging/changelog.py", "show"});
+  ASSERT_EQ(shown.exit_code, 0) << shown.errors;
+  const bool has_some = shown.output.find("\n### ") != std::string::npos;
+  EXPECT_EQ(contents(prefix() + "/share/doc/understudy/CHANGELOG.md"),
+            released.substr(0, newest) + (has_some ? "\n" + shown.output : "") + released.substr(newest));
+}
+
 TEST_F(Installation, BringsTheLicencesOfVendoredLibraries) {
   const std::string documentation = prefix() + "/share/doc/understudy/";
   expect_licences_in(contents(documentation + "copyright"));

@@ -78,7 +78,7 @@ TEST(ProgramTexts, AreCheckedForAFirmwareAndForOptions) {
       {{"--choice", "longest_area=3"}, "longest_area"},
       {{"--choice", "longest_area"}, "expected ID=OPTION"},
       {{"--firmware", "9.99"}, "9.99"},
-      {{"--firmware", "new"}, "is not a version"},
+      {{"--firmware", "new"}, "'new' is unknown for "},
   };
   for (const auto& [flags, why] : wrong) {
     Words words{"check", "--model", "workbench", file};
@@ -147,14 +147,15 @@ TEST(ProgramTexts, WarningsOfBenchesAndScenariosAreTold) {
   const std::string of_listing =
       listing + ":3:1: warning: label K1 appears twice; expected one, as in line 2\n" + listing +
       ":4:1: warning: JMP K2 names a label that the area does not have; expected LAB K2\n";
-  const std::string of_step =
-      scenario +
-      ":9: warning: program: line 3, column 1: label K4 appears twice; expected one, as in line 2\n";
+  const std::string of_step = scenario +
+                              ":13:15: warning: steps[0].for.steps[0].program.m: label K4 appears twice; "
+                              "expected one, as in line 2\n";
   const Finished checked = understudy({"check", bench});
   EXPECT_EQ(checked.exit_code, 0);
   EXPECT_EQ(checked.errors, of_listing);
-  EXPECT_EQ(understudy({"check", inside}).errors,
-            "m.program:3:1: warning: label K4 appears twice; expected one, as in line 2\n");
+  EXPECT_EQ(understudy({"check", inside}).errors, inside +
+                                                      ":3:45: warning: devices.m.program: line 3, column 1: "
+                                                      "label K4 appears twice; expected one, as in line 2\n");
   EXPECT_EQ(understudy({"check", scenario}).errors, of_listing + of_step);
   EXPECT_EQ(understudy({"run", scenario, scenario}).errors, of_listing + of_step);
   EXPECT_EQ(understudy({"run", "--filter", "*other*", scenario}).errors.find("warning"), std::string::npos);

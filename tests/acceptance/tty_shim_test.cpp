@@ -142,6 +142,7 @@ TEST_F(TtyShim, RemembersRs485ModeAndLowLatency) {
   EXPECT_EQ(again.delay_rts_after_send, 3U);
   serial_struct serial{};
   EXPECT_EQ(control(slave(), TIOCGSERIAL, &serial), 0);
+  EXPECT_EQ(serial.type, PORT_16550A) << "a UART that is there";
   EXPECT_EQ(serial.flags & ASYNC_LOW_LATENCY, 0);
   serial.flags |= ASYNC_LOW_LATENCY;
   EXPECT_EQ(control(slave(), TIOCSSERIAL, &serial), 0);

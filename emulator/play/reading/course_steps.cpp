@@ -61,8 +61,9 @@ void read_fork(StepsReader& reader, const world::YamlFields& step, const world::
 }
 
 void read_repeat(StepsReader& reader, const world::YamlFields& /*step*/, const world::YamlFields& value) {
-  value.require_keys(kRepeatKeys);
-  const std::int64_t times = value.at("times").integer(kTimesSchema);
+  reader.attempt([&] { value.require_keys(kRepeatKeys); });
+  std::int64_t times = 1;
+  reader.attempt([&] { times = value.at("times").integer(kTimesSchema); });
   const world::YamlFields steps = value.at("steps");
   const auto as = value.find("as");
   for (std::int64_t round = 1; round <= times; ++round) {
@@ -74,7 +75,7 @@ void read_repeat(StepsReader& reader, const world::YamlFields& /*step*/, const w
 }
 
 void read_for(StepsReader& reader, const world::YamlFields& /*step*/, const world::YamlFields& value) {
-  value.require_keys(kForKeys);
+  reader.attempt([&] { value.require_keys(kForKeys); });
   const auto rows = value.at("each").elements();
   if (rows.empty()) value.at("each").fail("is empty; expected at least one value");
   const auto as = value.find("as");

@@ -23,25 +23,28 @@ namespace understudy::emulator::play {
 
 namespace {
 
-Answer read_answer(const world::YamlFields& step) {
+Answer read_answer(StepsReader& reader, const world::YamlFields& step) {
   Answer answer;
-  if (step.has("exception")) {
-    answer.exception = static_cast<int>(step.at("exception").integer(kExceptionSchema));
-  }
-  if (step.has("reply")) {
-    const world::YamlFields reply = step.at("reply");
-    if (reply.text() != kNothing.front()) {
-      reply.fail(quoted(reply.text()) +
-                 " is unknown; expected nothing (values that are read are compared without `reply`)");
+  reader.attempt([&] {
+    if (const auto exception = step.find("exception"))
+      answer.exception = static_cast<int>(exception->integer(kExceptionSchema));
+  });
+  reader.attempt([&] {
+    const auto reply = step.find("reply");
+    if (!reply) return;
+    if (reply->text() != kNothing.front()) {
+      reply->fail(quoted(reply->text()) +
+                  " is unknown; expected nothing (values that are read are compared without `reply`)");
     }
-    if (answer.exception) reply.fail("an exception is a reply; expected one of the two");
+    if (step.has("exception")) reply->fail("an exception is a reply; expected one of the two");
     answer.silence = SendStep{}.within;
-  }
-  if (step.has("within")) {
-    const world::YamlFields within = step.at("within");
-    if (!answer.silence) within.fail("needs `reply: nothing`; expected that as well");
-    answer.silence = read_within(within);
-  }
+  });
+  reader.attempt([&] {
+    const auto within = step.find("within");
+    if (!within) return;
+    if (!step.has("reply")) within->fail("needs `reply: nothing`; expected that as well");
+    answer.silence = read_within(*within);
+  });
   return answer;
 }
 
@@ -127,9 +130,9 @@ std::vector<std::uint8_t> read_bytes(const world::YamlFields& field) {
 
 void read_write(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   WriteStep write;
-  write.answer = read_answer(step);
+  write.answer = read_answer(reader, step);
   Sentence sentence{"write"};
-  for (const auto& [name, field] : require_registers(value)) {
+  const auto read = [&](const std::string& name, const world::YamlFields& field) {
     Target target = reader.trial().target(field, name);
     if (target.is_value) {
       field.fail(name +
@@ -143,8 +146,11 @@ void read_write(StepsReader& reader, const world::YamlFields& step, const world:
     std::string what = reader.trial().value_to_write(field, target, write.answer.exception.has_value());
     sentence.add(name + "=" + world::on_one_line(what));
     write.entries.push_back({.target = std::move(target), .value = std::move(what)});
-  }
-  write.via = read_via(reader, step, write.entries);
+  };
+  for (const auto& [name, field] : require_registers(value))
+    reader.attempt([&, &its_name = name, &its_field = field] { read(its_name, its_field); });
+  reader.attempt([&] { write.via = read_via(reader, step, write.entries); });
+  if (reader.has_failed()) return;
   sentence.add_via(step);
   const std::string text = sentence.finished(write.answer);
   reader.add(step, text, std::move(write));
@@ -153,17 +159,21 @@ void read_write(StepsReader& reader, const world::YamlFields& step, const world:
 void read_command(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   value.require_map();
   CommandStep command;
-  command.answer = read_answer(step);
+  command.answer = read_answer(reader, step);
   Sentence sentence{"command"};
   std::vector<std::size_t> devices;
-  for (const auto& [name, field] : value.entries()) {
+  const auto entries = value.entries();
+  if (entries.empty()) value.fail("is empty; expected commands, as in `{ cell: MOVE X 1000 }`");
+  const auto read = [&](const std::string& name, const world::YamlFields& field) {
     devices.push_back(reader.trial().device(field, name));
     reader.trial().require_command(field, devices.back());
     sentence.add(name + ": " + field.text());
     command.entries.push_back({.device = devices.back(), .text = field.text()});
-  }
-  if (devices.empty()) value.fail("is empty; expected commands, as in `{ cell: MOVE X 1000 }`");
-  command.via = read_via_of(reader, step, devices);
+  };
+  for (const auto& [name, field] : entries)
+    reader.attempt([&, &its_name = name, &its_field = field] { read(its_name, its_field); });
+  reader.attempt([&] { command.via = read_via_of(reader, step, devices); });
+  if (reader.has_failed()) return;
   sentence.add_via(step);
   const std::string text = sentence.finished(command.answer);
   reader.add(step, text, std::move(command));
@@ -171,9 +181,9 @@ void read_command(StepsReader& reader, const world::YamlFields& step, const worl
 
 void read_expect(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   ExpectStep expect;
-  expect.answer = read_answer(step);
+  expect.answer = read_answer(reader, step);
   Sentence sentence{"expect"};
-  for (const auto& [name, field] : require_registers(value)) {
+  const auto read = [&](const std::string& name, const world::YamlFields& field) {
     Target target = reader.trial().target(field, name);
     if (target.is_value && expect.answer.exception)
       field.fail(name + " is not a register; expected no exception");
@@ -182,8 +192,11 @@ void read_expect(StepsReader& reader, const world::YamlFields& step, const world
     world::Tolerance wanted = reader.trial().value_to_expect(field, target);
     sentence.add(name + ": " + wanted.text);
     expect.entries.push_back({.target = std::move(target), .value = std::move(wanted)});
-  }
-  expect.via = read_via(reader, step, expect.entries);
+  };
+  for (const auto& [name, field] : require_registers(value))
+    reader.attempt([&, &its_name = name, &its_field = field] { read(its_name, its_field); });
+  reader.attempt([&] { expect.via = read_via(reader, step, expect.entries); });
+  if (reader.has_failed()) return;
   sentence.add_via(step);
   const std::string text = sentence.finished(expect.answer);
   reader.add(step, text, std::move(expect));
@@ -191,18 +204,24 @@ void read_expect(StepsReader& reader, const world::YamlFields& step, const world
 
 void read_send(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   if (value.is_map() && value.has("text")) return read_send_text(reader, step, value);
-  value.require_keys(kSendKeys);
+  reader.attempt([&] { value.require_keys(kSendKeys); });
   SendStep send;
-  send.line = read_line_of(reader, value);
-  send.bytes = read_bytes(value.at("bytes"));
-  std::string text = "send " + world::on_one_line(value.at("bytes").text());
-  if (value.has("reply")) {
-    const world::YamlFields reply = value.at("reply");
-    const bool is_nothing = reply.text() == "nothing";
-    send.reply = is_nothing ? std::vector<std::uint8_t>() : read_bytes(reply);
-    text += ", reply " + world::on_one_line(reply.text());
-  }
-  if (value.has("within")) send.within = read_within(value.at("within"));
+  std::string text;
+  reader.attempt([&] { send.line = read_line_of(reader, value); });
+  reader.attempt([&] {
+    send.bytes = read_bytes(value.at("bytes"));
+    text = "send " + world::on_one_line(value.at("bytes").text());
+  });
+  reader.attempt([&] {
+    const auto reply = value.find("reply");
+    if (!reply) return;
+    const bool is_nothing = reply->text() == "nothing";
+    send.reply = is_nothing ? std::vector<std::uint8_t>() : read_bytes(*reply);
+    text += ", reply " + world::on_one_line(reply->text());
+  });
+  reader.attempt([&] {
+    if (const auto within = value.find("within")) send.within = read_within(*within);
+  });
   reader.add(step, text, std::move(send));
 }
 

@@ -48,7 +48,7 @@ std::string refusal_text(const world::YamlFields& field) {
 void read_inputs(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   InputStep inputs;
   std::string text = "input";
-  for (const auto& [name, field] : require_entries(value, "feeder.DIN_10: on")) {
+  const auto read = [&](const std::string& name, const world::YamlFields& field) {
     const world::InputSetup input = world::read_input(field, name, reader.trial().known());
     for (const world::InputSetup& other : inputs.inputs) {
       if (other.device == input.device && other.terminal == input.terminal) {
@@ -57,7 +57,9 @@ void read_inputs(StepsReader& reader, const world::YamlFields& step, const world
     }
     text += (inputs.inputs.empty() ? " " : ", ") + name + "=" + field.text();
     inputs.inputs.push_back(input);
-  }
+  };
+  for (const auto& [name, field] : require_entries(value, "feeder.DIN_10: on"))
+    reader.attempt([&, &its_name = name, &its_field = field] { read(its_name, its_field); });
   reader.add(step, text, std::move(inputs));
 }
 
@@ -68,21 +70,27 @@ void read_turn(StepsReader& reader, const world::YamlFields& step, const world::
   const auto in = value.find("in");
   for (const auto& [name, field] : entries) {
     if (name == "in") continue;
-    text += (turn.turns.empty() ? " " : ", ") + name + " by " + field.text();
-    turn.turns.push_back(reader.trial().turn(field, in ? &*in : nullptr, name));
+    reader.attempt([&, &its_name = name, &its_field = field] {
+      text += (turn.turns.empty() ? " " : ", ") + its_name + " by " + its_field.text();
+      turn.turns.push_back(reader.trial().turn(its_field, in ? &*in : nullptr, its_name));
+    });
   }
-  if (turn.turns.empty()) value.fail("turns nothing; expected something such as `{ mill.MPG: 400, in: 2s }`");
+  if (entries.size() == (in ? 1U : 0U))
+    value.fail("turns nothing; expected something such as `{ mill.MPG: 400, in: 2s }`");
   if (in) text += " in " + in->text();
   reader.add(step, text, std::move(turn));
 }
 
 void read_inject(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   InjectStep inject;
-  inject.fault = reader.trial().fault(value, "name");
-  const std::string fault = world::to_text(reader.trial().known(), inject.fault);
+  std::string fault;
+  const bool is_read = reader.attempt([&] {
+    inject.fault = reader.trial().fault(value, "name");
+    fault = world::to_text(reader.trial().known(), inject.fault);
+  });
   inject.name = fault;
   auto& in_force = reader.story().faults;
-  if (value.has("name")) {
+  if (value.is_map() && value.has("name")) {
     inject.name = value.at("name").text();
     if (inject.name.empty() || inject.name == "all") {
       value.at("name").fail(understudy::quoted(inject.name) +
@@ -93,6 +101,7 @@ void read_inject(StepsReader& reader, const world::YamlFields& step, const world
                             " is already in force; expected another name, or a `clear` first");
     }
   }
+  if (!is_read) return;
   in_force.push_back(inject.name);
   const std::string text = "inject " + fault + (inject.name == fault ? "" : " as " + inject.name);
   reader.add(step, text, std::move(inject));
@@ -116,7 +125,7 @@ void read_clear(StepsReader& reader, const world::YamlFields& step, const world:
 void read_power(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   PowerStep power;
   std::string text = "power";
-  for (const auto& [name, field] : require_entries(value, "feeder: off")) {
+  const auto read = [&](const std::string& name, const world::YamlFields& field) {
     const std::size_t device = reader.trial().device(field, name);
     const std::string word = field.text();
     const auto it = std::find(kPowerWords.begin(), kPowerWords.end(), word);
@@ -126,70 +135,98 @@ void read_power(StepsReader& reader, const world::YamlFields& step, const world:
     power.devices.emplace_back(device, word == "on"    ? PowerStep::To::on
                                        : word == "off" ? PowerStep::To::off
                                                        : PowerStep::To::cycle);
-  }
+  };
+  for (const auto& [name, field] : require_entries(value, "feeder: off"))
+    reader.attempt([&, &its_name = name, &its_field = field] { read(its_name, its_field); });
   reader.add(step, text, std::move(power));
 }
 
-void read_program(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  for (const auto& [name, field] : require_entries(value, "feeder: indexing.lst")) {
-    ProgramStep program;
-    program.device = reader.trial().device(field, name);
-    // The field holds the path of a listing, or the listing itself if it has several lines.
-    const bool is_inline = field.text().find('\n') != std::string::npos;
-    program.file = is_inline ? field.file() : field.path();
-    if (is_inline) {
-      program.text = field.text();
-    } else {
-      const auto text = read_text_file(program.file);
-      if (!text) field.fail(program.file + " " + text.why + "; expected a listing");
-      if (const std::string why = is_another_kind(*text, ContentKind::program); !why.empty()) {
-        field.fail(program.file + " " + why);
-      }
-      program.text = *text;
-      reader.add_file(program.file, "a program that a step loads");
+namespace {
+
+void read_one_program(StepsReader& reader, const world::YamlFields& step, const std::string& name,
+                      const world::YamlFields& field) {
+  ProgramStep program;
+  reader.attempt([&] {
+    if (const auto refused = step.find("refused")) program.refused = refusal_text(*refused);
+  });
+  program.device = reader.trial().device(field, name);
+  // The field holds the path of a listing, or the listing itself if it has several lines.
+  std::string text = "program " + name;
+  if (field.text().find('\n') != std::string::npos) {
+    program.text = field.text();
+    program.inside = field.inline_text();
+  } else {
+    program.file = field.path();
+    const auto listing = read_text_file(program.file);
+    if (!listing) field.fail(program.file + " " + listing.why + "; expected a listing");
+    if (const std::string why = is_another_kind(*listing, ContentKind::program); !why.empty()) {
+      field.fail(program.file + " " + why);
     }
-    std::string text = "program " + name + (is_inline ? "" : " " + field.text());
-    if (const auto refused = step.find("refused")) {
-      program.refused = refusal_text(*refused);
-      text += " (refused)";
-    } else {
-      reader.trial().require_program(field, program.device, program.text, is_inline ? "" : program.file);
-    }
-    reader.add(step, text, std::move(program));
+    program.text = *listing;
+    reader.add_file(program.file, "a program that a step loads");
+    text += " " + field.text();
   }
+  if (step.has("refused")) {
+    text += " (refused)";
+  } else {
+    reader.trial().require_program(field, program);
+  }
+  reader.add(step, text, std::move(program));
+}
+
+void read_compared_memory(StepsReader& reader, const world::YamlFields& step, const std::string& name,
+                          const world::YamlFields& field) {
+  MemoryStep memory{
+      .what = MemoryStep::What::expect, .device = reader.trial().device(field, name), .file = field.path()};
+  if (!reader.story().saved.contains(memory.file)) {
+    std::optional<NvImage> image;
+    try {
+      image = read_nv_file(memory.file);
+    } catch (const FileError& error) {
+      field.fail(error.what());
+    }
+    if (!image) field.fail(memory.file + " " + why_not_readable(memory.file) + "; expected an NV image");
+    reader.trial().require_memory(field, memory.device, *image);
+    reader.add_file(memory.file, "a memory that a step compares with");
+  }
+  reader.add(step, "memory " + name + " " + field.text(), std::move(memory));
+}
+
+void read_saved_memory(StepsReader& reader, const world::YamlFields& step, const std::string& name,
+                       const world::YamlFields& field) {
+  MemoryStep memory{
+      .what = MemoryStep::What::save, .device = reader.trial().device(field, name), .file = field.path()};
+  const std::string folder = std::filesystem::path(memory.file).parent_path().string();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    field.fail(folder + " is not a folder; expected one to write in");
+  }
+  reader.story().saved.insert(memory.file);
+  reader.add_saved(memory.file, field);
+  reader.add(step, "save " + name + " " + field.text(), std::move(memory));
+}
+
+/// Reads a map with an entry for each device.
+template <typename ReadOne>
+void read_each(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value,
+               const std::string& example, ReadOne read_one) {
+  for (const auto& [name, field] : require_entries(value, example)) {
+    reader.attempt(
+        [&, &its_name = name, &its_field = field] { read_one(reader, step, its_name, its_field); });
+  }
+}
+
+}  // namespace
+
+void read_program(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  read_each(reader, step, value, "feeder: indexing.lst", read_one_program);
 }
 
 void read_memory(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  for (const auto& [name, field] : require_entries(value, "feeder: after.json")) {
-    MemoryStep memory{
-        .what = MemoryStep::What::expect, .device = reader.trial().device(field, name), .file = field.path()};
-    if (!reader.story().saved.contains(memory.file)) {
-      std::optional<NvImage> image;
-      try {
-        image = read_nv_file(memory.file);
-      } catch (const FileError& error) {
-        field.fail(error.what());
-      }
-      if (!image) field.fail(memory.file + " " + why_not_readable(memory.file) + "; expected an NV image");
-      reader.trial().require_memory(field, memory.device, *image);
-      reader.add_file(memory.file, "a memory that a step compares with");
-    }
-    reader.add(step, "memory " + name + " " + field.text(), std::move(memory));
-  }
+  read_each(reader, step, value, "feeder: after.json", read_compared_memory);
 }
 
 void read_save(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  for (const auto& [name, field] : require_entries(value, "feeder: after.json")) {
-    MemoryStep memory{
-        .what = MemoryStep::What::save, .device = reader.trial().device(field, name), .file = field.path()};
-    const std::string folder = std::filesystem::path(memory.file).parent_path().string();
-    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-      field.fail(folder + " is not a folder; expected one to write in");
-    }
-    reader.story().saved.insert(memory.file);
-    reader.add_saved(memory.file, field);
-    reader.add(step, "save " + name + " " + field.text(), std::move(memory));
-  }
+  read_each(reader, step, value, "feeder: after.json", read_saved_memory);
 }
 
 }  // namespace understudy::emulator::play

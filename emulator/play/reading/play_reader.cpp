@@ -17,6 +17,7 @@
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/firmware_message.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
@@ -68,20 +69,17 @@ world::DeviceSetup& require_device(world::Bench& bench, const world::YamlFields&
 }
 
 void read_firmwares(const world::YamlFields& fields, world::Bench& bench) {
-  const auto read = [](const world::YamlFields& field) {
-    const Firmware firmware = parse_firmware(field.text());
-    if (firmware == 0)
-      field.fail(understudy::quoted(field.text()) +
-                 " is not a version; expected one with two decimals, like \"1.52\"");
-    return firmware;
+  const auto read = [](const world::YamlFields& field, world::DeviceSetup& device) {
+    device.settings.firmware = parse_firmware(field.text());
+    if (device.settings.firmware == 0) field.fail(why_no_firmware(*device.model, field.text()));
   };
   if (!fields.is_map()) {
-    for (world::DeviceSetup& device : bench.devices) device.settings.firmware = read(fields);
+    for (world::DeviceSetup& device : bench.devices) read(fields, device);
     return;
   }
   fields.require_map();
   for (const auto& [name, field] : fields.entries()) {
-    require_device(bench, field, name).settings.firmware = read(field);
+    read(field, require_device(bench, field, name));
   }
 }
 

@@ -25,18 +25,9 @@ void add_warnings(const Steps& steps, const world::Bench& bench, std::vector<Fil
     const auto* const program = std::get_if<ProgramStep>(&step.what);
     if (program == nullptr || program->refused || !program->asks) continue;
     const world::DeviceSetup& device = bench.devices[program->device];
-    if (program->file != step.file) {
-      for (auto& odd : world::program_warnings(device, program->text, program->file)) {
-        all.push_back(std::move(odd));
-      }
-      continue;
-    }
-    // The program is written in the step.
-    for (const ProgramMistake& odd : program_warnings(*device.model, program->text, device.settings)) {
-      const std::string place = step.file + ":" + std::to_string(step.line) + ": ";
-      all.push_back({.place = {.file = step.file, .line = step.line},
-                     .text = one_line(place + "program: " + in_text(odd))});
-    }
+    const world::InlineText* const inside = program->inside ? &*program->inside : nullptr;
+    for (auto& odd : world::program_warnings(device, program->text, program->file, inside))
+      all.push_back(std::move(odd));
   }
 }
 

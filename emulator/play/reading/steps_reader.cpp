@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/file_error.h"
 #include "base/files/text_file.h"
 #include "base/text/suggestion.h"
@@ -120,19 +121,16 @@ void StepsReader::read_here(const world::YamlFields& list, const Parameters& par
 /// Reads a step. If it cannot be read, undoes what it has begun.
 void StepsReader::read_or_complain(const world::YamlFields& step) {
   const auto before = std::tuple(parameters_, into_, paths_.size(), depth_);
+  const auto outer = std::pair(may_lack_name_, has_failed_);
   const StepRow* row = nullptr;
-  const bool is_read = diagnostics_.attempt([&] {
+  may_lack_name_ = has_failed_ = false;
+  attempt([&] {
     row = row_of(step);
-    try {
-      read_step(step, row);
-    } catch (const world::LastError&) {
-      throw;
-    } catch (const FileError&) {
-      if (lacks_names_ && row != nullptr && row->names == StepRow::Names::wants)
-        throw world::AlreadyReported();
-      throw;
-    }
+    may_lack_name_ = lacks_names_ && row != nullptr && row->names == StepRow::Names::wants;
+    read_step(step, row);
   });
+  const bool is_read = !has_failed_;
+  std::tie(may_lack_name_, has_failed_) = outer;
   if (is_read) return;
   lacks_names_ = lacks_names_ || row == nullptr || row->names == StepRow::Names::gives;
   std::size_t paths = 0;
@@ -162,6 +160,8 @@ void StepsReader::read_included(const world::YamlFields& field) {
     if (!text) field.fail(field.path() + " " + text.why + "; expected a file of steps");
     const world::YamlFields root =
         world::YamlFields::parse(*text, field.path(), "steps", "`understudy: 1` and `steps:`");
+    const std::string why = is_another_kind(*text, ContentKind::steps);
+    if (!why.empty() && (root.has("bench") || !root.has("steps"))) field.fail(field.path() + " " + why);
     root.require_keys(kIncludedKeys);
     root.at("understudy").integer(world::kVersionSchema);
     it = included.emplace(field.path(), root.at("steps")).first;
@@ -178,10 +178,12 @@ void StepsReader::read_step(const world::YamlFields& step, const StepRow* row) {
   std::vector<world::Key> known{row->key};
   known.insert(known.end(), row->beside.begin(), row->beside.end());
   for (const auto& [key, value] : step.entries()) {
-    if (key != row->key.key && find_row(key) != nullptr)
-      value.fail("is a second step in one entry; expected `- ` before it");
+    const StepRow* const other = find_row(key);
+    if (other == nullptr || other == row) continue;
+    known.push_back(other->key);
+    attempt([&, &second = value] { second.fail("is a second step in one entry; expected `- ` before it"); });
   }
-  step.require_keys(known);
+  attempt([&] { step.require_keys(known); });
   row->read(*this, step, step.at(row->key.key));
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "emulator/play/reading/parameters.h"
 #include "emulator/play/reading/shared_reading.h"
@@ -69,6 +70,25 @@ class StepsReader {
   /// Reads the steps of a branch, which continue the story so far. Afterwards the story is as it was before.
   Steps read_branch(const world::YamlFields& list);
   void read_included(const world::YamlFields& field);
+  /// Reads a part of a step, so that an error in it does not hide errors in other parts. Returns true if
+  /// there is none.
+  template <typename Read>
+  bool attempt(const Read& read) {
+    const bool is_read = diagnostics_.attempt([&] {
+      try {
+        read();
+      } catch (const world::LastError&) {
+        throw;
+      } catch (const FileError&) {
+        if (may_lack_name_) throw world::AlreadyReported();
+        throw;
+      }
+    });
+    has_failed_ = has_failed_ || !is_read;
+    return is_read;
+  }
+  /// Returns true if a part of the current step could not be read.
+  bool has_failed() const { return has_failed_; }
   /// Returns true if a step could not be read. Another round of a loop would only repeat the error.
   bool has_diagnostics() const { return diagnostics_.count() > 0; }
 
@@ -88,7 +108,9 @@ class StepsReader {
   std::vector<std::string> paths_;  // of the files that include each other here
   int depth_ = 0;
   world::Diagnostics diagnostics_;
-  bool lacks_names_ = false;  // a step that could not be read may have given some
+  bool lacks_names_ = false;    // a step that could not be read may have given some
+  bool may_lack_name_ = false;  // the current step may need one of those
+  bool has_failed_ = false;     // a part of the current step could not be read
 };
 
 }  // namespace understudy::emulator::play

@@ -67,26 +67,38 @@ std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& val
 }
 
 void read_send_text(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  value.require_keys(kSendTextKeys);
+  reader.attempt([&] { value.require_keys(kSendTextKeys); });
   TextStep say;
-  say.line = read_line_of_text(reader, value);
-  say.text = read_text(value.at("text"));
-  std::string text = "send \"" + *say.text + "\"";
-  if (value.has("reply")) {
-    say.lines = read_texts(value.at("reply"));
+  std::string text;
+  reader.attempt([&] { say.line = read_line_of_text(reader, value); });
+  reader.attempt([&] {
+    say.text = read_text(value.at("text"));
+    text = "send \"" + *say.text + "\"";
+  });
+  reader.attempt([&] {
+    const auto reply = value.find("reply");
+    if (!reply) return;
+    say.lines = read_texts(*reply);
     text += ", reply " + world::lines_text(*say.lines);
-  }
-  if (value.has("within")) say.within = read_within(value.at("within"));
+  });
+  reader.attempt([&] {
+    if (const auto within = value.find("within")) say.within = read_within(*within);
+  });
   reader.add(step, text, std::move(say));
 }
 
 void read_hear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  value.require_keys(kHearKeys);
+  reader.attempt([&] { value.require_keys(kHearKeys); });
   TextStep hear;
-  hear.line = read_line_of_text(reader, value);
-  hear.lines = read_texts(value.at("text"));
-  if (value.has("within")) hear.within = read_within(value.at("within"));
-  const std::string text = "hear " + world::lines_text(*hear.lines);
+  std::string text;
+  reader.attempt([&] { hear.line = read_line_of_text(reader, value); });
+  reader.attempt([&] {
+    hear.lines = read_texts(value.at("text"));
+    text = "hear " + world::lines_text(*hear.lines);
+  });
+  reader.attempt([&] {
+    if (const auto within = value.find("within")) hear.within = read_within(*within);
+  });
   reader.add(step, text, std::move(hear));
 }
 

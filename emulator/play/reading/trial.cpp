@@ -239,23 +239,14 @@ world::Tolerance Trial::value_to_expect(const world::YamlFields& field, const Ta
   }
 }
 
-void Trial::require_program(const world::YamlFields& field, std::size_t device, const std::string& text,
-                            const std::string& name) const {
-  DeviceSettings settings = bench_.devices[device].settings;
-  settings.program = text;
+void Trial::require_program(const world::YamlFields& field, const ProgramStep& program) const {
+  DeviceSettings settings = bench_.devices[program.device].settings;
+  settings.program = program.text;
   try {
-    make_device(*bench_.devices[device].model, settings);
+    make_device(*bench_.devices[program.device].model, settings);
   } catch (const ProgramError& error) {
-    if (!name.empty()) throw world::program_diagnostics(error, name);
-    std::vector<FileError::Diagnostic> all;
-    for (const ProgramMistake& mistake : error.mistakes) {
-      try {
-        field.fail(in_text(mistake));
-      } catch (const FileError& diagnostic) {
-        all.push_back(diagnostic.diagnostics().front());
-      }
-    }
-    throw FileError(std::move(all));
+    throw program.inside ? world::program_diagnostics(error, *program.inside)
+                         : world::program_diagnostics(error, program.file);
   } catch (const SettingError& error) {
     field.fail(error.what());
   }

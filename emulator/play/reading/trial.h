@@ -42,8 +42,7 @@ class Trial {
   void require_command(const world::YamlFields& field, std::size_t device) const;
   world::Tolerance value_to_expect(const world::YamlFields& field, const Target& target) const;
   /// These check a text for a device: a program, or an image of its memory.
-  void require_program(const world::YamlFields& field, std::size_t device, const std::string& text,
-                       const std::string& name) const;
+  void require_program(const world::YamlFields& field, const ProgramStep& program) const;
   /// Reads a fault that this world can have. `other_key` is left to other readers.
   world::Fault fault(const world::YamlFields& field, std::string_view other_key) const;
   /// Reads the fault `turn` at a place that `field` names, with the time in `in` (null: at once).

@@ -40,11 +40,15 @@ world::Tolerance read_takes(const world::YamlFields& field, SimTime within) {
 void read_span(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value,
                bool never) {
   SpanStep span{.expression = {}, .never = never, .name = {}};
-  if (value.is_map()) value.require_keys(kSpanKeys);
-  const world::YamlFields what = value.is_map() ? value.at("what") : value;
-  span.expression = reader.trial().changing_condition(what);
+  reader.attempt([&] {
+    if (value.is_map()) value.require_keys(kSpanKeys);
+  });
+  reader.attempt([&] {
+    span.expression = reader.trial().changing_condition(value.is_map() ? value.at("what") : value);
+  });
   const bool is_named = value.is_map() && value.has("name");
   span.name = is_named ? value.at("name").text() : world::on_one_line(span.expression);
+  if (reader.has_failed()) return;
   auto& open = reader.story().spans;
   if (std::find(open.begin(), open.end(), span.name) != open.end()) {
     value.fail(quoted(span.name) + " is already active; expected another name, or an `end` first");
@@ -59,31 +63,38 @@ constexpr SimTime kShortestPoll = kTickLength;
 }  // namespace
 
 void read_wait(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
-  value.require_keys(kWaitKeys);
+  reader.attempt([&] { value.require_keys(kWaitKeys); });
   WaitStep wait;
-  wait.until = reader.trial().changing_condition(value.at("until"));
-  wait.within = read_some_time(value.at("within"));
-  std::string text =
-      "wait until " + world::on_one_line(wait.until) + " within " + format_duration(wait.within);
-  if (value.has("takes")) {
-    wait.takes = read_takes(value.at("takes"), wait.within);
+  std::string text;
+  const bool has_condition =
+      reader.attempt([&] { wait.until = reader.trial().changing_condition(value.at("until")); });
+  const bool has_time = reader.attempt([&] { wait.within = read_some_time(value.at("within")); });
+  text = "wait until " + world::on_one_line(wait.until) + " within " + format_duration(wait.within);
+  reader.attempt([&] {
+    const auto takes = value.find("takes");
+    if (!takes || !has_time) return;
+    wait.takes = read_takes(*takes, wait.within);
     text += ", takes " + wait.takes->text;
-  }
-  if (value.has("poll")) {
-    wait.poll = read_some_time(value.at("poll"));
+  });
+  reader.attempt([&] {
+    const auto poll = value.find("poll");
+    if (!poll) return;
+    wait.poll = read_some_time(*poll);
     if (*wait.poll < kShortestPoll) {
-      value.at("poll").fail(format_duration(*wait.poll) +
-                            " is shorter than any request; expected 1ms or more");
+      poll->fail(format_duration(*wait.poll) + " is shorter than any request; expected 1ms or more");
     }
-    const std::vector<std::size_t> devices = reader.trial().require_registers_only(value.at("until"));
     text += ", polled every " + format_duration(*wait.poll);
-    if (const auto via = value.find(kViaKey.key)) {
-      wait.via = reader.trial().line_of_all(*via, devices);
-      text += " via " + via->text();
-    }
-  } else if (const auto via = value.find(kViaKey.key)) {
-    via->fail("needs `poll`, since only `poll` reads over a line; expected `poll` as well");
-  }
+  });
+  reader.attempt([&] {
+    const auto via = value.find(kViaKey.key);
+    if (via && !value.has("poll"))
+      via->fail("needs `poll`, since only `poll` reads over a line; expected `poll` as well");
+    if (!has_condition || !value.has("poll")) return;
+    const std::vector<std::size_t> devices = reader.trial().require_registers_only(value.at("until"));
+    if (!via) return;
+    wait.via = reader.trial().line_of_all(*via, devices);
+    text += " via " + via->text();
+  });
   reader.add(step, text, std::move(wait));
 }
 
@@ -98,8 +109,10 @@ void read_assert(StepsReader& reader, const world::YamlFields& step, const world
   if (fields.empty()) value.fail("is empty; expected a condition");
   std::string text = "assert";
   for (const world::YamlFields& field : fields) {
-    truths.expressions.push_back(reader.trial().condition(field));
-    text += (truths.expressions.size() == 1 ? " " : "; ") + world::on_one_line(truths.expressions.back());
+    reader.attempt([&] {
+      truths.expressions.push_back(reader.trial().condition(field));
+      text += (truths.expressions.size() == 1 ? " " : "; ") + world::on_one_line(truths.expressions.back());
+    });
   }
   reader.add(step, text, std::move(truths));
 }

@@ -159,8 +159,9 @@ struct TextStep {
 struct ProgramStep {
   std::size_t device = 0;
   std::string text;
-  std::string file;                      // for messages
-  std::optional<std::string> refused{};  // it must be refused, with a reason that contains this text
+  std::string file{};                         // for messages; empty: the step contains the text
+  std::optional<world::InlineText> inside{};  // the place of a text that the step contains
+  std::optional<std::string> refused{};       // it must be refused, with a reason that contains this text
   bool asks = true;  // the step fails if the program is refused; otherwise both are accepted
 };
 

@@ -72,10 +72,8 @@ std::uint8_t station_of_unit(std::uint8_t unit, const world::GatewaySettings& se
 }
 
 std::string why_unanswered(std::uint8_t station, std::uint8_t function, const world::WorldLine& line) {
-  if (is_answered(line, station)) return {};
-  const std::string there = "; the line has " + who_is_there(line);
-  if (station != kBroadcast) return "which is not on the line" + there;
-  return reads(function) ? "which is a broadcast, and devices do not answer broadcasts" + there : "";
+  if (station != kBroadcast || is_answered(line, station) || !reads(function)) return {};
+  return "which is a broadcast, and devices do not answer broadcasts; the line has " + who_is_there(line);
 }
 
 }  // namespace understudy::emulator::serve

@@ -14,8 +14,9 @@ namespace understudy::emulator::serve {
 std::uint8_t station_of_unit(std::uint8_t unit, const world::GatewaySettings& settings,
                              const world::WorldLine& line);
 
-/// Returns a line for the log if a master asks for that station by that function and no station will answer,
-/// with the stations that exist. Empty if one answers, or none should.
+/// Returns a line for the log if a master reads by a broadcast, which no station will answer, with the
+/// stations that exist; otherwise returns an empty text. MissingStations tells of a station that does not
+/// exist, as it does for every kind of host.
 std::string why_unanswered(std::uint8_t station, std::uint8_t function, const world::WorldLine& line);
 
 }  // namespace understudy::emulator::serve

@@ -13,6 +13,7 @@
 #include "base/files/file_claims.h"
 #include "base/simulated_time.h"
 #include "emulator/device/model.h"
+#include "emulator/world/bench/inline_text.h"
 #include "emulator/world/bench/listening.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/plant/plant.h"
@@ -51,7 +52,8 @@ struct LineSetup {
 struct DeviceSetup {
   const Model* model = nullptr;
   DeviceSettings settings;
-  std::string nv_path{};  // the file of its memory; empty: it lives in memory only
+  std::string nv_path{};                       // the file of its memory; empty: it lives in memory only
+  std::optional<InlineText> program_inside{};  // the place of a program that the bench file contains
 };
 
 struct MachineSetup {

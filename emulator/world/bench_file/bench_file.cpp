@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/content_kind.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "emulator/device/model.h"
@@ -20,6 +21,7 @@
 #include "emulator/world/bench_file/device_fields.h"
 #include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/disturbance_fields.h"
+#include "emulator/world/bench_file/keys.h"
 #include "emulator/world/bench_file/line_fields.h"
 #include "emulator/world/bench_file/machine_fields.h"
 #include "emulator/world/bench_file/station_fields.h"
@@ -78,16 +80,14 @@ class BenchReader {
     devices.require_map();
     for (const auto& [name, fields] : devices.entries()) {
       all_.attempt([&, &keys = fields] { keys.require_keys(kDeviceKeys); });
-      all_.attempt([&, &called = name, &keys = fields] { add_device(keys, called, keys); });
+      all_.attempt([&, &called = name, &keys = fields] { require_new_name(keys, called); });
+      all_.attempt([&, &called = name, &keys = fields] { add_device(called, keys); });
     }
   }
 
-  std::size_t add_device(const YamlFields& name_field, const std::string& name, const YamlFields& fields) {
-    require_name(name_field, name);
-    if (name == kTime) name_field.fail("is the name of the time in conditions; expected another name");
-    if (names_.find_device(name) >= 0)
-      name_field.fail("two devices are called " + understudy::quoted(name) + "; expected a new name");
-    names_.lose_device(name);
+  /// Adds a device, even if its name is wrong, so that the rest of it can be judged.
+  std::size_t add_device(const std::string& name, const YamlFields& fields) {
+    if (!name.empty()) names_.lose_device(name);
     DeviceSetup device = read_device(fields, name, folder_, models_, bench_, all_);
     if (device.model == nullptr) throw AlreadyReported();
     bench_.devices.push_back(std::move(device));
@@ -97,6 +97,13 @@ class BenchReader {
     places_.back().stations.resize(ports);
     bench_.devices.back().settings.bauds.resize(ports);
     return bench_.devices.size() - 1;
+  }
+
+  void require_new_name(const YamlFields& field, const std::string& name) const {
+    require_name(field, name);
+    if (name == kTime) field.fail("is the name of the time in conditions; expected another name");
+    if (names_.find_device(name) >= 0)
+      field.fail("two devices are called " + understudy::quoted(name) + "; expected a new name");
   }
 
   // --- lines ---------------------------------------------------------------------------------
@@ -114,64 +121,73 @@ class BenchReader {
   }
 
   void read_line(const std::string& name, const YamlFields& fields) {
-    all_.attempt([&] { fields.require_keys(kLineKeys); });
+    const Keys keys(fields, kLineKeys, all_);
     all_.attempt([&] { require_name(fields, name); });
     LineSetup line{.name = name, .link = {}, .stations = {}};
-    all_.attempt([&] {
-      if (const auto link = fields.find("link")) line.link = read_link(*link, links_, bench_.lines);
-    });
-    all_.attempt([&] {
-      if (const auto listen = fields.find("listen")) line.tcp = read_listen(*listen, bench_.lines);
-    });
-    all_.attempt([&] {
-      if (const auto pty = fields.find("pty")) line.has_pty = pty->on_or_off();
-    });
-    all_.attempt([&] {
-      if (const auto baud = fields.find("baud")) line.baud = static_cast<int>(baud->integer(kBaudSchema));
-    });
-    all_.attempt([&] {
-      if (const auto echo = fields.find("echo")) line.echoes = read_echo(*echo);
-      if (const auto timeout = fields.find("byte_timeout")) line.byte_timeout = read_byte_timeout(*timeout);
-      if (const auto tolerance = fields.find("baud_tolerance")) {
-        line.baud_tolerance_ppm = read_baud_tolerance(*tolerance);
+    read_ports_of(keys, line);
+    std::vector<NumberedStation>& numbered = numbered_.emplace_back();
+    keys.require("stations", [&](const YamlFields& stations) {
+      if (stations.elements().empty()) stations.fail("is empty; expected at least one station");
+      for (const YamlFields& station : stations.elements()) {
+        all_.attempt([&] { read_station(station, line, numbered); });
       }
     });
-    all_.attempt([&] {
-      if (const auto timing = fields.find("timing")) line.timing = read_timing(*timing);
-    });
-    std::vector<NumberedStation>& numbered = numbered_.emplace_back();
-    const auto stations = fields.at("stations").elements();
-    if (stations.empty()) fields.at("stations").fail("is empty; expected at least one station");
-    for (const YamlFields& station : stations) {
-      all_.attempt([&] { read_station(station, line, numbered); });
-    }
     all_.attempt([&] { require_ports(fields, line, bench_); });
     bench_.lines.push_back(std::move(line));
+  }
+
+  /// Reads what a line's ports are, and how fast and when bytes pass through them.
+  void read_ports_of(const Keys& keys, LineSetup& line) {
+    keys.read("link", [&](const YamlFields& field) { line.link = read_link(field, links_, bench_.lines); });
+    keys.read("listen", [&](const YamlFields& field) { read_listen(field, bench_.lines, line, all_); });
+    keys.read("pty", [&](const YamlFields& field) { line.has_pty = field.on_or_off(); });
+    keys.read("baud",
+              [&](const YamlFields& field) { line.baud = static_cast<int>(field.integer(kBaudSchema)); });
+    keys.read("echo", [&](const YamlFields& field) { line.echoes = read_echo(field); });
+    keys.read("byte_timeout", [&](const YamlFields& field) { line.byte_timeout = read_byte_timeout(field); });
+    keys.read("baud_tolerance",
+              [&](const YamlFields& field) { line.baud_tolerance_ppm = read_baud_tolerance(field); });
+    keys.read("timing", [&](const YamlFields& field) { line.timing = read_timing(field); });
   }
 
   void read_station(const YamlFields& station, LineSetup& line, std::vector<NumberedStation>& numbered) {
     if (!station.is_map()) station.fail("expected a map, as in `key: value`");
     std::size_t device = 0;
-    if (station.has("device")) {
-      all_.attempt([&] { station.require_keys(kPlacedStationKeys); });
-      device = names_.require_device(station.at("device"), station.at("device").text());
-    } else {
-      all_.attempt([&] { station.require_keys(kStationKeys); });
-      const bool is_known =
-          all_.attempt([&] { device = add_device(station.at("name"), station.at("name").text(), station); });
-      if (!is_known) {
-        const auto address = station.find("address");
-        if (address)
-          numbered.push_back({station, std::nullopt, static_cast<int>(address->integer(kAddressSchema))});
-        throw AlreadyReported();
+    const bool is_placed = station.has("device");
+    const bool is_known = all_.attempt([&] {
+      if (is_placed) {
+        device = names_.require_device(station.at("device"), station.at("device").text());
+      } else {
+        std::string name;
+        all_.attempt([&] {
+          name = station.at("name").text();
+          require_new_name(station.at("name"), name);
+        });
+        device = add_device(name, station);
       }
+    });
+    all_.attempt([&] {
+      if (is_placed) return station.require_keys(kPlacedStationKeys);
+      station.require_keys(kStationKeys);
+    });
+    if (!is_known) {
+      const auto address = station.find("address");
+      if (!address) return;
+      const int number = static_cast<int>(address->integer(kAddressSchema));
+      if (!is_placed) numbered.push_back({station, std::nullopt, number});
+      return;
     }
     DeviceSetup& setup = bench_.devices[device];
-    const std::size_t port = take_port(station, device, line);
-    setup.settings.bauds[port] = line.baud;
-    require_room(station, {device, port}, line, bench_);
-    numbered.push_back({station, device, read_address(station, setup)});
-    line.stations.emplace_back(device, port);
+    const bool is_here =
+        std::ranges::find(line.stations, device, &StationSetup::device) != line.stations.end();
+    all_.attempt([&] {
+      const std::size_t port = take_port(station, device, line);
+      setup.settings.bauds[port] = line.baud;
+      require_room(station, {device, port}, line, bench_);
+      line.stations.emplace_back(device, port);
+    });
+    const auto address = read_address(station, setup);
+    if (!is_here) numbered.push_back({station, device, address});
   }
 
   /// Returns the port that a station names. The port must not be on another line, and the device must not be
@@ -213,18 +229,18 @@ class BenchReader {
   }
 
   void read_machine_of(const std::string& name, const YamlFields& fields) {
-    const auto [device, axis_name] = names_.split(fields, name, "feeder.A");
-    const Model& model = *bench_.devices[device].model;
-    const int axis = find_axis(model, axis_name);
-    if (axis < 0) {
-      std::string axes;
-      for (const AxisRow& row : model.axes) axes += (axes.empty() ? "" : ", ") + std::string(row.name);
-      fields.fail(understudy::quoted(axis_name) + " is not an axis of " + std::string(model.name) +
-                  "; expected one of " + axes);
-    }
+    MachineSetup machine{.device = 0, .axis = 0, .plant = {}};
+    const Model* model = nullptr;
     const std::size_t before = all_.count();
-    bench_.machines.push_back(
-        {.device = device, .axis = axis, .plant = read_machine(fields, model, axis, all_)});
+    const bool is_known = all_.attempt([&] {
+      const auto [device, axis_name] = names_.split(fields, name, "feeder.A");
+      model = bench_.devices[device].model;
+      machine.device = device;
+      machine.axis = require_axis(fields, *model, axis_name);
+    });
+    const AxisRow* const axis = is_known ? &model->axes[static_cast<std::size_t>(machine.axis)] : nullptr;
+    machine.plant = read_machine(fields, model, axis, all_);
+    if (is_known) bench_.machines.push_back(machine);
     if (all_.count() != before) names_.lose_part(name);
   }
 
@@ -250,7 +266,7 @@ class BenchReader {
 
   void read_wires(const YamlFields& wires) {
     for (const YamlFields& wire : wires.elements()) {
-      all_.attempt([&] { bench_.wires.push_back(read_wire(wire, bench_, names_)); });
+      all_.attempt([&] { bench_.wires.push_back(read_wire(wire, bench_, names_, all_)); });
     }
   }
 
@@ -361,6 +377,8 @@ Bench load_bench(ModelList models, const std::string& path, const std::string& l
 Bench load_bench(ModelList models, const YamlFields& path) {
   const auto text = read_text_file(path.path());
   if (!text) path.fail(path.path() + " " + text.why + "; expected a bench file");
+  if (const std::string why = is_another_kind(*text, ContentKind::bench); !why.empty())
+    path.fail(path.path() + " " + why);
   return bench_of(models, *text, path.path(), "");
 }
 

@@ -53,7 +53,9 @@ std::size_t BenchNames::require_device(const YamlFields& field, const std::strin
   if (found >= 0) return static_cast<std::size_t>(found);
   if (lost_devices_.contains(name)) throw AlreadyReported();
   std::vector<std::string> names;
-  for (const DeviceSetup& device : bench_.devices) names.push_back(device.settings.name);
+  for (const DeviceSetup& device : bench_.devices) {
+    if (!device.settings.name.empty()) names.push_back(device.settings.name);
+  }
   field.fail("no device is called " + quoted(name) + suggestion(name, names));
 }
 

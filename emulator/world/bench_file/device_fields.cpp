@@ -19,6 +19,7 @@
 #include "base/text/parse_real.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/device.h"
+#include "emulator/device/firmware_message.h"
 #include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
@@ -43,10 +44,11 @@ double require_real(const YamlFields& field) {
 
 /// Reads the path of a listing, or the listing itself if the text has several lines.
 void read_program(const YamlFields& field, const std::optional<std::string>& folder, Bench& bench,
-                  DeviceSettings& settings) {
+                  DeviceSetup& device) {
+  DeviceSettings& settings = device.settings;
   if (field.text().find('\n') != std::string::npos) {
     settings.program = field.text();
-    settings.program_name = settings.name + ".program";
+    device.program_inside = field.inline_text();
     return;
   }
   const std::string path = path_in(folder, field);
@@ -124,6 +126,26 @@ void read_nv_path(const YamlFields& field, const std::optional<std::string>& fol
   }
 }
 
+/// Reads the description of a model. Its mistakes are told at their places in this file.
+const Model& require_inline_model(ModelList models, const YamlFields& field, const std::string& name) {
+  try {
+    return models.files->parse(field.text(), name);
+  } catch (const FileError& error) {
+    std::vector<FileError::Diagnostic> all;
+    for (const FileError::Diagnostic& diagnostic : error.diagnostics()) {
+      const FilePlace& place = diagnostic.place;
+      const std::size_t end = diagnostic.text.find(": ");
+      if (place.file != name || end == std::string::npos) {
+        all.push_back(diagnostic);
+      } else {
+        all.push_back(
+            diagnostic_in(field.inline_text(), {place.line, place.column, diagnostic.text.substr(end + 2)}));
+      }
+    }
+    throw FileError(std::move(all));
+  }
+}
+
 /// Reads a model's name, the path of its file, or, if the text has several lines, the description itself.
 const Model& require_model(ModelList models, const YamlFields& field,
                            const std::optional<std::string>& folder, const std::string& device,
@@ -131,13 +153,16 @@ const Model& require_model(ModelList models, const YamlFields& field,
   const std::string name = field.text();
   if (const Model* const model = find_model(models, name)) return *model;
   if (models.files != nullptr && name.find('\n') != std::string::npos)
-    return models.files->parse(name, device + ".model");
+    return require_inline_model(models, field, device + ".model");
   if (models.files != nullptr && names_model_file(name)) {
     const std::string path = path_in(folder, field);
     if (const std::string why = why_not_readable(path); !why.empty())
       field.fail(path + " " + why + "; expected a model file");
     return models.files->load(path, bench.files);
   }
+  if (models.files != nullptr && name.find('/') != std::string::npos)
+    field.fail(understudy::quoted(name) +
+               " is a path; expected that of a model file, NAME.yaml, or a model's name");
   std::vector<std::string> names;
   for (const ListedModel& known : models) names.emplace_back(known.name());
   field.fail(understudy::quoted(name) + " is not a model" + suggestion(name, names));
@@ -241,9 +266,10 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
   };
   read("firmware", [&](const YamlFields& field) {
     settings.firmware = parse_firmware(field.text());
-    if (settings.firmware == 0)
-      field.fail(understudy::quoted(field.text()) +
-                 " is not a version; expected one with two decimals, like \"1.52\"");
+    if (settings.firmware != 0) return;
+    if (device.model != nullptr) field.fail(why_no_firmware(*device.model, field.text()));
+    field.fail(understudy::quoted(field.text()) +
+               " is not a version; expected one with two decimals, like \"1.52\"");
   });
   const bool knows_modules = read("modules", [&](const YamlFields& field) {
     settings.modules = static_cast<int>(field.integer(kModulesSchema));
@@ -256,7 +282,7 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
       diagnostics.attempt([&, &of = dip, &is = level] { settings.dip[of] = is.on_or_off(); });
     }
   });
-  read("program", [&](const YamlFields& field) { read_program(field, folder, bench, settings); });
+  read("program", [&](const YamlFields& field) { read_program(field, folder, bench, device); });
   read("nv", [&](const YamlFields& field) {
     if (!field.is_map()) return read_nv_path(field, folder, bench, device);
     if (device.model != nullptr) settings.nv = read_memory(field, *device.model, diagnostics);
@@ -292,7 +318,8 @@ void judge_device(const DevicePlaces& places, DeviceSetup& device, Diagnostics& 
         fields.fail(std::string("nv: ") + error.what());
       } catch (const ProgramError& error) {
         is_asked = !std::exchange(settings.program, "").empty();
-        throw program_diagnostics(error, settings.program_name);
+        throw device.program_inside ? program_diagnostics(error, *device.program_inside)
+                                    : program_diagnostics(error, settings.program_name);
       }
     });
   }

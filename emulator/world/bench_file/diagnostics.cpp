@@ -4,14 +4,17 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
 #include "emulator/device/mistakes_told.h"
 #include "emulator/device/program_error.h"
+#include "emulator/world/bench/inline_text.h"
 
 namespace understudy::emulator::world {
 
@@ -24,8 +27,41 @@ FileError program_diagnostics(const ProgramError& error, const std::string& file
   return FileError(std::move(diagnostics));
 }
 
+FileError program_diagnostics(const ProgramError& error, const InlineText& text) {
+  std::vector<FileError::Diagnostic> diagnostics;
+  for (const ProgramMistake& mistake : with_word_of_more(error.mistakes))
+    diagnostics.push_back(diagnostic_in(text, mistake));
+  return FileError(std::move(diagnostics));
+}
+
+namespace {
+
+constexpr std::string_view kAnd = "and ";
+
+/// Returns the line that stands for the errors that are not told.
+FileError::Diagnostic word_of_more(std::size_t more) {
+  const FileError word(std::string(kAnd) + std::to_string(more) + " more; the first " +
+                       std::to_string(Diagnostics::kMaxTold) + " are shown");
+  return word.diagnostics().front();
+}
+
+/// Returns the number in such a line, or 0.
+std::size_t more_in(const FileError::Diagnostic& diagnostic) {
+  if (!diagnostic.place.file.empty() || !diagnostic.text.starts_with(kAnd)) return 0;
+  const std::string number =
+      diagnostic.text.substr(kAnd.size(), diagnostic.text.find(' ', kAnd.size()) - kAnd.size());
+  const auto more = static_cast<std::size_t>(parse_integer(number).value_or(0));
+  return diagnostic.text == word_of_more(more).text ? more : 0;
+}
+
+}  // namespace
+
 void Diagnostics::add(const FileError& error, const std::string& behind) {
   for (FileError::Diagnostic diagnostic : error.diagnostics()) {
+    if (const std::size_t more = more_in(diagnostic)) {
+      more_ += more;
+      continue;
+    }
     if (!told_.insert(diagnostic.text).second) continue;
     diagnostic.text += behind;
     diagnostics_.push_back(std::move(diagnostic));
@@ -44,12 +80,10 @@ void Diagnostics::throw_if_any() const {
   std::vector<FileError::Diagnostic> sorted = diagnostics_;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const auto& left, const auto& right) { return place(left) < place(right); });
-  if (sorted.size() > kMaxTold) {
-    const std::size_t more = sorted.size() - kMaxTold;
-    sorted.resize(kMaxTold);
-    const FileError rest("and " + std::to_string(more) + " more; the first " + std::to_string(kMaxTold) +
-                         " are shown");
-    sorted.push_back(rest.diagnostics().front());
+  const std::size_t more = more_ + sorted.size() - std::min(sorted.size(), kMaxTold);
+  if (more > 0) {
+    sorted.resize(std::min(sorted.size(), kMaxTold));
+    sorted.push_back(word_of_more(more));
   }
   throw FileError(std::move(sorted));
 }

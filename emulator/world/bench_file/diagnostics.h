@@ -9,6 +9,7 @@
 
 #include "base/files/file_error.h"
 #include "emulator/device/program_error.h"
+#include "emulator/world/bench/inline_text.h"
 
 namespace understudy::emulator::world {
 
@@ -20,6 +21,8 @@ struct LastError : FileError {
 
 /// Converts the mistakes of a program to an error about the program's own file.
 FileError program_diagnostics(const ProgramError& error, const std::string& file);
+/// Converts the mistakes of a program inside a file.
+FileError program_diagnostics(const ProgramError& error, const InlineText& text);
 
 /// Thrown if a part that is referred to could not be read. That has been reported already.
 struct AlreadyReported {};
@@ -65,6 +68,7 @@ class Diagnostics {
 
   std::vector<FileError::Diagnostic> diagnostics_;
   std::set<std::string> told_;
+  std::size_t more_ = 0;  // that parts of the file left untold
 };
 
 }  // namespace understudy::emulator::world

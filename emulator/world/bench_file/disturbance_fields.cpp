@@ -1,8 +1,12 @@
 #include "emulator/world/bench_file/disturbance_fields.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/text/one_line.h"
@@ -22,22 +26,25 @@ namespace understudy::emulator::world {
 
 namespace {
 
-FaultText text_of_fault(const YamlFields& fields, std::string_view other_key) {
-  fields.require_map();
-  FaultText text{};
+/// Adds the fields to `text`, except those that could not be read.
+void read_text_of_fault(const YamlFields& fields, std::string_view other_key, FaultText& text,
+                        Diagnostics& diagnostics) {
+  diagnostics.attempt([&] { fields.require_map(); });
   bool is_first = true;
+  std::set<std::string> seen;
   for (const auto& [key, value] : fields.entries()) {
     if (!other_key.empty() && key == other_key) continue;
-    if (is_first) {
-      is_first = false;
-      text.kind = key;
-      text.place = value.text();
-      continue;
-    }
-    text.fields.emplace_back(key, value.text());
+    if (!seen.insert(key).second) continue;
+    if (is_first) text.kind = key;
+    diagnostics.attempt([&, &name = key, &field = value] {
+      if (std::exchange(is_first, false)) {
+        text.place = field.text();
+      } else {
+        text.fields.emplace_back(name, field.text());
+      }
+    });
   }
   if (is_first) fields.fail("is empty; expected a fault, as in `{ stall: feeder.A }`");
-  return text;
 }
 
 /// Checks the condition of a fault that could not be read.
@@ -75,12 +82,19 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
 std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& devices,
                                 Diagnostics& diagnostics, std::string_view other_key) {
   FaultText text{};
-  if (!diagnostics.attempt([&] { text = text_of_fault(fields, other_key); })) return std::nullopt;
-  // A wrong field is removed so that the others are judged. After that, errors about missing fields are not
-  // reported.
-  bool is_whole = true;
+  const std::size_t before = diagnostics.count();
+  const bool has_kind =
+      diagnostics.attempt([&] { read_text_of_fault(fields, other_key, text, diagnostics); });
+  if (!has_kind) return std::nullopt;
+  bool is_whole = diagnostics.count() == before;
+  bool has_place = true;
+  // A wrong place or field is put aside so that the rest is judged.
   while (true) {
     try {
+      if (!has_place) {
+        require_fault_fields(devices, text);
+        return std::nullopt;
+      }
       const Fault fault = find_fault(devices, text);
       return is_whole ? std::optional(fault) : std::nullopt;
     } catch (const FaultFieldError& error) {
@@ -88,7 +102,12 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
       diagnostics.attempt([&] { fields.at(error.field).fail(error.diagnostic); });
       const auto is_it = [&](const auto& field) { return one_line(field.first) == error.field; };
       if (std::erase_if(text.fields, is_it) == 0) return std::nullopt;
+    } catch (const FaultPlaceError& error) {
+      has_place = false;
+      if (!fields.at(text.kind).is_scalar()) continue;
+      diagnostics.attempt([&] { fields.fail(error.what()); });
     } catch (const NameError& error) {
+      // A field that was put aside is not missing.
       if (is_whole) diagnostics.attempt([&] { fields.fail(error.what()); });
       return std::nullopt;
     }

@@ -14,6 +14,7 @@
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench/listening.h"
 #include "emulator/world/bench_file/device_fields.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/speech/line_protocol.h"
 #include "pty/line.h"
@@ -50,9 +51,9 @@ SimTime read_byte_timeout(const YamlFields& timeout) {
   timeout.fail(understudy::quoted(timeout.text()) + " is not possible; " + std::string(kByteTimeoutExpected));
 }
 
-std::vector<TcpAddress> read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines) {
-  std::vector<TcpAddress> all;
-  for (const YamlFields& place : listen.is_list() ? listen.elements() : std::vector{listen}) {
+void read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines, LineSetup& line,
+                 Diagnostics& diagnostics) {
+  const auto read_place = [&](const YamlFields& place) {
     TcpAddress address;
     try {
       address = parse_tcp_address(place.text());
@@ -64,15 +65,16 @@ std::vector<TcpAddress> read_listen(const YamlFields& listen, const std::vector<
       if (std::ranges::any_of(other.tcp, is_there))
         place.fail("line " + understudy::quoted(other.name) + " listens there; expected another port");
     }
-    if (std::ranges::any_of(all, is_there)) place.fail("appears twice; expected it once");
-    all.push_back(address);
-  }
-  if (all.empty()) listen.fail("is empty; " + std::string(kListeningExpected));
-  return all;
+    if (std::ranges::any_of(line.tcp, is_there)) place.fail("appears twice; expected it once");
+    line.tcp.push_back(address);
+  };
+  const auto places = listen.is_list() ? listen.elements() : std::vector{listen};
+  for (const YamlFields& place : places) diagnostics.attempt([&] { read_place(place); });
+  if (places.empty()) listen.fail("is empty; " + std::string(kListeningExpected));
 }
 
 void require_ports(const YamlFields& fields, const LineSetup& line, const Bench& bench) {
-  if (!line.has_pty && line.tcp.empty())
+  if (!line.has_pty && !fields.has("listen"))
     fields.at("pty").fail("leaves the line without a port; expected `listen` as well");
   if (!line.has_pty && !line.link.empty())
     fields.at("link").fail("needs a pseudo-terminal, but `pty` is false; expected one of the two");

@@ -8,6 +8,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::world {
@@ -21,8 +22,9 @@ bool read_echo(const YamlFields& echo);
 
 SimTime read_byte_timeout(const YamlFields& timeout);
 
-/// Reads one address or several. No other line may listen on any of them.
-std::vector<TcpAddress> read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines);
+/// Reads one address or several into `line`. No other line may listen on any of them.
+void read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines, LineSetup& line,
+                 Diagnostics& diagnostics);
 
 /// Checks that a line's ports fit together and suit its stations. `fields` are those of the line; its
 /// stations have been read.

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,38 +12,13 @@
 #include "emulator/device/model.h"
 #include "emulator/world/bench_file/bench_form.h"
 #include "emulator/world/bench_file/diagnostics.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/keys.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
 
 namespace {
-
-/// Reads the keys of a map one by one, so that an error in one does not hide errors in the next.
-class Keys {
- public:
-  Keys(const YamlFields& fields, std::span<const Key> known, Diagnostics& diagnostics)
-      : fields_(fields), diagnostics_(diagnostics) {
-    diagnostics_.attempt([&] { fields_.require_keys(known); });
-  }
-  /// Calls `how` with the field if it exists. Returns true if there is no error.
-  template <typename How>
-  bool read(const std::string& key, const How& how) const {
-    return diagnostics_.attempt([&] {
-      if (const auto field = fields_.find(key)) how(*field);
-    });
-  }
-  /// Like read(), but the field must exist.
-  template <typename How>
-  bool require(const std::string& key, const How& how) const {
-    return diagnostics_.attempt([&] { how(fields_.at(key)); });
-  }
-
- private:
-  const YamlFields& fields_;
-  Diagnostics& diagnostics_;
-};
 
 PulseSpan read_span(const YamlFields& field, Diagnostics& diagnostics) {
   const auto ends = field.elements();
@@ -77,19 +51,21 @@ DriveSetup read_drive(const YamlFields& drive, Diagnostics& diagnostics) {
 }
 
 /// Reads the name of a digital input of the machine's own controller. (Only wires lead to other controllers.)
-int read_own_input(const YamlFields& field, const Model& model) {
+/// If the model is unknown, any name will do.
+int read_own_input(const YamlFields& field, const Model* model) {
   const std::string name = field.text();
+  if (model == nullptr) return -1;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < model.terminals.size(); ++i) {
-    if (model.terminals[i].kind != TerminalRow::Kind::digital_in) continue;
-    if (model.terminals[i].name == name) return static_cast<int>(i);
-    names.emplace_back(model.terminals[i].name);
+  for (std::size_t i = 0; i < model->terminals.size(); ++i) {
+    if (model->terminals[i].kind != TerminalRow::Kind::digital_in) continue;
+    if (model->terminals[i].name == name) return static_cast<int>(i);
+    names.emplace_back(model->terminals[i].name);
   }
-  field.fail(quoted(name) + " is not an input of " + std::string(model.name) + suggestion(name, names));
+  field.fail(quoted(name) + " is not an input of " + std::string(model->name) + suggestion(name, names));
 }
 
 /// Reads an index. Its period is one revolution of the motor by default.
-IndexSetup read_index(const YamlFields& index, const Model& model, int pulses_per_revolution,
+IndexSetup read_index(const YamlFields& index, const Model* model, int pulses_per_revolution,
                       Diagnostics& diagnostics) {
   const Keys keys(index, kIndexKeys, diagnostics);
   IndexSetup setup{.period = pulses_per_revolution};
@@ -107,7 +83,7 @@ IndexSetup read_index(const YamlFields& index, const Model& model, int pulses_pe
   return setup;
 }
 
-void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& setup,
+void read_encoder(const YamlFields& encoder, const Model* model, PlantSetup& setup,
                   Diagnostics& diagnostics) {
   const Keys keys(encoder, kEncoderKeys, diagnostics);
   const auto per_revolution = [](const YamlFields& field) {
@@ -143,7 +119,7 @@ void read_travel(const YamlFields& travel, bool knows_start, PlantSetup& setup, 
   setup.travel = span;
 }
 
-SwitchSetup read_switch(const YamlFields& fields, const Model& model, Diagnostics& diagnostics) {
+SwitchSetup read_switch(const YamlFields& fields, const Model* model, Diagnostics& diagnostics) {
   const Keys keys(fields, kHomeKeys, diagnostics);
   SwitchSetup setup;
   std::int64_t at = 0;
@@ -158,7 +134,7 @@ SwitchSetup read_switch(const YamlFields& fields, const Model& model, Diagnostic
   return setup;
 }
 
-void read_home(const YamlFields& home, const Model& model, PlantSetup& setup, Diagnostics& diagnostics) {
+void read_home(const YamlFields& home, const Model* model, PlantSetup& setup, Diagnostics& diagnostics) {
   const SwitchSetup switch_setup = read_switch(home, model, diagnostics);
   setup.home = switch_setup.on;
   setup.home_hysteresis_pulses = switch_setup.hysteresis_pulses;
@@ -166,7 +142,7 @@ void read_home(const YamlFields& home, const Model& model, PlantSetup& setup, Di
   setup.home_input = switch_setup.input;
 }
 
-void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup, Diagnostics& diagnostics) {
+void read_limits(const YamlFields& limits, const Model* model, PlantSetup& setup, Diagnostics& diagnostics) {
   const Keys keys(limits, kLimitKeys, diagnostics);
   const auto read = [&](const std::string& side, std::optional<std::int64_t>& position, int& input) {
     keys.read(side, [&](const YamlFields& field) { position = field.integer(kPositionSchema); });
@@ -193,9 +169,18 @@ void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup
 
 }  // namespace
 
-PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis, Diagnostics& diagnostics) {
+int require_axis(const YamlFields& fields, const Model& model, const std::string& name) {
+  const int axis = find_axis(model, name);
+  if (axis >= 0) return axis;
+  std::string axes;
+  for (const AxisRow& row : model.axes) axes += (axes.empty() ? "" : ", ") + std::string(row.name);
+  fields.fail(quoted(name) + " is not an axis of " + std::string(model.name) + "; expected one of " + axes);
+}
+
+PlantSetup read_machine(const YamlFields& fields, const Model* model, const AxisRow* axis,
+                        Diagnostics& diagnostics) {
   PlantSetup setup;
-  setup.pulses_per_revolution = model.axes[static_cast<std::size_t>(axis)].pulses_per_revolution;
+  setup.pulses_per_revolution = axis != nullptr ? axis->pulses_per_revolution : 1;
   const Keys keys(fields, kMachineKeys, diagnostics);
   const bool knows_start = keys.read(
       "position", [&](const YamlFields& field) { setup.position_pulses = field.integer(kPositionSchema); });

@@ -6,14 +6,16 @@
 
 #include "base/files/file_error.h"
 #include "emulator/world/bench/bench.h"
+#include "emulator/world/bench/inline_text.h"
 
 namespace understudy::emulator::world {
 
-/// Returns one line each, about the file of the program; a program inside the bench is called
-/// "mill.program".
+/// Returns one line each, at the place in the file of the program, or in the bench if it contains the
+/// program.
 std::vector<FileError::Diagnostic> program_warnings(const Bench& bench);
-/// Returns the warnings for a text that loads into a device of the bench.
+/// Returns the warnings for a text that loads into a device of the bench. `inside` is its place if it is not
+/// a file of its own.
 std::vector<FileError::Diagnostic> program_warnings(const DeviceSetup& device, const std::string& text,
-                                                    const std::string& file);
+                                                    const std::string& file, const InlineText* inside);
 
 }  // namespace understudy::emulator::world

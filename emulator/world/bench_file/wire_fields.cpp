@@ -64,7 +64,8 @@ void require_machine(const YamlFields& wire, const MachinePlace& place, const Be
 
 }  // namespace
 
-WireSetup read_wire(const YamlFields& wire, const Bench& bench, const BenchNames& names) {
+WireSetup read_wire(const YamlFields& wire, const Bench& bench, const BenchNames& names,
+                    Diagnostics& diagnostics) {
   const std::string text = wire.text();
   const std::size_t arrow = text.find("->");
   if (arrow == std::string::npos)
@@ -77,27 +78,34 @@ WireSetup read_wire(const YamlFields& wire, const Bench& bench, const BenchNames
   };
   WireSetup made;
   const std::string from = trimmed(text.substr(0, arrow));
-  if (const auto place = find_machine_place(wire, from, names, "feeder.A.home")) {
-    made.from_device = place->device;
-    made.from_axis = place->axis;
-    made.from_contact = static_cast<Contact>(find_word(wire, *place, kContactNames, "a switch of a machine"));
-    require_machine(wire, *place, bench, names, place->word,
-                    [&](const PlantAxis& machine) { return machine.has_contact(made.from_contact); });
-  } else {
-    std::tie(made.from_device, made.from_terminal) =
-        names.require_terminal(wire, from, TerminalRow::Kind::digital_out, "feeder.DOUT_4");
-  }
+  const bool has_from = diagnostics.attempt([&] {
+    if (const auto place = find_machine_place(wire, from, names, "feeder.A.home")) {
+      made.from_device = place->device;
+      made.from_axis = place->axis;
+      made.from_contact =
+          static_cast<Contact>(find_word(wire, *place, kContactNames, "a switch of a machine"));
+      require_machine(wire, *place, bench, names, place->word,
+                      [&](const PlantAxis& machine) { return machine.has_contact(made.from_contact); });
+    } else {
+      std::tie(made.from_device, made.from_terminal) =
+          names.require_terminal(wire, from, TerminalRow::Kind::digital_out, "feeder.DOUT_4");
+    }
+  });
   const std::string to = trimmed(text.substr(arrow + 2));
-  if (const auto place = find_machine_place(wire, to, names, "feeder.A.alarm_clear")) {
-    made.to_device = place->device;
-    made.to_axis = place->axis;
-    made.to_input = static_cast<DriveInput>(find_word(wire, *place, kDriveInputNames, "an input of a drive"));
-    require_machine(wire, *place, bench, names, "drive",
-                    [](const PlantAxis& machine) { return machine.has_drive(); });
-  } else {
-    std::tie(made.to_device, made.to_terminal) =
-        names.require_terminal(wire, to, TerminalRow::Kind::digital_in, "turner.DIN_10");
-  }
+  const bool has_to = diagnostics.attempt([&] {
+    if (const auto place = find_machine_place(wire, to, names, "feeder.A.alarm_clear")) {
+      made.to_device = place->device;
+      made.to_axis = place->axis;
+      made.to_input =
+          static_cast<DriveInput>(find_word(wire, *place, kDriveInputNames, "an input of a drive"));
+      require_machine(wire, *place, bench, names, "drive",
+                      [](const PlantAxis& machine) { return machine.has_drive(); });
+    } else {
+      std::tie(made.to_device, made.to_terminal) =
+          names.require_terminal(wire, to, TerminalRow::Kind::digital_in, "turner.DIN_10");
+    }
+  });
+  if (!has_from || !has_to) throw AlreadyReported();
   return made;
 }
 

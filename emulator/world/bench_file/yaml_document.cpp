@@ -160,6 +160,8 @@ FileError not_yaml(const Stop& stop, const std::string& file, const std::string&
 /// another.
 class Passage : public YAML::EventHandler {
  public:
+  explicit Passage(std::string_view text) : text_(text) {}
+
   struct SecondDocument {
     YAML::Mark mark;
   };
@@ -174,7 +176,9 @@ class Passage : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& /*mark*/, YAML::anchor_t anchor) override { put(anchors_.at(anchor)); }
   void OnScalar(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
                 const std::string& value) override {
-    make(mark, anchor, Kind::scalar).scalar = value;
+    YamlNode& node = make(mark, anchor, Kind::scalar);
+    node.scalar = value;
+    if (value.find('\n') != std::string::npos) note_block(mark, node);
     last_text_ = mark;
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
@@ -197,6 +201,17 @@ class Passage : public YAML::EventHandler {
     put(&node);
     return node;
   }
+  /// Notes where the lines of a block are, if the scalar is one whose indentation its first line tells.
+  void note_block(const YAML::Mark& mark, YamlNode& node) const {
+    const std::string_view rest = text_.substr(std::min(static_cast<std::size_t>(mark.pos), text_.size()));
+    const std::size_t end = rest.find('\n');
+    if (!rest.starts_with('|') || end == std::string_view::npos) return;
+    if (rest.substr(0, end).find_first_of("123456789#") != std::string_view::npos) return;
+    const std::size_t first = rest.find_first_not_of(" \r\n", end);
+    if (first == std::string_view::npos) return;
+    node.text_line = mark.line + 1;
+    node.text_column = static_cast<int>(first - rest.rfind('\n', first) - 1);
+  }
   void put(const YamlNode* node) {
     if (open_.empty()) {
       root_ = node;
@@ -205,6 +220,7 @@ class Passage : public YAML::EventHandler {
     }
   }
 
+  std::string_view text_;
   std::shared_ptr<std::deque<YamlNode>> nodes_ = std::make_shared<std::deque<YamlNode>>(1);
   const YamlNode* root_ = &nodes_->front();  // nothing, if the text is empty
   std::vector<YamlNode*> open_;
@@ -259,9 +275,10 @@ void require_closed_quote(const std::string& text, const YAML::Mark& mark, const
 std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::string& file,
                                            const std::string& what) {
   try {
-    std::istringstream input(without_first_remarks(text));
+    const std::string read = without_first_remarks(text);
+    std::istringstream input(read);
     YAML::Parser parser(input);
-    Passage passage;
+    Passage passage(read);
     while (parser.HandleNextDocument(passage)) {
     }
     require_closed_quote(text, passage.last_text(), file, what);

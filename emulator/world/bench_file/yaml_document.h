@@ -14,6 +14,8 @@ struct YamlNode {
   enum class Kind : std::uint8_t { nothing, scalar, list, map } kind = Kind::nothing;
   int line = 0;  // from 0 on
   int column = 0;
+  int text_line = 0;    // of a block (`|`): the number of its first line, and the blanks before each of its
+  int text_column = 0;  // lines; 0: the scalar's lines are not lines of the file
   std::string scalar{};
   std::vector<const YamlNode*> parts{};  // of a list; of a map: key, value, key, value
 };

@@ -54,6 +54,14 @@ int YamlFields::line() const { return node_->line + 1; }
 
 FilePlace YamlFields::place() const { return {*file_, line(), node_->column + 1}; }
 
+InlineText YamlFields::inline_text() const {
+  const bool has_lines = node_->text_line > 0;
+  return {.place = place(),
+          .field = field_,
+          .first_line = has_lines ? node_->text_line + 1 : 0,
+          .indentation = node_->text_column};
+}
+
 std::string YamlFields::folder() const { return std::filesystem::path(*file_).parent_path().string(); }
 
 void YamlFields::fail(const std::string& what) const { throw FileError(place(), field_ + ": " + what); }

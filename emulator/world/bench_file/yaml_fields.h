@@ -12,6 +12,7 @@
 
 #include "base/files/file_error.h"
 #include "base/simulated_time.h"
+#include "emulator/world/bench/inline_text.h"
 #include "emulator/world/bench_file/form.h"
 
 namespace understudy::emulator::world {
@@ -40,6 +41,8 @@ class YamlFields {
   const std::string& field() const { return field_; }
   int line() const;
   FilePlace place() const;
+  /// Returns the place of this scalar as a text of several lines.
+  InlineText inline_text() const;
   /// Returns the folder to which paths in the file are relative.
   std::string folder() const;
   [[noreturn]] void fail(const std::string& what) const;

@@ -221,10 +221,11 @@ void set_fields(const KnownDevices& devices, const FaultKindRow& kind, const Fau
 
 bool waits(const Fault& fault) { return is_of_frames(fault.kind) || fault.trigger != FaultTrigger{}; }
 
-Fault find_fault(const KnownDevices& devices, const FaultText& text) {
-  const FaultKindRow& row = row_of(text.kind);
-  Fault fault{.kind = row.kind};
-  set_place(devices, row, text.place, fault);
+namespace {
+
+/// Sets all but the place.
+void set_all_fields(const KnownDevices& devices, const FaultKindRow& row, const FaultText& text,
+                    Fault& fault) {
   try {
     set_fields(devices, row, text, fault);
     validate_rows(fault.trigger);
@@ -244,7 +245,26 @@ Fault find_fault(const KnownDevices& devices, const FaultText& text) {
     }
     throw NameError(text.kind + ": " + what);
   }
+}
+
+}  // namespace
+
+Fault find_fault(const KnownDevices& devices, const FaultText& text) {
+  const FaultKindRow& row = row_of(text.kind);
+  Fault fault{.kind = row.kind};
+  try {
+    set_place(devices, row, text.place, fault);
+  } catch (const NameError& error) {
+    throw FaultPlaceError(error.what());
+  }
+  set_all_fields(devices, row, text, fault);
   return fault;
+}
+
+void require_fault_fields(const KnownDevices& devices, const FaultText& text) {
+  const FaultKindRow& row = row_of(text.kind);
+  Fault fault{.kind = row.kind};
+  set_all_fields(devices, row, text, fault);
 }
 
 FaultText fault_text(const KnownDevices& devices, const Fault& fault) {

@@ -100,8 +100,15 @@ struct FaultFieldError : NameError {
   std::string diagnostic;
 };
 
+/// Reports the place of a fault. Its fields have not been looked at.
+struct FaultPlaceError : NameError {
+  using NameError::NameError;
+};
+
 /// Throws NameError for names that the bench does not have. check_fault.h checks the names in `when`.
 Fault find_fault(const KnownDevices& devices, const FaultText& text);
+/// Throws NameError for what is wrong with a fault, whatever its place is.
+void require_fault_fields(const KnownDevices& devices, const FaultText& text);
 /// Returns a fault as find_fault() accepts it, also as one line.
 FaultText fault_text(const KnownDevices& devices, const Fault& fault);
 std::string to_text(const KnownDevices& devices, const Fault& fault);

@@ -350,6 +350,34 @@ TEST_F(ModelFilesInAFolder, AreSaidToBeMissingWhereTheyAreNamed) {
   EXPECT_EQ(diagnostic_about_bench(),
             model + ":3:12: registers: " + (folder_ / "list.csv").string() +
                 " cannot be read (No such file or directory); expected a list of registers (CSV)");
+  write("list.csv", "understudy: 1\nlines: {}\n");
+  EXPECT_EQ(diagnostic_about_bench(), model + ":3:12: registers: " + (folder_ / "list.csv").string() +
+                                          " is a bench; expected a list of registers (CSV)");
+}
+
+TEST(ModelFiles, InsideABenchAreToldAtTheirLines) {
+  const auto told = [](const std::string& model) {
+    try {
+      world::parse_bench(with_described(),
+                         "understudy: 1\nlines: { a: { stations: [ { device: d } ] } }\ndevices:\n  d:\n    "
+                         "model: " +
+                             model,
+                         "bench.yaml", "/benches");
+      return std::string();
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(
+      told("|\n      understudy: 1\n      model: m\n      registers: |\n        table,address\n      "
+           "axs: 1\n"),
+      "bench.yaml:9:7: devices.d.model: registers: there is none; expected a line of columns, and one for "
+      "each register\nbench.yaml:10:12: devices.d.model: axs: is not a key here; expected one of "
+      "understudy, model, title, registers, line, map, bits, inputs, outputs, axes, follows, shows, "
+      "momentary (the nearest is 'axes')");
+  EXPECT_EQ(told("./list.csv\n"),
+            "bench.yaml:5:12: devices.d.model: './list.csv' is a path; expected that of a model file, "
+            "NAME.yaml, or a model's name");
 }
 
 TEST(ModelFiles, InARecordingHaveTheirListInside) {
@@ -361,8 +389,8 @@ TEST(ModelFiles, InARecordingHaveTheirListInside) {
     FAIL() << "it was read";
   } catch (const FileError& error) {
     EXPECT_STREQ(error.what(),
-                 "it.model:3:12: registers: is a path; expected the list itself, since a recording contains "
-                 "everything");
+                 "bench:1:87: devices.it.model: line 3, column 12: registers: is a path; expected the list "
+                 "itself, since a recording contains everything");
   }
 }
 

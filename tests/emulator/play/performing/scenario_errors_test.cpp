@@ -69,7 +69,8 @@ TEST_F(ScenarioErrors, TheBench) {
        "[]\n",
        "2: bench.lines.a.stations[0].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'"},
       {with("firmware: 1.5"),
-       "3: firmware: '1.5' is not a version; expected one with two decimals, like \"1.52\""},
+       "3: firmware: '1.5' is unknown for simple2-r3; expected one of 1.39, 1.40, 1.41, 1.42, 1.50, 1.51, "
+       "1.52"},
       {with("firmware: { feder: 1.52 }"),
        "3: firmware.feder: no device is called 'feder'; the nearest is 'feeder'"},
       {with("firmware: 1.43"),
@@ -245,7 +246,8 @@ TEST_F(ScenarioErrors, BytesAndLines) {
       {"send: { bytes: 01, within: 0ms }", ".send.within: takes no time; expected some"},
       {"send: { bytes: 01, line: rs458 }", ".send.line: no line is called 'rs458'; the nearest is 'rs485'"},
       {"send: { byte: 01 }",
-       ".send.byte: is not a key here; expected one of line, bytes, reply, within (the nearest is 'bytes')"},
+       ".send: 'bytes' is missing; expected it here\nscenario.yaml:4: steps[0].send.byte: is not a key here; "
+       "expected one of line, bytes, reply, within (the nearest is 'bytes')"},
   });
   expect_diagnostics(
       {{"understudy: 1\nbench:\n  lines:\n    a: { stations: [ { name: x, model: simple2-r3 } ] }\n"
@@ -328,7 +330,7 @@ TEST_F(ScenarioErrors, FromOutside) {
   folder_.write("bad.lst", "        SVON_A\n        Fly MEM0\n        END\n");
   EXPECT_TRUE(diagnostic("  - program: { feeder: bad.lst }\n").starts_with("bad.lst:2: mnemonic: "));
   EXPECT_TRUE(diagnostic("  - program:\n      feeder: |\n        SVON_A\n        Fly MEM0\n")
-                  .starts_with("scenario.yaml:5: steps[0].program.feeder: line 2, column 1: mnemonic: "));
+                  .starts_with("scenario.yaml:7: steps[0].program.feeder: mnemonic: "));
   folder_.write("mill.json",
                 to_json({.model = "simple2-r3", .firmware = "1.52", .registers = {{"Aaxis_SVON", 1}}}));
   EXPECT_EQ(diagnostic("  - memory: { feeder: mill.json }\n"),

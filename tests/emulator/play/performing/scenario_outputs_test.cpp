@@ -146,7 +146,24 @@ TEST_F(ScenarioOutputs, ABenchIsNoScenarioAndAScenarioNoBench) {
             "scenario.yaml:1: scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
   folder_.write("play.yaml", ScenarioFolder::scenario_of("  - advance: 1ms\n"));
   EXPECT_EQ(folder_.diagnostic("understudy: 1\nbench: play.yaml\nsteps: [ advance: 1ms ]\n"),
-            "play.yaml:1: bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
+            "scenario.yaml:2: bench: play.yaml is a scenario; expected a bench");
+}
+
+TEST_F(ScenarioOutputs, AReferenceToAnotherKindOfFileSaysWhichItIs) {
+  folder_.write("play.yaml", ScenarioFolder::scenario_of("  - advance: 1ms\n"));
+  folder_.write("bench.yaml", kTwoStations);
+  folder_.write("model.yaml", "understudy: 1\nmodel: m\nregisters: feeder.yaml\n");
+  const auto told = [&](const std::string& bench, const std::string& step) {
+    return folder_.diagnostic("understudy: 1\nbench: " + bench + "\nsteps: [ " + step + " ]\n");
+  };
+  EXPECT_EQ(told("model.yaml", "advance: 1ms"),
+            "scenario.yaml:2: bench: model.yaml is a model file; expected a bench");
+  EXPECT_EQ(told("feeder.yaml", "include: bench.yaml"),
+            "scenario.yaml:3: steps[0].include: bench.yaml is a bench; expected a file of steps");
+  EXPECT_EQ(told("feeder.yaml", "include: play.yaml"),
+            "scenario.yaml:3: steps[0].include: play.yaml is a scenario; expected a file of steps");
+  EXPECT_EQ(told("feeder.yaml", "include: model.yaml"),
+            "scenario.yaml:3: steps[0].include: model.yaml is a model file; expected a file of steps");
 }
 
 }  // namespace scenario_outputs_test

@@ -41,6 +41,21 @@ TEST(Diagnostics, AreTwentyAtMost) {
   }
 }
 
+TEST(Diagnostics, CountThoseThatAPartHasLeftUntold) {
+  Diagnostics part;
+  for (int line = 1; line <= 25; ++line) part.add(error_at(line, 1, "wrong"));
+  Diagnostics all;
+  all.add(error_at(30, 1, "wrong too"));
+  all.attempt([&] { part.throw_if_any(); });
+  try {
+    all.throw_if_any();
+    FAIL();
+  } catch (const FileError& error) {
+    ASSERT_EQ(error.diagnostics().size(), 21U);
+    EXPECT_EQ(error.diagnostics()[20].text, "and 6 more; the first 20 are shown");
+  }
+}
+
 TEST(Diagnostics, EndTheReadingWhereTheyAreTooMany) {
   Diagnostics all;
   int tried = 0;
@@ -74,7 +89,7 @@ bench.yaml:4: lines.a.bud: is not a key here; expected one of link, listen, pty,
 bench.yaml:5: lines.a.baud: 'fast' is not possible; expected a whole number from 1 to 4000000
 bench.yaml:6: lines.a.link: 'tcp://:1502' is a network address; expected a path for a pseudo-terminal (`listen` has addresses)
 bench.yaml:8: lines.a.stations[0].adress: is not a key here; expected one of name, model, address, port, firmware, modules, set, choices, dip, program, nv (the nearest is 'address')
-bench.yaml:8: lines.a.stations[0].firmware: 'new' is not a version; expected one with two decimals, like "1.52"
+bench.yaml:8: lines.a.stations[0].firmware: 'new' is unknown for simple2-r3; expected one of 1.39, 1.40, 1.41, 1.42, 1.50, 1.51, 1.52
 bench.yaml:8: lines.a.stations[0].set.Aaxis_Speed: 'fast' is not possible; expected a whole number from -2147483648 to 4294967295
 bench.yaml:9: lines.a.stations[1].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'
 bench.yaml:10: lines.a.stations[2]: address 1 is taken on this line; expected another
@@ -82,6 +97,7 @@ bench.yaml:12: plant.x.A.travel: does not hold position 0, where the machine sta
 bench.yaml:12: plant.x.A.home: 'width' is missing; expected it here
 bench.yaml:12: plant.x.A.limit: is not a key here; expected one of position, travel, home, near_home, mark, limits, encoder, drive (the nearest is 'limits')
 bench.yaml:13: plant.x.Q: 'Q' is not an axis of simple2-r3; expected one of A, B
+bench.yaml:14: plant.y.A.nonsense: is not a key here; expected one of position, travel, home, near_home, mark, limits, encoder, drive
 bench.yaml:15: wires[2]: 'DOUT_99' is not an output of simple2-r3; the nearest is 'DOUT_0'
 bench.yaml:16: seed: '-1' is not possible; expected a whole number from 0 to 9223372036854775807)");
 }
@@ -125,7 +141,7 @@ bench.yaml:14:49: lines.a.stations[0].choices.servo_at_power_up: choice 'servo_a
 bench.yaml:15:22: lines.a.stations[0].dip.DIP9: 'DIP9' is not a switch of simple2-r3; the nearest is 'DIP1'
 bench.yaml:15:32: lines.a.stations[0].dip.DIP1: 'perhaps' is neither on nor off; expected one of them
 bench.yaml:15:47: lines.a.stations[0].dip.DIP8: 'DIP8' is not a switch of simple2-r3; the nearest is 'DIP1'
-x.program:2:1: mnemonic: no instruction is called 'NONSENSE'; expected an instruction, such as Delay_mSec)");
+bench.yaml:16:18: lines.a.stations[0].program: line 2, column 1: mnemonic: no instruction is called 'NONSENSE'; expected an instruction, such as Delay_mSec)");
 }
 
 TEST(AllDiagnostics, OfAChainWhateverItsLengthIs) {
@@ -172,6 +188,7 @@ bench.yaml:7: lines.a.stations[1].choices.c: expected a word or a number
 bench.yaml:7: lines.a.stations[1].program: /nowhere/x.lst cannot be read (No such file or directory); expected a listing
 bench.yaml:8: lines.a.stations[2]: 'model' is missing; expected it here
 bench.yaml:8: lines.a.stations[2].address: 'far' is not possible; expected a whole number from 0 to 255
+bench.yaml:9: plant.y.A.travel: expected a list, as in `[ a, b ]`
 bench.yaml:9: plant.x.A.travel[0]: 'x' is not possible; expected a whole number from -1000000000000 to 1000000000000
 bench.yaml:9: plant.x.A.travel[1]: 'y' is not possible; expected a whole number from -1000000000000 to 1000000000000
 bench.yaml:10: inputs.x.DIN_1: 'maybe' is not a level; expected on or off
@@ -215,6 +232,210 @@ bench.yaml:10: plant.x.A.drive.alarm_contact: 'maybe' is unknown; expected opens
 bench.yaml:14: faults[1].one_in: 'none' is not possible; expected a whole number
 bench.yaml:14: faults[1].nth: 'some' is not possible; expected a whole number, or a range such as 3..7
 bench.yaml:14: faults[1].when: column 1 of 'y.A.homes': axis A has no 'homes'; the nearest is 'home')");
+}
+
+TEST(AllDiagnostics, OfTheKeysOfALine) {
+  EXPECT_EQ(
+      diagnostic(R"(understudy: 1
+lines:
+  a:
+    speed: 3
+    baud: 0
+    pty: maybe
+    echo: perhaps
+    byte_timeout: soon
+    baud_tolerance: lots
+    timing: never
+    link: ""
+    listen: [ "modbus-tcp://:99999", "foo://x", rtu://:7, rtu://:7 ]
+    stations: []
+  b: { pty: off, stations: [] }
+)"),
+      R"(bench.yaml:4: lines.a.speed: is not a key here; expected one of link, listen, pty, baud, baud_tolerance, byte_timeout, timing, echo, stations
+bench.yaml:5: lines.a.baud: '0' is not possible; expected a whole number from 1 to 4000000
+bench.yaml:6: lines.a.pty: 'maybe' is neither on nor off; expected one of them
+bench.yaml:7: lines.a.echo: 'perhaps' is not possible; expected on or off
+bench.yaml:8: lines.a.byte_timeout: 'soon' is not possible; expected 10ms to 60s, as in 200ms
+bench.yaml:9: lines.a.baud_tolerance: 'lots' is not a share of the speed; expected 0% to 10%, as in 2%
+bench.yaml:10: lines.a.timing: 'never' is not a timing; expected wire or instant
+bench.yaml:11: lines.a.link: is empty; expected a path
+bench.yaml:12: lines.a.listen[0]: 'modbus-tcp://:99999' has port 99999; expected 0 to 65535
+bench.yaml:12: lines.a.listen[1]: 'foo://x' is not an address; expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as rtu://127.0.0.1:5020
+bench.yaml:12: lines.a.listen[3]: appears twice; expected it once
+bench.yaml:13: lines.a.stations: is empty; expected at least one station
+bench.yaml:14: lines.b.pty: leaves the line without a port; expected `listen` as well
+bench.yaml:14: lines.b.stations: is empty; expected at least one station)");
+}
+
+TEST(AllDiagnostics, OfStationsAndOfWhatHasAWrongName) {
+  EXPECT_EQ(diagnostic(R"(understudy: 1
+lines:
+  a:
+    stations:
+      - { name: "x y", model: simple2-r3, address: 900, port: RS999, set: { Aaxis_Sped: 1 } }
+      - { model: simple2-r3, address: q, port: B, modules: 2 }
+      - { device: nosuch, address: q, prt: 1 }
+      - { name: u, model: simple2-r3, address: 3 }
+devices:
+  "p q": { model: simple2-r3, set: { a: b } }
+)"),
+            R"(bench.yaml:5: lines.a.stations[0].name: 'x y' is not a name; expected letters, digits, _ and -
+bench.yaml:5: lines.a.stations[0].address: '900' is not possible; expected a whole number from 0 to 15
+bench.yaml:5: lines.a.stations[0].port: 'RS999' is not a port of simple2-r3; expected 'RS485'
+bench.yaml:5: lines.a.stations[0].set.Aaxis_Sped: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'
+bench.yaml:6: lines.a.stations[1]: 'name' is missing; expected it here
+bench.yaml:6: lines.a.stations[1].address: 'q' is not possible; expected a whole number from 0 to 15
+bench.yaml:6: lines.a.stations[1].port: 'B' is not a port of simple2-r3; expected 'RS485'
+bench.yaml:6: lines.a.stations[1].modules: '2' is not possible; expected none, as simple2-r3 has no modules
+bench.yaml:7: lines.a.stations[2].device: no device is called 'nosuch'; expected one of p q, x y
+bench.yaml:7: lines.a.stations[2].address: 'q' is not possible; expected a whole number from 0 to 255
+bench.yaml:7: lines.a.stations[2].prt: is not a key here; expected one of device, address, port (the nearest is 'port')
+bench.yaml:10: devices.p q: 'p q' is not a name; expected letters, digits, _ and -
+bench.yaml:10: devices.p q.set.a: 'b' is not possible; expected a whole number from -2147483648 to 4294967295)");
+}
+
+TEST(AllDiagnostics, OfWhatStandsAtAWrongPlace) {
+  EXPECT_EQ(diagnostic(R"(understudy: 1
+lines: { a: { stations: [ { name: u, model: simple2-r3 } ] } }
+plant:
+  u.Q: { home: { at: x, width: 1 } }
+  nosuch.A: { home: { at: y, width: 1, input: DIN_99 } }
+wires: [ u.DOUT_99 -> u.DIN_99 ]
+faults:
+  - { lost_steps: u.C, one_in: none, nth: 1, nth: 2 }
+  - { slip: u.A, pulses: [ 1 ], at: x }
+)"),
+            R"(bench.yaml:4: plant.u.Q: 'Q' is not an axis of simple2-r3; expected one of A, B
+bench.yaml:4: plant.u.Q.home.at: 'x' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:5: plant.nosuch.A: no device is called 'nosuch'; expected 'u'
+bench.yaml:5: plant.nosuch.A.home.at: 'y' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:6: wires[0]: 'DOUT_99' is not an output of simple2-r3; the nearest is 'DOUT_0'
+bench.yaml:6: wires[0]: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'
+bench.yaml:8: faults[0]: no axis of u is called 'C'; expected one of A, B
+bench.yaml:8: faults[0].one_in: 'none' is not possible; expected a whole number
+bench.yaml:8: faults[0].nth: is given twice; expected it once
+bench.yaml:9: faults[1].pulses: expected a word or a number
+bench.yaml:9: faults[1].at: 'x' is not possible; expected a duration such as 250ms)");
+}
+
+TEST(AllDiagnostics, OfAProgramInsideAreAtItsLines) {
+  EXPECT_EQ(
+      all_of(R"(understudy: 1
+# A remark is a line too.
+lines:
+  a:
+    stations:
+      - name: x
+        model: simple2-r3
+        program: |
+          END
+
+          NONSENSE
+          Delay_mSec x
+)"),
+      R"(bench.yaml:11:11: lines.a.stations[0].program: mnemonic: no instruction is called 'NONSENSE'; expected an instruction, such as Delay_mSec
+bench.yaml:12:22: lines.a.stations[0].program: operand 1: 'x' is not a number; expected 0 to 65535)");
+}
+
+/// Of the steps on the two stations.
+std::string told_of(const std::string& steps) {
+  return play::ScenarioFolder().diagnostic("understudy: 1\nbench: feeder.yaml\nsteps:\n" + steps);
+}
+
+TEST(AllDiagnostics, OfStepsOnALine) {
+  EXPECT_EQ(
+      told_of(R"(  - write: { feeder.Nosuch: 1, turner.HW_Code: 1 }
+    exception: many
+    within: soon
+    via: c
+    at: 3
+  - expect: { feeder.Nosuch: 1, turner.Aaxis_Speed: z }
+    reply: word
+    via: b
+  - send: { line: c, bytes: zz, reply: yy, within: 0s, with: 1 }
+  - hear: { line: q, within: x }
+)"),
+      R"(scenario.yaml:4: steps[0].write.feeder.Nosuch: feeder: no register is called 'Nosuch'; expected one such as 'STATUS'
+scenario.yaml:4: steps[0].write.turner.HW_Code: turner.HW_Code cannot be written; it is read-only (use `exception:` if the step tests that)
+scenario.yaml:5: steps[0].exception: 'many' is not possible; expected a whole number from 1 to 255
+scenario.yaml:6: steps[0].within: needs `reply: nothing`; expected that as well
+scenario.yaml:7: steps[0].via: no line is called 'c'; expected 'rs485'
+scenario.yaml:8: steps[0].at: is not a key here; expected one of write, exception, reply, within, via
+scenario.yaml:9: steps[1].expect.feeder.Nosuch: feeder: no register is called 'Nosuch'; expected one such as 'STATUS'
+scenario.yaml:9: steps[1].expect.turner.Aaxis_Speed: column 1 of 'z': a name, 'z', where a value, a tolerance or a range is expected
+scenario.yaml:10: steps[1].reply: 'word' is unknown; expected nothing (values that are read are compared without `reply`)
+scenario.yaml:11: steps[1].via: no line is called 'b'; expected 'rs485'
+scenario.yaml:12: steps[2].send.line: no line is called 'c'; expected 'rs485'
+scenario.yaml:12: steps[2].send.bytes: 'zz' is not a byte; expected bytes such as 01 03 00 01, with +crc at the end for the checksum
+scenario.yaml:12: steps[2].send.reply: 'yy' is not a byte; expected bytes such as 01 03 00 01, with +crc at the end for the checksum
+scenario.yaml:12: steps[2].send.within: takes no time; expected some
+scenario.yaml:12: steps[2].send.with: is not a key here; expected one of line, bytes, reply, within (the nearest is 'within')
+scenario.yaml:13: steps[3].hear: 'text' is missing; expected it here
+scenario.yaml:13: steps[3].hear.line: no line is called 'q'; expected 'rs485'
+scenario.yaml:13: steps[3].hear.within: 'x' is not a duration; expected one such as 250ms)");
+}
+
+TEST(AllDiagnostics, OfStepsThatLookAndGoOn) {
+  EXPECT_EQ(
+      told_of(R"(  - wait: { until: feeder.Q, within: soon, poll: 1us, for: 3 }
+  - assert: [ feeder.Q, turner.Q == 1 ]
+  - always: { what: feeder.Q, of: 3 }
+  - repeat: { times: many, steps: [ advance: 1 ], with: 1 }
+  - for: { each: [ 1 ], as: n, steps: [ advance: "${n}" ], with: 1 }
+)"),
+      R"(scenario.yaml:4: steps[0].wait.until: column 1 of 'feeder.Q': feeder: no register is called 'Q'; expected one such as 'STATUS'
+scenario.yaml:4: steps[0].wait.within: 'soon' is not a duration; expected one such as 250ms
+scenario.yaml:4: steps[0].wait.poll: 1us is shorter than any request; expected 1ms or more
+scenario.yaml:4: steps[0].wait.for: is not a key here; expected one of until, within, takes, poll, via
+scenario.yaml:5: steps[1].assert[0]: column 1 of 'feeder.Q': feeder: no register is called 'Q'; expected one such as 'STATUS'
+scenario.yaml:5: steps[1].assert[1]: column 1 of 'turner.Q == 1': turner: no register is called 'Q'; expected one such as 'STATUS'
+scenario.yaml:6: steps[2].always.what: column 1 of 'feeder.Q': feeder: no register is called 'Q'; expected one such as 'STATUS'
+scenario.yaml:6: steps[2].always.of: is not a key here; expected one of what, name
+scenario.yaml:7: steps[3].repeat.times: 'many' is not possible; expected a whole number from 1 to 100000
+scenario.yaml:7: steps[3].repeat.steps[0].advance: '1' is not a duration; expected one such as 250ms
+scenario.yaml:7: steps[3].repeat.with: is not a key here; expected one of times, as, steps
+scenario.yaml:8: steps[4].for.steps[0].advance: '1' is not a duration; expected one such as 250ms
+scenario.yaml:8: steps[4].for.with: is not a key here; expected one of each, as, steps)");
+}
+
+TEST(AllDiagnostics, OfStepsThatActFromOutside) {
+  EXPECT_EQ(
+      told_of(R"(  - input: { feeder.DIN_99: on, turner.DIN_1: maybe }
+  - turn: { feeder.A: 3, turner.MPG: 3 }
+  - inject: { lost_steps: q.A, one_in: none, name: all }
+  - power: { feeder: maybe, q: on }
+    advance: soon
+  - save: { feeder: nosuch/x.json, q: q.json }
+  - program: { feeder: nosuch.lst, q: nosuch.lst }
+    refused: false
+  - program:
+      feeder: |
+        END
+        NONSENSE
+        Delay_mSec x
+  - command: { feeder: MOVE, q: MOVE }
+    via: c
+)"),
+      R"(scenario.yaml:4: steps[0].input.feeder.DIN_99: no input of feeder is called 'DIN_99'; the nearest is 'DIN_9'
+scenario.yaml:4: steps[0].input.turner.DIN_1: 'maybe' is not a level; expected on or off
+scenario.yaml:5: steps[1].turn.feeder.A: feeder.A has no hand wheel; expected `encoder: { on: wheel }` in `plant`
+scenario.yaml:5: steps[1].turn.turner.MPG: no axis of turner is called 'MPG'; expected one of A, B
+scenario.yaml:6: steps[2].inject: no device is called 'q'; expected one of feeder, turner
+scenario.yaml:6: steps[2].inject.one_in: 'none' is not possible; expected a whole number
+scenario.yaml:6: steps[2].inject.name: 'all' cannot be the name of a fault; expected another
+scenario.yaml:7: steps[3].power.feeder: 'maybe' is unknown; expected on, off or cycle
+scenario.yaml:7: steps[3].power.q: no device is called 'q'; expected one of feeder, turner
+scenario.yaml:8: steps[3].advance: is a second step in one entry; expected `- ` before it
+scenario.yaml:9: steps[4].save.feeder: nosuch is not a folder; expected one to write in
+scenario.yaml:9: steps[4].save.q: no device is called 'q'; expected one of feeder, turner
+scenario.yaml:10: steps[5].program.feeder: nosuch.lst cannot be read (No such file or directory); expected a listing
+scenario.yaml:10: steps[5].program.q: no device is called 'q'; expected one of feeder, turner
+scenario.yaml:11: steps[5].refused: expected true, or a part of the message about the first mistake
+scenario.yaml:15: steps[6].program.feeder: mnemonic: no instruction is called 'NONSENSE'; expected an instruction, such as Delay_mSec
+scenario.yaml:16: steps[6].program.feeder: operand 1: 'x' is not a number; expected 0 to 65535
+scenario.yaml:17: steps[7].command.feeder: simple2-r3 has no named commands; expected registers to write
+scenario.yaml:17: steps[7].command.q: no device is called 'q'; expected one of feeder, turner
+scenario.yaml:18: steps[7].via: no line is called 'c'; expected 'rs485')");
 }
 
 TEST(AllDiagnostics, OfAScenario) {

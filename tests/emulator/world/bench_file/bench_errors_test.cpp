@@ -199,7 +199,8 @@ TEST(BenchErrors, Stations) {
       {with_station("{ name: '', model: simple2-r3 }"),
        at + ".name: '' is not a name; expected letters, digits, _ and -"},
       {with("firmware: 1.5"),
-       at + ".firmware: '1.5' is not a version; expected one with two decimals, like \"1.52\""},
+       at + ".firmware: '1.5' is unknown for simple2-r3; expected one of 1.39, 1.40, 1.41, 1.42, 1.50, 1.51, "
+            "1.52"},
       {with("firmware: 1.43"), at +
                                    ".firmware: '1.43' is unknown for simple2-r3; expected one of 1.39, 1.40, "
                                    "1.41, 1.42, 1.50, 1.51, 1.52"},
@@ -301,7 +302,9 @@ TEST(BenchErrors, Wires) {
        "6: wires[0]: 'DOUT_1' is not an input of simple2-r3; expected one such as 'DIN_0'"},
       {wires("[ x.DOUT_4 -> x.DIN_1, x.DOUT_4 -> x ]"),
        "6: wires[1]: 'x' names no device; expected a name like turner.DIN_10"},
-      {wires("[ -> ]"), "6: wires[0]: '' names no device; expected a name like feeder.DOUT_4"},
+      {wires("[ -> ]"),
+       "6: wires[0]: '' names no device; expected a name like feeder.DOUT_4\n"
+       "bench.yaml:6: wires[0]: '' names no device; expected a name like turner.DIN_10"},
       {wires("x.DOUT_4 -> x.DIN_1"), "6: wires: expected a list, as in `[ a, b ]`"},
       {wires("[ { a: b } ]"), "6: wires[0]: expected a word or a number"},
   });

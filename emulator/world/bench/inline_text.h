@@ -1,0 +1,21 @@
+// A text, such as a program, that is written inside another file.
+#pragma once
+
+#include <string>
+
+#include "base/files/file_error.h"
+#include "emulator/device/program_error.h"
+
+namespace understudy::emulator::world {
+
+struct InlineText {
+  FilePlace place;      // of the value in the file
+  std::string field;    // its name there
+  int first_line = 0;   // of the file, where the text's first line is; 0: its lines are not lines of the file
+  int indentation = 0;  // of those lines
+};
+
+/// Returns what is wrong with the text, at that very line of the file if the text has lines of its own.
+FileError::Diagnostic diagnostic_in(const InlineText& text, const ProgramMistake& mistake);
+
+}  // namespace understudy::emulator::world
