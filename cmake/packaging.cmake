@@ -13,8 +13,8 @@ set(packaging ${CMAKE_CURRENT_LIST_DIR}/../packaging)
 set(scenarios_folder ${CMAKE_INSTALL_DATADIR}/understudy/scenarios)
 
 install(TARGETS understudy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-# The program looks for it in lib/understudy, whatever the name of the libraries' folder is.
-install(TARGETS understudy_tty_shim LIBRARY DESTINATION lib/understudy)
+# The program looks for them in lib/understudy, whatever the name of the libraries' folder is.
+install(TARGETS understudy_tty_shim understudy_host_time LIBRARY DESTINATION lib/understudy)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/ DESTINATION ${scenarios_folder} USE_SOURCE_PERMISSIONS
   PATTERN "*.port" EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples ${PROJECT_SOURCE_DIR}/recipes
@@ -91,7 +91,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS OFF)  # see debian_depends.cmake
-set(CPACK_UNDERSTUDY_PROGRAMS ${PROJECT_BINARY_DIR}/understudy ${PROJECT_BINARY_DIR}/lib/understudy/tty_shim.so)
+set(CPACK_UNDERSTUDY_PROGRAMS ${PROJECT_BINARY_DIR}/understudy ${PROJECT_BINARY_DIR}/lib/understudy/tty_shim.so
+    ${PROJECT_BINARY_DIR}/lib/understudy/host_time.so)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, gtkwave, mbpoll, python3:any, wireshark")  # two examples are in Python
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${packaging}/postinst ${packaging}/prerm ${packaging}/postrm)

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <sys/inotify.h>
 #include <sys/ioctl.h>
@@ -12,6 +13,8 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -53,6 +56,17 @@ bool is_readable(int descriptor) {
   while (::poll(&entry, 1, 0) < 0 && errno == EINTR) {
   }
   return (entry.revents & POLLIN) != 0;
+}
+
+/// Returns how many bytes the kernel has for the reader.
+std::size_t unread_in(int descriptor) {
+  int count = 0;
+  return ::ioctl(descriptor, FIONREAD, &count) == 0 && count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+bool waits_for_lines(int descriptor) {
+  termios settings = {};
+  return ::tcgetattr(descriptor, &settings) != 0 || (settings.c_lflag & ICANON) != 0;
 }
 
 /// Returns true if a host has claimed the line (TIOCEXCL); then only root can open it again.
@@ -131,11 +145,25 @@ std::size_t PseudoTerminal::read(std::span<std::uint8_t> bytes) {
 std::size_t PseudoTerminal::write(std::span<const std::uint8_t> bytes) {
   if (is_in_doubt()) follow_presence(false);
   if (!is_present_) return bytes.size();
+  const std::size_t unread = settles_writes_ ? unread_in(slave_.get()) : 0;
   ssize_t size = 0;
   do {
     size = ::write(master_.get(), bytes.data(), bytes.size());
   } while (size < 0 && errno == EINTR);
+  if (size > 0 && settles_writes_) settle(unread + static_cast<std::size_t>(size));
   return size < 0 ? 0 : static_cast<std::size_t>(size);
+}
+
+/// Waits until the host has so many bytes to read. A terminal that the host has made wait for whole lines
+/// does not count its bytes.
+void PseudoTerminal::settle(std::size_t expected) const {
+  constexpr auto kLongest = std::chrono::milliseconds(100);
+  const auto end = std::chrono::steady_clock::now() + kLongest;
+  while (slave_ && unread_in(slave_.get()) < expected) {
+    is_readable(slave_.get());  // this alone is enough if nothing was unread
+    if (waits_for_lines(slave_.get()) || std::chrono::steady_clock::now() >= end) return;
+    if (unread_in(slave_.get()) < expected) sched_yield();
+  }
 }
 
 // --- who is there ------------------------------------------------------------------------------

@@ -42,6 +42,10 @@ class PseudoTerminal {
   /// find them.
   std::size_t write(std::span<const std::uint8_t> bytes);
 
+  /// From now on write() returns when the host can read what was written. The kernel passes bytes on in a
+  /// thread of its own, and a host in simulated time must not wake up before it has them.
+  void settle_writes() { settles_writes_ = true; }
+
   /// What has happened since the last call. Both may be true; host_present() tells which came last.
   struct Presence {
     bool opened = false;  // a host came (the line was free before)
@@ -84,6 +88,7 @@ class PseudoTerminal {
   void count_departure();
   void forget_unread();
   bool is_somebody_there();
+  void settle(std::size_t expected) const;
 
   std::string path_;
   std::string link_path_;
@@ -94,6 +99,7 @@ class PseudoTerminal {
   PresenceWatch::Place place_;  // of the slave
   PortLink link_;
 
+  bool settles_writes_ = false;
   bool is_present_ = false;
   int opens_ = 0;      // by hosts; at least this many, as inotify merges equal neighbouring events
   int own_opens_ = 0;  // events still to come that this process causes

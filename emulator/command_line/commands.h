@@ -73,7 +73,10 @@ struct ExecArguments {
   std::string with;                      // the file of a scenario that runs beside the command
   std::string save_below;                // the folder in which the scenario may save; empty: its own
   bool tty_shim = false;
-  std::string timeout;  // a duration
+  bool host_time = false;     // the command lives in simulated time
+  bool has_speed = false;     // --speed was given
+  std::optional<int> repeat;  // how often it runs; its recordings are compared
+  std::string timeout;        // a duration
 };
 /// Returns the command's exit code, if it has one.
 int execute(ModelList models, const ExecArguments& arguments);

@@ -19,6 +19,7 @@
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/coverage_file.h"
+#include "emulator/command_line/exec_courses.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/serving.h"
@@ -31,8 +32,11 @@
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/control/control_door.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/host_time/host_program.h"
+#include "emulator/serve/host_time/host_time.h"
 #include "emulator/serve/loop/child.h"
 #include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/pacer.h"
 #include "emulator/serve/loop/parent_signals.h"
 #include "emulator/serve/ports/port_group.h"
 #include "emulator/serve/ports/private_folder.h"
@@ -46,6 +50,7 @@ namespace {
 // These are the codes of timeout(1) and of shells.
 constexpr int kExitTimedOut = 124;
 constexpr int kExitNotStarted = 127;
+constexpr int kExitNoHostTime = 125;  // the command cannot live in simulated time
 
 /// Calls a function once, this long after its construction.
 class Alarm {
@@ -114,8 +119,19 @@ serve::ChildCommand command_for(const ExecArguments& arguments, const serve::Dae
     environment.emplace_back(variable_of(daemon.world().line(port->line_number()).line.name()), path);
   }
   environment.emplace_back("UNDERSTUDY_CONTROL", daemon.control_path());
-  if (arguments.tty_shim) environment.emplace_back("LD_PRELOAD", serve::preload_with_tty_shim());
+  if (arguments.tty_shim && !arguments.host_time)
+    environment.emplace_back("LD_PRELOAD", serve::preload_with(serve::kTtyShimLibrary));
   return command;
+}
+
+void require_host_time(const ExecArguments& arguments, const world::Bench& bench) {
+  if (arguments.has_speed)
+    throw UsageError("--host-time: the host's waits decide how fast time goes; expected no --speed");
+  for (const world::LineSetup& line : bench.lines) {
+    if (line.tcp.empty()) continue;
+    throw UsageError("--host-time: line " + line.name +
+                     " listens on TCP; expected lines with pseudo-terminals only");
+  }
 }
 
 std::optional<serve::WallTime> timeout_of(const ExecArguments& arguments) {
@@ -145,8 +161,27 @@ int tell_of(const play::SideScenario& side_scenario, const play::Scenario& scena
   return code;
 }
 
+/// Tells why the command's own exit code does not count, if it does not.
+int exit_code_of(const ExecArguments& arguments, const serve::Child& child, bool timed_out,
+                 bool was_reached) {
+  const std::string command = one_line(arguments.command[0]);
+  if (timed_out) {
+    std::fprintf(stderr, "understudy: exec: %s: was ended because it took longer than %s\n", command.c_str(),
+                 arguments.timeout.c_str());
+    return kExitTimedOut;
+  }
+  if (!was_reached) {
+    std::fprintf(stderr,
+                 "understudy: exec: %s: did not load our library, so it ran in real time; expected a program "
+                 "that keeps LD_PRELOAD\n",
+                 command.c_str());
+    return kExitNoHostTime;
+  }
+  return child.exit_code();
+}
+
 /// Serves the bench until both the command and the scenario beside it end.
-int play(const ExecArguments& arguments, const Serving& serving,
+int play(const ExecArguments& arguments, const Serving& serving, serve::PrivateFolder& folder,
          const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
   const auto timeout = timeout_of(arguments);
   serve::Daemon daemon(serving.bench, serving.options, log_line);
@@ -157,6 +192,12 @@ int play(const ExecArguments& arguments, const Serving& serving,
   }
   std::optional<play::Lint> lint;
   if (arguments.serve.lint) lint.emplace(daemon.world());
+  std::optional<serve::HostTime> host_time;
+  serve::ChildCommand command = command_for(arguments, daemon);
+  if (arguments.host_time) {
+    host_time.emplace(daemon, folder.path() + "/host", log_line);
+    for (auto& variable : host_time->environment()) command.environment.push_back(std::move(variable));
+  }
   std::optional<serve::Child> child;
   std::optional<play::SideScenario> side_scenario;
   bool child_is_over = false;
@@ -168,8 +209,9 @@ int play(const ExecArguments& arguments, const Serving& serving,
   const auto stop_if_over = [&] {
     if (child_is_over && side_scenario_is_over) daemon.stop();
   };
-  child.emplace(daemon.loop(), signals, command_for(arguments, daemon), [&] {
+  child.emplace(daemon.loop(), signals, command, [&] {
     child_is_over = true;
+    if (host_time) host_time->host_ended();
     // No client is left that could advance the time.
     if (child->was_ended() || daemon.pacer().standing()) give_up_side_scenario();
     stop_if_over();
@@ -198,12 +240,8 @@ int play(const ExecArguments& arguments, const Serving& serving,
   if (lint) print_findings(lint->findings());
   coverage.write();
   const int scenario_code = side_scenario ? tell_of(*side_scenario, *scenario) : kExitWell;
-  if (timed_out) {
-    std::fprintf(stderr, "understudy: exec: %s: was ended because it took longer than %s\n",
-                 one_line(arguments.command[0]).c_str(), arguments.timeout.c_str());
-    return kExitTimedOut;
-  }
-  return child->exit_code() != 0 ? child->exit_code() : scenario_code;
+  const int code = exit_code_of(arguments, *child, timed_out, !host_time || host_time->was_greeted());
+  return code != kExitWell ? code : scenario_code;
 }
 
 /// Throws UsageError if the scenario and the bench would write the same file.
@@ -221,19 +259,21 @@ void require_apart(const play::Scenario& scenario, const ServeArguments& serve, 
   files.add(scenario.files);
 }
 
-}  // namespace
-
-int execute(ModelList models, const ExecArguments& arguments) {
-  if (!arguments.stray_words.empty() || arguments.command.empty()) {
-    throw UsageError("exec: expected -- and a command after it, such as `exec bench.yaml -- ./my_host`");
-  }
-  timeout_of(arguments);
+int execute_once(ModelList models, const ExecArguments& arguments) {
   Serving serving = make_serving(models, arguments.serve, "exec");
   require_variables(serving.bench);
+  if (arguments.host_time) require_host_time(arguments, serving.bench);
   std::optional<play::Scenario> scenario;
   if (!arguments.with.empty()) {
     scenario = play::load_side_scenario(models, arguments.with, serving.bench, arguments.save_below);
     require_apart(*scenario, arguments.serve, serving.options.files);
+  }
+  if (arguments.host_time) {
+    if (const std::string why = serve::why_not_in_host_time(arguments.command[0]); !why.empty()) {
+      std::fprintf(stderr, "understudy: exec: --host-time: %s\n", why.c_str());
+      return kExitNoHostTime;
+    }
+    serving.options.speed.kind = serve::Speed::Kind::manual;
   }
   serve::remove_left_overs();
   serve::PrivateFolder folder;
@@ -242,7 +282,7 @@ int execute(ModelList models, const ExecArguments& arguments) {
   serve::ParentSignals signals;
   int code = kExitNotStarted;
   try {
-    code = play(arguments, serving, scenario, signals);
+    code = play(arguments, serving, folder, scenario, signals);
   } catch (const serve::ChildError& error) {
     std::fprintf(stderr, "understudy: exec: %s\n", one_line(error.what()).c_str());
   }
@@ -257,8 +297,55 @@ int execute(ModelList models, const ExecArguments& arguments) {
   return code;
 }
 
+/// Runs the command several times, and compares what happened.
+int execute_repeatedly(ModelList models, const ExecArguments& arguments, int times) {
+  if (!arguments.host_time)
+    throw UsageError("--repeat: runs differ in real time; expected --host-time as well");
+  if (!arguments.serve.nv.empty())
+    throw UsageError("--repeat: each run would begin with the memory of the run before; expected no --nv");
+  serve::PrivateFolder folder;
+  Courses courses;
+  int first_failure = kExitWell;
+  for (int run = 1; run <= times; ++run) {
+    ExecArguments once = arguments;
+    once.serve.record = arguments.serve.record.empty() ? folder.path() + "/run" : arguments.serve.record;
+    if (run > 1) once.serve.record += "." + std::to_string(run);
+    const int code = execute_once(models, once);
+    if (code == kExitNotStarted || code == kExitNoHostTime) return code;
+    if (first_failure == kExitWell) first_failure = code;
+    const std::string difference = courses.add(once.serve.record);
+    if (!difference.empty()) std::fprintf(stderr, "understudy: exec: %s\n", difference.c_str());
+    const bool is_kept =
+        run == 1 || !difference.empty() || code != kExitWell || !arguments.serve.record.empty();
+    std::error_code ignored;
+    if (!is_kept) std::filesystem::remove(once.serve.record, ignored);
+  }
+  std::fprintf(stderr, "understudy: exec: %s\n", courses.summary().c_str());
+  const bool are_same = courses.count() == 1;
+  if (are_same && first_failure == kExitWell && arguments.serve.record.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove(folder.path() + "/run", ignored);
+  }
+  if (first_failure != kExitWell) return first_failure;
+  return are_same ? kExitWell : kExitFailed;
+}
+
+}  // namespace
+
+int execute(ModelList models, const ExecArguments& arguments) {
+  if (!arguments.stray_words.empty() || arguments.command.empty()) {
+    throw UsageError("exec: expected -- and a command after it, such as `exec bench.yaml -- ./my_host`");
+  }
+  timeout_of(arguments);
+  if (arguments.repeat && *arguments.repeat < 1)
+    throw UsageError("--repeat: " + std::to_string(*arguments.repeat) +
+                     " is too few; expected 1 or more runs");
+  if (arguments.repeat) return execute_repeatedly(models, arguments, *arguments.repeat);
+  return execute_once(models, arguments);
+}
+
 int print_tty_shim() {
-  std::printf("%s\n", serve::tty_shim_path().c_str());
+  std::printf("%s\n", serve::library_path(serve::kTtyShimLibrary).c_str());
   return kExitWell;
 }
 

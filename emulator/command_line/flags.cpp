@@ -115,9 +115,18 @@ struct CommandLine {
     add_save_below(command, exec.save_below);
     command.add_flag("--tty-shim", exec.tty_shim,
                      "Preload a library that lets hosts that insist on parity use a pseudo-terminal");
+    command.add_flag("--host-time", exec.host_time,
+                     "Put the command into simulated time as well; it includes --tty-shim");
+    command.add_option("--repeat", exec.repeat,
+                       "Run it so many times, and compare the recordings (with --host-time)");
+    command.add_flag_callback(
+        "--twice", [this] { exec.repeat = 2; }, "The same as --repeat 2");
     command.add_option("--timeout", exec.timeout, "End the command after this much real time [never]")
         ->check(kNotEmpty);
-    command.callback([this] { chosen = [this] { return execute(models, exec); }; });
+    command.callback([this, &command] {
+      exec.has_speed = command.count("--speed") > 0;
+      chosen = [this] { return execute(models, exec); };
+    });
   }
 
   void add_tty_shim(CLI::App& command) {

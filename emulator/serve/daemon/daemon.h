@@ -98,6 +98,12 @@ class Daemon {
   /// (asked at the end of every tick), then calls `done`. Returns false if the clock is running, or while
   /// another advance is in progress.
   bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there = {});
+  /// Advances simulated time to `time` before it returns. The clock must be stopped, and no advance in
+  /// progress.
+  void advance_at_once(SimTime time) {
+    world_.advance_to(time);
+    pacer_.moved_to(world_.now(), wall_now());
+  }
   /// Brings the world to the present moment, or as far as it gets in a few milliseconds.
   void catch_up();
   /// Like catch_up(), but for up to a tenth of a second: for bytes that are stamped with this moment.

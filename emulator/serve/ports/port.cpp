@@ -96,6 +96,7 @@ Port::Port(EventLoop& loop, world::World& world, std::size_t line_number, const 
 }
 
 void Port::watch() {
+  if (is_on_demand_) return terminal_->settle_writes();
   loop_.watch(terminal_->data_descriptor(), EventLoop::readable, [this](std::uint32_t ready) {
     on_data(ready);
     keep_watch();
@@ -103,17 +104,40 @@ void Port::watch() {
   is_watching_ = true;
 }
 
+void Port::unwatch() {
+  if (!is_watching_) return;
+  loop_.unwatch(terminal_->data_descriptor());
+  is_watching_ = false;
+}
+
+void Port::serve_on_demand() {
+  is_on_demand_ = true;
+  if (!terminal_) return;
+  unwatch();
+  terminal_->settle_writes();
+}
+
+void Port::attend() {
+  if (!terminal_ || guest_ != nullptr) return flush();
+  on_presence({});
+  constexpr int kMaxReadings = 64;  // more than the kernel holds
+  for (int i = 0; i < kMaxReadings && terminal_ && room() > 0; ++i) {
+    const std::uint64_t before = line().counters().bytes_in;
+    on_data(EventLoop::readable);
+    if (line().counters().bytes_in == before) break;
+  }
+  keep_watch();
+  flush();
+}
+
 /// Stops watching a lost terminal, which would report its hang-up without end, and tries to recover it.
 void Port::keep_watch() {
   if (!terminal_) return;  // a fault has just unplugged it
   if (!terminal_->is_lost()) {
-    if (!is_watching_) watch();
+    if (!is_watching_ && !is_on_demand_) watch();
     return;
   }
-  if (is_watching_) {
-    loop_.unwatch(terminal_->data_descriptor());
-    is_watching_ = false;
-  }
+  unwatch();
   const std::string path_before = terminal_->path();
   if (!terminal_->recover()) {
     next_recovery_ = wall_now() + kRecovery;
@@ -127,9 +151,7 @@ void Port::keep_watch() {
   }
 }
 
-Port::~Port() {
-  if (terminal_) loop_.unwatch(terminal_->data_descriptor());
-}
+Port::~Port() { unwatch(); }
 
 void Port::follow_hosts() {
   if (!terminal_ || !is_watching_ || !terminal_->has_presence_news()) return;
@@ -250,6 +272,7 @@ std::optional<WallTime> Port::next_look(bool clock_stands) {
   }
   std::optional<WallTime> next;
   if (next_presence_ > WallTime{0}) next = next_presence_;
+  if (is_on_demand_) return next;
   if (terminal_ && terminal_->has_presence_news()) next = WallTime{0};  // another port has collected them
   // With a stopped clock, patience with an incomplete frame would never end.
   if (clock_stands && last_bytes_ > WallTime{0} && line().due())
@@ -266,7 +289,7 @@ void Port::look(WallTime now, bool clock_stands) {
     keep_watch();
   }
   // This happens twice, because after a pause a frame that has begun waits longer.
-  if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + patience()) {
+  if (clock_stands && !is_on_demand_ && last_bytes_ > WallTime{0} && now >= last_bytes_ + patience()) {
     if (std::exchange(has_paused_, true)) last_bytes_ = WallTime{0};
     world_.nothing_more(line_number_);
   }
@@ -342,10 +365,7 @@ void Port::pull_out() {
   if (guest_ != nullptr) guest_->hang_up();
   if (!terminal_) return;
   if (stat(terminal_->path().c_str(), &access_) != 0) access_ = {};
-  if (is_watching_) {
-    loop_.unwatch(terminal_->data_descriptor());
-    is_watching_ = false;
-  }
+  unwatch();
   if (terminal_->host_present()) world_.host_closed(line_number_);
   terminal_.reset();
 }

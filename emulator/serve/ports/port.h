@@ -31,6 +31,14 @@ class Port {
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
+  /// From now on the host's bytes are taken, and its comings and goings noticed, only by attend(): a host in
+  /// simulated time is served at the moment at which it waits.
+  void serve_on_demand();
+  /// Takes what the host has written, as far as there is room, and gives it what the line has for it.
+  void attend();
+  /// A host seems to have gone, but the kernel has not released the line yet.
+  bool is_in_doubt() const { return terminal_ && terminal_->is_in_doubt(); }
+
   /// Passes on the bytes that the wire has delivered, and takes more bytes if the line has room.
   void flush();
   /// Passes on available bytes. Returns true if there are more for a host that was reading a moment ago, or
@@ -98,6 +106,7 @@ class Port {
   void hand_over();
   void on_data(std::uint32_t ready);
   void watch();
+  void unwatch();
   void keep_watch();
   void on_presence(std::span<const std::uint8_t> bytes);
   void keep_what_was_left_behind();
@@ -125,6 +134,7 @@ class Port {
   std::vector<std::uint8_t> left_behind_;  // from hosts that have closed; at most kLeftBehindCapacity
   WallTime next_presence_{0};              // when to check again who is there; 0: not needed
   bool is_watching_ = false;               // the terminal's descriptor
+  bool is_on_demand_ = false;              // the terminal's descriptor is not watched
   bool is_pulled_out_ = false;             // by a fault
   bool has_told_ = false;                  // why it cannot be plugged in again
   struct stat access_ {};                  // of the terminal that was

@@ -9,20 +9,20 @@ namespace understudy::emulator::serve {
 
 namespace fs = std::filesystem;
 
-std::string tty_shim_path() {
+std::string library_path(const std::string& name) {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const fs::path& beside :
        {folder, folder.parent_path()}) {  // the build folder, or the installed folder
-    const fs::path path = beside / "lib/understudy/tty_shim.so";
+    const fs::path path = beside / "lib/understudy" / name;
     if (fs::exists(path, error)) return path.string();
   }
-  throw NoTtyShim(folder.string() +
-                  ": tty_shim.so is missing; expected it in lib/understudy or ../lib/understudy");
+  throw NoTtyShim(folder.string() + ": " + name +
+                  " is missing; expected it in lib/understudy or ../lib/understudy");
 }
 
-std::string preload_with_tty_shim() {
-  const std::string path = tty_shim_path();
+std::string preload_with(const std::string& name) {
+  const std::string path = library_path(name);
   if (path.find_first_of(" :") != std::string::npos) {
     throw NoTtyShim(
         path +

@@ -1,4 +1,5 @@
-// Finds the library that lets hosts that insist on parity use a pseudo-terminal (pty/tty_shim.cpp).
+// Finds the libraries that are preloaded into hosts: the one that lets those that insist on parity use a
+// pseudo-terminal (pty/tty_shim.cpp), and the one that also puts them into simulated time (pty/host_time/).
 #pragma once
 
 #include <stdexcept>
@@ -10,12 +11,15 @@ struct NoTtyShim : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns its path: in lib/understudy beside the running program, or beside the program's folder. Throws
-/// NoTtyShim.
-std::string tty_shim_path();
+inline constexpr const char* kTtyShimLibrary = "tty_shim.so";
+inline constexpr const char* kHostTimeLibrary = "host_time.so";
+
+/// Returns a library's path: in lib/understudy beside the running program, or beside the program's folder.
+/// Throws NoTtyShim.
+std::string library_path(const std::string& name);
 
 /// Returns LD_PRELOAD with the library in front of libraries that are preloaded already. Throws NoTtyShim if
 /// its path cannot be written there.
-std::string preload_with_tty_shim();
+std::string preload_with(const std::string& name);
 
 }  // namespace understudy::emulator::serve

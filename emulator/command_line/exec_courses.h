@@ -1,0 +1,28 @@
+// Compares the recordings of several runs of the same command (`exec --host-time --repeat`).
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace understudy::emulator::command_line {
+
+class Courses {
+ public:
+  /// Adds the recording of the next run. Returns the first difference from the first run, in one line, if
+  /// its course is new; otherwise an empty text.
+  std::string add(const std::string& recording);
+  std::size_t count() const { return courses_.size(); }
+  /// Returns a line about all runs: "20 runs, all the same".
+  std::string summary() const;
+
+ private:
+  struct Course {
+    std::string text;
+    std::size_t runs = 0;
+  };
+  std::vector<Course> courses_;  // in the order in which they were met
+  std::size_t runs_ = 0;
+};
+
+}  // namespace understudy::emulator::command_line

@@ -1,0 +1,29 @@
+// The page of memory that a host in simulated time reads: the present time, and the terminals of the bench.
+#pragma once
+
+#include <string>
+
+#include "base/simulated_time.h"
+#include "pty/host_time/protocol.h"
+
+namespace understudy::emulator::serve {
+
+class HostPage {
+ public:
+  /// Makes the file. Throws std::system_error.
+  explicit HostPage(const std::string& path);
+  ~HostPage();
+  HostPage(const HostPage&) = delete;
+  HostPage& operator=(const HostPage&) = delete;
+
+  void set_now(SimTime now);
+  /// Wakes the threads that look at their word because they wait for each other.
+  void wake(int thread);
+  void set_line(std::size_t line, int terminal);
+
+ private:
+  std::string path_;
+  host_time::Page* page_ = nullptr;
+};
+
+}  // namespace understudy::emulator::serve

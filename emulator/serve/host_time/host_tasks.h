@@ -1,0 +1,56 @@
+// The processes of a host, and whether the kernel runs any of their threads. A thread may wait for another
+// one (a lock, a pipe, a child) without telling the bench: the kernel knows that it sleeps. The kernel wakes
+// such a thread before the one that wakes it goes on, so a host of which all threads sleep stays asleep.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "base/files/descriptor.h"
+#include "emulator/serve/loop/event_loop.h"
+
+namespace understudy::emulator::serve {
+
+class HostTasks {
+ public:
+  /// `ended` is called when a process has ended.
+  HostTasks(EventLoop& loop, std::function<void(int process)> ended)
+      : loop_(loop), ended_(std::move(ended)) {}
+  ~HostTasks();
+  HostTasks(const HostTasks&) = delete;
+  HostTasks& operator=(const HostTasks&) = delete;
+
+  void add(int process);
+  bool knows(int process) const { return processes_.contains(process); }
+  /// Returns true if the process is there, and is not just ending.
+  bool is_alive(int process) const;
+
+  /// Returns true if the host has a single thread.
+  bool is_one_thread() const;
+  /// Returns true if no thread of any process can go on by itself. `waiting` are threads of which that is
+  /// known.
+  bool are_all_asleep(const std::set<int>& waiting) const;
+
+  /// A thread that the kernel runs, in words: "thread 2 of my_host (1234)".
+  std::optional<std::string> running_one() const;
+
+ private:
+  struct Task {
+    char state = 'R';
+    std::uint64_t runs = 0;  // how often the kernel has run it
+    bool operator==(const Task&) const = default;
+  };
+  using Tasks = std::map<int, Task>;
+
+  bool look(Tasks& tasks, const std::set<int>& waiting) const;
+
+  EventLoop& loop_;
+  std::function<void(int)> ended_;
+  std::map<int, Descriptor> processes_;  // each with a descriptor that tells its end
+};
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,341 @@
+#include "emulator/serve/host_time/host_time.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/timerfd.h>
+#include <sys/uio.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <ranges>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "base/files/descriptor.h"
+#include "base/simulated_time.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/host_time/host_waits.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/listener.h"
+#include "emulator/serve/ports/port.h"
+#include "emulator/serve/ports/tty_shim.h"
+#include "emulator/world/world.h"
+#include "pty/host_time/protocol.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+// A host of several threads that is not asleep is looked at again after this time, then ever more rarely.
+constexpr WallTime kFirstLook = std::chrono::microseconds(20);
+constexpr WallTime kRarestLook = std::chrono::milliseconds(1);
+// Time moves for this long before others have their turn: the control socket, signals.
+constexpr WallTime kSlice = std::chrono::milliseconds(5);
+constexpr WallTime kWatch = std::chrono::milliseconds(500);
+// A thread that has not waited for so many watches is told.
+constexpr int kLooksBeforeTelling = 4;
+
+Descriptor make_timer() {
+  Descriptor timer(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC));
+  if (!timer) throw std::system_error(errno, std::generic_category(), "timerfd_create");
+  return timer;
+}
+
+void set_timer(const Descriptor& timer, WallTime after, WallTime interval = WallTime{0}) {
+  const auto spec_of = [](WallTime time) {
+    return timespec{time.count() / 1'000'000'000, time.count() % 1'000'000'000};
+  };
+  const itimerspec setting{spec_of(interval), spec_of(after)};
+  timerfd_settime(timer.get(), 0, &setting, nullptr);
+}
+
+Descriptor listen_at(const std::string& place) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (place.size() >= sizeof address.sun_path)
+    throw std::system_error(ENAMETOOLONG, std::generic_category(), place);
+  std::memcpy(address.sun_path, place.c_str(), place.size() + 1);
+  Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket || ::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      ::listen(socket.get(), SOMAXCONN) != 0)
+    throw std::system_error(errno, std::generic_category(), place);
+  return socket;
+}
+
+/// Receives a message, and the descriptor beside it if there is one.
+ssize_t receive_message(int socket, host_time::Message& message, Descriptor& passed) {
+  iovec part{&message, sizeof message};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
+  msghdr header{};
+  header.msg_iov = &part;
+  header.msg_iovlen = 1;
+  header.msg_control = control.data();
+  header.msg_controllen = control.size();
+  const ssize_t size = recvmsg(socket, &header, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
+  const cmsghdr* const attached = size < 0 ? nullptr : CMSG_FIRSTHDR(&header);
+  if (attached != nullptr && attached->cmsg_type == SCM_RIGHTS) {
+    int descriptor = -1;
+    std::memcpy(&descriptor, CMSG_DATA(attached), sizeof descriptor);
+    passed = Descriptor(descriptor);
+  }
+  return size;
+}
+
+/// Returns the number of the port's pseudo-terminal, or -1 if it has none.
+int terminal_of(const Port& port) {
+  if (port.terminal() == nullptr) return -1;
+  const std::string& path = port.terminal()->path();  // /dev/pts/N
+  return std::atoi(path.c_str() + path.rfind('/') + 1);
+}
+
+}  // namespace
+
+HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(const std::string&)> tell)
+    : daemon_(daemon),
+      place_(place),
+      tell_(std::move(tell)),
+      page_(place + host_time::kPageEnding),
+      waits_([this](int number, HostAnswer what, const HostWaits::Thread& thread) {
+        answer(number, what, thread);
+      }),
+      tasks_(daemon.loop(),
+             [this](int process) {
+               judge_end_of(process);
+               waits_.process_ended(process);
+               timers_.process_ended(process);
+               consider();
+             }),
+      lines_(daemon.ports().size()),
+      next_look_(make_timer()),
+      watch_(make_timer()) {
+  page_.set_now(daemon_.world().now());
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    daemon_.ports()[i]->serve_on_demand();
+    lines_[i].terminal = terminal_of(*daemon_.ports()[i]);
+    page_.set_line(i, lines_[i].terminal);
+  }
+  Descriptor socket = listen_at(place_);
+  listening_ = socket.get();
+  listener_ = std::make_unique<Listener>(daemon_.loop(), std::move(socket),
+                                         [this](Descriptor client) { admit(std::move(client)); });
+  const auto on_timer = [&](const Descriptor& timer, std::function<void()> act) {
+    daemon_.loop().watch(timer.get(), EventLoop::readable, [&timer, act = std::move(act)](std::uint32_t) {
+      std::uint64_t ignored = 0;
+      if (read(timer.get(), &ignored, sizeof ignored) > 0) act();
+    });
+  };
+  on_timer(next_look_, [this] { consider(); });
+  on_timer(watch_, [this] { watch_over(); });
+  set_timer(watch_, kWatch, kWatch);
+}
+
+HostTime::~HostTime() {
+  for (const auto& [number, descriptor] : connections_) daemon_.loop().unwatch(number);
+  daemon_.loop().unwatch(next_look_.get());
+  daemon_.loop().unwatch(watch_.get());
+  listener_.reset();
+  unlink(place_.c_str());
+}
+
+std::vector<std::pair<std::string, std::string>> HostTime::environment() const {
+  return {{"LD_PRELOAD", preload_with(kHostTimeLibrary)}, {host_time::kVariable, place_}};
+}
+
+// --- messages ------------------------------------------------------------------------------------
+
+void HostTime::admit(Descriptor client) {
+  const int number = client.get();
+  daemon_.loop().watch(number, EventLoop::readable, [this, number](std::uint32_t) { on_message(number); });
+  connections_.emplace(number, std::move(client));
+  waits_.add(number);
+}
+
+/// A process closes its connections when it becomes another program, which greets anew if it has the library.
+void HostTime::drop(int number) {
+  const int process = waits_.threads().at(number).process;
+  waits_.remove(number);
+  daemon_.loop().unwatch(number);
+  connections_.erase(number);
+  const bool has_others =
+      std::ranges::any_of(waits_.threads(), [&](const auto& each) { return each.second.process == process; });
+  if (!has_others && tasks_.is_alive(process)) silent_.insert(process);
+}
+
+void HostTime::judge_end_of(int process) {
+  if (silent_.erase(process) == 0) return;
+  if (process == first_process_) was_greeted_ = false;
+  if (process == first_process_ || std::exchange(has_told_of_silence_, true)) return;
+  tell_("process " + std::to_string(process) +
+        " of the host did not load our library, so it ran in real time; expected programs that keep "
+        "LD_PRELOAD");
+}
+
+void HostTime::on_message(int number) {
+  host_time::Message message{};
+  Descriptor passed;
+  const ssize_t size = receive_message(number, message, passed);
+  if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  using host_time::Said;
+  has_moved_ = true;
+  const bool is_good = size == static_cast<ssize_t>(sizeof message) &&
+                       (message.what != Said::hello || message.sequence == host_time::kVersion);
+  if (!is_good) {
+    drop(number);
+    return consider();
+  }
+  if (message.what == Said::hello) {
+    if (!std::exchange(was_greeted_, true)) first_process_ = message.process;
+    silent_.erase(message.process);
+  }
+  if (message.what == Said::hello || message.what == Said::child) tasks_.add(message.process);
+  if (message.what == Said::timer) timers_.set(message, std::move(passed));
+  waits_.heard(number, message);
+  if (!connections_.contains(number)) return;
+  if (waits_.threads().at(number).state == HostState::gone) return drop(number);
+  if (message.what == Said::wait || message.what == Said::inside || message.what == Said::timer) consider();
+}
+
+void HostTime::answer(int number, HostAnswer what, const HostWaits::Thread& thread) {
+  if (what == HostAnswer::refuse) return;  // on_message() drops it
+  host_time::Message message = thread.wait;
+  message.what = what == HostAnswer::go ? host_time::Said::go : host_time::Said::cancelled;
+  // It cannot block: a thread has at most a few answers that it has not read.
+  [[maybe_unused]] const ssize_t sent = send(number, &message, sizeof message, MSG_DONTWAIT | MSG_NOSIGNAL);
+  if (thread.wait.is_on_word != 0 && what == HostAnswer::go) page_.wake(thread.thread);
+}
+
+// --- time ----------------------------------------------------------------------------------------
+
+/// Looks again soon, as no message tells that a thread has gone to sleep.
+void HostTime::look_again() {
+  patience_ = std::clamp(patience_ * 2, kFirstLook, kRarestLook);
+  set_timer(next_look_, patience_);
+}
+
+bool HostTime::is_host_asleep() {
+  std::set<int> resting;
+  std::size_t waiting = 0;
+  for (const auto& [number, thread] : waits_.threads()) {
+    if (thread.state != HostState::waiting) continue;
+    ++waiting;
+    if (thread.wait.has_others == 0 && !must_look_) resting.insert(thread.thread);
+  }
+  if (waiting == 1 && !must_look_ && tasks_.is_one_thread()) return true;
+  // A thread that has sent a message also sleeps until it is answered, so this comes last.
+  if (!tasks_.are_all_asleep(resting) || has_unread_messages()) return false;
+  must_look_ = false;
+  return true;
+}
+
+bool HostTime::has_unread_messages() const {
+  std::vector<pollfd> entries{{.fd = listening_, .events = POLLIN, .revents = 0}};
+  for (const auto& [number, connection] : connections_)
+    entries.push_back({.fd = number, .events = POLLIN, .revents = 0});
+  return poll(entries.data(), entries.size(), 0) != 0;
+}
+
+/// Takes what the host has written, and learns who has opened and closed the ports.
+void HostTime::take_from_host() {
+  for (const auto& port : daemon_.ports()) port->attend();
+}
+
+/// Gives the host what the lines have for it, and ends the waits for that. Returns true if one has ended.
+bool HostTime::give_to_host() {
+  const SimTime now = daemon_.world().now();
+  page_.set_now(now);
+  bool has_ended = false;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    Port& port = *daemon_.ports()[i];
+    Seen& seen = lines_[i];
+    port.attend();
+    const int terminal = terminal_of(port);
+    const std::uint64_t bytes_out = port.line().counters().bytes_out;
+    const bool has_room = port.room() > 0;
+    const bool has_news =
+        terminal != seen.terminal || bytes_out != seen.bytes_out || (has_room && !seen.had_room);
+    const int before = std::exchange(seen, {terminal, bytes_out, has_room}).terminal;
+    if (terminal != before) page_.set_line(i, terminal);
+    if (has_news) has_ended = waits_.line_has_news(before) || has_ended;
+    if (port.line().save().input.empty()) has_ended = waits_.line_is_drained(terminal) || has_ended;
+  }
+  return waits_.time_is(now) || has_ended;
+}
+
+/// Sends the signals of timers that have expired. The threads that they wake will give up their waits.
+/// Returns true if there were any.
+bool HostTime::expire_timers() {
+  const auto expired = timers_.expire(daemon_.world().now());
+  for (const HostTimers::Expired& each : expired) send_signal(each);
+  must_look_ = must_look_ || !expired.empty();
+  return !expired.empty();
+}
+
+/// Returns how far time may go before somebody must be asked, or nothing if it must stand.
+std::optional<SimTime> HostTime::next_stop() const {
+  const world::World& world = daemon_.world();
+  const SimTime now = world.now();
+  std::optional<SimTime> stop = waits_.next_end();
+  const auto not_beyond = [&](SimTime time) {
+    stop = std::min(stop.value_or(time), std::max(time, now + SimTime{1}));
+  };
+  if (const auto next = timers_.next()) not_beyond(*next);
+  for (const auto& port : daemon_.ports()) {
+    if (const auto full = port->time_until_full()) not_beyond(now + *full);
+    if (!waits_.is_line_waited_for(terminal_of(*port))) continue;
+    if (const auto due = port->line().due()) not_beyond(*due);
+    const bool may_change = port->world_line().speech.may_be_unasked() || !world.faults().empty();
+    if (may_change && stop) not_beyond(time_of(tick_at(now) + 1));
+  }
+  if (stop) return stop;
+  return world.next_due();  // they wait without end, and only a device could change that
+}
+
+void HostTime::consider() {
+  if (!(waits_.is_any_waiting() || timers_.next()) || waits_.is_any_outside()) return;
+  if (daemon_.is_advancing() || daemon_.pacer().paused() || !is_host_asleep()) return look_again();
+  patience_ = WallTime{0};
+  const WallTime until = wall_now() + kSlice;
+  while (!give_to_host()) {
+    if (expire_timers()) return look_again();
+    for (const auto& port : daemon_.ports()) {
+      if (port->is_in_doubt()) return look_again();
+    }
+    const auto stop = next_stop();
+    if (!stop) return;
+    has_moved_ = true;
+    daemon_.advance_at_once(*stop);
+    if (wall_now() >= until) {
+      set_timer(next_look_, WallTime{1});
+      return;
+    }
+  }
+}
+
+void HostTime::host_ended() { take_from_host(); }
+
+/// Tells of a thread that does not wait, once.
+void HostTime::watch_over() {
+  idle_looks_ = std::exchange(has_moved_, false) ? 0 : idle_looks_ + 1;
+  if (has_told_of_spinning_ || idle_looks_ < kLooksBeforeTelling) return;
+  const auto running = tasks_.running_one();
+  if (!running) return;
+  has_told_of_spinning_ = true;
+  tell_(*running +
+        " does not wait, so the clock is stopped; expected a wait that the bench can end, such as poll or "
+        "sleep");
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,94 @@
+// Puts an unmodified host into simulated time (`exec --host-time`). A preloaded library answers its clocks
+// and waits, and asks here. Simulated time stands while any thread of the host can go on; when all wait, it
+// goes to whatever comes first: the end of a wait, or something on a line that a thread waits for.
+// docs/host-time.md describes the order in which bytes and time move.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/files/descriptor.h"
+#include "base/simulated_time.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/host_time/host_page.h"
+#include "emulator/serve/host_time/host_tasks.h"
+#include "emulator/serve/host_time/host_timers.h"
+#include "emulator/serve/host_time/host_waits.h"
+#include "emulator/serve/loop/listener.h"
+
+namespace understudy::emulator::serve {
+
+class HostTime {
+ public:
+  /// From now on the ports of the daemon are served when the host waits. The clock must be stopped
+  /// (`manual`). `place` is the path of the socket, which must be in a private folder. `tell` receives
+  /// messages for the user. Throws std::system_error.
+  HostTime(Daemon& daemon, const std::string& place, std::function<void(const std::string&)> tell);
+  ~HostTime();
+  HostTime(const HostTime&) = delete;
+  HostTime& operator=(const HostTime&) = delete;
+
+  /// What the host's environment needs. Throws NoTtyShim.
+  std::vector<std::pair<std::string, std::string>> environment() const;
+  /// The host has ended: takes the bytes that it wrote last.
+  void host_ended();
+  /// Returns true if the host's first process has loaded the library, whatever program it has become.
+  bool was_greeted() const { return was_greeted_; }
+
+ private:
+  void admit(Descriptor client);
+  void on_message(int number);
+  void drop(int number);
+  void judge_end_of(int process);
+  void answer(int number, HostAnswer answer, const HostWaits::Thread& thread);
+  void consider();
+  bool is_host_asleep();
+  bool has_unread_messages() const;
+  void look_again();
+  void take_from_host();
+  bool give_to_host();
+  bool expire_timers();
+  std::optional<SimTime> next_stop() const;
+  void watch_over();
+
+  /// What a line was like when the host was told last.
+  struct Seen {
+    int terminal = -1;
+    std::uint64_t bytes_out = 0;
+    bool had_room = true;
+  };
+
+  Daemon& daemon_;
+  std::string place_;
+  std::function<void(const std::string&)> tell_;
+  HostPage page_;
+  HostWaits waits_;
+  HostTasks tasks_;
+  HostTimers timers_;
+  std::map<int, Descriptor> connections_;
+  int listening_ = -1;  // the listener's socket
+  std::unique_ptr<Listener> listener_;
+  std::vector<Seen> lines_;
+  Descriptor next_look_;    // a timer
+  Descriptor watch_;        // a timer
+  WallTime patience_{0};    // before the next look at a host that is not asleep
+  bool must_look_ = false;  // a timer may have woken a thread that the bench takes for waiting
+  bool was_greeted_ = false;
+  int first_process_ = -1;
+  std::set<int> silent_;  // processes that have become other programs, and have not greeted since
+  bool has_told_of_silence_ = false;
+  bool has_moved_ = true;  // since watch_over() looked last
+  int idle_looks_ = 0;
+  bool has_told_of_spinning_ = false;
+};
+
+}  // namespace understudy::emulator::serve

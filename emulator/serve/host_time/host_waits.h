@@ -1,0 +1,129 @@
+// The threads of a host in simulated time, as the bench knows them: which of them wait, and for what. Pure:
+// it knows no sockets.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "pty/host_time/protocol.h"
+
+namespace understudy::emulator::serve {
+
+/// A thread that the host has not connected is not known; one that waits without telling is `running` here,
+/// and HostTasks sees whether the kernel runs it.
+enum class HostState : std::uint8_t { unknown, running, waiting, gone };
+enum class HostEvent : std::uint8_t {
+  hello,   // it greets the bench
+  wait,    // it waits
+  cancel,  // something else has ended its wait
+  time,    // the end of its wait has come
+  line,    // something has come on a line that it waits for
+  left,    // its connection is closed
+};
+enum class HostAnswer : std::uint8_t {
+  nothing,
+  go,         // its wait is over
+  cancelled,  // nothing more will be said about its wait
+  refuse,     // it does not keep to the protocol: the connection is closed
+};
+
+struct HostStep {
+  HostState next;
+  HostAnswer answer;
+};
+
+inline constexpr std::size_t kHostStates = 4;
+inline constexpr std::size_t kHostEvents = 6;
+
+/// What each event means in each state (docs/host-time.md has it too). A wait that comes while another is
+/// under way is that of a signal handler; the thread tells the first one again afterwards. The bench may
+/// have ended a wait while its thread gave it up: `cancelled` is then the last word.
+inline constexpr std::array<std::array<HostStep, kHostEvents>, kHostStates> kHostSteps = [] {
+  using enum HostState;
+  using enum HostAnswer;
+  return std::array<std::array<HostStep, kHostEvents>, kHostStates>{{
+      // hello, wait, cancel, time, line, left
+      {{{running, nothing},
+        {gone, refuse},
+        {gone, refuse},
+        {unknown, nothing},
+        {unknown, nothing},
+        {gone, nothing}}},
+      {{{gone, refuse},
+        {waiting, nothing},
+        {running, cancelled},
+        {running, nothing},
+        {running, nothing},
+        {gone, nothing}}},
+      {{{gone, refuse},
+        {waiting, nothing},
+        {running, cancelled},
+        {running, go},
+        {running, go},
+        {gone, nothing}}},
+      {{{gone, nothing},
+        {gone, nothing},
+        {gone, nothing},
+        {gone, nothing},
+        {gone, nothing},
+        {gone, nothing}}},
+  }};
+}();
+
+constexpr HostStep host_step(HostState state, HostEvent event) {
+  return kHostSteps[static_cast<std::size_t>(state)][static_cast<std::size_t>(event)];
+}
+
+class HostWaits {
+ public:
+  /// A thread, by a number that its connection has.
+  struct Thread {
+    HostState state = HostState::unknown;
+    int process = -1;
+    int thread = -1;  // the kernel's number
+    bool is_outside = false;
+    host_time::Message wait{};  // while it waits
+  };
+  using Tell = std::function<void(int number, HostAnswer answer, const Thread& thread)>;
+
+  /// `tell` is called with each answer but `nothing`.
+  explicit HostWaits(Tell tell) : tell_(std::move(tell)) {}
+
+  void add(int number) { threads_[number]; }
+  void remove(int number) { threads_.erase(number); }
+  /// A message of a thread. Those that are no event of the table change nothing here.
+  void heard(int number, const host_time::Message& message);
+  /// Simulated time is now `now`: ends the waits whose end has come. Returns true if there were any.
+  bool time_is(SimTime now);
+  /// Something has come on the line whose pseudo-terminal has this number. Returns true if a thread waited
+  /// for it.
+  bool line_has_news(int terminal);
+  /// All that was written to the line has left the wire.
+  bool line_is_drained(int terminal);
+  void process_ended(int process);
+
+  /// Returns true if a thread waits.
+  bool is_any_waiting() const;
+  /// Returns true if a thread waits for what is not simulated.
+  bool is_any_outside() const;
+  /// Returns when the first wait ends, or nothing.
+  std::optional<SimTime> next_end() const;
+  /// Returns true if a thread waits for the line; for its news, or for it to be drained.
+  bool is_line_waited_for(int terminal) const;
+  const std::map<int, Thread>& threads() const { return threads_; }
+
+ private:
+  void happen(int number, Thread& thread, HostEvent event);
+  bool happen_on_line(int terminal, bool is_drained);
+
+  Tell tell_;
+  std::map<int, Thread> threads_;
+};
+
+}  // namespace understudy::emulator::serve

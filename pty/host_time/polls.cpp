@@ -1,0 +1,233 @@
+// poll, select and epoll of a host in simulated time.
+//
+// Each looks first, and then waits as the bench decides and looks again. What waits for sockets to other
+// machines alone waits in real time, while simulated time stands.
+#include <errno.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/epoll.h>
+#include <sys/select.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "pty/host_time/shim.h"
+
+using namespace understudy::host_time;
+
+namespace {
+
+/// Returns true for a connection with another machine.
+bool is_connected_outside(int descriptor) {
+  sockaddr_in6 peer;
+  socklen_t size = sizeof peer;
+  const int error = errno;
+  const bool is_connected = getpeername(descriptor, reinterpret_cast<sockaddr*>(&peer), &size) == 0;
+  errno = error;
+  if (!is_connected) return false;
+  if (peer.sin6_family == AF_INET6) {
+    return !IN6_IS_ADDR_LOOPBACK(&peer.sin6_addr) &&
+           !(IN6_IS_ADDR_V4MAPPED(&peer.sin6_addr) && peer.sin6_addr.s6_addr[12] == IN_LOOPBACKNET);
+  }
+  if (peer.sin6_family != AF_INET) return false;
+  sockaddr_in address;
+  memcpy(&address, &peer, sizeof address);
+  return ntohl(address.sin_addr.s_addr) >> IN_CLASSA_NSHIFT != IN_LOOPBACKNET;
+}
+
+/// Sorts the descriptors of a wait: lines of the bench, and others, for which it keeps room.
+class Sorted {
+ public:
+  explicit Sorted(nfds_t most) {
+    if (most > kFew) others_ = static_cast<pollfd*>(malloc(most * sizeof(pollfd)));
+  }
+  ~Sorted() {
+    if (others_ != few_) free(others_);
+  }
+  Sorted(const Sorted&) = delete;
+  Sorted& operator=(const Sorted&) = delete;
+
+  void add(int descriptor, short events, Wait& wait) {
+    if (descriptor < 0) return;
+    int number = -1;
+    if (is_line(descriptor, &number)) {
+      wait.add_line(number);
+      is_all_outside_ = false;
+      return;
+    }
+    if (!is_connected_outside(descriptor)) is_all_outside_ = false;
+    is_empty_ = false;
+    others_[wait.other_count++] = {descriptor, events, 0};
+    wait.others = others_;
+  }
+  /// Nothing but sockets to somewhere else.
+  bool is_all_outside() const { return is_all_outside_ && !is_empty_; }
+
+ private:
+  static constexpr nfds_t kFew = 16;
+  pollfd few_[kFew];
+  pollfd* others_ = few_;
+  bool is_all_outside_ = true;
+  bool is_empty_ = true;
+};
+
+/// Waits in real time while simulated time stands; then simulated time has its turn.
+template <class Look>
+int look_outside(int64_t length_ns, Look look) {
+  begin_outside();
+  const int ready = look(length_ns);
+  const int error = errno;
+  end_outside();
+  if (ready == 0 && length_ns != kNever) sleep_until(after(length_ns));
+  errno = error;
+  return ready;
+}
+
+/// `look(length)` returns how many are ready, or -1; it waits for the length in real time.
+template <class Look>
+int wait_in_turn(int64_t length_ns, const Sorted& sorted, Wait& wait, Look look) {
+  int ready = look(0);
+  if (ready != 0 || length_ns == 0) return ready;
+  if (sorted.is_all_outside()) return look_outside(length_ns, look);
+  const int64_t until = length_ns == kNever ? kNever : after(length_ns);
+  wait.until_ns = until;
+  while (true) {
+    const Woken woken = wait_for(wait);
+    ready = look(0);
+    if (ready != 0) return ready;
+    if (woken == Woken::by_signal) {
+      errno = EINTR;
+      return -1;
+    }
+    if (now_ns() >= until) return 0;
+  }
+}
+
+timespec real_length(int64_t length_ns) { return time_of(length_ns); }
+
+int poll_for(pollfd* entries, nfds_t count, int64_t length_ns, const sigset_t* mask) {
+  Sorted sorted(count);
+  Wait wait;
+  wait.mask = mask;
+  for (nfds_t i = 0; i < count; ++i) sorted.add(entries[i].fd, entries[i].events, wait);
+  return wait_in_turn(length_ns, sorted, wait, [&](int64_t length) {
+    const timespec time = real_length(length);
+    return UNDERSTUDY_REAL(ppoll)(entries, count, length == kNever ? nullptr : &time, mask);
+  });
+}
+
+int select_for(int count, fd_set* reads, fd_set* writes, fd_set* excepts, int64_t length_ns,
+               const sigset_t* mask) {
+  fd_set empty;
+  FD_ZERO(&empty);
+  const fd_set asked[3] = {reads != nullptr ? *reads : empty, writes != nullptr ? *writes : empty,
+                           excepts != nullptr ? *excepts : empty};
+  constexpr short kEvents[3] = {POLLIN, POLLOUT, POLLPRI};
+  Sorted sorted(static_cast<nfds_t>(count < 0 ? 0 : count));
+  Wait wait;
+  wait.mask = mask;
+  for (int i = 0; i < count && i < FD_SETSIZE; ++i) {
+    short events = 0;
+    for (int set = 0; set < 3; ++set) {
+      if (FD_ISSET(i, &asked[set])) events = static_cast<short>(events | kEvents[set]);
+    }
+    if (events != 0) sorted.add(i, events, wait);
+  }
+  return wait_in_turn(length_ns, sorted, wait, [&](int64_t length) {
+    if (reads != nullptr) *reads = asked[0];
+    if (writes != nullptr) *writes = asked[1];
+    if (excepts != nullptr) *excepts = asked[2];
+    const timespec time = real_length(length);
+    return UNDERSTUDY_REAL(pselect)(count, reads, writes, excepts, length == kNever ? nullptr : &time, mask);
+  });
+}
+
+int epoll_for(int descriptor, epoll_event* events, int count, int64_t length_ns, const sigset_t* mask) {
+  Sorted sorted(1);
+  Wait wait;
+  wait.mask = mask;
+  sorted.add(descriptor, POLLIN, wait);
+  wait.line_count = kAnyLine;
+  return wait_in_turn(length_ns, sorted, wait, [&](int64_t) {
+    return UNDERSTUDY_REAL(epoll_pwait)(descriptor, events, count, 0, mask);
+  });
+}
+
+int64_t length_of_ms(int milliseconds) {
+  return milliseconds < 0 ? kNever : int64_t{milliseconds} * 1'000'000;
+}
+
+/// Returns false, with the error, if it is no length.
+bool take_length(const timespec* time, int64_t& length_ns) {
+  length_ns = time == nullptr ? kNever : ns_of(*time);
+  if (length_ns >= 0) return true;
+  errno = EINVAL;
+  return false;
+}
+
+}  // namespace
+
+UNDERSTUDY_EXPORT int poll(pollfd* entries, nfds_t count, int timeout) {
+  if (!is_active()) return UNDERSTUDY_REAL(poll)(entries, count, timeout);
+  return poll_for(entries, count, length_of_ms(timeout), nullptr);
+}
+
+UNDERSTUDY_EXPORT int __poll_chk(pollfd* entries, nfds_t count, int timeout, size_t size) {
+  if (size / sizeof(pollfd) < count) abort();
+  return poll(entries, count, timeout);
+}
+
+UNDERSTUDY_EXPORT int ppoll(pollfd* entries, nfds_t count, const timespec* timeout, const sigset_t* mask) {
+  int64_t length = 0;
+  if (!is_active()) return UNDERSTUDY_REAL(ppoll)(entries, count, timeout, mask);
+  return take_length(timeout, length) ? poll_for(entries, count, length, mask) : -1;
+}
+
+UNDERSTUDY_EXPORT int __ppoll_chk(pollfd* entries, nfds_t count, const timespec* timeout,
+                                  const sigset_t* mask, size_t size) {
+  if (size / sizeof(pollfd) < count) abort();
+  return ppoll(entries, count, timeout, mask);
+}
+
+UNDERSTUDY_EXPORT int select(int count, fd_set* reads, fd_set* writes, fd_set* excepts, timeval* timeout) {
+  if (!is_active()) return UNDERSTUDY_REAL(select)(count, reads, writes, excepts, timeout);
+  const int64_t length = timeout == nullptr ? kNever : ns_of(*timeout);
+  if (length < 0) {
+    errno = EINVAL;
+    return -1;
+  }
+  const int64_t until = after(length);
+  const int result = select_for(count, reads, writes, excepts, length, nullptr);
+  if (timeout != nullptr && length != kNever) {  // Linux tells how much is left
+    const int64_t now = now_ns();
+    const timespec rest = time_of(until > now ? until - now : 0);
+    *timeout = {rest.tv_sec, rest.tv_nsec / 1'000};
+  }
+  return result;
+}
+
+UNDERSTUDY_EXPORT int pselect(int count, fd_set* reads, fd_set* writes, fd_set* excepts,
+                              const timespec* timeout, const sigset_t* mask) {
+  int64_t length = 0;
+  if (!is_active()) return UNDERSTUDY_REAL(pselect)(count, reads, writes, excepts, timeout, mask);
+  return take_length(timeout, length) ? select_for(count, reads, writes, excepts, length, mask) : -1;
+}
+
+UNDERSTUDY_EXPORT int epoll_wait(int descriptor, epoll_event* events, int count, int timeout) {
+  if (!is_active()) return UNDERSTUDY_REAL(epoll_wait)(descriptor, events, count, timeout);
+  return epoll_for(descriptor, events, count, length_of_ms(timeout), nullptr);
+}
+
+UNDERSTUDY_EXPORT int epoll_pwait(int descriptor, epoll_event* events, int count, int timeout,
+                                  const sigset_t* mask) {
+  if (!is_active()) return UNDERSTUDY_REAL(epoll_pwait)(descriptor, events, count, timeout, mask);
+  return epoll_for(descriptor, events, count, length_of_ms(timeout), mask);
+}
+
+UNDERSTUDY_EXPORT int epoll_pwait2(int descriptor, epoll_event* events, int count, const timespec* timeout,
+                                   const sigset_t* mask) {
+  int64_t length = 0;
+  if (!is_active()) return UNDERSTUDY_REAL(epoll_pwait2)(descriptor, events, count, timeout, mask);
+  return take_length(timeout, length) ? epoll_for(descriptor, events, count, length, mask) : -1;
+}

@@ -1,0 +1,134 @@
+// Reads that wait for a line of the bench, by the terminal's VMIN and VTIME, and tcdrain.
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/ioctl.h>
+#include <sys/uio.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "pty/host_time/shim.h"
+
+using namespace understudy::host_time;
+
+namespace {
+
+constexpr int64_t kTenth_ns = kBillion / 10;  // the unit of VTIME
+
+/// How a read waits.
+struct Patience {
+  bool is_canonical = false;
+  size_t least = 1;  // bytes
+  int64_t length_ns = kNever;
+  bool is_between_bytes = false;  // the length begins anew with each byte
+};
+
+/// Returns false if the read does not wait, or not for a line.
+bool take_patience(int descriptor, size_t size, int* number, Patience& patience) {
+  if (size == 0 || !is_line(descriptor, number)) return false;
+  const int flags = fcntl(descriptor, F_GETFL);
+  if (flags < 0 || (flags & O_NONBLOCK) != 0) return false;
+  termios settings;
+  if (tcgetattr(descriptor, &settings) != 0) return false;
+  if ((settings.c_lflag & ICANON) != 0) {
+    patience.is_canonical = true;
+    return true;
+  }
+  const size_t least = settings.c_cc[VMIN];
+  const int64_t tenths = settings.c_cc[VTIME];
+  if (least == 0 && tenths == 0) return false;
+  if (least > 0) patience.least = least < size ? least : size;
+  if (tenths > 0) patience.length_ns = tenths * kTenth_ns;
+  patience.is_between_bytes = least > 0 && tenths > 0;
+  return true;
+}
+
+/// Waits until a read of the line would not. Returns how many bytes it may ask for; 0: time is up; -1: a
+/// signal came.
+ssize_t wait_for_bytes(int descriptor, int number, size_t size, const Patience& patience) {
+  Wait wait;
+  wait.add_line(number);
+  wait.is_restartable = true;
+  if (patience.length_ns != kNever && !patience.is_between_bytes) wait.until_ns = after(patience.length_ns);
+  int present_before = 0;
+  while (true) {
+    pollfd entry = {descriptor, POLLIN, 0};
+    UNDERSTUDY_REAL(poll)(&entry, 1, 0);
+    if ((entry.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0) return static_cast<ssize_t>(size);
+    int present = 0;
+    if (patience.is_canonical) {
+      if ((entry.revents & POLLIN) != 0) return static_cast<ssize_t>(size);
+    } else {
+      if (ioctl(descriptor, FIONREAD, &present) != 0) return static_cast<ssize_t>(size);
+      const size_t most = static_cast<size_t>(present) < size ? static_cast<size_t>(present) : size;
+      if (most >= patience.least) return static_cast<ssize_t>(most);
+      if (patience.is_between_bytes && present > present_before) wait.until_ns = after(patience.length_ns);
+      present_before = present;
+      if (now_ns() >= wait.until_ns) return static_cast<ssize_t>(most);
+    }
+    if (wait_for(wait) == Woken::by_signal) {
+      errno = EINTR;
+      return -1;
+    }
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// Waits until a timer has expired. Returns false if a signal came.
+bool wait_for_timer(int descriptor) {
+  const int flags = fcntl(descriptor, F_GETFL);
+  if (flags < 0 || (flags & O_NONBLOCK) != 0) return true;
+  pollfd entry = {descriptor, POLLIN, 0};
+  return poll(&entry, 1, -1) >= 0;
+}
+
+}  // namespace
+
+UNDERSTUDY_EXPORT ssize_t read(int descriptor, void* place, size_t size) {
+  int number = -1;
+  Patience patience;
+  if (is_active() && is_timer(descriptor) && !wait_for_timer(descriptor)) return -1;
+  if (!is_active() || !take_patience(descriptor, size, &number, patience))
+    return UNDERSTUDY_REAL(read)(descriptor, place, size);
+  const ssize_t most = wait_for_bytes(descriptor, number, size, patience);
+  return most <= 0 ? most : UNDERSTUDY_REAL(read)(descriptor, place, static_cast<size_t>(most));
+}
+
+UNDERSTUDY_EXPORT ssize_t __read_chk(int descriptor, void* place, size_t size, size_t room) {
+  if (size > room) abort();
+  return read(descriptor, place, size);
+}
+
+UNDERSTUDY_EXPORT ssize_t readv(int descriptor, const iovec* parts, int count) {
+  size_t size = 0;
+  for (int i = 0; i < count; ++i) size += parts[i].iov_len;
+  int number = -1;
+  Patience patience;
+  if (is_active() && take_patience(descriptor, size, &number, patience)) {
+    const ssize_t most = wait_for_bytes(descriptor, number, size, patience);
+    if (most <= 0) return most;
+    for (int i = 0; i < count; ++i) {  // a part is less than asked for, as with any terminal
+      if (parts[i].iov_len > 0) {
+        const size_t part =
+            static_cast<size_t>(most) < parts[i].iov_len ? static_cast<size_t>(most) : parts[i].iov_len;
+        return UNDERSTUDY_REAL(read)(descriptor, parts[i].iov_base, part);
+      }
+    }
+  }
+  return UNDERSTUDY_REAL(readv)(descriptor, parts, count);
+}
+
+UNDERSTUDY_EXPORT int tcdrain(int descriptor) {
+  int number = -1;
+  if (!is_active() || !is_line(descriptor, &number)) return UNDERSTUDY_REAL(tcdrain)(descriptor);
+  Wait wait;
+  wait.add_line(number);
+  wait.is_for_drain = true;
+  wait.is_restartable = true;
+  if (wait_for(wait) != Woken::by_signal) return 0;
+  errno = EINTR;
+  return -1;
+}

@@ -1,0 +1,95 @@
+// The parts of the library that puts a host into simulated time. They run in another program's process, so
+// they use only libc, and must work before its `main`, in signal handlers and after a fork.
+#pragma once
+
+#include <dlfcn.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdint.h>
+#include <time.h>
+
+#include "pty/host_time/protocol.h"
+
+#define UNDERSTUDY_EXPORT extern "C" __attribute__((visibility("default")))
+
+namespace understudy::host_time {
+
+/// Returns the function that a host would call without this library.
+template <class Function>
+Function* real_function(Function*& found, const char* name) {
+  if (__builtin_expect(found == nullptr, 0)) found = reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+  return found;
+}
+/// real(poll)(...) calls libc's poll.
+#define UNDERSTUDY_REAL(name)                                    \
+  ([] {                                                          \
+    static decltype(::name)* found = nullptr;                    \
+    return ::understudy::host_time::real_function(found, #name); \
+  }())
+
+/// Returns true if this process lives in simulated time.
+bool is_active();
+
+int64_t now_ns();
+
+constexpr int64_t kBillion = 1'000'000'000;
+
+/// Returns what the clock shows at simulated time 0, or -1 if it is not a clock of time that passes.
+int64_t clock_begin_ns(clockid_t clock);
+timespec time_of(int64_t ns);
+/// Returns -1 if it is no time.
+int64_t ns_of(const timespec& time);
+int64_t ns_of(const timeval& time);
+/// now + length, or kNever.
+int64_t after(int64_t length_ns);
+
+/// Returns true if the descriptor is a line of the bench. `number` is that of its pseudo-terminal.
+bool is_line(int descriptor, int* number);
+
+enum class Woken : uint8_t { by_bench, by_descriptor, by_signal };
+
+/// What a thread waits for.
+struct Wait {
+  int64_t until_ns = kNever;
+  uint32_t line_count = 0;  // or kAnyLine
+  int32_t lines[kLinesInMessage] = {};
+  bool is_for_drain = false;
+  bool is_restartable = false;  // after a signal with SA_RESTART; without others and a mask
+  pollfd* others = nullptr;     // descriptors that are not lines: they wake it as well
+  nfds_t other_count = 0;
+  const sigset_t* mask = nullptr;  // of signals, while it waits
+
+  void add_line(int number) {
+    if (line_count < kLinesInMessage) {
+      lines[line_count++] = number;
+    } else {
+      line_count = kAnyLine;
+    }
+  }
+};
+
+/// Waits as the bench decides. by_bench: look again, it may have been the end or a line.
+Woken wait_for(const Wait& wait);
+
+/// Waits until simulated time `until_ns`. Returns false if a signal has ended it.
+bool sleep_until(int64_t until_ns);
+
+/// Waits while the word has this value, until simulated time `until_ns`: by_descriptor is then a wake by
+/// another thread. It may wake for nothing.
+Woken wait_on_word(uint32_t* word, uint32_t value, bool is_shared, int64_t until_ns);
+
+/// This thread waits for something outside of the bench, while time stands.
+void begin_outside();
+void end_outside();
+
+/// Tells the bench how a timer is set. It counts expirations in the descriptor, unless that is -1.
+void tell_timer(Message message, int descriptor);
+/// Returns true if the descriptor is one of timers.cpp's.
+bool is_timer(int descriptor);
+/// A child has none of its parent's.
+void forget_timers();
+
+/// Tells the bench of a new child process.
+void tell_child(int process);
+
+}  // namespace understudy::host_time

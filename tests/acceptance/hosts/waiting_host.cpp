@@ -1,0 +1,178 @@
+// A host of three threads that waits in every way that has an end. It prints for each how long it took, by
+// its own clock, and whether it ended as it should.
+#include <pthread.h>
+#include <semaphore.h>
+#include <signal.h>
+#include <sys/epoll.h>
+#include <sys/time.h>
+#include <sys/timerfd.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <semaphore>
+#include <thread>
+
+namespace {
+
+using std::chrono::milliseconds;
+using Clock = std::chrono::steady_clock;
+
+void tell(const char* name, const std::function<bool()>& is_as_it_should_be) {
+  const auto begin = Clock::now();
+  const bool is_good = is_as_it_should_be();
+  const auto length = std::chrono::duration_cast<milliseconds>(Clock::now() - begin).count();
+  std::printf("%s %lld %s\n", name, static_cast<long long>(length), is_good ? "good" : "WRONG");
+}
+
+timespec in(clockid_t clock, int seconds) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  time.tv_sec += seconds;
+  return time;
+}
+
+std::atomic<int> alarms = 0;
+void on_alarm(int) { ++alarms; }
+
+void install(int signal_number, int flags) {
+  struct sigaction action {};
+  action.sa_handler = on_alarm;
+  action.sa_flags = flags;
+  sigaction(signal_number, &action, nullptr);
+}
+
+void wait_for_each_other() {
+  std::mutex mutex;
+  std::condition_variable condition;
+  bool is_ready = false;
+  tell("condition-timeout", [&] {
+    std::unique_lock lock(mutex);
+    return !condition.wait_for(lock, milliseconds(2'500), [&] { return is_ready; });
+  });
+  std::thread other([&] {
+    std::this_thread::sleep_for(milliseconds(700));
+    const std::lock_guard lock(mutex);
+    is_ready = true;
+    condition.notify_all();
+  });
+  tell("condition-signal", [&] {
+    std::unique_lock lock(mutex);
+    return condition.wait_for(lock, milliseconds(2'500), [&] { return is_ready; });
+  });
+  other.join();
+  pthread_cond_t by_date = PTHREAD_COND_INITIALIZER;
+  pthread_mutex_t its_mutex = PTHREAD_MUTEX_INITIALIZER;
+  tell("condition-by-date", [&] {
+    const timespec end = in(CLOCK_REALTIME, 3);
+    pthread_mutex_lock(&its_mutex);
+    const int error = pthread_cond_timedwait(&by_date, &its_mutex, &end);
+    pthread_mutex_unlock(&its_mutex);
+    return error == ETIMEDOUT;
+  });
+  sem_t semaphore;
+  sem_init(&semaphore, 0, 0);
+  tell("semaphore-timeout", [&] {
+    const timespec end = in(CLOCK_REALTIME, 4);
+    return sem_timedwait(&semaphore, &end) == -1 && errno == ETIMEDOUT;
+  });
+  std::thread poster([&] {
+    std::this_thread::sleep_for(milliseconds(300));
+    sem_post(&semaphore);
+  });
+  tell("semaphore-post", [&] {
+    const timespec end = in(CLOCK_REALTIME, 4);
+    return sem_timedwait(&semaphore, &end) == 0;
+  });
+  poster.join();
+  std::timed_mutex locked;
+  locked.lock();
+  tell("mutex-timeout", [&] {
+    return std::async(std::launch::async, [&] { return !locked.try_lock_for(milliseconds(1'500)); }).get();
+  });
+  std::counting_semaphore<4> counting(0);
+  tell("counting-timeout", [&] { return !counting.try_acquire_for(milliseconds(1'200)); });
+  std::promise<int> promise;
+  std::thread keeper([&] {
+    std::this_thread::sleep_for(milliseconds(900));
+    promise.set_value(7);
+  });
+  tell("future", [&] {
+    std::future<int> future = promise.get_future();
+    return future.wait_for(milliseconds(400)) == std::future_status::timeout &&
+           future.wait_for(milliseconds(5'000)) == std::future_status::ready && future.get() == 7;
+  });
+  keeper.join();
+}
+
+void wait_for_timers() {
+  const int timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC);
+  itimerspec setting{{0, 250'000'000}, {1, 0}};
+  std::uint64_t count = 0;
+  timerfd_settime(timer, 0, &setting, nullptr);
+  tell("timerfd-read", [&] { return read(timer, &count, sizeof count) == 8 && count == 1; });
+  tell("timerfd-late", [&] {
+    std::this_thread::sleep_for(milliseconds(1'100));
+    return read(timer, &count, sizeof count) == 8 && count == 4;
+  });
+  const int epoll = epoll_create1(EPOLL_CLOEXEC);
+  epoll_event event{EPOLLIN, {}};
+  epoll_ctl(epoll, EPOLL_CTL_ADD, timer, &event);
+  tell("timerfd-epoll", [&] { return epoll_wait(epoll, &event, 1, 5'000) == 1; });
+  itimerspec rest{};
+  timerfd_gettime(timer, &rest);
+  tell("timerfd-rest", [&] { return rest.it_value.tv_nsec == 250'000'000; });
+  close(timer);
+  close(epoll);
+
+  install(SIGALRM, 0);
+  alarm(2);
+  tell("alarm-ends-sleep", [] { return sleep(10) == 8 && alarms == 1; });
+  itimerval fast{{0, 300'000}, {0, 300'000}};
+  setitimer(ITIMER_REAL, &fast, nullptr);
+  tell("itimer-three", [] {
+    while (alarms < 4) pause();
+    return true;
+  });
+  const itimerval none{};
+  setitimer(ITIMER_REAL, &none, nullptr);
+  tell("no-alarm-any-more", [] { return sleep(1) == 0 && alarms == 4; });
+
+  install(SIGUSR1, SA_RESTART);
+  sigevent notice{};
+  notice.sigev_notify = SIGEV_SIGNAL;
+  notice.sigev_signo = SIGUSR1;
+  timer_t posix{};
+  timer_create(CLOCK_REALTIME, &notice, &posix);
+  setting = {{0, 0}, {1, 500'000'000}};
+  timer_settime(posix, 0, &setting, nullptr);
+  tell("timer-ends-sleep", [] { return sleep(10) == 8 && alarms == 5; });
+  timer_delete(posix);
+}
+
+}  // namespace
+
+int main() {
+  std::atomic<bool> is_over = false;
+  std::atomic<int> beats = 0;
+  std::thread beating([&] {
+    while (!is_over) {
+      std::this_thread::sleep_for(milliseconds(10));
+      ++beats;
+    }
+  });
+  wait_for_each_other();
+  wait_for_timers();
+  is_over = true;
+  beating.join();
+  std::printf("beats %d\n", beats.load() / 100);
+  return 0;
+}
