@@ -45,7 +45,9 @@ documents=$installed/share/doc/understudy
 libraries=$tree/lib/understudy
 mkdir -p "$tree/bin" "$libraries" "$tree/licences"
 strip -o "$tree/bin/understudy" "$build/understudy"
-strip -o "$libraries/tty_shim.so" "$build/lib/understudy/tty_shim.so"
+for preloaded in tty_shim host_time; do
+  strip -o "$libraries/$preloaded.so" "$build/lib/understudy/$preloaded.so"
+done
 for part in understudy man bash-completion zsh fish; do
   mkdir -p "$tree/share"
   cp -R "$installed/share/$part" "$tree/share/"
