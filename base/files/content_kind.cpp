@@ -35,6 +35,7 @@ constexpr std::array kKinds{
     KindRow{ContentKind::page, "an HTML page", {"<!DOCTYPE html", "<!doctype html"}},
     KindRow{ContentKind::junit, "a file of JUnit results", {"<?xml", "<testsuite"}, "<testsuite"},
     KindRow{ContentKind::coverage, "a file of coverage", {"TN:", "SF:"}},
+    KindRow{ContentKind::coverage, "a file of coverage", {"{"}, "\"kind\":\"device-coverage\"", true},
     KindRow{ContentKind::coverage, "a file of coverage", {"<?xml", "<coverage"}, "<coverage"},
     KindRow{ContentKind::picture, "a picture", {"\x89PNG\r\n\x1a\n"}},
     KindRow{ContentKind::picture, "a picture", {"<?xml", "<svg"}, "<svg"},

@@ -57,7 +57,8 @@ struct ServeArguments {
   std::string record;
   std::string trace;  // a file: .csv or .vcd
   std::vector<std::string> trace_also;
-  std::string coverage;  // a file: .info or .xml
+  std::string coverage;         // a file: .info, .xml or .html
+  std::string device_coverage;  // a file: .json or .html
   bool lint = false;
   std::vector<std::string> listen;  // TCP addresses of lines
   bool no_pty = false;              // these lines have no pseudo-terminal
@@ -104,9 +105,19 @@ struct RunArguments {
   std::string failures;                // the folder for recordings of failures; empty: below /tmp
   std::string coverage;                // a file
   std::optional<double> coverage_min;  // per cent of the lines
+  std::string device_coverage;         // a file
   std::string version;                 // the version of this program
 };
 int run_scenarios(ModelList models, const RunArguments& arguments);
+
+struct CoverageArguments {
+  std::vector<std::string> files;  // tracefiles
+  std::string output;              // a file: .info, .xml or .html; empty: none
+  std::optional<double> min_percent;
+  std::string version;  // the version of this program
+};
+/// Adds the coverage of several runs.
+int add_coverage(const CoverageArguments& arguments);
 
 struct ReplayArguments {
   std::string recording;
@@ -142,6 +153,8 @@ struct ControlArguments {
   std::vector<std::string> operands;
   std::string within = "1h";  // simulated time, for `run-until`
   std::string trace;          // FILE.csv, for `scope`
+  std::string output;         // FILE.info, .xml or .html, for `coverage`
+  std::string version;        // the version of this program
 };
 int control(const ControlArguments& arguments);
 

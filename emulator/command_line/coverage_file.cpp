@@ -10,15 +10,19 @@
 
 #include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
+#include "base/files/file_error.h"
 #include "base/files/growing_file.h"
 #include "base/files/text_file.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/play/performing/observer.h"
+#include "emulator/play/report/coverage_page.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
+#include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/coverage/coverage_report.h"
 #include "emulator/world/coverage/program_coverage.h"
+#include "emulator/world/coverage/tracefile.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::command_line {
@@ -26,6 +30,7 @@ namespace understudy::emulator::command_line {
 namespace {
 
 bool is_xml(const std::string& path) { return path.ends_with(".xml"); }
+bool is_page(const std::string& path) { return path.ends_with(".html"); }
 
 /// Files that a scenario reads and that may be programs.
 std::vector<world::ProgramSource> sources_of(const play::Scenario& scenario) {
@@ -52,30 +57,25 @@ class CoverageObserver final : public play::Observer {
   CoverageFile& file_;
 };
 
-/// "3 of 4 lines (75.0 %)".
-std::string share_text(std::int64_t part, std::int64_t all, const char* what) {
-  char percent[32];
-  std::snprintf(percent, sizeof percent, "%.1f",
-                all == 0 ? 100.0 : 100.0 * static_cast<double>(part) / static_cast<double>(all));
-  return std::to_string(part) + " of " + std::to_string(all) + " " + what + " (" + percent + " %)";
-}
-
 }  // namespace
 
-void require_coverage(FileClaims& claims, const CoverageWish& wish) {
-  const bool is_known = wish.path.ends_with(".info") || is_xml(wish.path);
+void require_coverage(FileClaims& claims, const CoverageWish& wish, const std::string& flag) {
+  const bool is_known = wish.path.ends_with(".info") || is_xml(wish.path) || is_page(wish.path);
   if (!wish.path.empty() && !is_known) {
-    throw UsageError("--coverage: " + wish.path +
-                     " is not a kind of coverage; expected FILE.info (lcov) or FILE.xml (Cobertura)");
+    throw UsageError(flag + ": " + wish.path +
+                     " is not a kind of coverage; expected FILE.info (lcov), FILE.xml (Cobertura) or "
+                     "FILE.html (a page)");
   }
   if (wish.min_percent && !(*wish.min_percent >= 0 && *wish.min_percent <= 100)) {
     throw UsageError("--coverage-min: expected a percentage, 0 to 100");
   }
-  require_output(claims, "--coverage", wish.path);
+  require_output(claims, flag, wish.path);
 }
 
-CoverageFile::CoverageFile(const CoverageWish& wish)
-    : wish_(wish), file_("--coverage", wish.path, ContentKind::coverage) {}
+CoverageFile::CoverageFile(const CoverageWish& wish, const char* flag)
+    : wish_(wish),
+      flag_(flag),
+      file_(flag, wish.path, is_page(wish.path) ? ContentKind::page : ContentKind::coverage) {}
 
 void CoverageFile::add(const world::CoverageReport& report) {
   const std::lock_guard lock(mutex_);
@@ -88,22 +88,29 @@ play::ObserverMaker CoverageFile::observer(const play::Scenario& scenario) {
   };
 }
 
-bool CoverageFile::write(std::FILE* told) {
-  const world::CoverageTotals totals = report_.totals();
-  if (file_.is_wanted()) {
-    const std::filesystem::path folder = std::filesystem::path(wish_.path).parent_path();
-    world::CoverageReport placed;
-    for (auto& [path, file] : report_.files) {
-      const std::string place = file.listing.empty() ? path : (folder / path).string();
-      const bool is_new = !file.listing.empty() && read_text_file(place).value_or("") != file.listing;
-      const std::string why = is_new ? replace_text_file(place, file.listing, ContentKind::other) : "";
-      if (!why.empty()) throw GrowingFileError("--coverage: " + place + " cannot be written: " + why);
-      placed.files.emplace(place, std::move(file));
-    }
-    file_.write(is_xml(wish_.path) ? world::cobertura_text(placed) : world::lcov_text(placed));
+void CoverageFile::write_listings() {
+  const std::filesystem::path folder = std::filesystem::path(wish_.path).parent_path();
+  world::CoverageReport placed;
+  for (auto& [path, file] : report_.files) {
+    const std::string place = file.listing.empty() ? path : (folder / path).string();
+    const bool is_new = !file.listing.empty() && read_text_file(place).value_or("") != file.listing;
+    const std::string why = is_new ? replace_text_file(place, file.listing, ContentKind::other) : "";
+    if (!why.empty())
+      throw GrowingFileError(std::string(flag_) + ": " + place + " cannot be written: " + why);
+    placed.files.emplace(place, std::move(file));
   }
-  std::string line = "coverage of programs: " + share_text(totals.lines_run, totals.lines, "lines") + ", " +
-                     share_text(totals.branches_taken, totals.branches, "branches");
+  report_ = std::move(placed);
+}
+
+bool CoverageFile::write(std::FILE* told) {
+  if (file_.is_wanted()) {
+    write_listings();
+    file_.write(is_xml(wish_.path)    ? world::cobertura_text(report_)
+                : is_page(wish_.path) ? play::coverage_page(report_, wish_.version)
+                                      : world::lcov_text(report_));
+  }
+  const world::CoverageTotals totals = report_.totals();
+  std::string line = "coverage of programs: " + play::coverage_text(totals);
   const bool is_enough = !wish_.min_percent || totals.line_percent() >= *wish_.min_percent;
   if (!is_enough) {
     char least[32];
@@ -114,15 +121,71 @@ bool CoverageFile::write(std::FILE* told) {
   return is_enough;
 }
 
-ServedCoverage::ServedCoverage(const std::string& path, world::World& world)
-    : file_({.path = path, .min_percent = {}}) {
-  if (file_.is_wanted()) counts_ = std::make_unique<world::ProgramCoverage>(world);
+CoverageWish coverage_of(const RunArguments& arguments) {
+  return {.path = arguments.coverage, .min_percent = arguments.coverage_min, .version = arguments.version};
+}
+
+RunCoverage::RunCoverage(const RunArguments& arguments)
+    : programs(coverage_of(arguments)), devices(arguments.device_coverage, arguments.version) {}
+
+void RunCoverage::empty() {
+  programs.empty();
+  devices.empty();
+}
+
+std::vector<play::ObserverMaker> RunCoverage::observers(const play::Scenario& scenario) {
+  std::vector<play::ObserverMaker> makers;
+  if (programs.is_wanted()) makers.push_back(programs.observer(scenario));
+  if (devices.is_wanted()) makers.push_back(devices.observer());
+  return makers;
+}
+
+bool RunCoverage::write(std::FILE* told) {
+  const bool is_enough = !programs.is_wanted() || programs.write(told);
+  devices.write(told);
+  return is_enough;
+}
+
+std::string RunCoverage::section() const {
+  return programs.is_wanted() ? play::coverage_section(programs.report()) : "";
+}
+
+ServedCoverage::ServedCoverage(const ServeArguments& arguments, serve::Daemon& daemon)
+    : file_({.path = arguments.coverage, .min_percent = {}, .version = arguments.version}),
+      devices_file_(arguments.device_coverage, arguments.version) {
+  if (devices_file_.is_wanted()) devices_ = std::make_unique<world::ControllerCoverage>(daemon.world());
+  if (!file_.is_wanted()) return;
+  counts_ = std::make_unique<world::ProgramCoverage>(daemon.world());
+  daemon.observers().count_lines(daemon.world());
 }
 
 void ServedCoverage::write() {
-  if (counts_ == nullptr) return;
-  file_.add(counts_->report());
-  file_.write(stderr);
+  if (counts_ != nullptr) {
+    file_.add(counts_->report());
+    file_.write(stderr);
+  }
+  if (devices_ != nullptr) {
+    devices_file_.add(devices_->report());
+    devices_file_.write(stderr);
+  }
+}
+
+int add_coverage(const CoverageArguments& arguments) {
+  const CoverageWish wish{
+      .path = arguments.output, .min_percent = arguments.min_percent, .version = arguments.version};
+  FileClaims claims;
+  for (const std::string& file : arguments.files) claims.add({file, "a file to add"});
+  require_coverage(claims, wish, "--output");
+  CoverageFile sum(wish, "--output");
+  for (const std::string& path : arguments.files) {
+    const FileText text = read_text_file(path);
+    if (!text) throw FileError(path + ": " + text.why + "; expected a tracefile (FILE.info)");
+    if (const std::string why = is_another_kind(*text, ContentKind::coverage); !why.empty()) {
+      throw FileError(path + ": " + why);
+    }
+    sum.add(world::read_tracefile(*text, path));
+  }
+  return sum.write(stdout) ? kExitWell : kExitFailed;
 }
 
 }  // namespace understudy::emulator::command_line

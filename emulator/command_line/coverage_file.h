@@ -6,14 +6,18 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/files/file_claims.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/device_coverage_file.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/play/performing/observer.h"
 #include "emulator/play/scenario/scenario.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/coverage/controller_coverage.h"
 #include "emulator/world/coverage/coverage_report.h"
 #include "emulator/world/coverage/program_coverage.h"
-#include "emulator/world/world.h"
 
 namespace understudy::emulator::command_line {
 
@@ -21,18 +25,19 @@ namespace understudy::emulator::command_line {
 struct CoverageWish {
   std::string path;
   std::optional<double> min_percent;
+  std::string version{};  // of this program, for a page
 
   bool is_wanted() const { return !path.empty() || min_percent; }
 };
 
 /// Claims the file. Throws UsageError for a path that is no kind of coverage, and for a minimum that is no
-/// percentage.
-void require_coverage(FileClaims& claims, const CoverageWish& wish);
+/// percentage. `flag` is for messages.
+void require_coverage(FileClaims& claims, const CoverageWish& wish, const std::string& flag = "--coverage");
 
 class CoverageFile {
  public:
   /// Opens the file. Throws GrowingFileError.
-  explicit CoverageFile(const CoverageWish& wish);
+  explicit CoverageFile(const CoverageWish& wish, const char* flag = "--coverage");
 
   bool is_wanted() const { return wish_.is_wanted(); }
   /// Empties the file, so that its old content is not mistaken for the result of a run that breaks off.
@@ -44,26 +49,53 @@ class CoverageFile {
   /// Writes the file, and beside it the listings of programs that have no file of their own. Prints what has
   /// run. Returns false if that is less than the minimum.
   bool write(std::FILE* told);
+  /// Returns what was written.
+  const world::CoverageReport& report() const { return report_; }
 
  private:
+  void write_listings();
+
   const CoverageWish wish_;
+  const char* flag_;
   ResultFile file_;
   std::mutex mutex_;
   world::CoverageReport report_;
 };
 
-/// The same of a world that is served.
+/// Both kinds of coverage of a run.
+struct RunCoverage {
+  explicit RunCoverage(const RunArguments& arguments);
+
+  bool is_wanted() const { return programs.is_wanted() || devices.is_wanted(); }
+  void empty();
+  /// Returns onlookers that add the counts of a scenario's run.
+  std::vector<play::ObserverMaker> observers(const play::Scenario& scenario);
+  /// Returns false if there is less than the minimum.
+  bool write(std::FILE* told);
+  /// Returns what was written of programs as a section of a page; empty if nobody has asked for it.
+  std::string section() const;
+
+  CoverageFile programs;
+  DeviceCoverageFile devices;
+};
+/// Returns what a run is asked for.
+CoverageWish coverage_of(const RunArguments& arguments);
+
+/// Both kinds of a world that is served.
 class ServedCoverage {
  public:
-  /// Counts from this moment on, unless the path is empty. Throws GrowingFileError.
-  ServedCoverage(const std::string& path, world::World& world);
+  /// Counts from this moment on, unless the path is empty, and so does the control socket, whose clients may
+  /// begin their count again. Throws GrowingFileError.
+  ServedCoverage(const ServeArguments& arguments, serve::Daemon& daemon);
 
-  /// Writes the file, if there is one.
+  /// Writes the files that are asked for.
   void write();
 
  private:
   CoverageFile file_;
+  DeviceCoverageFile devices_file_;
   std::unique_ptr<world::ProgramCoverage> counts_;  // null: nobody has asked for it
+  std::unique_ptr<world::ControllerCoverage> devices_;
 };
 
 }  // namespace understudy::emulator::command_line

@@ -13,6 +13,7 @@
 #include "base/text/parse_real.h"
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/ctl_coverage.h"
 #include "emulator/command_line/ctl_looks.h"
 #include "emulator/command_line/ctl_scope.h"
 #include "emulator/command_line/text_argument.h"
@@ -338,6 +339,8 @@ int control(const ControlArguments& arguments) {
     } else if (!accepted) {
       std::fprintf(stderr, "understudy: ctl %s: %s\n", arguments.verb.c_str(),
                    one_line(why_refused(arguments, reply)).c_str());
+    } else if (!arguments.output.empty()) {
+      write_coverage(reply, arguments);
     } else if (print_look(reply)) {
     } else if (reply.contains("status")) {
       print_status(reply.at("status"));

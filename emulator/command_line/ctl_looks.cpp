@@ -11,6 +11,7 @@
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/ctl_coverage.h"
 #include "emulator/command_line/ctl_scope.h"
 
 namespace understudy::emulator::command_line {
@@ -50,6 +51,18 @@ std::optional<KeyedWord> keyed(const std::string& word) {
 void add_one_device(const ControlArguments& arguments, Json& message) {
   if (arguments.operands.size() > 1) throw extra_word(arguments);
   if (!arguments.operands.empty()) message["device"] = arguments.operands[0];
+}
+
+void add_coverage_words(const ControlArguments& arguments, Json& message) {
+  for (const std::string& word : arguments.operands) {
+    const char* const key = word == "again" ? "again" : "device";
+    if (message.contains(key)) throw stray_word(arguments, word, "one device, and again");
+    if (word == "again") {
+      message["again"] = true;
+    } else {
+      message["device"] = word;
+    }
+  }
 }
 
 void add_page_words(const ControlArguments& arguments, Json& message) {
@@ -244,6 +257,8 @@ bool add_look_words(const ControlArguments& arguments, Json& message) {
   const std::string& verb = arguments.verb;
   if (verb == "bench" || verb == "where" || verb == "stack" || verb == "choices") {
     add_one_device(arguments, message);
+  } else if (verb == "coverage") {
+    add_coverage_words(arguments, message);
   } else if (verb == "registers") {
     add_page_words(arguments, message);
   } else if (verb == "events") {
@@ -294,6 +309,8 @@ bool print_look(const Json& reply) {
     print_programs(reply.at("programs"));
   } else if (reply.contains("registers")) {
     print_registers(reply);
+  } else if (reply.contains("covered")) {
+    print_coverage(reply);
   } else if (reply.contains("next_frame")) {
     std::printf("frame %s\n", reply.at("next_frame").dump().c_str());
   } else {

@@ -64,6 +64,8 @@ inline constexpr std::array kControlWords{
                 "Number of events [200]"},
     ControlWord{"where", "Show which line a device's programs are at, and what they wait for", "DEVICE",
                 "Name of the device"},
+    ControlWord{"coverage", "Show which lines of the programs have run since the count began", "WHAT",
+                "DEVICE, and `again` to begin the count again"},
     ControlWord{"scope", "Record values at every tick around a moment", "WHAT",
                 "NAME..., when=CONDITION, before=1s, after=1s; off to disarm; without words, show the state"},
     ControlWord{"send", "Send a request on a line that no host has open", "WHAT",

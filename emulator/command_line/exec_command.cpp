@@ -185,7 +185,7 @@ int play(const ExecArguments& arguments, const Serving& serving, serve::PrivateF
          const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
   const auto timeout = timeout_of(arguments);
   serve::Daemon daemon(serving.bench, serving.options, log_line);
-  ServedCoverage coverage(arguments.serve.coverage, daemon.world());
+  ServedCoverage coverage(arguments.serve, daemon);
   for (const auto& port : daemon.ports()) {
     if (serving.group && port->terminal() != nullptr)
       serve::share_port(port->terminal()->path(), *serving.group);

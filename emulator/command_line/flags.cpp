@@ -38,6 +38,7 @@ struct CommandLine {
   ServeArguments serve;
   ExecArguments exec;
   RunArguments run;
+  CoverageArguments coverage;
   ReplayArguments replay;
   ControlArguments control;
   WatchArguments watched;
@@ -67,7 +68,7 @@ struct CommandLine {
     const char* help;
     void (CommandLine::*fill)(CLI::App& command);
   };
-  static const std::array<Command, 18> kCommands;
+  static const std::array<Command, 19> kCommands;
   static const std::array<Command, 3> kCommandsOfControl;  // the commands that are not a single message
   std::optional<Words> among_;
 
@@ -242,6 +243,10 @@ struct CommandLine {
                       "Write the recorded values to this file: FILE.csv, for `plot`")
           ->check(kNotEmpty);
     }
+    if (std::string_view(word.verb) == "coverage") {
+      control.version = UNDERSTUDY_VERSION;
+      command.add_option("-o,--output", control.output, kCoverageHelp)->check(kNotEmpty);
+    }
     if (std::string_view(word.verb) != "run-until") return;
     command.add_option("--within", control.within, "Give up after this much simulated time")
         ->capture_default_str();
@@ -272,6 +277,17 @@ struct CommandLine {
   void add_poll(CLI::App& command) {
     add_poll_flags(command, poll);
     command.callback([this] { chosen = [this] { return poll_port(models, poll); }; });
+  }
+
+  void add_coverage_sum(CLI::App& command) {
+    command.add_option("FILE", coverage.files, "Files that --coverage has written: FILE.info")->required();
+    command.add_option("-o,--output", coverage.output, kCoverageHelp)->check(kNotEmpty);
+    command.add_option("--coverage-min", coverage.min_percent,
+                       "Fail if fewer of the programs' lines have run, in per cent");
+    command.callback([this] {
+      coverage.version = UNDERSTUDY_VERSION;
+      chosen = [this] { return add_coverage(coverage); };
+    });
   }
 
   void add_plot(CLI::App& command) {
@@ -358,12 +374,13 @@ struct CommandLine {
 };
 
 // This is the order of `--help`.
-const std::array<CommandLine::Command, 18> CommandLine::kCommands{{
+const std::array<CommandLine::Command, 19> CommandLine::kCommands{{
     {"models", "List the models", &CommandLine::add_models},
     {"describe", "Print a model's tables", &CommandLine::add_describe},
     {"serve", "Emulate the devices of a bench, in the foreground", &CommandLine::add_serve},
     {"exec", "Run a command against a bench: exec BENCH -- COMMAND", &CommandLine::add_exec},
     {"run", "Run scenarios in simulated time", &CommandLine::add_run},
+    {"coverage", "Add the coverage of several runs", &CommandLine::add_coverage_sum},
     {"replay", "Replay a recording and compare every byte", &CommandLine::add_replay},
     {"ctl", "Inspect and control a running `serve`", &CommandLine::add_control},
     {"page", "Show running benches in a browser", &CommandLine::add_page},

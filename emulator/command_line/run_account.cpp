@@ -151,7 +151,9 @@ void RunAccount::finish() {
   for (const std::string& line : lint_findings_) std::fprintf(stderr, "lint: %s\n", line.c_str());
 }
 
-std::string RunAccount::report() const { return play::report_page(shown_, arguments_.version, &tally_); }
+std::string RunAccount::report(std::string_view programs) const {
+  return play::report_page(shown_, arguments_.version, &tally_, programs);
+}
 
 int RunAccount::exit_code() const {
   if (tally_.unreadable > 0) return kExitBadInput;

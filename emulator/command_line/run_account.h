@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/command_line/commands.h"
@@ -40,7 +41,8 @@ class RunAccount {
   void finish();
 
   play::Junit* junit() { return junit_ ? &*junit_ : nullptr; }
-  std::string report() const;
+  /// Returns the page. `programs` is a section on programs, or empty.
+  std::string report(std::string_view programs) const;
   int exit_code() const;
 
  private:

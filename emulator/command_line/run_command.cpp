@@ -21,6 +21,7 @@
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/coverage_file.h"
+#include "emulator/command_line/device_coverage_file.h"
 #include "emulator/command_line/findings.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
@@ -151,10 +152,6 @@ RunFolders folders_of(const RunArguments& arguments) {
           .trace_also = arguments.trace_also};
 }
 
-CoverageWish coverage_of(const RunArguments& arguments) {
-  return {.path = arguments.coverage, .min_percent = arguments.coverage_min};
-}
-
 /// Throws UsageError if a written file is also read, or is written twice. The order of scenarios does not
 /// matter.
 void require_own_files(Known& known, const RunArguments& arguments) {
@@ -172,6 +169,7 @@ void require_own_files(Known& known, const RunArguments& arguments) {
   if (arguments.junit != kStandardOutput) require_output(claims, "--junit", arguments.junit);
   require_output(claims, "--report", arguments.report);
   require_coverage(claims, coverage_of(arguments));
+  require_device_coverage(claims, arguments.device_coverage);
   for (const std::string& path : arguments.results) require_output(claims, "--results", path);
   require_folders(claims, folders_of(arguments));
   if (!known.trace_error.empty()) throw UsageError(known.trace_error);
@@ -198,16 +196,18 @@ void require_flags_that_agree(const RunArguments& arguments) {
   if (arguments.resume && arguments.results.empty()) {
     throw UsageError("--resume: expected --results FILE as well, which lists the cases that ran");
   }
-  if (arguments.resume && coverage_of(arguments).is_wanted()) {
+  const bool is_covered = coverage_of(arguments).is_wanted() || !arguments.device_coverage.empty();
+  if (arguments.resume && is_covered) {
     throw UsageError(
-        "--resume: leaves out cases, whose coverage would be missing; expected it without --coverage");
+        "--resume: leaves out cases, whose coverage would be missing; expected it without --coverage and "
+        "--device-coverage");
   }
 }
 
 /// Runs a scenario with its observers.
 class Stagehand {
  public:
-  Stagehand(const RunArguments& arguments, RunFiles& files, CoverageFile& coverage)
+  Stagehand(const RunArguments& arguments, RunFiles& files, RunCoverage& coverage)
       : arguments_(arguments), files_(files), coverage_(coverage) {
     // Rows of results contain the hash.
     options_.with_hash = arguments.hash || (!arguments.results.empty() && !arguments.real_time);
@@ -226,7 +226,7 @@ class Stagehand {
       // them.
       if (!arguments_.report.empty() && !scenario->which.is_varied) options.observers.push_back(run_logger());
       add(options, files_.observers(*scenario));
-      if (coverage_.is_wanted()) options.observers.push_back(coverage_.observer(*scenario));
+      add(options, coverage_.observers(*scenario));
       return play::run_scenario(*scenario, options);
     } catch (const FileError& error) {
       return {unreadable(reader, which_case, case_list, error)};
@@ -276,7 +276,7 @@ class Stagehand {
 
   const RunArguments& arguments_;
   RunFiles& files_;
-  CoverageFile& coverage_;
+  RunCoverage& coverage_;
   play::RunOptions options_{};
 };
 
@@ -298,7 +298,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   require_own_files(known, arguments);
   ResultFile junit("--junit", arguments.junit, ContentKind::junit);
   ResultFile report("--report", arguments.report, ContentKind::page);
-  CoverageFile coverage(coverage_of(arguments));
+  RunCoverage coverage(arguments);
   RunAccount account(arguments);
   RunFiles files(folders_of(arguments), std::move(known.claims), arguments.real_time, arguments.version);
   junit.empty();
@@ -341,9 +341,8 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   if (play::Junit* const results = account.junit()) {
     results->write([&](std::string_view piece) { junit.write(piece); });
   }
-  if (report.is_wanted()) report.write(account.report());
-  const bool is_enough =
-      !coverage.is_wanted() || coverage.write(arguments.junit == kStandardOutput ? stderr : stdout);
+  const bool is_enough = coverage.write(arguments.junit == kStandardOutput ? stderr : stdout);
+  if (report.is_wanted()) report.write(account.report(coverage.section()));
   const int code = account.exit_code();
   return code == kExitWell && !is_enough ? static_cast<int>(kExitFailed) : code;
 }

@@ -57,6 +57,7 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
   command.add_option("--coverage", run.coverage, kCoverageHelp)->check(kNotEmpty);
   command.add_option("--coverage-min", run.coverage_min,
                      "Fail if fewer of the programs' lines have run, in per cent");
+  command.add_option("--device-coverage", run.device_coverage, kDeviceCoverageHelp)->check(kNotEmpty);
   command.add_flag("--resume", run.resume, "Skip cases that have a row in the file of --results already");
   command
       .add_option("--failures", run.failures,

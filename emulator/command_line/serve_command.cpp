@@ -20,7 +20,7 @@ int serve(ModelList models, const ServeArguments& arguments) {
   const Serving serving = make_serving(models, arguments, "serve");
   signal(SIGPIPE, SIG_IGN);  // the reader of the log may end first
   serve::Daemon daemon(serving.bench, serving.options, log_line);
-  ServedCoverage coverage(arguments.coverage, daemon.world());
+  ServedCoverage coverage(arguments, daemon);
   for (const auto& port : daemon.ports()) {
     if (serving.group && port->terminal() != nullptr)
       serve::share_port(port->terminal()->path(), *serving.group);

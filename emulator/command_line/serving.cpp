@@ -19,6 +19,7 @@
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/coverage_file.h"
+#include "emulator/command_line/device_coverage_file.h"
 #include "emulator/command_line/findings.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/model_option.h"
@@ -248,6 +249,7 @@ Serving make_serving(ModelList models, const ServeArguments& arguments, const st
   options.record_path = require_recording(arguments.record, options.files);
   options.trace_path = require_trace(options.files, arguments.trace, arguments.trace_also);
   require_coverage(options.files, {.path = arguments.coverage, .min_percent = {}});
+  require_device_coverage(options.files, arguments.device_coverage);
   require_names(serving.bench, arguments.trace_also);
   options.trace_also = arguments.trace_also;
   options.version = arguments.version;

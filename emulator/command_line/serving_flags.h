@@ -31,7 +31,10 @@ inline constexpr const char* kTraceAlsoHelp =
 inline constexpr const char* kLintHelp = "At exit, report protocol violations by the host";
 inline constexpr const char* kCoverageHelp =
     "Write which lines of the controllers' programs have run to this file: FILE.info for lcov, FILE.xml for "
-    "Cobertura";
+    "Cobertura, or FILE.html";
+
+inline constexpr const char* kDeviceCoverageHelp =
+    "Write what was exercised of the devices, and what never was, to this file: FILE.json or FILE.html";
 
 /// Adds the flags that choose what is served: a bench, or a single device without one.
 inline void add_bench_flags(CLI::App& command, ServeArguments& serving) {
@@ -107,6 +110,7 @@ inline void add_running_flags(CLI::App& command, ServeArguments& serving) {
       ->check(kNotEmpty);
   command.add_option("--trace-also", serving.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
   command.add_option("--coverage", serving.coverage, kCoverageHelp)->check(kNotEmpty);
+  command.add_option("--device-coverage", serving.device_coverage, kDeviceCoverageHelp)->check(kNotEmpty);
   command.add_flag("--lint", serving.lint, kLintHelp);
 }
 

@@ -28,6 +28,8 @@ class CommandWindow {
  public:
   /// Returns the name of the window's first register in its row; it is a holding register.
   virtual std::string_view register_name() const = 0;
+  /// Returns the word in the areas of an instruction (InstructionRow) that hosts may send.
+  virtual std::string_view area() const = 0;
   /// Returns an example for messages: "MOVE X 1000".
   virtual std::string_view example() const = 0;
   /// Returns the message for a text of one line. Throws ProgramError. The device may still refuse the

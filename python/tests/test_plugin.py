@@ -78,6 +78,33 @@ def test_real_time_is_a_flag(pytester):
     pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--understudy-real-time").assert_outcomes(passed=1)
 
 
+COVERAGE_SUITE = """
+import pytest
+@pytest.mark.parametrize("level", [0, 1])
+def test_ways(bench_factory, level):
+    feeder = bench_factory("bench.yaml")
+    feeder.coverage()
+    feeder.input({"DIN_3": level})
+    feeder["PROG_MAIN_RunTime_START"] = 0
+    feeder.advance("100ms")
+    assert feeder.coverage()["totals"]["lines_run"] == 2 + level
+    assert feeder.coverage(again=True)["totals"]["lines_run"] == 0
+"""
+
+
+@pytest.mark.parametrize("workers", [(), ("-n", "2")], ids=["alone", "xdist"])
+def test_coverage_of_all_tests_is_one_file(pytester, workers):
+    pytester.makepyfile(COVERAGE_SUITE)
+    (pytester.path / "feed.lst").write_text("a:  Jump_IN_ON b DIN_3\n    END\nb:  Out DOUT_1 ON\n    END\n")
+    (pytester.path / "bench.yaml").write_text(
+        "understudy: 1\nlines: { a: { stations: [ { name: feeder, model: simple2-r3, program: feed.lst } ] } }\n")
+    result = pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--understudy-coverage", "c.info", *workers)
+    result.assert_outcomes(passed=2)
+    result.stdout.fnmatch_lines(["coverage of programs: 4 of 4 lines (100.0 %), 2 of 2 branches (100.0 %)"])
+    assert "DA:1,2" in (pytester.path / "c.info").read_text()
+    assert not list(pytester.path.glob("*-part-*"))
+
+
 CHOICE_SUITE = """
 import pytest
 CHOSEN = [{"choices": {"station_0_request": answer}} for answer in ("broadcast", "ignored")]

@@ -185,6 +185,11 @@ class Bench:
         """Returns where each program is, and what it waits for."""
         return cast(List[Dict[str, Any]], self.ask("where", **_of(device))["programs"])
 
+    def coverage(self, device: Optional[str] = None, again: bool = False) -> Dict[str, Any]:
+        """How often each line of each program has run since the count began: with the first call, or with `again`."""
+        reply = self.ask("coverage", **_of(device), **({"again": True} if again else {}))
+        return {key: reply[key] for key in ("since_ns", "totals", "covered")}
+
     def scope(self, *names: str, when: Optional[str] = None, before: Optional[str] = None,
               after: Optional[str] = None) -> Optional[Dict[str, Any]]:
         """Arms the oscilloscope for these names. Without names, returns its state, or None if it is off."""

@@ -2,9 +2,11 @@
 import contextlib
 import difflib
 import inspect
+import itertools
+import os
 import subprocess
 from pathlib import Path
-from typing import Any, Callable, Dict, Generator, List, Mapping
+from typing import Any, Callable, Dict, Generator, List, Mapping, Optional
 
 import pytest
 
@@ -14,15 +16,55 @@ from .daemon import program_path
 REPLAYED_WITHIN_S = 60.0
 KEPT = pytest.StashKey[List[Path]]()
 FAILED = pytest.StashKey[bool]()
+SUM = pytest.StashKey[str]()
+NUMBERS = itertools.count(1)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.getgroup("understudy").addoption("--understudy-real-time", action="store_true",
                                             help="benches run in real time, not by hand")
+    parser.getgroup("understudy").addoption("--understudy-coverage", metavar="FILE",
+                                            help="write which lines of the controllers' programs have run to this "
+                                                 "file: FILE.info for lcov, FILE.xml for Cobertura, or FILE.html")
 
 
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "understudy(bench=None, **arguments): what the fixture `bench` starts")
+
+
+def part_of_coverage(config: pytest.Config, number: str) -> Optional[Path]:
+    """The file of one bench, beside the sum; None where nobody asked for one."""
+    wanted = config.getoption("--understudy-coverage")
+    if not wanted:
+        return None
+    whole = Path(config.invocation_params.dir, wanted)
+    return whole.with_name(f"{whole.name}-part-{number}.info")
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Adds up what the benches of all tests, and of all workers of pytest-xdist, have written."""
+    pattern = part_of_coverage(session.config, "*")
+    if pattern is None or hasattr(session.config, "workerinput"):
+        return
+    parts = sorted(str(part) for part in pattern.parent.glob(pattern.name))
+    if not parts:
+        session.config.stash[SUM] = "coverage of programs: no test has started a bench"
+        return
+    program = os.environ.get("UNDERSTUDY_PROGRAM") or "understudy"
+    whole = str(Path(session.config.invocation_params.dir, session.config.getoption("--understudy-coverage")))
+    done = subprocess.run([program, "coverage", *parts, "--output", whole], stdin=subprocess.DEVNULL,
+                          capture_output=True, text=True, errors="replace", check=False)
+    session.config.stash[SUM] = (done.stdout + done.stderr).strip()
+    if done.returncode != 0:
+        session.exitstatus = pytest.ExitCode.INTERNAL_ERROR
+        return
+    for part in parts:
+        os.unlink(part)
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    if SUM in config.stash:
+        terminalreporter.write_line(config.stash[SUM])
 
 
 @pytest.hookimpl(hookwrapper=True)  # type: ignore[misc]
@@ -77,7 +119,9 @@ def bench_factory(request: pytest.FixtureRequest, tmp_path: Path) -> Generator[C
         if "record" not in arguments:
             kept.append(folder)
         settings: Dict[str, Any] = {"speed": speed, "record": str(folder / "understudy.rec"), **arguments}
-        made = start(bench, *flags, **settings)
+        part = part_of_coverage(request.config, f"{os.getpid()}-{next(NUMBERS)}")
+        counted = () if part is None or "--coverage" in flags else ("--coverage", str(part))
+        made = start(bench, *flags, *counted, **settings)
         benches.append(made)
         return made
 

@@ -123,5 +123,91 @@ TEST(Coverage, LcovAddsShardsToWhatOneRunSays) {
       << finished.output;
 }
 
+TEST(Coverage, OwnSumIsWhatOneRunSays) {
+  const Project project;
+  const Finished finished = project.sh(
+      "set -e\n"
+      "$UNDERSTUDY run one.yaml two.yaml --coverage all.info\n"
+      "$UNDERSTUDY run one.yaml two.yaml --shard 1/2 --coverage a.info\n"
+      "$UNDERSTUDY run one.yaml two.yaml --shard 2/2 --coverage b.info\n"
+      "$UNDERSTUDY coverage a.info b.info --output sum.info\n"
+      "$UNDERSTUDY coverage a.info b.info --output sum.html --coverage-min 100\n");
+  EXPECT_EQ(finished.exit_code, 0) << finished.output << finished.errors;
+  EXPECT_EQ(project.file("sum.info"), project.file("all.info"));
+  EXPECT_NE(project.file("sum.html").find("6 of 6 lines (100.0 %), 3 of 4 branches (75.0 %)"),
+            std::string::npos);
+  EXPECT_EQ(project.sh("$UNDERSTUDY coverage a.info --coverage-min 90").exit_code, 1);
+}
+
+TEST(Coverage, SumOfWhatIsNoTracefileIsRefused) {
+  const Project project;
+  project.folder.write("broken.info", "TN:\nSF:feed.lst\nDA:one,1\n");
+  struct Case {
+    const char* words;
+    const char* errors;
+  };
+  constexpr Case kCases[] = {
+      {"broken.info", "broken.info:3: 'one,1' is not understood; expected a line's number\n"},
+      {"bench.yaml", "bench.yaml: is a bench; expected a file of coverage\n"},
+      {"none.info", "none.info: does not exist; expected a tracefile (FILE.info)\n"},
+      {"broken.info -o broken.info", "understudy: --output: broken.info: is a file to add\n"},
+      {"broken.info -o sum.txt",
+       "understudy: --output: sum.txt is not a kind of coverage; expected FILE.info (lcov), FILE.xml "
+       "(Cobertura) or FILE.html (a page)\n"},
+  };
+  for (const Case& one : kCases) {
+    const Finished finished = project.sh("$UNDERSTUDY coverage " + std::string(one.words));
+    EXPECT_EQ(finished.exit_code, 2) << one.words;
+    EXPECT_EQ(finished.errors, one.errors) << one.words;
+  }
+}
+
+TEST(Coverage, IsPartOfTheReportPage) {
+  const Project project;
+  EXPECT_EQ(project.sh("$UNDERSTUDY run one.yaml --report r.html --coverage c.html").exit_code, 0);
+  for (const char* page : {"r.html", "c.html"}) {
+    EXPECT_NE(project.file(page).find("<tr class=\"missed\"><td class=\"time dim\">5</td>"),
+              std::string::npos)
+        << page;
+  }
+}
+
+TEST(Coverage, OfARunningServeIsShownAndWritten) {
+  const Project project;
+  const Finished finished = project.sh(
+      "$UNDERSTUDY exec bench.yaml --speed manual -- sh -ec '"
+      "$UNDERSTUDY ctl coverage\n"
+      "$UNDERSTUDY ctl set feeder.PROG_MAIN_RunTime_START=0\n$UNDERSTUDY ctl advance 50ms\n"
+      "$UNDERSTUDY ctl coverage feeder --output c.info\n"
+      "$UNDERSTUDY ctl coverage\n$UNDERSTUDY ctl coverage again'");
+  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  const auto line = [](int lines, const char* percent, int branches, const char* of, const char* left) {
+    return "feed.lst: " + std::to_string(lines) + " of 6 lines (" + percent + " %), " +
+           std::to_string(branches) + " of 4 branches (" + of + " %); not run: " + left + "\n";
+  };
+  EXPECT_NE(finished.output.find(line(0, "0.0", 0, "0.0", "1-6")), std::string::npos) << finished.output;
+  EXPECT_NE(finished.output.find(line(1, "16.7", 1, "25.0", "2-6")), std::string::npos) << finished.output;
+  EXPECT_NE(finished.output.find("since 50ms: 0 of 6 lines"), std::string::npos) << finished.output;
+  EXPECT_NE(project.file("c.info").find("DA:1,1\nDA:2,0\n"), std::string::npos) << project.file("c.info");
+}
+
+TEST(DeviceCoverage, TellsWhatNoTestHasTouched) {
+  const Project project;
+  const Finished finished = project.sh("$UNDERSTUDY run one.yaml two.yaml --device-coverage d.json");
+  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  EXPECT_NE(finished.output.find("\ncoverage of simple2-r3: bits "), std::string::npos) << finished.output;
+  EXPECT_NE(finished.output.find("\n  simple2-r3: bits: STATUS.A_alarm: never read as 1\n"),
+            std::string::npos)
+      << finished.output;
+  EXPECT_NE(project.file("d.json").find("\"kind\": \"device-coverage\""), std::string::npos);
+  // The file may be written again, and whoever runs the cases, it is the same.
+  const std::string first = project.file("d.json");
+  EXPECT_EQ(project.sh("$UNDERSTUDY run two.yaml one.yaml --jobs 3 --device-coverage d.json").exit_code, 0);
+  EXPECT_EQ(project.file("d.json"), first);
+  EXPECT_EQ(project.sh("$UNDERSTUDY run one.yaml --device-coverage d.html").exit_code, 0);
+  EXPECT_NE(project.file("d.html").find("Never touched, the worst first"), std::string::npos);
+  EXPECT_EQ(project.sh("$UNDERSTUDY run one.yaml --device-coverage d.info").exit_code, 2);
+}
+
 }  // namespace coverage_test
 }  // namespace understudy::acceptance

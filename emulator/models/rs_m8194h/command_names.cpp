@@ -39,6 +39,7 @@ lang::CommandOptions options_of(const WindowForm& form) {
 class CommandNames final : public CommandWindow {
  public:
   std::string_view register_name() const override { return "Sub_Function_Code"; }
+  std::string_view area() const override { return "RTC"; }
   std::string_view example() const override { return "RSM_FIXED_MOVE XYZU 10000"; }
 
   std::vector<std::uint16_t> words_of(std::string_view text, const WindowForm& form) const override {

@@ -209,7 +209,8 @@ std::string body_of(const ScenarioResult& result) {
 
 }  // namespace
 
-std::string report_page(std::span<const ScenarioResult> results, std::string_view version, const Tally* all) {
+std::string report_page(std::span<const ScenarioResult> results, std::string_view version, const Tally* all,
+                        std::string_view programs) {
   const std::string summary = xml_escaped(all != nullptr ? summary_line(*all) : summary_line(results));
   const std::uint64_t count = all != nullptr ? all->passed + all->failed + all->not_reached : results.size();
   std::string page =
@@ -234,7 +235,7 @@ std::string report_page(std::span<const ScenarioResult> results, std::string_vie
             xml_escaped(result.file) + ", " + format_duration(result.simulated) + "</span></summary>\n" +
             body_of(result) + "</details>\n";
   }
-  return page + "</main>\n<footer>understudy " + xml_escaped(version) +
+  return page + std::string(programs) + "</main>\n<footer>understudy " + xml_escaped(version) +
          "; times are simulated</footer>\n<script>" + std::string(kPageScript) +
          "</script>\n</body>\n</html>\n";
 }

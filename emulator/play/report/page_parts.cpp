@@ -53,6 +53,12 @@ td.time, th.time { text-align: right; white-space: nowrap; }
 .frames { margin: 2px 0 6px; width: auto; }
 .frames td { border: 0; padding: 0 12px 0 0; font-size: 12.5px; }
 .frames code.dim { margin-left: 10px; }
+.covered td { border: 0; padding: 0 12px 0 0; }
+.covered th { padding-right: 12px; }
+.covered .outcomes { white-space: nowrap; font-size: 12.5px; }
+.covered td:last-child, .programs td:first-child { width: 100%; }
+.covered tr.missed > td { background: var(--bad-card); }
+.programs th[colspan] { text-align: right; }
 .scene { position: relative; }
 .scroll { overflow-x: auto; }
 .scroll > table { min-width: 560px; }

@@ -35,6 +35,9 @@ ReplyTask events_message(Daemon& daemon, Json message);
 std::string_view state_word(ProgramLocation::State state);
 /// {"do":"where","device":"feeder"}: the positions of its programs.
 Json where_message(Daemon& daemon, const Json& message);
+/// {"do":"coverage","device":"feeder"}: which lines of programs have run since the count began; it begins
+/// with the first message, and again with "again":true.
+ReplyTask coverage_message(Daemon& daemon, Json message);
 /// {"do":"speed","to":"0.5"}
 Json speed_message(Daemon& daemon, const Json& message);
 /// {"do":"scope","names":[...],"condition":"...","before":"1s","after":"1s"} arms the scope; without names

@@ -36,7 +36,7 @@ struct Verb {
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
   ReplyTask (*tell)(Daemon& daemon, Json message) = nullptr;
 };
-constexpr std::array<Verb, 36> kVerbs{{{"status", nullptr, nullptr, status_message},
+constexpr std::array<Verb, 37> kVerbs{{{"status", nullptr, nullptr, status_message},
                                        {"identify", identify_message},
                                        {"get", nullptr, nullptr, get_message},
                                        {"eval", eval_message},
@@ -63,6 +63,7 @@ constexpr std::array<Verb, 36> kVerbs{{{"status", nullptr, nullptr, status_messa
                                        {"faults", nullptr, nullptr, faults_message},
                                        {"events", nullptr, nullptr, events_message},
                                        {"where", where_message},
+                                       {"coverage", nullptr, nullptr, coverage_message},
                                        {"scope", nullptr, nullptr, scope_message},
                                        {"send", send_message},
                                        {"snapshots", snapshots_message},

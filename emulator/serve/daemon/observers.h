@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "base/simulated_time.h"
+#include "emulator/world/coverage/program_coverage.h"
 #include "emulator/world/debug/debugger.h"
 #include "emulator/world/events/event_log.h"
 #include "emulator/world/frames/frame_log.h"
@@ -27,6 +29,13 @@ struct Observers {
   std::uint64_t restores =
       0;  // how often the world was put into another state, which makes earlier reports invalid
   world::LookedNames names;
+  /// Which lines of programs have run since a moment; null: nobody counts them.
+  std::unique_ptr<world::ProgramCoverage> coverage;
+  SimTime counted_since{0};
+  void count_lines(world::World& world) {
+    coverage = std::make_unique<world::ProgramCoverage>(world);
+    counted_since = world.now();
+  }
   std::unique_ptr<world::Scope> scope;  // null: not armed
   world::Debugger debugger;
   struct Kept {

@@ -1,5 +1,6 @@
 #include "emulator/world/coverage/program_coverage.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -79,7 +80,7 @@ void add_part(CoveredLines& lines, const ProgramPart& part, const std::vector<Li
 class ProgramCoverage::DeviceCounts final : public ProgramWatch {
  public:
   explicit DeviceCounts(Device& device) : device_(device) {
-    program_ = &present();
+    present();
     device_.user_program()->add_watch(*this);
   }
   ~DeviceCounts() override { device_.user_program()->remove_watch(*this); }
@@ -88,24 +89,37 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
 
   void look(std::uint64_t mark) override {
     if (mark == mark_) return;
-    const auto [known, is_new] = by_mark_.try_emplace(mark);
-    if (is_new) known->second = &present();
     mark_ = mark;
-    program_ = known->second;
+    program_ = nullptr;
   }
   void runs(int part, int line, std::int64_t times) override {
-    if (LineCounts* const counts = program_->find(part, line)) counts->runs += times;
+    if (LineCounts* const counts = program().find(part, line)) counts->runs += times;
   }
   void decides(int part, int line, bool outcome, std::int64_t times) override {
-    LineCounts* const counts = program_->find(part, line);
+    LineCounts* const counts = program().find(part, line);
     if (counts != nullptr) (outcome ? counts->yes : counts->no) += times;
+  }
+
+  std::map<std::string, CoveredLine> by_first_word() const {
+    std::map<std::string, CoveredLine> words;
+    for (const auto& [text, program] : programs_) {
+      for (std::size_t i = 0; i < program->parts.size(); ++i) {
+        for (std::size_t l = 0; l < program->parts[i].lines.size(); ++l) {
+          const ProgramLine& line = program->parts[i].lines[l];
+          const LineCounts& counts = program->counts[i][l];
+          words[line.code.substr(0, line.code.find(' '))].add(
+              {.runs = counts.runs, .decides = line.decides, .yes = counts.yes, .no = counts.no});
+        }
+      }
+    }
+    return words;
   }
 
   CoverageReport report(const std::vector<ProgramSource>& sources) {
     present();  // even if it has never run
     std::vector<std::pair<std::string, std::vector<ProgramPart>>> known;
     const DeviceSettings& settings = device_.settings();
-    if (!is_inline(settings)) known.emplace_back(settings.program_name, parts_of(settings.program));
+    if (!settings.program_name.empty()) known.emplace_back(settings.program_name, parts_of(settings.program));
     for (const ProgramSource& source : sources) {
       if (source.path != settings.program_name) known.emplace_back(source.path, parts_of(source.text));
     }
@@ -119,11 +133,18 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
   }
 
  private:
-  static bool is_inline(const DeviceSettings& settings) {
-    return settings.program.empty() || settings.program_name == settings.name + ".program";
-  }
   std::vector<ProgramPart> parts_of(const std::string& text) const {
     return device_.model().language->parts(text, device_.settings());
+  }
+
+  /// The counts of the program that runs. One that is looked at and never runs, such as one that a host is
+  /// writing line by line, gets none.
+  CountedProgram& program() {
+    if (program_ != nullptr) return *program_;
+    CountedProgram*& known = by_mark_[*mark_];
+    if (known == nullptr) known = &present();
+    program_ = known;
+    return *program_;
   }
 
   /// The counts of the program that the device has now.
@@ -145,7 +166,10 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
         has_file = true;
       }
     }
-    if (has_file || part.lines.empty()) return;
+    // Lines that no listing shows, such as those behind the end, are no program.
+    const bool is_shown = std::any_of(part.lines.begin(), part.lines.end(),
+                                      [](const ProgramLine& line) { return line.text_line > 0; });
+    if (has_file || !is_shown) return;
     CoveredFile& file = report.files[name_of_listing(text)];
     file.listing = text;
     add_part(file.lines, part, counts);
@@ -164,7 +188,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
   std::map<std::string, std::unique_ptr<CountedProgram>> programs_;  // by text
   std::map<std::uint64_t, CountedProgram*> by_mark_;
   std::optional<std::uint64_t> mark_;  // of the program that runs
-  CountedProgram* program_ = nullptr;
+  CountedProgram* program_ = nullptr;  // its counts, as soon as a line has run
 };
 
 ProgramCoverage::ProgramCoverage(World& world) {
@@ -186,6 +210,11 @@ CoverageReport ProgramCoverage::report(const std::vector<ProgramSource>& sources
 CoverageReport ProgramCoverage::report_of(std::size_t device,
                                           const std::vector<ProgramSource>& sources) const {
   return devices_[device] == nullptr ? CoverageReport{} : devices_[device]->report(sources);
+}
+
+std::map<std::string, CoveredLine> ProgramCoverage::by_first_word(std::size_t device) const {
+  return devices_[device] == nullptr ? std::map<std::string, CoveredLine>{}
+                                     : devices_[device]->by_first_word();
 }
 
 }  // namespace understudy::emulator::world

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ class ProgramCoverage {
   /// that is read back from the device.
   CoverageReport report(const std::vector<ProgramSource>& sources = {}) const;
   CoverageReport report_of(std::size_t device, const std::vector<ProgramSource>& sources = {}) const;
+  /// Returns the counts of a device's instructions, by the first word of their code.
+  std::map<std::string, CoveredLine> by_first_word(std::size_t device) const;
 
  private:
   class DeviceCounts;

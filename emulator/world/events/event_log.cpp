@@ -20,7 +20,7 @@
 #include "emulator/world/expression/number.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/frames/frame_log.h"
-#include "emulator/world/stations/server.h"
+#include "emulator/world/speech/modbus_request.h"
 #include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
 #include "pty/capture.h"
@@ -32,40 +32,6 @@ namespace {
 constexpr std::size_t kFramesAtOnce = 256;
 
 std::string real_text(double value) { return number_text(finite_number(value)); }
-
-/// A request that writes: its table, its first address and its words.
-struct WriteRequest {
-  Table table = Table::holding;
-  std::uint16_t first = 0;
-  std::vector<std::uint16_t> words{};
-};
-
-std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t place) {
-  return static_cast<std::uint16_t>(bytes[place] << 8U | bytes[place + 1]);
-}
-
-std::optional<WriteRequest> parse_write(std::span<const std::uint8_t> pdu) {
-  if (pdu.size() < 5) return std::nullopt;
-  for (const FunctionRow& row : kModbusFunctions) {
-    if (row.code != pdu[0] || row.kind == FunctionRow::Kind::read) continue;
-    WriteRequest request{.table = row.table, .first = word_at(pdu, 1)};
-    const bool are_bits = is_table_of_bits(row.table);
-    if (row.kind == FunctionRow::Kind::write_one) {
-      const std::uint16_t word = word_at(pdu, 3);
-      request.words.push_back(are_bits ? static_cast<std::uint16_t>(word != 0) : word);
-      return request;
-    }
-    const std::size_t count = word_at(pdu, 3);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t place = 6 + (are_bits ? i / 8 : i * 2);
-      if (place + (are_bits ? 0 : 1) >= pdu.size()) return std::nullopt;
-      request.words.push_back(are_bits ? static_cast<std::uint16_t>(pdu[place] >> i % 8 & 1)
-                                       : word_at(pdu, place));
-    }
-    return request;
-  }
-  return std::nullopt;
-}
 
 }  // namespace
 
@@ -210,8 +176,8 @@ void EventLog::add_writes(const FrameLog::Told& request, SimTime at) {
     for (const auto& station : line.stations) {
       const Device& device = station->device();
       if (request.bytes[0] != 0 && device.station_number() != int{request.bytes[0]}) continue;
-      const auto write = parse_write(request.bytes.subspan(1, request.bytes.size() - 3));
-      if (!write) return;
+      const auto write = parse_request(request.bytes.subspan(1, request.bytes.size() - 3));
+      if (!write || !write->is_write()) return;
       for (WrittenRegister& one : written_registers(device, write->table, write->first, write->words)) {
         add({.time = at,
              .what = "write",

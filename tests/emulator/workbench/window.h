@@ -19,6 +19,7 @@ namespace understudy::emulator::workbench {
 class MoveWindow final : public CommandWindow {
  public:
   std::string_view register_name() const override { return "Command0"; }
+  std::string_view area() const override { return "WINDOW"; }
   std::string_view example() const override { return "MOVE X 1000"; }
 
   std::vector<std::uint16_t> words_of(std::string_view text, const WindowForm& form) const override {

@@ -1,0 +1,19 @@
+// What a suite has exercised of the devices, for people.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "emulator/world/coverage/touched.h"
+
+namespace understudy::emulator::play {
+
+/// Returns an HTML page that needs neither files nor a network: what no run has touched, the worst first,
+/// and then the tables of each model with their counts. Equal reports make equal pages.
+std::string touched_page(const world::TouchedReport& report, std::string_view version);
+
+/// Returns a line for each model and for the worst gaps:
+/// "coverage of simple2-r3: bits 12 of 40, registers 30 of 412".
+std::string touched_text(const world::TouchedReport& report);
+
+}  // namespace understudy::emulator::play

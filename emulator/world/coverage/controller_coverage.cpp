@@ -1,0 +1,230 @@
+#include "emulator/world/coverage/controller_coverage.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/world/coverage/device_touches.h"
+#include "emulator/world/coverage/program_coverage.h"
+#include "emulator/world/coverage/touched.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/faults/kinds.h"
+#include "emulator/world/outside.h"
+#include "emulator/world/speech/modbus_request.h"
+#include "emulator/world/view/world_view.h"
+#include "emulator/world/world.h"
+#include "pty/capture.h"
+#include "pty/capture_frames.h"
+#include "pty/line_observer.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+constexpr std::size_t kChecksumBytes = 2;
+constexpr std::uint8_t kExceptionBit = 0x80;
+
+bool is_moving(const Device& device) {
+  const Axes* const axes = device.axes();
+  for (std::size_t i = 0; axes != nullptr && i < device.model().axes.size(); ++i) {
+    const int axis = static_cast<int>(i);
+    if (axes->has_axis(axis) && axes->speed_pps(axis) != 0) return true;
+  }
+  return false;
+}
+
+std::string_view without_ends(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  const std::size_t begin = text.find_first_not_of(kSpace);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kSpace) + 1 - begin);
+}
+
+}  // namespace
+
+class ControllerCoverage::Counting final : private OutsideListener {
+ public:
+  explicit Counting(World& world) : world_(world), programs_(world) {
+    for (std::size_t d = 0; d < world.device_count(); ++d) devices_.emplace_back(world.device(d));
+    watch();
+    world_.add_listener(*this);
+  }
+  ~Counting() override {
+    world_.remove_listener(*this);
+    ignore();
+  }
+  Counting(const Counting&) = delete;
+  Counting& operator=(const Counting&) = delete;
+
+  TouchedReport report() const {
+    TouchedReport report;
+    for (std::size_t d = 0; d < devices_.size(); ++d) {
+      TouchedReport one;
+      one.models[std::string(world_.device(d).model().name)] = devices_[d].tables(programs_.by_first_word(d));
+      report.add(one);
+    }
+    return report;
+  }
+
+  void watch_anew() {
+    ignore();
+    watch();
+  }
+
+ private:
+  /// What acts on messages, and the last one that a host has sent.
+  struct Line {
+    std::unique_ptr<pty::CaptureFrames> packets;
+    std::vector<std::uint8_t> request{};
+  };
+
+  /// Faults of messages are told by the line, with the names of their kinds.
+  class Strikes final : public pty::LineObserver {
+   public:
+    Strikes(Counting& counting, std::size_t line) : counting_(counting), line_(line) {}
+    void on_start_bit(SimTime /*at*/) override {}
+    void on_character(const pty::TimedByte& /*character*/, bool /*is_heard*/) override {}
+    void on_nothing_more() override {}
+    void on_speech(const pty::Speech& /*speech*/) override {}
+    void on_strike(const pty::StruckMessage& message) override { counting_.struck(line_, message); }
+    std::optional<SimTime> due() const override { return std::nullopt; }
+    void run(SimTime /*now*/) override {}
+
+   private:
+    Counting& counting_;
+    std::size_t line_;
+  };
+
+  void watch() {
+    for (std::size_t l = 0; l < world_.line_count(); ++l) {
+      lines_.push_back(
+          {world_.line(l).packets(l, [this](const pty::CapturedPacket& packet) { take(packet); })});
+      strikes_.push_back(std::make_unique<Strikes>(*this, l));
+      world_.add_observer(l, *lines_[l].packets);
+      world_.add_observer(l, *strikes_[l]);
+    }
+  }
+  void ignore() {
+    for (std::size_t l = 0; l < lines_.size(); ++l) {
+      world_.remove_observer(l, *lines_[l].packets);
+      world_.remove_observer(l, *strikes_[l]);
+    }
+    lines_.clear();
+    strikes_.clear();
+  }
+
+  template <class Act>
+  void for_devices_on(std::size_t line, Act act) {
+    for (const auto& station : world_.line(line).stations) {
+      for (std::size_t d = 0; d < devices_.size(); ++d) {
+        if (&world_.device(d) == &station->device()) act(station->device(), devices_[d]);
+      }
+    }
+  }
+
+  // --- what goes over the lines --------------------------------------------------------------------
+
+  void take(const pty::CapturedPacket& packet) {
+    if (packet.bytes.empty() || packet.remark == pty::Remark::wrong_checksum ||
+        packet.remark == pty::Remark::incomplete || packet.remark == pty::Remark::not_a_frame ||
+        packet.remark == pty::Remark::unheard) {
+      return;
+    }
+    if (packet.is_text) return take_text(packet);
+    Line& line = lines_[packet.line];
+    if (packet.way == pty::Way::from_host) {
+      line.request.assign(packet.bytes.begin(), packet.bytes.end());
+      if (line.request[0] == 0) take_reply(packet.line, {});
+      return;
+    }
+    if (!line.request.empty() && line.request[0] == packet.bytes[0]) take_reply(packet.line, packet.bytes);
+  }
+
+  /// The reply to the last request; without bytes of one that nobody replies to.
+  void take_reply(std::size_t number, std::span<const std::uint8_t> reply) {
+    const std::vector<std::uint8_t> request = std::exchange(lines_[number].request, {});
+    if (request.size() <= 1 + kChecksumBytes) return;
+    const auto parsed = parse_request(std::span(request).subspan(1, request.size() - 1 - kChecksumBytes));
+    if (!parsed) return;
+    for_devices_on(number, [&](const Device& device, DeviceTouches& touches) {
+      if (request[0] != 0 && device.station_number() != int{request[0]}) return;
+      const bool is_exception = reply.size() >= 3 && (reply[1] & kExceptionBit) != 0;
+      if (is_exception) return touches.refused(*parsed, reply[2]);
+      const bool has_data = reply.size() > 3 + kChecksumBytes && !parsed->is_write();
+      touches.answered(*parsed, has_data ? reply.subspan(3, reply.size() - 3 - kChecksumBytes)
+                                         : std::span<const std::uint8_t>());
+    });
+  }
+
+  /// A command counts as accepted if the next answer does not refuse it, or if another command follows.
+  void take_text(const pty::CapturedPacket& packet) {
+    Line& line = lines_[packet.line];
+    const bool is_of_host = packet.way == pty::Way::from_host;
+    const bool is_refusal = !is_of_host && world_.line(packet.line).speech.is_refusal(packet.bytes);
+    const std::vector<std::uint8_t> pending = std::exchange(line.request, {});
+    const std::string_view text = without_ends(
+        {reinterpret_cast<const char*>(pending.data()), pending.size()});  // NOLINT: bytes are text
+    if (!text.empty()) {
+      for_devices_on(packet.line,
+                     [&](const Device&, DeviceTouches& touches) { touches.command(text, is_refusal); });
+    }
+    if (is_of_host) line.request.assign(packet.bytes.begin(), packet.bytes.end());
+  }
+
+  void struck(std::size_t line, const pty::StruckMessage& message) {
+    for (const pty::Strike& strike : message.strikes) {
+      for (const FaultKindRow& row : fault_kinds()) {
+        if (row.name != strike.kind) continue;
+        for_devices_on(line, [&](const Device& device, DeviceTouches& touches) {
+          touches.fault(row.kind, is_moving(device));
+        });
+      }
+    }
+  }
+
+  // --- what else comes from outside ----------------------------------------------------------------
+
+  void on_input(std::size_t /*device*/, int /*terminal*/, std::int32_t /*level*/) override {}
+  void on_power(std::size_t /*device*/, bool /*on*/) override {}
+  void on_clear_fault(std::size_t /*number*/) override {}
+  void on_assign(std::size_t /*device*/, std::string_view /*name*/, double /*value*/) override {}
+  void on_program(std::size_t /*device*/, std::string_view /*text*/, bool /*is_refused*/) override {}
+  void on_write(std::size_t device, const PreparedWrite& write) override {
+    devices_[device].written(write.table, write.first, std::span(write.words).first(write.count));
+  }
+  void on_command(std::size_t device, std::string_view text) override {
+    devices_[device].command(without_ends(text), false);
+  }
+  void on_inject(const Fault& fault) override {
+    if (!waits(fault) && !is_of_frames(fault.kind)) begin(fault);
+  }
+  void on_fault(std::size_t number, bool in_force) override {
+    const auto found = world_.faults().find(number);
+    if (in_force && found != world_.faults().end()) begin(found->second.fault);
+  }
+  void begin(const Fault& fault) {
+    devices_[fault.device].fault(fault.kind, is_moving(world_.device(fault.device)));
+  }
+
+  World& world_;
+  ProgramCoverage programs_;
+  std::vector<DeviceTouches> devices_;
+  std::vector<Line> lines_;
+  std::vector<std::unique_ptr<Strikes>> strikes_;
+};
+
+ControllerCoverage::ControllerCoverage(World& world) : counting_(std::make_unique<Counting>(world)) {}
+ControllerCoverage::~ControllerCoverage() = default;
+TouchedReport ControllerCoverage::report() const { return counting_->report(); }
+void ControllerCoverage::world_restored() { counting_->watch_anew(); }
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,276 @@
+#include "emulator/world/coverage/device_touches.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "emulator/device/command_window.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/device/program_language.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/device/user_program.h"
+#include "emulator/world/faults/kinds.h"
+#include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/stations/server.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+enum Column : std::size_t { kRead, kWritten, kRefused };
+enum BitColumn : std::size_t { kOn, kOff };
+enum Outcome : std::size_t { kAccepted, kNotAccepted };
+enum Motion : std::size_t { kStanding, kMoving };
+
+// Those that every device can be made to answer. Others get a row when they come.
+constexpr int kExceptions[] = {1, 2, 3};
+
+void count(std::int64_t& counter) { counter = std::max<std::int64_t>(counter, 0) + 1; }
+
+std::string name_of(const RegisterMap& map, const RegisterRow& row) {
+  const std::string first = map.unique_name(row, 0);
+  return row.count == 1 ? first : first + " to " + RegisterMap::name_of(row, row.count - 1);
+}
+
+/// Whether bits of the register are told apart: it has names for them, or is a single bit.
+bool has_bits(const RegisterRow& row) {
+  return row.access != Access::write && (!row.fields.empty() || (row.type == Type::bit && row.count == 1));
+}
+
+std::string function_name(std::uint8_t code) {
+  for (const FunctionRow& row : kModbusFunctions) {
+    if (row.code != code) continue;
+    const char* const does = row.kind == FunctionRow::Kind::read        ? "read "
+                             : row.kind == FunctionRow::Kind::write_one ? "write one "
+                                                                        : "write several ";
+    return std::to_string(code) + " " + does + std::string(to_string(row.table));
+  }
+  return std::to_string(code);
+}
+
+/// Whether the word is what the pattern means: in a pattern such as "TpMA", p is the number of a module.
+bool is_called(std::string_view pattern, std::string_view word) {
+  if (pattern.size() > word.size()) return false;
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    const bool is_number = pattern[i] == 'p' && std::isdigit(static_cast<unsigned char>(word[i])) != 0;
+    if (!is_number && pattern[i] != word[i]) return false;
+  }
+  return true;
+}
+
+/// The instructions that a program can have. A window's commands are no part of one.
+std::vector<const InstructionRow*> program_rows(const Model& model) {
+  std::vector<const InstructionRow*> rows;
+  if (model.language == nullptr) return rows;
+  for (const InstructionRow& row : model.language->instructions()) {
+    const bool is_sent = model.window != nullptr && row.areas.find(model.window->area()) != row.areas.npos;
+    if (!is_sent) rows.push_back(&row);
+  }
+  return rows;
+}
+
+}  // namespace
+
+DeviceTouches::DeviceTouches(const Device& device) : device_(device) {
+  add_registers();
+  add_functions();
+  add_commands();
+  for (const FaultKindRow& kind : fault_kinds()) {
+    faults_.rows.push_back({.name = std::string(kind.name), .counts = {0, 0}});
+  }
+}
+
+void DeviceTouches::add_registers() {
+  const RegisterBank* const bank = device_.register_bank();
+  if (bank == nullptr) return;
+  std::set<const RegisterRow*> shows_state;
+  for (const std::string_view name : device_.model().state_registers) {
+    if (const auto named = bank->find(name)) shows_state.insert(named->place.row);
+  }
+  for (const RegisterRow& row : bank->map().rows()) {
+    const bool is_there = bank->has_row(row);
+    const bool is_read = is_there && row.access != Access::write && row.message == nullptr;
+    const bool is_written = is_there && row.access != Access::read;
+    const bool matters = shows_state.contains(&row);
+    registers_.rows.push_back({.name = name_of(bank->map(), row),
+                               .counts = {is_read ? 0 : kCannotBe, is_written ? 0 : kCannotBe, kCannotBe},
+                               .matters_most = matters});
+    first_bits_.push_back(bits_.rows.size());
+    if (!is_there || !has_bits(row)) continue;
+    const std::string& name = registers_.rows.back().name;
+    if (row.type == Type::bit) {
+      bits_.rows.push_back({.name = name, .counts = {0, 0}, .matters_most = matters});
+      continue;
+    }
+    for (const BitField& field : row.fields) {
+      bits_.rows.push_back(
+          {.name = name + "." + std::string(field.name), .counts = {0, 0}, .matters_most = matters});
+    }
+  }
+}
+
+void DeviceTouches::add_functions() {
+  const Model& model = device_.model();
+  if (!model.rtu) return;
+  for (const std::uint8_t code : model.rtu->functions) {
+    functions_.rows.push_back({.name = function_name(code), .counts = {0, 0}});
+  }
+  for (const int exception : kExceptions) {
+    exceptions_.rows.push_back({.name = exception_text(exception), .counts = {0}});
+  }
+}
+
+void DeviceTouches::add_commands() {
+  const Model& model = device_.model();
+  std::set<std::string_view> known;
+  const auto add = [&](std::string_view name) {
+    if (known.insert(name).second) commands_.rows.push_back({.name = std::string(name), .counts = {0, 0}});
+  };
+  for (const CommandRow& row : model.commands) {
+    if (row.where.empty() || row.where.find("typed") != row.where.npos) add(row.command);
+  }
+  if (model.window == nullptr || model.language == nullptr) return;
+  for (const InstructionRow& row : model.language->instructions()) {
+    if (row.areas.find(model.window->area()) != row.areas.npos) add(row.mnemonic);
+  }
+}
+
+std::optional<Table> DeviceTouches::table_of(Table table) const {
+  const RegisterBank* const bank = device_.register_bank();
+  if (bank == nullptr) return std::nullopt;
+  // A model without input registers serves its holding registers instead.
+  return table == Table::input && !bank->map().has(Table::input) ? Table::holding : table;
+}
+
+/// Counts each row that the request touches once.
+void DeviceTouches::touch(const ModbusRequest& request, std::size_t column) {
+  const auto table = table_of(request.table);
+  if (!table) return;
+  const RegisterBank& bank = *device_.register_bank();
+  const RegisterRow* before = nullptr;
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const Place place = bank.at(*table, static_cast<std::uint16_t>(request.first + i));
+    if (!place || place.row == before) continue;
+    before = place.row;
+    count(registers_.rows[static_cast<std::size_t>(place.row - bank.map().rows().data())].counts[column]);
+  }
+}
+
+void DeviceTouches::see(const Place& place, std::uint16_t word) {
+  if (!has_bits(*place.row)) return;
+  const RegisterMap& map = device_.register_bank()->map();
+  std::size_t row = first_bits_[static_cast<std::size_t>(place.row - map.rows().data())];
+  if (place.row->type == Type::bit) return count(bits_.rows[row].counts[word != 0 ? kOn : kOff]);
+  const std::uint32_t half = place.part == Place::Part::high ? std::uint32_t{word} << 16U : word;
+  const std::uint32_t seen = place.part == Place::Part::high ? 0xFFFF'0000U : 0xFFFFU;
+  for (const BitField& field : place.row->fields) {
+    if ((field.mask() & seen) != 0) count(bits_.rows[row].counts[(half & field.mask()) != 0 ? kOn : kOff]);
+    ++row;
+  }
+}
+
+void DeviceTouches::answered(const ModbusRequest& request, std::span<const std::uint8_t> data) {
+  count(functions_.row(function_name(request.function)).counts[kAccepted]);
+  touch(request, request.is_write() ? kWritten : kRead);
+  const auto table = table_of(request.table);
+  if (!table) return;
+  if (request.is_write()) {
+    const auto text = window_text(device_, *table, request.first, request.words);
+    if (text) command(*text, false);
+    return;
+  }
+  const bool are_bits = is_table_of_bits(*table);
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const std::size_t byte = are_bits ? i / 8 : 2 * i;
+    if (byte + (are_bits ? 0 : 1) >= data.size()) return;
+    const Place place = device_.register_bank()->at(*table, static_cast<std::uint16_t>(request.first + i));
+    if (!place) continue;
+    see(place,
+        static_cast<std::uint16_t>(are_bits ? data[byte] >> i % 8 & 1 : data[byte] << 8 | data[byte + 1]));
+  }
+}
+
+void DeviceTouches::refused(const ModbusRequest& request, int exception) {
+  count(functions_.row(function_name(request.function)).counts[kNotAccepted]);
+  count(exceptions_.row(exception_text(exception)).counts[0]);
+  touch(request, kRefused);
+  const auto table = table_of(request.table);
+  if (!table || !request.is_write()) return;
+  const auto text = window_text(device_, *table, request.first, request.words);
+  if (text) command(*text, true);
+}
+
+void DeviceTouches::written(Table table, std::uint16_t first, std::span<const std::uint16_t> words) {
+  const ModbusRequest request{
+      .table = table, .first = first, .count = words.size(), .words = {words.begin(), words.end()}};
+  touch(request, kWritten);
+  const auto text = window_text(device_, table, first, words);
+  if (text) command(*text, false);
+}
+
+/// The longest name that the text begins with: "MA" for "MA 1000".
+std::string DeviceTouches::command_called(std::string_view text) const {
+  const TouchedRow* longest = nullptr;
+  for (const TouchedRow& row : commands_.rows) {
+    const bool is_longer = longest == nullptr || row.name.size() > longest->name.size();
+    if (is_longer && is_called(row.name, text)) longest = &row;
+  }
+  return longest == nullptr ? std::string() : longest->name;
+}
+
+void DeviceTouches::command(std::string_view text, bool is_refused) {
+  const std::string name = command_called(text);
+  if (!name.empty()) count(commands_.row(name).counts[is_refused ? kNotAccepted : kAccepted]);
+}
+
+void DeviceTouches::fault(Fault::Kind kind, bool is_moving) {
+  count(faults_.rows[static_cast<std::size_t>(kind)].counts[is_moving ? kMoving : kStanding]);
+}
+
+namespace {
+
+/// The instructions of programs with what has run of them.
+TouchedTable instruction_table(const Model& model, const std::map<std::string, CoveredLine>& instructions) {
+  TouchedTable table{.name = "instructions", .columns = {"run", "yes", "no"}};
+  for (const InstructionRow* const row : program_rows(model)) {
+    const auto counts = [&]() -> std::vector<std::int64_t> {
+      auto found = instructions.find(std::string(row->mnemonic));
+      if (found == instructions.end() && row->opcode) found = instructions.find(std::to_string(*row->opcode));
+      if (found == instructions.end()) return {0, kCannotBe, kCannotBe};
+      const CoveredLine& line = found->second;
+      return {line.runs, line.decides ? line.yes : kCannotBe, line.decides ? line.no : kCannotBe};
+    }();
+    table.rows.push_back({.name = std::string(row->mnemonic), .counts = counts});
+  }
+  return table;
+}
+
+}  // namespace
+
+TouchedModel DeviceTouches::tables(const std::map<std::string, CoveredLine>& instructions) const {
+  TouchedTable registers = registers_;
+  std::erase_if(registers.rows, [](const TouchedRow& row) {
+    return std::all_of(row.counts.begin(), row.counts.end(),
+                       [](std::int64_t counted) { return counted == kCannotBe; });
+  });
+  TouchedModel tables;
+  for (const TouchedTable* const table : std::initializer_list<const TouchedTable*>{
+           &bits_, &functions_, &exceptions_, &commands_, &registers, &faults_}) {
+    if (!table->rows.empty()) tables.push_back(*table);
+  }
+  TouchedTable of_programs = instruction_table(device_.model(), instructions);
+  if (!of_programs.rows.empty()) tables.push_back(std::move(of_programs));
+  return tables;
+}
+
+}  // namespace understudy::emulator::world
