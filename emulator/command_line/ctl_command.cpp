@@ -318,6 +318,15 @@ std::string why_refused(const ControlArguments& arguments, const Json& reply) {
   return in_file(mistakes.at(0), arguments.operands[1]) + and_more(mistakes);
 }
 
+/// Prints what is odd in a program that was accepted.
+void print_warnings(const ControlArguments& arguments, const Json& reply) {
+  if (!reply.contains("warnings")) return;
+  for (const Json& odd : reply.at("warnings")) {
+    const std::string warning = in_file(mistake_of(odd, "warning: "), arguments.operands.back());
+    std::fprintf(stderr, "understudy: ctl program: %s\n", one_line(warning).c_str());
+  }
+}
+
 }  // namespace
 
 int control(const ControlArguments& arguments) {
@@ -361,12 +370,7 @@ int control(const ControlArguments& arguments) {
       std::printf("simulated time %s\n",
                   format_duration(SimTime{reply.at("simulated_time_ns").get<std::int64_t>()}).c_str());
     }
-    if (accepted && !arguments.json && reply.contains("warnings")) {
-      for (const Json& odd : reply.at("warnings")) {
-        const std::string warning = in_file(mistake_of(odd, "warning: "), arguments.operands.back());
-        std::fprintf(stderr, "understudy: ctl program: %s\n", one_line(warning).c_str());
-      }
-    }
+    if (accepted && !arguments.json) print_warnings(arguments, reply);
     if (accepted && !reply.value("reached", true)) {
       if (!arguments.json) {
         const std::string until = reply.contains("stop") ? "before a stop" : "within " + arguments.within;

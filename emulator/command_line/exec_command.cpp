@@ -1,6 +1,7 @@
 // Implements `understudy exec`: serves a bench while a command that uses it runs.
 #include <signal.h>
 #include <sys/timerfd.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <cctype>
@@ -180,16 +181,19 @@ int exit_code_of(const ExecArguments& arguments, const serve::Child& child, bool
   return child.exit_code();
 }
 
+void share_ports(const serve::Daemon& daemon, gid_t group) {
+  for (const auto& port : daemon.ports()) {
+    if (port->terminal() != nullptr) serve::share_port(port->terminal()->path(), group);
+  }
+}
+
 /// Serves the bench until both the command and the scenario beside it end.
 int play(const ExecArguments& arguments, const Serving& serving, serve::PrivateFolder& folder,
          const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
   const auto timeout = timeout_of(arguments);
   serve::Daemon daemon(serving.bench, serving.options, log_line);
   ServedCoverage coverage(arguments.serve, daemon);
-  for (const auto& port : daemon.ports()) {
-    if (serving.group && port->terminal() != nullptr)
-      serve::share_port(port->terminal()->path(), *serving.group);
-  }
+  if (serving.group) share_ports(daemon, *serving.group);
   std::optional<play::Lint> lint;
   if (arguments.serve.lint) lint.emplace(daemon.world());
   std::optional<serve::HostTime> host_time;
