@@ -1,8 +1,8 @@
-# Read by cpack: what the Debian package depends on, and which time its files have. CPack's own way runs `file` on each of the package's
-# hundreds of scenarios and pages, half a minute of it; only two files are programs. And without
-# dpkg-shlibdeps it would make a package that depends on nothing, and only warn.
+# cpack reads this file: it sets the dependencies of the Debian package, and the time of its files. CPack itself would
+# take half a minute, because it runs `file` on each of hundreds of scenarios and pages, although only two files are
+# programs. Without dpkg-shlibdeps, it would only warn, and make a package without dependencies.
 if(CPACK_GENERATOR STREQUAL "DEB")
-  # Equal input gives an equal package: its files have the time of the changelog, unless somebody says another.
+  # Equal input gives an equal package: its files have the time of the changelog, or SOURCE_DATE_EPOCH.
   if("$ENV{SOURCE_DATE_EPOCH}" STREQUAL "")
     file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/changelog.in date REGEX "^ -- ")
     string(REGEX REPLACE "^ -- .*  " "" date "${date}")

@@ -1,31 +1,31 @@
-# Sourced by ./run and ./test: what they need from Debian, how it is installed, and how CMake is called.
+# ./run and ./test source this file: it lists the Debian packages that they need, installs them, and calls CMake.
 
 build_packages=(g++ cmake ninja-build ccache pkg-config libboost-dev libcli11-dev libmodbus-dev
                 libyaml-cpp-dev nlohmann-json3-dev libsqlite3-dev libgtest-dev libeigen3-dev)
 host_packages=(mbpoll python3-serial expect)
 plot_packages=(gnuplot-nox)
 test_packages=(python3                                   # counts the results
-               clang-format                              # looks at the formatting of all files
+               clang-format                              # checks the formatting of all files
                nodejs                                    # parses the page's scripts
-               clang libclang-rt-dev                     # compile it with sanitizers
+               clang libclang-rt-dev                     # compile with sanitizers
                dpkg-dev man-db                           # for the package and its man page
                tshark gtkwave                            # read the captures and traces
-               socat                                     # makes a port of an address
-               sqlite3 parallel                          # read results, and play shards
+               socat                                     # connects a port to an address
+               sqlite3 parallel                          # read results, and run shards
                lcov                                      # reads coverage
-               zsh fish                                  # are offered commands and flags
+               zsh fish                                  # complete commands and flags
                python3-pytest python3-pytest-xdist python3-hypothesis python3-yaml mypy  # the Python client
                python3-pip python3-setuptools python3-wheel                  # its wheel
-               python3-pymodbus python3-serial-asyncio)  # a host, which only recommends the second and needs it
+               python3-pymodbus python3-serial-asyncio)  # a host; it only recommends the second package, but needs it
 heavy_host_packages=(ser2net libqt5serialbus5-dev chromium chromium-driver firefox-esr python3-selenium npm)  # with UNDERSTUDY_HEAVY_HOSTS=1
 
-# Whether packages can be installed here: by apt-get, as root.
+# Succeeds if apt-get can install packages here, as root.
 can_install() {
   command -v apt-get >/dev/null && command -v dpkg-query >/dev/null || return 1
   [ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null
 }
 
-# missing_of PACKAGE...: those that are not installed, a line each; all of them where there is no dpkg to ask.
+# missing_of PACKAGE...: prints the packages that are not installed, one per line; without dpkg, all of them.
 missing_of() {
   local package status
   for package in "$@"; do
@@ -34,10 +34,10 @@ missing_of() {
   done
 }
 
-# install_missing PACKAGE...: says what is missing and installs that; silent when nothing is. Where that cannot be done
-# it lists what is missing, and what is there is used.
+# install_missing PACKAGE...: prints the missing packages and installs them; prints nothing if none is missing. If it
+# cannot install them, it lists them, and the caller goes on with the installed ones.
 install_missing() {
-  local missing why  # no name of a package has a space in it
+  local missing why  # names of packages do not contain spaces
   missing=($(missing_of "$@"))
   [ ${#missing[@]} -eq 0 ] && return 0
   if ! can_install; then
@@ -50,12 +50,12 @@ install_missing() {
   local as_root=()
   [ "$(id -u)" -eq 0 ] || as_root=(sudo)
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null 2>&1 && return 0
-  # The list of packages may be old, or never fetched.
+  # The list of packages may be outdated or missing.
   "${as_root[@]}" apt-get update -qq
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# configure PRESET: by CMake; from the beginning where the folder has been moved or renamed since the last time.
+# configure PRESET: runs CMake, and starts from scratch if the folder was moved or renamed since the last run.
 configure() {
   local said
   if said=$(cmake --preset "$1" 2>&1); then

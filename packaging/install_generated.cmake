@@ -1,10 +1,10 @@
-# Run at the installation (cmake/packaging.cmake sets what is used here): writes what names the prefix or
-# comes from the program itself, and installs it.
-string(RANDOM LENGTH 12 own)  # installations may run side by side
+# Runs during the installation: writes and installs the files that contain the prefix or come from the program.
+# cmake/packaging.cmake sets the variables.
+string(RANDOM LENGTH 12 own)  # several installations may run at the same time
 set(STAGING "${STAGING}/${own}")
 file(MAKE_DIRECTORY "${STAGING}")
 
-# zip(FILE FOLDER): installs it compressed, without time or name, so that equal input gives equal bytes.
+# zip(FILE FOLDER): installs a file compressed, without its time and name, so that equal input gives equal bytes.
 function(zip file folder)
   execute_process(COMMAND gzip -9nf "${file}" COMMAND_ERROR_IS_FATAL ANY)
   file(INSTALL "${file}.gz" DESTINATION "${folder}")
@@ -28,7 +28,7 @@ endforeach()
 configure_file("${PACKAGING}/changelog.in" "${STAGING}/changelog.Debian" @ONLY)
 zip("${STAGING}/changelog.Debian" "${DOCUMENTATION}")
 
-# The installed CHANGELOG.md has the changes that are not released yet too, as `packaging/changelog.py show` prints them.
+# The installed CHANGELOG.md also has the unreleased changes, as `packaging/changelog.py show` prints them.
 set(unreleased "")
 foreach(kind Added Changed Deprecated Removed Fixed Security)
   string(TOLOWER ${kind} ending)

@@ -2,17 +2,17 @@
 # manual.sh UNDERSTUDY TEMPLATE: writes the man page to standard output.
 # manual.sh UNDERSTUDY --of COMMAND: a page of one command, which `man understudy COMMAND` finds.
 # manual.sh UNDERSTUDY --list: the names of the commands.
-# The commands and flags are what `UNDERSTUDY --help` and each command's --help say, so they cannot drift
-# apart; they take the place of @COMMANDS@ in the template.
+# The commands and flags come from `UNDERSTUDY --help` and the --help of each command, so the page always agrees with
+# them. They replace @COMMANDS@ in the template.
 set -eu
 understudy=$1
 template=$2
 
-# The help of one command, given as words, as roff; then that of its own commands.
+# Prints the help of a command, given as words, as roff, followed by the help of its own commands.
 page_of() {
   help=$("$understudy" "$@" --help)
   [ $# -eq 0 ] || printf '%s\n' "$help" | awk -v command="$*" '
-    function roff(text) {  # so that no character of it means something to roff
+    function roff(text) {  # escapes the characters that roff interprets
       gsub(/\\/, "\\e", text)
       gsub(/-/, "\\-", text)
       gsub(/\047/, "\\(aq", text)
@@ -33,7 +33,7 @@ page_of() {
       print ".TP\n" entry "\n" prose(description)
       entry = ""
     }
-    # "--speed TEXT=real" or "MODEL TEXT REQUIRED": the name, what kind of value, and the one it has without
+    # "--speed TEXT=real" or "MODEL TEXT REQUIRED": the name, the kind of value, and the default
     function begin(text,   words, count, i) {
       flush()
       count = split(text, words, " ")
@@ -58,7 +58,7 @@ page_of() {
     /^$/ { next }
     /^(Positionals|Options|Subcommands):$/ { flush(); section = substr($0, 1, length($0) - 1); next }
     section == "Subcommands" { next }
-    /^  -h,--help / { skipped = 1; next }  # every command has it
+    /^  -h,--help / { skipped = 1; next }  # every command has this flag
     /^  [^ ]/ {
       skipped = 0
       sub(/^  /, "")
@@ -73,7 +73,7 @@ page_of() {
       description = rest
       next
     }
-    /^     +[^ ]/ {  # the description of a long entry goes on
+    /^     +[^ ]/ {  # the continued description of a long entry
       sub(/^ +/, "")
       if (!skipped) description = description (description == "" ? "" : " ") $0
       next
@@ -85,7 +85,7 @@ page_of() {
   done
 }
 
-# The names of commands in a help.
+# Prints the names of the commands in a help text.
 names_in() {
   sed -n '/^Subcommands:$/,$s/^  \([a-z][a-z-]*\) .*/\1/p'
 }

@@ -1,6 +1,6 @@
 #!/bin/sh
 # python_deb.sh [FOLDER]: builds python3-understudy_VERSION_all.deb, the client and the pytest plugin, into FOLDER (.).
-# Needs what wheel.sh needs, and dpkg-deb.
+# Needs dpkg-deb, and everything that wheel.sh needs.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "${1:-.}"
@@ -15,7 +15,7 @@ modules=$root/usr/lib/python3/dist-packages
 documents=$root/usr/share/doc/python3-understudy
 mkdir -p "$modules" "$documents" "$root/DEBIAN"
 /usr/bin/python3 -m zipfile -e "$wheel" "$modules"
-rm "$modules"/understudy-*.dist-info/RECORD  # pip's; the files are dpkg's
+rm "$modules"/understudy-*.dist-info/RECORD  # for pip; dpkg manages these files
 rm "$modules"/understudy-*.dist-info/LICENSE  # Debian has it
 cp "$here/copyright" "$documents/copyright"
 sed "s/@DEBIAN_VERSION@/$version-1/; s/^understudy /python3-understudy /; s/@MAINTAINER@/Understudy maintainers <maintainers@understudy.invalid>/" \

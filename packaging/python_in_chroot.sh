@@ -1,7 +1,7 @@
 #!/bin/sh
-# python_in_chroot.sh PROGRAM_DEB: builds wheel and deb of the client, and uses both in bare chroots. By hand, as root,
-# with debootstrap and a network; PROGRAM_DEB is what `cpack` made in build/release.
-# UNDERSTUDY_ROOT=FOLDER: a chroot that debootstrap has made, which is copied; else one is made.
+# python_in_chroot.sh PROGRAM_DEB: builds the client's wheel and Debian package, and uses both in bare chroots. Run it
+# by hand, as root, with debootstrap and a network. PROGRAM_DEB is the package that `cpack` made in build/release.
+# UNDERSTUDY_ROOT=FOLDER: copies this chroot, made by debootstrap, instead of making one.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 program=$(readlink -f "$1")

@@ -5,7 +5,7 @@ set -eu
 source=$(cd "$(dirname "$0")/../python" && pwd)
 mkdir -p "${1:-.}"
 folder=$(cd "${1:-.}" && pwd)
-copy=$(mktemp -d)  # setuptools leaves folders in what it builds
+copy=$(mktemp -d)  # setuptools leaves folders in the sources that it builds
 trap 'rm -rf "$copy"' EXIT
 cp -r "$source/understudy" "$source/pyproject.toml" "$source/README.md" "$source/../LICENSE" "$copy"
 rm -rf "$copy/understudy/__pycache__"

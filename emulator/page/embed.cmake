@@ -1,5 +1,5 @@
 # cmake -D OUTPUT=web_files.cpp -D FILES="name=path|name=path" -P embed.cmake
-# Makes a source that holds the files.
+# Writes a source that contains the files.
 string(REPLACE "|" ";" pairs "${FILES}")
 set(arrays "")
 set(rows "")
