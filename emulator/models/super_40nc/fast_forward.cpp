@@ -68,9 +68,8 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) 
 
 void Super40nc::fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
                                 std::span<std::int64_t> pulses) {
-  const Tick ticks = tick - done;
   state_.has_ticked = true;
-  parts_.programs.fast_forward(ticks);
+  parts_.programs.fast_forward(done, tick);
   Counters& counters = parts_.axes.counters;
   for (int number = 0; number < kAxisCount; ++number) {
     const auto n = static_cast<std::size_t>(number);

@@ -205,7 +205,8 @@ class ControllerCoverage::Counting final : private OutsideListener {
     devices_[device].command(without_ends(text), false);
   }
   void on_inject(const Fault& fault) override {
-    if (!waits(fault) && !is_of_frames(fault.kind)) begin(fault);
+    // Nothing else is told of one that is over at once.
+    if (is_done_at_once(fault.kind) && !waits(fault)) begin(fault);
   }
   void on_fault(std::size_t number, bool in_force) override {
     const auto found = world_.faults().find(number);

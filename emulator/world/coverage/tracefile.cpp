@@ -54,15 +54,17 @@ class TracefileReader {
 
   CoverageReport finish() {
     if (lines_ != nullptr) {
-      throw FileError({.file = file_, .line = line_}, "the file breaks off; expected end_of_record");
+      fail("the file breaks off; expected end_of_record");
     }
     return std::move(report_);
   }
 
  private:
   [[noreturn]] void refuse(std::string_view what, const std::string& expected) const {
-    throw FileError({.file = file_, .line = line_},
-                    understudy::quoted(what) + " is not understood; expected " + expected);
+    fail(understudy::quoted(what) + " is not understood; expected " + expected);
+  }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw FileError(file_ + ":" + std::to_string(line_) + ": " + what);
   }
 
   void begin_record(std::string_view path) {

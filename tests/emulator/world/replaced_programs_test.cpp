@@ -348,7 +348,7 @@ TEST_P(ReplacedPrograms, AreCountedTheSameByAnyTicks) {
     all.add(bulk.coverage());
   }
   EXPECT_GT(all.files.size(), courses);
-  EXPECT_GT(all.totals().lines_run, static_cast<std::int64_t>(courses) * 5);
+  EXPECT_GT(all.totals().lines_run, static_cast<std::int64_t>(courses) / 2);  // few of a SLIM's are started
   EXPECT_LT(all.totals().lines_run, all.totals().lines);
 }
 

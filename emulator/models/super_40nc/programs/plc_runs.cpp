@@ -79,12 +79,16 @@ void Programs::begin_first_scan() {
   language::run(state_.plc, *ladder_, machine, options_);
 }
 
-void Programs::fast_forward(Tick ticks) {
+void Programs::fast_forward(Tick done, Tick tick) {
   if (!plc_scans()) return;
+  // Of these ticks, as many have a scan: see scans_in().
+  const Tick each = std::max<Tick>(options_.scan_ms, 1);
+  const Tick before_first = std::clamp(state_.flash_until - 1, done, tick);
+  const Tick scans = tick / each - before_first / each;
   tell_watch();
   ProgramMachine machine(*this, controls_);
-  language::cross(state_.plc, *ladder_, machine, ticks, options_);
-  if (state_.plc_quiet_scans != kNever) state_.plc_quiet_scans -= ticks;
+  language::cross(state_.plc, *ladder_, machine, scans, options_);
+  if (state_.plc_quiet_scans != kNever) state_.plc_quiet_scans -= tick - done;
 }
 
 bool Programs::scans_in(Tick tick) const {

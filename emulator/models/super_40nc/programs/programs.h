@@ -95,7 +95,8 @@ class Programs : protected Chips, public Watched {
   void note_what_plc_sees() { watch_.note(); }
   /// Checks at the end of a tick whether the PLC must scan.
   void wake_plc_by_what_changed();
-  void fast_forward(Tick ticks);
+  /// Makes up the scans of the ticks after `done`, up to `tick`.
+  void fast_forward(Tick done, Tick tick);
 
  private:
   /// A scan keeps the ladder that it began with, even if the device's ladder is replaced meanwhile.
