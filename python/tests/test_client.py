@@ -135,7 +135,7 @@ def test_a_recording_is_whole_at_the_end(tmp_path):
     subprocess.run([program, "replay", str(recording)], check=True, capture_output=True, timeout=20)
 
 
-@pytest.mark.parametrize("needed", [(0, 0), (0, 9), (1, 1), (2, 0)])
+@pytest.mark.parametrize("needed", [(0, 0), (0, 9), (1, 2), (2, 0)])
 def test_another_protocol_is_refused_and_ends(monkeypatch, folders, needed):
     monkeypatch.setattr("understudy.bench.NEEDED", needed)
     monkeypatch.setattr("tempfile.tempdir", str(folders))
