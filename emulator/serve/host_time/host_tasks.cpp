@@ -106,7 +106,8 @@ bool HostTasks::is_one_thread() const {
 bool HostTasks::look(Tasks& tasks, const std::set<int>& waiting) const {
   bool are_asleep = true;
   std::array<char, 512> buffer{};
-  for (const auto& [process, descriptor] : processes_) {
+  for (const auto& known : processes_) {
+    const int process = known.first;
     for_each_task(process, [&](int task) {
       if (!are_asleep || waiting.contains(task)) return;
       const std::string folder = folder_of(process) + "/" + std::to_string(task);
@@ -131,7 +132,8 @@ bool HostTasks::are_all_asleep(const std::set<int>& waiting) const {
 std::optional<std::string> HostTasks::running_one() const {
   std::array<char, 512> buffer{};
   std::optional<std::string> found;
-  for (const auto& [process, descriptor] : processes_) {
+  for (const auto& known : processes_) {
+    const int process = known.first;
     int number = 0;
     for_each_task(process, [&](int task) {
       ++number;

@@ -91,29 +91,30 @@ std::string text_of(const Untouched& cell) {
 }
 
 std::string json_text(const TouchedReport& report) {
-  using Json = nlohmann::ordered_json;
-  Json json{{"kind", "device-coverage"}, {"models", Json::object()}, {"untouched", Json::array()}};
+  using ReportJson = nlohmann::ordered_json;
+  ReportJson json{
+      {"kind", "device-coverage"}, {"models", ReportJson::object()}, {"untouched", ReportJson::array()}};
   for (const auto& [model, tables] : report.models) {
-    Json& own = json["models"][model] = Json::object();
+    ReportJson& own = json["models"][model] = ReportJson::object();
     for (const TouchedTable& table : tables) {
       const TouchedTable::Share share = table.share();
-      Json rows = Json::object();
+      ReportJson rows = ReportJson::object();
       for (const TouchedRow& row : table.rows) {
-        Json& counts = rows[row.name] = Json::array();
+        ReportJson& counts = rows[row.name] = ReportJson::array();
         for (const std::int64_t count : row.counts)
-          counts.push_back(count == kCannotBe ? Json() : Json(count));
+          counts.push_back(count == kCannotBe ? ReportJson() : ReportJson(count));
       }
-      own[table.name] = Json{{"touched", share.touched},
-                             {"of", share.all},
-                             {"columns", table.columns},
-                             {"rows", std::move(rows)}};
+      own[table.name] = ReportJson{{"touched", share.touched},
+                                   {"of", share.all},
+                                   {"columns", table.columns},
+                                   {"rows", std::move(rows)}};
     }
   }
   for (const Untouched& cell : report.untouched()) {
     json["untouched"].push_back(
         {{"model", cell.model}, {"table", cell.table}, {"row", cell.row}, {"never", cell.column}});
   }
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1, ' ', false, ReportJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace understudy::emulator::world

@@ -38,8 +38,8 @@ struct Debugger::Point {
   std::string who{};              // of the last hit of a write or an event: what happened
   std::string no_result{};        // why the condition has none; empty if it has one
   bool is_of(std::size_t device) const {
-    using Kind = BreakpointSetup::Kind;
-    return (told.setup.kind == Kind::line || told.setup.kind == Kind::instruction) &&
+    return (told.setup.kind == BreakpointSetup::Kind::line ||
+            told.setup.kind == BreakpointSetup::Kind::instruction) &&
            told.setup.device == device;
   }
 };

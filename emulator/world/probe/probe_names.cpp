@@ -143,9 +143,8 @@ bool ProbeNames::find_of_axis(std::string_view rest, Probe& probe) const {
 }
 
 bool ProbeNames::find_of_terminal(const Model& model, std::string_view rest, Probe& probe) const {
-  using Kind = TerminalRow::Kind;
   if (const int terminal = find_terminal(model, rest); terminal >= 0) {
-    const Kind kind = model.terminals[static_cast<std::size_t>(terminal)].kind;
+    const TerminalRow::Kind kind = model.terminals[static_cast<std::size_t>(terminal)].kind;
     probe.what = is_input(kind) ? What::input : What::output;
     probe.place = terminal;
     if (is_in_millivolts(kind)) probe.unit = Unit::millivolts;
@@ -158,7 +157,8 @@ bool ProbeNames::find_of_terminal(const Model& model, std::string_view rest, Pro
   }
   const auto [name, word] = at_dot(rest);
   const int terminal = word == "pulses" ? find_terminal(model, name) : -1;
-  if (terminal < 0 || model.terminals[static_cast<std::size_t>(terminal)].kind != Kind::pulse_out)
+  if (terminal < 0 ||
+      model.terminals[static_cast<std::size_t>(terminal)].kind != TerminalRow::Kind::pulse_out)
     return false;
   probe.what = What::output_pulses;
   probe.place = terminal;

@@ -199,8 +199,9 @@ TEST(Languages, AScenarioLoadsAProgramAndTellsAllMistakes) {
   EXPECT_NE(in_a_file.find("wrong.wb:3:9: target: '1000001'"), std::string::npos) << in_a_file;
   const std::string in_the_step =
       diagnostic("  - program:\n      it: |\n        AREA MAIN\n         MOVE W 5\n         FLY\n");
-  EXPECT_NE(in_the_step.find("program.it: line 2, column 7: axis: 'W'"), std::string::npos) << in_the_step;
-  EXPECT_NE(in_the_step.find("program.it: line 3, column 2: 'FLY'"), std::string::npos) << in_the_step;
+  EXPECT_NE(in_the_step.find("s.yaml:8:15: steps[0].program.it: axis: 'W'"), std::string::npos)
+      << in_the_step;
+  EXPECT_NE(in_the_step.find("s.yaml:9:10: steps[0].program.it: 'FLY'"), std::string::npos) << in_the_step;
 
   const std::string good =
       "  - program:\n      it: |\n        AREA MAIN\n        SET D5 12\n        FILE 07\n        text\n      "

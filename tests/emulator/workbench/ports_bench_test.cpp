@@ -137,7 +137,8 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
       {lines_ab("{ device: mill, port: X }, { device: lathe }", "{ device: lathe }, { device: mil }",
                 devices),
        "bench.yaml:3:42: lines.a.stations[0].port: 'X' is not a port of workbench; expected one of PC, "
-       "HMI\nbench.yaml:4:20: lines.b.stations[0]: the device's port PC is already on a line; expected "
+       "HMI\nbench.yaml:3:47: lines.a.stations[1]: address 1 is taken on this line; expected another\n"
+       "bench.yaml:4:20: lines.b.stations[0]: the device's port PC is already on a line; expected "
        "another `port`, or the device on one line\nbench.yaml:4:49: lines.b.stations[1].device: no device is "
        "called 'mil'; the nearest is 'mill'"},
   };
