@@ -25,6 +25,7 @@
 #include "emulator/world/bench/listening.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
+#include "pty/presence_watch.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace {
@@ -106,8 +107,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Bench& bench = (data[0] & 0x80) != 0 ? wire : instant;
   emulator::world::restore(bench.world, bench.begin);
   const auto log = [](const std::string&) {};
+  static const auto presence = std::make_shared<pty::PresenceWatch>();
   Port port(
-      loop, bench.world, 0, Port::Link(), [] {}, log);
+      loop, bench.world, 0, Port::Link(), presence, [] {}, log);
   TcpDoor door(loop, port, emulator::world::parse_tcp_address(addresses[protocol]), log);
   const auto go_on = [&](SimTime time) {
     loop.wait(emulator::serve::WallTime{0});
