@@ -347,8 +347,9 @@ TEST_P(ReplacedPrograms, AreCountedTheSameByAnyTicks) {
         << lcov_text(bulk.coverage()) << lcov_text(single.coverage());
     all.add(bulk.coverage());
   }
-  EXPECT_GT(all.files.size(), courses);
-  EXPECT_GT(all.totals().lines_run, static_cast<std::int64_t>(courses) / 2);  // few of a SLIM's are started
+  // Few programs of a SLIM are started, because hosts write them line by line.
+  EXPECT_GT(all.files.size(), courses / 3);
+  EXPECT_GT(all.totals().lines_run, static_cast<std::int64_t>(courses) / 3);
   EXPECT_LT(all.totals().lines_run, all.totals().lines);
 }
 
