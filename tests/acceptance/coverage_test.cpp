@@ -90,7 +90,7 @@ TEST(Coverage, AProgramWithoutAFileIsListedBesideTheReport) {
   EXPECT_EQ(project.sh("mkdir out; $UNDERSTUDY run one.yaml --coverage out/c.info").exit_code, 0);
   const std::string report = project.file("out/c.info");
   const std::size_t begin = report.find("SF:") + 3;
-  const std::string name = report.substr(begin, report.find('\n') - begin);
+  const std::string name = report.substr(begin, report.find('\n', begin) - begin);
   EXPECT_TRUE(name.starts_with("out/simple2-r3-")) << report;
   EXPECT_NE(project.file(name).find("Out DOUT_1 ON"), std::string::npos) << name;
 }

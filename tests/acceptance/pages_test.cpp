@@ -58,6 +58,8 @@ const std::vector<Left> kLeft = {
     {"docs/install.md", "cd build/release", "DebianPackage"},
     {"docs/install.md", "docker", "needs a container"},
     {"docs/install.md", "cp /usr/share", "needs systemd; Installation"},
+    {"docs/install.md", "tar -xzf", "python/tests/test_portable.py"},
+    {"docs/install.md", "python3 -m venv", "python/tests/test_portable.py"},
     {"docs/motion.md", "cmake", "draws all pictures"},
     {"docs/page.md", "understudy page [", "a synopsis"},
     {"docs/python.md", "packaging/wheel.sh", "python/tests/test_packages.py"},
