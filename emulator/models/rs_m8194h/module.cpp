@@ -80,7 +80,7 @@ void Module::update_outputs(Tick tick) {
 bool Module::rests() const {
   if (status.changes() || state_.touched || !queue.is_empty() || state_.fifo.stop_wait != 0) return false;
   if (state_.steps_left != language_options().steps_a_tick || !state_.marks.empty()) return false;
-  return !programs.is_alive() && triggers.is_empty() && motion_step.rests();
+  return !programs.is_alive() && triggers.rests() && motion_step.rests();
 }
 
 Tick Module::next_active_tick(Tick done) const {
@@ -96,7 +96,7 @@ Tick Module::next_active_tick(Tick done) const {
 Tick Module::next_event_tick(Tick done, Tick max, const ClearTravel& ahead) const {
   const bool is_simple =
       !state_.touched && state_.marks.empty() && state_.steps_left == language_options().steps_a_tick;
-  if (!is_simple || status.is_resetting() || programs.is_alive() || !triggers.is_empty()) return done + 1;
+  if (!is_simple || status.is_resetting() || programs.is_alive() || !triggers.rests()) return done + 1;
   Tick last = std::min(max, state_.eeprom.next_active_tick() - 1);
   last = std::min(last, frnet.next_active_tick(done) - 1);
   last = motion_step.quiet_until(done, last, ahead);

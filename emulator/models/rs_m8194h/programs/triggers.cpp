@@ -132,15 +132,25 @@ void Triggers::pause(int channel) {
   if (programs.paused && machine_options().pause_holds_axes) known_.stops.pause();
 }
 
-/// By choice, a level that is still present calls its macro again.
-void Triggers::repeat_levels() {
-  if (!known_.memory.are_triggers_enabled() || known_.programs.mp_runs() || !is_empty()) return;
+bool Triggers::calls_again(int channel) const {
+  const lang::Trigger& trigger = known_.programs.triggers()[static_cast<std::size_t>(channel)];
+  if (trigger.event != lang::TriggerEvent::call_mp || !is_level(trigger.condition)) return false;
+  return is_on(known_.frnet.inputs(), channel) == (trigger.condition == lang::TriggerCondition::on);
+}
+
+bool Triggers::a_level_calls_again() const {
+  if (!machine_options().levels_repeat || !known_.memory.are_triggers_enabled()) return false;
   for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
-    const lang::Trigger& trigger = known_.programs.triggers()[static_cast<std::size_t>(channel)];
-    if (trigger.event != lang::TriggerEvent::call_mp || !is_level(trigger.condition)) continue;
-    const bool is_met =
-        is_on(known_.frnet.inputs(), channel) == (trigger.condition == lang::TriggerCondition::on);
-    if (is_met) state_.queued_triggers.push_back(static_cast<std::uint8_t>(channel));
+    if (calls_again(channel)) return true;
+  }
+  return false;
+}
+
+void Triggers::repeat_levels() {
+  if (!known_.memory.are_triggers_enabled() || known_.programs.mp_runs()) return;
+  if (!state_.queued_triggers.empty()) return;
+  for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
+    if (calls_again(channel)) state_.queued_triggers.push_back(static_cast<std::uint8_t>(channel));
   }
 }
 
@@ -153,7 +163,7 @@ bool Triggers::may_start() const {
 
 void Triggers::start_queued() {
   if (machine_options().levels_repeat) repeat_levels();
-  if (is_empty() || !may_start()) return;
+  if (state_.queued_triggers.empty() || !may_start()) return;
   const lang::Trigger& trigger = known_.programs.triggers()[state_.queued_triggers.front()];
   state_.queued_triggers.erase(state_.queued_triggers.begin());
   if (trigger.event == lang::TriggerEvent::call_mp) known_.programs.start_mp(trigger.argument);

@@ -48,7 +48,8 @@ class Triggers final : public Part {
   void replaced(int channel);
   /// Starts the MP of the first channel that waits, if it may start now.
   void start_queued();
-  bool is_empty() const { return state_.queued_triggers.empty(); }
+  /// Returns true if no MP waits, and no level is about to call its own again.
+  bool rests() const { return state_.queued_triggers.empty() && !a_level_calls_again(); }
 
  private:
   void check(const FrnetWords& before, bool at_start);
@@ -58,6 +59,9 @@ class Triggers final : public Part {
   void hold(int channel, const lang::Trigger& trigger);
   void abort_command();
   void pause(int channel);
+  /// Returns true if, by choice, the level of a channel is still present and calls its MP again.
+  bool calls_again(int channel) const;
+  bool a_level_calls_again() const;
   void repeat_levels();
   bool may_start() const;
 

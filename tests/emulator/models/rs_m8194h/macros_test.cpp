@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
@@ -249,6 +250,26 @@ TEST(RsM8194hMacros, TriggersRunWithoutAHost) {
   rsm.input(kFirstDi + 31, false);
   rsm.run(200);
   EXPECT_EQ(rsm.get("LP_Y"), 100);
+}
+
+/// A level repeats its macro without any new event, so it must keep the module awake: in one long advance as
+/// in single ticks.
+TEST(RsM8194hMacros, ALevelRepeatsItsMacroAlsoInOneLongAdvance) {
+  std::map<Value, Value> counts;
+  for (const Value ticks_each : {1, 300}) {
+    OneRsm rsm({.program = "MP 1\nRSM_MACRO_VAR_CALCULATE VAR0 + 1 VAR0\nRSM_MACRO_TIMER 3\nEND\n"
+                           "TRIGGER 8.0 on MP1\n",
+                .choices = {{"trigger_level_repeats", "again_when_it_has_ended"},
+                            {"trigger_level_at_start", "waits_for_its_change"}}});
+    rsm.input(kFirstDi, true);
+    rsm.run(10);
+    EXPECT_EQ(rsm.get("VAR0"), 0);
+    EXPECT_EQ(rsm.ask("06 00 09 00 01"), "06 00 09 00 01");
+    for (Value tick = 0; tick < 300; tick += ticks_each) rsm.run(ticks_each);
+    counts[ticks_each] = rsm.get("VAR0");
+    EXPECT_GE(counts[ticks_each], 300 / 5);  // 3 ms, and a tick to begin and to end
+  }
+  EXPECT_EQ(counts[1], counts[300]);
 }
 
 TEST(RsM8194hMacros, AnAxisThatSeveralLevelsHoldIsLetGoByTheLast) {
