@@ -215,9 +215,9 @@ int play(const ExecArguments& arguments, const Serving& serving, serve::PrivateF
   };
   child.emplace(daemon.loop(), signals, command, [&] {
     child_is_over = true;
+    // No client is left that could advance the time. In host time the scenario itself does.
+    if (child->was_ended() || (daemon.pacer().standing() && !host_time)) give_up_side_scenario();
     if (host_time) host_time->host_ended();
-    // No client is left that could advance the time.
-    if (child->was_ended() || daemon.pacer().standing()) give_up_side_scenario();
     stop_if_over();
   });
   signals.watch(daemon.loop(), [&](int signal_number) {
@@ -233,12 +233,11 @@ int play(const ExecArguments& arguments, const Serving& serving, serve::PrivateF
       if (child_is_over) give_up_side_scenario();
     });
   }
-  if (scenario) {
-    side_scenario.emplace(*scenario, daemon, [&] {
-      side_scenario_is_over = true;
-      stop_if_over();
-    });
-  }
+  const auto scenario_over = [&] {
+    side_scenario_is_over = true;
+    stop_if_over();
+  };
+  if (scenario) side_scenario.emplace(*scenario, daemon, scenario_over, host_time ? &*host_time : nullptr);
   daemon.run();
   signals.unwatch(daemon.loop());
   if (lint) print_findings(lint->findings());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -133,6 +134,68 @@ asked(0, 15, 100, False)   # nothing comes for a second and a half
 asked(0, 15, 100)          # the first byte
 )");
   EXPECT_EQ(host.output, "7 0.0\n7 0.5\n0 1.5\n1 0.0\n");
+}
+
+// The scenario beside it drops the host's second request from 0.538 s on, and ends long after the host.
+constexpr const char* kScenarioBeside = R"(understudy: 1
+name: beside
+bench: bench.yaml
+steps:
+  - advance: 37ms
+  - input: { feeder.DIN_3: on }
+  - wait: { until: feeder.DIN_3 == 1, within: 5s }
+  - advance: 500ms
+  - inject: { drop: feeder, nth: 2 }
+  - advance: 60s
+  - input: { feeder.DIN_3: off }
+  - wait: { until: feeder.A.pulses == 1, within: 5s }
+)";
+
+TEST_F(HostTime, MeetsAScenarioAtTheSameMomentsInEachRun) {
+  const std::string beside = folder().write("beside.yaml", kScenarioBeside);
+  const std::string spin = "while :; do :; done";
+  const Process load({"sh", "-c", spin});
+  const std::string script = R"(
+import os, select, termios, time, tty
+port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
+tty.setraw(port)
+settings = termios.tcgetattr(port)
+settings[4] = settings[5] = termios.B19200
+termios.tcsetattr(port, termios.TCSANOW, settings)
+before = None
+for i in range(150):
+    os.write(port, bytes.fromhex("010300010001D5CA"))
+    answer = b""
+    while len(answer) < 7 and select.select([port], [], [], 0.1)[0]:
+        answer += os.read(port, 7)
+    if answer != before:
+        print(f"{time.monotonic() - 3600:.4f} {answer.hex()}")
+    before = answer
+    time.sleep(0.01)
+)";
+  std::string first;
+  for (const char* const name : {"first", "second"}) {
+    const std::string recording = folder() / name;
+    const Finished host = python(script, {"--with", beside, "--record", recording});
+    EXPECT_EQ(host.exit_code, 1);  // nobody moves the axis
+    EXPECT_NE(host.errors.find("FAIL"), std::string::npos) << host.errors;
+    EXPECT_NE(host.errors.find("beside.yaml: beside (at 65.538s)"), std::string::npos) << host.errors;
+    const std::string all = host.output + text_of(recording);
+    if (first.empty()) first = all;
+    EXPECT_EQ(all, first);
+    // The first answer, silence, and the answer again.
+    EXPECT_EQ(std::ranges::count(host.output, '\n'), 3) << host.output;
+  }
+}
+
+TEST_F(HostTime, GivesUpAScenarioWithTheHost) {
+  const std::string beside = folder().write("beside.yaml", kScenarioBeside);
+  const Finished killed = exec({"sh", "-c", "sleep 1; kill -KILL $$"}, {"--with", beside});
+  EXPECT_EQ(killed.exit_code, 128 + 9);
+  EXPECT_NE(killed.errors.find("beside.yaml: did not run to its end"), std::string::npos) << killed.errors;
+  const Finished late = python("while True: pass", {"--with", beside, "--timeout", "1s"});
+  EXPECT_EQ(late.exit_code, 124);
+  EXPECT_NE(late.errors.find("beside.yaml: did not run to its end"), std::string::npos) << late.errors;
 }
 
 TEST_F(HostTime, TakesTcdrainForAsLongAsTheWire) {

@@ -10,14 +10,18 @@
 #include <vector>
 
 #include "base/files/file_error.h"
+#include "base/simulated_time.h"
 #include "emulator/device/model.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/executor.h"
+#include "emulator/play/stages/host_time_executor.h"
 #include "emulator/play/stages/real_executor.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/host_time/host_time.h"
 #include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::play {
@@ -80,19 +84,39 @@ Scenario load_side_scenario(ModelList models, const std::string& path, const wor
   return scenario;
 }
 
-SideScenario::SideScenario(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over)
-    : thread_([this, &scenario, &daemon, over = std::move(over)] {
+SideScenario::SideScenario(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over,
+                           serve::HostTime* host_time)
+    : host_time_(host_time), thread_([this, &scenario, &daemon, over = std::move(over)] {
         play_on(scenario, daemon);
+        turns_.finish();
         daemon.post(over);
-      }) {}
+      }) {
+  if (host_time_ != nullptr) host_time_->accompany(&turns_);
+}
+
+SideScenario::~SideScenario() {
+  if (host_time_ != nullptr) host_time_->accompany(nullptr);
+  turns_.leave();
+  thread_.join();
+}
+
+void SideScenario::give_up() {
+  given_up_ = true;
+  if (host_time_ == nullptr) return;
+  turns_.give_up();
+  turns_.act(SimTime{0});
+}
+
+std::unique_ptr<Executor> SideScenario::make_executor(serve::Daemon& daemon) {
+  if (host_time_ != nullptr) return std::make_unique<HostTimeExecutor>(daemon.world(), turns_);
+  return std::make_unique<RealExecutor>(daemon,
+                                        RealExecutorOptions{.has_hosts = false, .given_up = &given_up_});
+}
 
 void SideScenario::play_on(const Scenario& scenario, serve::Daemon& daemon) {
   try {
     RunOptions options;
-    options.make_executor = [&](const Scenario&) {
-      return std::make_unique<RealExecutor>(daemon,
-                                            RealExecutorOptions{.has_hosts = false, .given_up = &given_up_});
-    };
+    options.make_executor = [&](const Scenario&) { return make_executor(daemon); };
     results_ = run_scenario(scenario, options);
   } catch (const ExecutionAborted&) {
     was_given_up_ = true;

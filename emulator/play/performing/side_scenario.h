@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -12,8 +13,10 @@
 
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/real_executor.h"
+#include "emulator/play/stages/executor.h"
+#include "emulator/play/stages/turns.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/host_time/host_time.h"
 #include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::play {
@@ -27,14 +30,15 @@ class SideScenario {
  public:
   /// Starts when the daemon runs. `over` is called at the end, on the daemon's thread; if the daemon ends
   /// first, the scenario is abandoned. The scenario must outlive this object, and the world must not be used
-  /// elsewhere while it exists.
-  SideScenario(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over);
-  ~SideScenario() { thread_.join(); }
+  /// elsewhere while it exists. With `host_time`, it acts while the host sleeps.
+  SideScenario(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over,
+               serve::HostTime* host_time = nullptr);
+  ~SideScenario();
   SideScenario(const SideScenario&) = delete;
   SideScenario& operator=(const SideScenario&) = delete;
 
-  /// Asks the scenario to end soon.
-  void give_up() { given_up_ = true; }
+  /// Asks the scenario to end soon. Must be called on the daemon's thread.
+  void give_up();
 
   // --- after it is over
   bool was_given_up() const { return was_given_up_; }
@@ -43,7 +47,10 @@ class SideScenario {
 
  private:
   void play_on(const Scenario& scenario, serve::Daemon& daemon);
+  std::unique_ptr<Executor> make_executor(serve::Daemon& daemon);
 
+  serve::HostTime* host_time_;
+  Turns turns_;  // in host time
   std::atomic<bool> given_up_ = false;
   bool was_given_up_ = false;
   std::vector<ScenarioResult> results_;

@@ -16,6 +16,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/stages/executor.h"
 #include "emulator/play/stages/modbus_host.h"
+#include "emulator/play/stages/tick_look.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/speech/modbus_words.h"
 #include "emulator/world/speech/text_lines_heard.h"
@@ -132,26 +133,10 @@ void FreeExecutor::set_quiet_since(const std::vector<SimTime>& since) {
 }
 
 bool FreeExecutor::run_until(const Awaited& awaited, SimTime deadline) {
-  struct Look final : world::TickWatcher {
-    Look(world::World& of, const Awaited& what) : world(of), awaited(what) { world.add_watcher(*this); }
-    ~Look() override { world.remove_watcher(*this); }
-    Look(const Look&) = delete;
-    Look& operator=(const Look&) = delete;
-    void on_tick(Tick) override {
-      is_over = is_over || awaited.is_there(world);
-      if (is_over) world.stop_here();
-    }
-    Tick next_look(Tick done) const override {
-      return awaited.next_look ? awaited.next_look(done) : done + 1;
-    }
-    world::World& world;
-    const Awaited& awaited;
-    bool is_over = false;
-  };
   if (awaited.is_there(world_)) return true;
-  Look look(world_, awaited);
+  const TickLook look(world_, awaited);
   world_.advance_to(deadline);
-  return look.is_over;
+  return look.is_there();
 }
 
 HostReply FreeExecutor::read(std::size_t line, int station, Table table, std::uint16_t first, int count) {

@@ -27,6 +27,7 @@
 #include "base/files/descriptor.h"
 #include "base/simulated_time.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/host_time/companion.h"
 #include "emulator/serve/host_time/host_waits.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/listener.h"
@@ -226,6 +227,7 @@ void HostTime::look_again() {
 }
 
 bool HostTime::is_host_asleep() {
+  if (is_host_over_) return true;
   std::set<int> resting;
   std::size_t waiting = 0;
   for (const auto& [number, thread] : waits_.threads()) {
@@ -292,6 +294,7 @@ std::optional<SimTime> HostTime::next_stop() const {
     stop = std::min(stop.value_or(time), std::max(time, now + SimTime{1}));
   };
   if (const auto next = timers_.next()) not_beyond(*next);
+  if (const auto next = companion_ != nullptr ? companion_->next_act() : std::nullopt) not_beyond(*next);
   for (const auto& port : daemon_.ports()) {
     if (const auto full = port->time_until_full()) not_beyond(now + *full);
     if (!waits_.is_line_waited_for(terminal_of(*port))) continue;
@@ -303,12 +306,19 @@ std::optional<SimTime> HostTime::next_stop() const {
   return world.next_due();  // they wait without end, and only a device could change that
 }
 
+bool HostTime::may_time_go() const {
+  if (is_host_over_) return companion_ != nullptr && companion_->next_act();
+  return (waits_.is_any_waiting() || timers_.next()) && !waits_.is_any_outside();
+}
+
 void HostTime::consider() {
-  if (!(waits_.is_any_waiting() || timers_.next()) || waits_.is_any_outside()) return;
+  if (!may_time_go()) return;
   if (daemon_.is_advancing() || daemon_.pacer().paused() || !is_host_asleep()) return look_again();
   patience_ = WallTime{0};
   const WallTime until = wall_now() + kSlice;
-  while (!give_to_host()) {
+  while (true) {
+    if (companion_ != nullptr) companion_->act(daemon_.world().now());  // before the host, in every run
+    if (give_to_host() || (is_host_over_ && !may_time_go())) return;
     if (expire_timers()) return look_again();
     for (const auto& port : daemon_.ports()) {
       if (port->is_in_doubt()) return look_again();
@@ -324,7 +334,16 @@ void HostTime::consider() {
   }
 }
 
-void HostTime::host_ended() { take_from_host(); }
+void HostTime::accompany(Companion* companion) {
+  companion_ = companion;
+  if (companion != nullptr) consider();
+}
+
+void HostTime::host_ended() {
+  take_from_host();
+  is_host_over_ = true;
+  consider();
+}
 
 /// Tells of a thread that does not wait, once.
 void HostTime::watch_over() {

@@ -19,6 +19,7 @@
 #include "base/files/descriptor.h"
 #include "base/simulated_time.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/host_time/companion.h"
 #include "emulator/serve/host_time/host_page.h"
 #include "emulator/serve/host_time/host_tasks.h"
 #include "emulator/serve/host_time/host_timers.h"
@@ -39,7 +40,11 @@ class HostTime {
 
   /// What the host's environment needs. Throws NoTtyShim.
   std::vector<std::pair<std::string, std::string>> environment() const;
-  /// The host has ended: takes the bytes that it wrote last.
+  /// From now on time goes on only while the companion waits too. It must outlive this object, or be removed
+  /// (null).
+  void accompany(Companion* companion);
+  /// The host has ended: takes the bytes that it wrote last. From now on the companion alone decides how far
+  /// time goes.
   void host_ended();
   /// Returns true if the host's first process has loaded the library, whatever program it has become.
   bool was_greeted() const { return was_greeted_; }
@@ -51,6 +56,7 @@ class HostTime {
   void judge_end_of(int process);
   void answer(int number, HostAnswer answer, const HostWaits::Thread& thread);
   void consider();
+  bool may_time_go() const;
   bool is_host_asleep();
   bool has_unread_messages() const;
   void look_again();
@@ -68,6 +74,8 @@ class HostTime {
   };
 
   Daemon& daemon_;
+  Companion* companion_ = nullptr;
+  bool is_host_over_ = false;
   std::string place_;
   std::function<void(const std::string&)> tell_;
   HostPage page_;
