@@ -67,23 +67,13 @@ struct ServeArguments {
 };
 int serve(ModelList models, const ServeArguments& arguments);
 
-struct ExecArguments {
-  ServeArguments serve;
-  std::vector<std::string> command;      // the words after --: a command and its arguments
-  std::vector<std::string> stray_words;  // the words before --
-  std::string with;                      // the file of a scenario that runs beside the command
-  std::string save_below;                // the folder in which the scenario may save; empty: its own
+/// The command of `exec`: a host program.
+struct HostArguments {
+  std::vector<std::string> command;  // the words after --: a command and its arguments
+  std::vector<std::pair<std::string, std::string>> environment{};  // in addition to ours
   bool tty_shim = false;
-  bool host_time = false;     // the command lives in simulated time
-  bool has_speed = false;     // --speed was given
-  std::optional<int> repeat;  // how often it runs; its recordings are compared
-  std::string timeout;        // a duration
+  bool host_time = false;  // the command lives in simulated time
 };
-/// Returns the command's exit code, if it has one.
-int execute(ModelList models, const ExecArguments& arguments);
-/// Prints the path of the library that `exec --tty-shim` preloads.
-int print_tty_shim();
-
 struct RunArguments {
   std::vector<std::string> scenarios;  // files
   bool real_time = false;
@@ -106,9 +96,27 @@ struct RunArguments {
   std::string coverage;                // a file
   std::optional<double> coverage_min;  // per cent of the lines
   std::string device_coverage;         // a file
+  HostArguments host{};                // a command that runs beside each scenario, if it has words
+  std::string timeout;                 // a duration: for the command
   std::string version;                 // the version of this program
 };
 int run_scenarios(ModelList models, const RunArguments& arguments);
+
+struct ExecArguments {
+  ServeArguments serve;
+  HostArguments host;
+  std::vector<std::string> stray_words;  // the words before --
+  std::string with;                      // the file of a scenario that runs beside the command
+  std::string save_below;                // the folder in which the scenario may save; empty: its own
+  bool has_speed = false;                // --speed was given
+  std::optional<int> repeat;             // how often it runs; its recordings are compared
+  std::string timeout;                   // a duration
+  RunArguments cases;                    // the flags for a scenario whose cases run beside the command
+};
+/// Returns the command's exit code, if it has one.
+int execute(ModelList models, const ExecArguments& arguments);
+/// Prints the path of the library that `exec --tty-shim` preloads.
+int print_tty_shim();
 
 struct CoverageArguments {
   std::vector<std::string> files;  // tracefiles

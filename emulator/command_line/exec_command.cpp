@@ -1,45 +1,35 @@
 // Implements `understudy exec`: serves a bench while a command that uses it runs.
-#include <signal.h>
-#include <sys/timerfd.h>
-#include <sys/types.h>
 #include <unistd.h>
 
-#include <cctype>
-#include <cerrno>
-#include <cstdint>
+#include <array>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "base/files/file_claims.h"
-#include "base/simulated_time.h"
+#include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
-#include "emulator/command_line/coverage_file.h"
 #include "emulator/command_line/exec_courses.h"
-#include "emulator/command_line/log.h"
+#include "emulator/command_line/host_course.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/command_line/terminal.h"
 #include "emulator/device/model.h"
-#include "emulator/play/lint/lint.h"
 #include "emulator/play/performing/side_scenario.h"
+#include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/control/control_door.h"
-#include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/host_time/host_program.h"
-#include "emulator/serve/host_time/host_time.h"
 #include "emulator/serve/loop/child.h"
-#include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/pacer.h"
 #include "emulator/serve/loop/parent_signals.h"
-#include "emulator/serve/ports/port_group.h"
 #include "emulator/serve/ports/private_folder.h"
 #include "emulator/serve/ports/tty_shim.h"
 #include "emulator/world/bench/bench.h"
@@ -53,53 +43,6 @@ constexpr int kExitTimedOut = 124;
 constexpr int kExitNotStarted = 127;
 constexpr int kExitNoHostTime = 125;  // the command cannot live in simulated time
 
-/// Calls a function once, this long after its construction.
-class Alarm {
- public:
-  Alarm(serve::EventLoop& loop, serve::WallTime after, std::function<void()> call)
-      : loop_(loop), timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
-    if (timer_ < 0) throw std::system_error(errno, std::generic_category(), "timerfd_create");
-    itimerspec setting{};
-    setting.it_value.tv_sec = after.count() / 1'000'000'000;
-    setting.it_value.tv_nsec = after.count() % 1'000'000'000;
-    timerfd_settime(timer_, 0, &setting, nullptr);
-    loop_.watch(timer_, serve::EventLoop::readable, [this, call = std::move(call)](std::uint32_t) {
-      std::uint64_t ignored = 0;
-      if (read(timer_, &ignored, sizeof ignored) > 0) call();
-    });
-  }
-  ~Alarm() {
-    loop_.unwatch(timer_);
-    close(timer_);
-  }
-  Alarm(const Alarm&) = delete;
-  Alarm& operator=(const Alarm&) = delete;
-
- private:
-  serve::EventLoop& loop_;
-  int timer_;
-};
-
-std::string variable_of(const std::string& line) {
-  std::string name = "UNDERSTUDY_PORT_" + line;
-  for (char& c : name) {
-    const auto letter = static_cast<unsigned char>(c);
-    c = std::isalnum(letter) != 0 ? static_cast<char>(std::toupper(letter)) : '_';
-  }
-  return name;
-}
-
-void require_variables(const world::Bench& bench) {
-  for (std::size_t i = 0; i < bench.lines.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (variable_of(bench.lines[i].name) != variable_of(bench.lines[j].name)) continue;
-      throw UsageError("exec: the lines " + understudy::quoted(bench.lines[j].name) + " and " +
-                       understudy::quoted(bench.lines[i].name) + " would both be " +
-                       variable_of(bench.lines[i].name) + "; expected names that differ more");
-    }
-  }
-}
-
 /// Puts everything without a given path into a folder that no other process uses.
 void use_private_places(Serving& serving, const ExecArguments& arguments, serve::PrivateFolder& folder) {
   if (arguments.serve.links.empty() && arguments.serve.link.empty()) {
@@ -109,20 +52,6 @@ void use_private_places(Serving& serving, const ExecArguments& arguments, serve:
   }
   if (arguments.serve.control.empty()) serving.options.door = serve::control_door(folder.path() + "/control");
   if (serving.options.record_path.empty()) serving.options.record_path = folder.path() + "/recording";
-}
-
-serve::ChildCommand command_for(const ExecArguments& arguments, const serve::Daemon& daemon) {
-  serve::ChildCommand command{.words = arguments.command, .environment = {}};
-  auto& environment = command.environment;
-  for (const auto& port : daemon.ports()) {
-    const std::string path = port->place();
-    if (port == daemon.ports().front()) environment.emplace_back("UNDERSTUDY_PORT", path);
-    environment.emplace_back(variable_of(daemon.world().line(port->line_number()).line.name()), path);
-  }
-  environment.emplace_back("UNDERSTUDY_CONTROL", daemon.control_path());
-  if (arguments.tty_shim && !arguments.host_time)
-    environment.emplace_back("LD_PRELOAD", serve::preload_with(serve::kTtyShimLibrary));
-  return command;
 }
 
 void require_host_time(const ExecArguments& arguments, const world::Bench& bench) {
@@ -135,24 +64,14 @@ void require_host_time(const ExecArguments& arguments, const world::Bench& bench
   }
 }
 
-std::optional<serve::WallTime> timeout_of(const ExecArguments& arguments) {
-  if (arguments.timeout.empty()) return std::nullopt;
-  const auto timeout = parse_duration(arguments.timeout);
-  if (!timeout || *timeout <= SimTime{0}) {
-    throw UsageError("--timeout: " + understudy::quoted(arguments.timeout) +
-                     " is not a time to wait; expected one such as 30s");
-  }
-  return timeout;
-}
-
 /// Prints the verdicts of the scenario and returns its exit code.
-int tell_of(const play::SideScenario& side_scenario, const play::Scenario& scenario) {
-  if (side_scenario.was_given_up()) {
+int tell_of(const CourseEnd& end, const play::Scenario& scenario) {
+  if (end.was_given_up) {
     std::fprintf(stderr, "understudy: exec: %s: did not run to its end\n", one_line(scenario.file).c_str());
     return kExitFailed;
   }
   int code = kExitWell;
-  for (const play::ScenarioResult& result : side_scenario.results()) {
+  for (const play::ScenarioResult& result : end.results) {
     std::fprintf(stderr, "%s\n",
                  coloured_verdict(play::verdict_line(result), wants_colour(STDERR_FILENO)).c_str());
     for (const std::string& line : play::failure_lines(result))
@@ -163,87 +82,34 @@ int tell_of(const play::SideScenario& side_scenario, const play::Scenario& scena
 }
 
 /// Tells why the command's own exit code does not count, if it does not.
-int exit_code_of(const ExecArguments& arguments, const serve::Child& child, bool timed_out,
-                 bool was_reached) {
-  const std::string command = one_line(arguments.command[0]);
-  if (timed_out) {
+int exit_code_of(const ExecArguments& arguments, const CourseEnd& end) {
+  const std::string command = one_line(arguments.host.command[0]);
+  if (end.has_timed_out) {
     std::fprintf(stderr, "understudy: exec: %s: was ended because it took longer than %s\n", command.c_str(),
                  arguments.timeout.c_str());
     return kExitTimedOut;
   }
-  if (!was_reached) {
+  if (!end.was_reached) {
     std::fprintf(stderr,
                  "understudy: exec: %s: did not load our library, so it ran in real time; expected a program "
                  "that keeps LD_PRELOAD\n",
                  command.c_str());
     return kExitNoHostTime;
   }
-  return child.exit_code();
-}
-
-void share_ports(const serve::Daemon& daemon, gid_t group) {
-  for (const auto& port : daemon.ports()) {
-    if (port->terminal() != nullptr) serve::share_port(port->terminal()->path(), group);
-  }
+  return end.exit_code;
 }
 
 /// Serves the bench until both the command and the scenario beside it end.
 int play(const ExecArguments& arguments, const Serving& serving, serve::PrivateFolder& folder,
          const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
-  const auto timeout = timeout_of(arguments);
-  serve::Daemon daemon(serving.bench, serving.options, log_line);
-  ServedCoverage coverage(arguments.serve, daemon);
-  if (serving.group) share_ports(daemon, *serving.group);
-  std::optional<play::Lint> lint;
-  if (arguments.serve.lint) lint.emplace(daemon.world());
-  std::optional<serve::HostTime> host_time;
-  serve::ChildCommand command = command_for(arguments, daemon);
-  if (arguments.host_time) {
-    host_time.emplace(daemon, folder.path() + "/host", log_line);
-    for (auto& variable : host_time->environment()) command.environment.push_back(std::move(variable));
-  }
-  std::optional<serve::Child> child;
-  std::optional<play::SideScenario> side_scenario;
-  bool child_is_over = false;
-  bool side_scenario_is_over = !scenario;
-  bool timed_out = false;
-  const auto give_up_side_scenario = [&] {
-    if (side_scenario) side_scenario->give_up();
-  };
-  const auto stop_if_over = [&] {
-    if (child_is_over && side_scenario_is_over) daemon.stop();
-  };
-  child.emplace(daemon.loop(), signals, command, [&] {
-    child_is_over = true;
-    // No client is left that could advance the time. In host time the scenario itself does.
-    if (child->was_ended() || (daemon.pacer().standing() && !host_time)) give_up_side_scenario();
-    if (host_time) host_time->host_ended();
-    stop_if_over();
-  });
-  signals.watch(daemon.loop(), [&](int signal_number) {
-    if (signal_number == SIGCHLD) return child->look_after_children();
-    child->end_with(signal_number);
-    if (child_is_over) give_up_side_scenario();
-  });
-  std::optional<Alarm> alarm;
-  if (timeout) {
-    alarm.emplace(daemon.loop(), *timeout, [&] {
-      timed_out = true;
-      child->end_with(SIGTERM);
-      if (child_is_over) give_up_side_scenario();
-    });
-  }
-  const auto scenario_over = [&] {
-    side_scenario_is_over = true;
-    stop_if_over();
-  };
-  if (scenario) side_scenario.emplace(*scenario, daemon, scenario_over, host_time ? &*host_time : nullptr);
-  daemon.run();
-  signals.unwatch(daemon.loop());
-  if (lint) print_findings(lint->findings());
-  coverage.write();
-  const int scenario_code = side_scenario ? tell_of(*side_scenario, *scenario) : kExitWell;
-  const int code = exit_code_of(arguments, *child, timed_out, !host_time || host_time->was_greeted());
+  const CourseEnd end = run_course({.serving = serving,
+                                    .host = arguments.host,
+                                    .folder = folder.path(),
+                                    .timeout = parse_timeout(arguments.timeout),
+                                    .scenario = scenario ? &*scenario : nullptr},
+                                   arguments.serve, signals);
+  const int scenario_code = scenario ? tell_of(end, *scenario) : static_cast<int>(kExitWell);
+  const int code = exit_code_of(arguments, end);
   return code != kExitWell ? code : scenario_code;
 }
 
@@ -265,14 +131,14 @@ void require_apart(const play::Scenario& scenario, const ServeArguments& serve, 
 int execute_once(ModelList models, const ExecArguments& arguments) {
   Serving serving = make_serving(models, arguments.serve, "exec");
   require_variables(serving.bench);
-  if (arguments.host_time) require_host_time(arguments, serving.bench);
+  if (arguments.host.host_time) require_host_time(arguments, serving.bench);
   std::optional<play::Scenario> scenario;
   if (!arguments.with.empty()) {
     scenario = play::load_side_scenario(models, arguments.with, serving.bench, arguments.save_below);
     require_apart(*scenario, arguments.serve, serving.options.files);
   }
-  if (arguments.host_time) {
-    if (const std::string why = serve::why_not_in_host_time(arguments.command[0]); !why.empty()) {
+  if (arguments.host.host_time) {
+    if (const std::string why = serve::why_not_in_host_time(arguments.host.command[0]); !why.empty()) {
       std::fprintf(stderr, "understudy: exec: --host-time: %s\n", why.c_str());
       return kExitNoHostTime;
     }
@@ -302,7 +168,7 @@ int execute_once(ModelList models, const ExecArguments& arguments) {
 
 /// Runs the command several times, and compares what happened.
 int execute_repeatedly(ModelList models, const ExecArguments& arguments, int times) {
-  if (!arguments.host_time)
+  if (!arguments.host.host_time)
     throw UsageError("--repeat: runs differ in real time; expected --host-time as well");
   if (!arguments.serve.nv.empty())
     throw UsageError("--repeat: each run would begin with the memory of the run before; expected no --nv");
@@ -333,13 +199,108 @@ int execute_repeatedly(ModelList models, const ExecArguments& arguments, int tim
   return are_same ? kExitWell : kExitFailed;
 }
 
+bool is_scenario(const std::string& path) {
+  if (path.empty() || !std::filesystem::is_regular_file(path)) return false;
+  try {
+    return play::kind_of_file(path) == play::FileKind::scenario;
+  } catch (const FileError&) {
+    return false;  // reading it as a bench says what is wrong
+  }
+}
+
+/// A flag that was given.
+struct GivenFlag {
+  const char* flag;
+  bool is_given;
+};
+
+void require_none(std::span<const GivenFlag> flags, const std::string& why) {
+  for (const GivenFlag& each : flags) {
+    if (each.is_given) throw UsageError(std::string("exec: ") + each.flag + ": " + why);
+  }
+}
+
+void require_bench_flags(const ExecArguments& arguments) {
+  const RunArguments& cases = arguments.cases;
+  const std::array<GivenFlag, 9> of_cases{{{"--junit", !cases.junit.empty()},
+                                           {"--hash", cases.hash},
+                                           {"--jobs", cases.jobs.has_value()},
+                                           {"--shard", !cases.shard.empty()},
+                                           {"--seed", cases.seed.has_value()},
+                                           {"--filter", !cases.filter.empty()},
+                                           {"--results", !cases.results.empty()},
+                                           {"--resume", cases.resume},
+                                           {"--failures", !cases.failures.empty()}}};
+  require_none(of_cases, "is for the cases of a scenario; expected a scenario instead of the bench");
+}
+
+/// Returns an exit code if the command cannot be what runs in each case, and says why. A program whose name
+/// depends on the case is looked for when it is started.
+std::optional<int> code_of_unusable(const HostArguments& host) {
+  const std::string& program = host.command[0];
+  if (program.find("${") != std::string::npos) return std::nullopt;
+  if (!serve::can_be_started(program)) {
+    std::fprintf(stderr, "understudy: exec: %s: cannot be started; expected a program\n",
+                 one_line(program).c_str());
+    return kExitNotStarted;
+  }
+  if (!host.host_time) return std::nullopt;
+  const std::string why = serve::why_not_in_host_time(program);
+  if (why.empty()) return std::nullopt;
+  std::fprintf(stderr, "understudy: exec: --host-time: %s\n", why.c_str());
+  return kExitNoHostTime;
+}
+
+/// Runs the command in each case of a scenario.
+int execute_cases(ModelList models, const ExecArguments& arguments) {
+  const ServeArguments& serve = arguments.serve;
+  const std::array<GivenFlag, 21> of_bench{{{"--with", !arguments.with.empty()},
+                                            {"--repeat", arguments.repeat.has_value()},
+                                            {"--speed", arguments.has_speed},
+                                            {"--model", !serve.model.empty()},
+                                            {"--station", serve.station.has_value()},
+                                            {"--modules", serve.modules.has_value()},
+                                            {"--firmware", !serve.firmware.empty()},
+                                            {"--baud", serve.baud.has_value()},
+                                            {"--link", !serve.link.empty()},
+                                            {"--links", !serve.links.empty()},
+                                            {"--group", !serve.group.empty()},
+                                            {"--timing", !serve.timing.empty()},
+                                            {"--strict-framing", serve.strict_framing},
+                                            {"--ignore-baud", serve.ignore_baud},
+                                            {"--byte-timeout", !serve.byte_timeout.empty()},
+                                            {"--control", !serve.control.empty()},
+                                            {"--nv", !serve.nv.empty()},
+                                            {"--listen", !serve.listen.empty()},
+                                            {"--no-pty", serve.no_pty},
+                                            {"--coverage", !serve.coverage.empty()},
+                                            {"--device-coverage", !serve.device_coverage.empty()}}};
+  require_none(of_bench, "is not for the cases of a scenario; expected a bench, or the scenario alone");
+  if (const auto code = code_of_unusable(arguments.host)) return *code;
+  RunArguments run = arguments.cases;
+  run.scenarios = {serve.bench};
+  run.real_time = !arguments.host.host_time;
+  run.record = serve.record;
+  run.trace = serve.trace;
+  run.trace_also = serve.trace_also;
+  run.capture = serve.capture;
+  run.lint = serve.lint;
+  run.save_below = arguments.save_below;
+  run.host = arguments.host;
+  run.timeout = arguments.timeout;
+  run.version = serve.version;
+  return run_scenarios(models, run);
+}
+
 }  // namespace
 
 int execute(ModelList models, const ExecArguments& arguments) {
-  if (!arguments.stray_words.empty() || arguments.command.empty()) {
+  if (!arguments.stray_words.empty() || arguments.host.command.empty()) {
     throw UsageError("exec: expected -- and a command after it, such as `exec bench.yaml -- ./my_host`");
   }
-  timeout_of(arguments);
+  parse_timeout(arguments.timeout);
+  if (is_scenario(arguments.serve.bench)) return execute_cases(models, arguments);
+  require_bench_flags(arguments);
   if (arguments.repeat && *arguments.repeat < 1)
     throw UsageError("--repeat: " + std::to_string(*arguments.repeat) +
                      " is too few; expected 1 or more runs");

@@ -111,19 +111,7 @@ struct CommandLine {
   void add_exec(CLI::App& command) {
     add_serving_flags(command, exec.serve);
     command.add_option("COMMAND", exec.stray_words, "A command and its arguments, after --");
-    command.add_option("--with", exec.with, "Scenario to run while the command runs [none]")
-        ->check(kNotEmpty);
-    add_save_below(command, exec.save_below);
-    command.add_flag("--tty-shim", exec.tty_shim,
-                     "Preload a library that lets hosts that insist on parity use a pseudo-terminal");
-    command.add_flag("--host-time", exec.host_time,
-                     "Put the command into simulated time as well; it includes --tty-shim");
-    command.add_option("--repeat", exec.repeat,
-                       "Run it so many times, and compare the recordings (with --host-time)");
-    command.add_flag_callback(
-        "--twice", [this] { exec.repeat = 2; }, "The same as --repeat 2");
-    command.add_option("--timeout", exec.timeout, "End the command after this much real time [never]")
-        ->check(kNotEmpty);
+    add_exec_flags(command, exec);
     command.callback([this, &command] {
       exec.has_speed = command.count("--speed") > 0;
       chosen = [this] { return execute(models, exec); };
@@ -378,7 +366,8 @@ const std::array<CommandLine::Command, 19> CommandLine::kCommands{{
     {"models", "List the models", &CommandLine::add_models},
     {"describe", "Print a model's tables", &CommandLine::add_describe},
     {"serve", "Emulate the devices of a bench, in the foreground", &CommandLine::add_serve},
-    {"exec", "Run a command against a bench: exec BENCH -- COMMAND", &CommandLine::add_exec},
+    {"exec", "Run a command against a bench, or in each case of a scenario: exec FILE -- COMMAND",
+     &CommandLine::add_exec},
     {"run", "Run scenarios in simulated time", &CommandLine::add_run},
     {"coverage", "Add the coverage of several runs", &CommandLine::add_coverage_sum},
     {"replay", "Replay a recording and compare every byte", &CommandLine::add_replay},
@@ -416,7 +405,7 @@ std::function<int()> parse_command_line(int argc, char** argv, ModelList models)
   argc = static_cast<int>(own_end - argv);
   const auto make_line = [&](std::optional<CommandLine::Words> among) {
     auto line = std::make_shared<CommandLine>(models, among);
-    line->exec.command = of_others;
+    line->exec.host.command = of_others;
     return line;
   };
   const auto parsed = [&](const std::shared_ptr<CommandLine>& line) -> std::function<int()> {

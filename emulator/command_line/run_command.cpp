@@ -1,5 +1,6 @@
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -23,11 +24,13 @@
 #include "emulator/command_line/coverage_file.h"
 #include "emulator/command_line/device_coverage_file.h"
 #include "emulator/command_line/findings.h"
+#include "emulator/command_line/host_case.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_account.h"
 #include "emulator/command_line/run_files.h"
 #include "emulator/command_line/terminal.h"
+#include "emulator/command_line/worker_processes.h"
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/device/model.h"
 #include "emulator/play/lint/lint.h"
@@ -84,8 +87,11 @@ void warn(const play::Scenario& scenario, Known& known) {
   }
 }
 
+bool has_command(const RunArguments& arguments) { return !arguments.host.command.empty(); }
+
 void note_saved(const play::Scenario& scenario, const RunArguments& arguments, Known& known) {
   ++known.cases;
+  require_steps_for(scenario, has_command(arguments));
   if (!play::matches(arguments.filter, scenario.name, play::identity_of(scenario.which))) return;
   warn(scenario, known);
   for (const std::string& path : scenario.saved) {
@@ -204,6 +210,12 @@ void require_flags_that_agree(const RunArguments& arguments) {
   }
 }
 
+/// How failures get their recordings.
+Recorded recorded_by(const RunArguments& arguments) {
+  if (has_command(arguments)) return Recorded::apart;
+  return arguments.real_time ? Recorded::always : Recorded::again;
+}
+
 /// Runs a scenario with its observers.
 class Stagehand {
  public:
@@ -227,6 +239,8 @@ class Stagehand {
       if (!arguments_.report.empty() && !scenario->which.is_varied) options.observers.push_back(run_logger());
       add(options, files_.observers(*scenario));
       add(options, coverage_.observers(*scenario));
+      if (has_command(arguments_))
+        return run_host_case(*scenario, std::move(options), arguments_, files_.next_spool(".jsonl"));
       return play::run_scenario(*scenario, options);
     } catch (const FileError& error) {
       return {unreadable(reader, which_case, case_list, error)};
@@ -280,9 +294,40 @@ class Stagehand {
   play::RunOptions options_{};
 };
 
-/// Returns the hash of a case's sources and of the program's version.
-std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const std::string& version) {
-  return hash_of(std::as_bytes(std::span(version)), case_list.made_of(file));
+/// Makes what runs cases for each thread. A case with a command runs in a process of its own.
+class Players {
+ public:
+  Players(const Stagehand& stagehand, const play::CaseList& case_list, bool have_processes, int threads)
+      : stagehand_(stagehand), case_list_(case_list) {
+    if (have_processes) workers_.emplace(threads, [this] { return make_here(); });
+  }
+  /// May be called on any thread.
+  play::Play make() {
+    if (!workers_) return make_here();
+    return [this, worker = taken_++](const play::CaseId& which_case) {
+      return workers_->play(worker, which_case);
+    };
+  }
+
+ private:
+  play::Play make_here() const {
+    return [this, own = std::make_shared<play::CaseReader>(case_list_)](const play::CaseId& which_case) {
+      return stagehand_.play(*own, which_case, case_list_);
+    };
+  }
+
+  const Stagehand& stagehand_;
+  const play::CaseList& case_list_;
+  std::atomic<std::size_t> taken_ = 0;
+  std::optional<WorkerProcesses> workers_;
+};
+
+/// Returns the hash of a case's sources, of the program's version, and of the command.
+std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const RunArguments& arguments) {
+  std::string maker = arguments.version;
+  for (const std::string& word : arguments.host.command) maker += ' ' + word;
+  if (arguments.host.host_time) maker += " --host-time";
+  return hash_of(std::as_bytes(std::span(maker)), case_list.made_of(file));
 }
 
 }  // namespace
@@ -291,7 +336,9 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   const int jobs = jobs_of(arguments);
   require_flags_that_agree(arguments);
   const play::Shard shard = shard_of(arguments);
-  play::CaseList case_list(models, {.save_below = arguments.save_below, .seed = arguments.seed});
+  play::CaseList case_list(
+      models,
+      {.save_below = arguments.save_below, .seed = arguments.seed, .command = arguments.host.command});
   Known known;
   if (!add_all(case_list, arguments, known)) return kExitBadInput;
   require_some(case_list, arguments);
@@ -300,7 +347,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   ResultFile report("--report", arguments.report, ContentKind::page);
   RunCoverage coverage(arguments);
   RunAccount account(arguments);
-  RunFiles files(folders_of(arguments), std::move(known.claims), arguments.real_time, arguments.version);
+  RunFiles files(folders_of(arguments), std::move(known.claims), recorded_by(arguments), arguments.version);
   junit.empty();
   report.empty();
   coverage.empty();
@@ -310,6 +357,8 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   play::CaseReader next_reader(case_list);
   const std::uint64_t total = play::Selection::count(case_list, arguments.filter, shard);
   play::Selection selection(case_list, arguments.filter, shard);
+  const auto threads = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(jobs), total));
+  Players players(stagehand, case_list, has_command(arguments), threads);
   {
     ProgressLine progress(total);
     const auto next = [&] {
@@ -319,23 +368,18 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
         const bool was_played =
             account.was_played({.file = case_list.path(which_case->file),
                                 .identity = play::identity_of(next_reader.case_of(*which_case)),
-                                .made_of = made_of(case_list, which_case->file, arguments.version)});
+                                .made_of = made_of(case_list, which_case->file, arguments)});
         if (!was_played) break;
         progress.one_left_out();
       }
       return which_case;
     };
-    const auto make_play = [&]() -> play::Play {
-      return [&, own = std::make_shared<play::CaseReader>(case_list)](const play::CaseId& which_case) {
-        return stagehand.play(*own, which_case, case_list);
-      };
-    };
-    const auto threads = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(jobs), total));
-    play::run_suite(next, make_play, threads,
-                    [&](const play::CaseId& which_case, std::vector<play::ScenarioResult> results) {
-                      account.add(std::move(results), made_of(case_list, which_case.file, arguments.version),
-                                  files, progress, [&] { return stagehand.play_again(reader, which_case); });
-                    });
+    play::run_suite(
+        next, [&] { return players.make(); }, threads,
+        [&](const play::CaseId& which_case, std::vector<play::ScenarioResult> results) {
+          account.add(std::move(results), made_of(case_list, which_case.file, arguments), files, progress,
+                      [&] { return stagehand.play_again(reader, which_case); });
+        });
   }
   account.finish();
   if (play::Junit* const results = account.junit()) {

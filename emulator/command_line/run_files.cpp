@@ -208,10 +208,10 @@ void require_folders(const FileClaims& claims, const RunFolders& folders) {
   }
 }
 
-RunFiles::RunFiles(RunFolders folders, FileClaims claims, bool real_time, std::string version)
+RunFiles::RunFiles(RunFolders folders, FileClaims claims, Recorded recorded, std::string version)
     : folders_(std::move(folders)),
       claims_(std::move(claims)),
-      real_time_(real_time),
+      recorded_(recorded),
       version_(std::move(version)) {
   std::error_code error;
   for (const FileKind& kind : kFolders) {
@@ -237,7 +237,8 @@ RunFiles::~RunFiles() {
 }
 
 std::string RunFiles::next_spool(const std::string& ending) {
-  return spool_ + "/" + std::to_string(++count_) + ending;
+  // Several processes may have the same spool.
+  return spool_ + "/" + std::to_string(::getpid()) + "-" + std::to_string(++count_) + ending;
 }
 
 play::ObserverMaker RunFiles::recorder(const play::Scenario& scenario) {
@@ -247,7 +248,7 @@ play::ObserverMaker RunFiles::recorder(const play::Scenario& scenario) {
                                   .options = {},
                                   .seed = scenario.bench.seed,
                                   .snapshot = {}};
-    header.options.strict_framing = !real_time_;
+    header.options.strict_framing = recorded_ == Recorded::again;
     return std::make_unique<play::PerformanceRecorder>(world, std::move(header),
                                                        next_spool(kRecording.ending));
   };
@@ -256,9 +257,9 @@ play::ObserverMaker RunFiles::recorder(const play::Scenario& scenario) {
 std::vector<play::ObserverMaker> RunFiles::observers(const play::Scenario& scenario) {
   std::vector<play::ObserverMaker> makers;
   // Most recordings of varied cases would be thrown away. In virtual time a failed case can run again.
-  if (!scenario.which.is_varied || real_time_ || !folders_.recordings.empty()) {
+  const bool is_varied_again = recorded_ == Recorded::again && scenario.which.is_varied;
+  if (recorded_ != Recorded::apart && (!is_varied_again || !folders_.recordings.empty()))
     makers.push_back(recorder(scenario));
-  }
   const auto add = [&](const FileKind& kind, const PlayFile::Begin& begin) {
     if ((folders_.*kind.folder).empty()) return;
     makers.push_back([this, &kind, begin](world::World& world) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <string>
@@ -30,11 +31,18 @@ struct RunFolders {
 /// paths that cannot be folders.
 void require_folders(const FileClaims& claims, const RunFolders& folders);
 
+/// How failures get their recordings.
+enum class Recorded : std::uint8_t {
+  again,   // a varied case runs once more if it is to be recorded
+  always,  // no case comes twice
+  apart,   // the run makes a recording itself
+};
+
 class RunFiles {
  public:
   /// No claimed file is overwritten, even through a link in a folder. Throws pty::PortError and
   /// std::system_error.
-  RunFiles(RunFolders folders, FileClaims claims, bool real_time, std::string version);
+  RunFiles(RunFolders folders, FileClaims claims, Recorded recorded, std::string version);
   ~RunFiles();
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
@@ -43,18 +51,19 @@ class RunFiles {
   /// on any thread.
   std::vector<play::ObserverMaker> observers(const play::Scenario& scenario);
   play::ObserverMaker recorder(const play::Scenario& scenario);
+  /// Returns the path of a new file, which settle() keeps or removes.
+  std::string next_spool(const std::string& ending);
   /// Keeps the files under the result's name, or removes them, and stores their paths in the result. It is
   /// called in the order of the results, which decides between equal names. `is_new` means the first failure
   /// of its kind.
   void settle(play::ScenarioResult& result, bool is_new);
 
  private:
-  std::string next_spool(const std::string& ending);
   std::string free_name(const play::ScenarioResult& result);
 
   RunFolders folders_;
   FileClaims claims_;
-  bool real_time_;
+  Recorded recorded_;
   std::string version_;
   serve::PrivateFolder private_folder_;
   Descriptor lock_;    // locks the spool while its owner is alive

@@ -1,4 +1,4 @@
-// The flags of `run`. Included by flags.cpp only: CLI11 is slow to compile.
+// The flags of `run` and `exec`. Included by flags.cpp only: CLI11 is slow to compile.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,27 +16,12 @@ inline void add_save_below(CLI::App& command, std::string& folder) {
       ->check(kNotEmpty);
 }
 
-inline void add_run_flags(CLI::App& command, RunArguments& run) {
-  command.add_option("SCENARIO", run.scenarios, "Scenario files, or folders whose scenarios are all run")
-      ->required();
-  command.add_flag("--real-time", run.real_time,
-                   "Run in real time over real ports, with libmodbus as the host");
+/// The flags for the cases of a scenario, of `run` and of `exec`.
+inline void add_case_flags(CLI::App& command, RunArguments& run) {
   command
       .add_option("--junit", run.junit,
                   "Write the results to this file as JUnit XML; - writes to standard output")
       ->check(kNotEmpty);
-  command.add_option("--report", run.report, "Write a report on all scenarios to this file, as HTML")
-      ->check(kNotEmpty);
-  command
-      .add_option("--record", run.record,
-                  "Folder for the recordings of all scenarios [only failures are recorded, below /tmp]")
-      ->check(kNotEmpty);
-  command.add_option("--trace", run.trace, "Folder for a trace of each scenario, as CSV")->check(kNotEmpty);
-  command.add_option("--trace-also", run.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
-  command.add_option("--capture", run.capture, "Folder for a capture of each scenario, for Wireshark")
-      ->check(kNotEmpty);
-  add_save_below(command, run.save_below);
-  command.add_flag("--lint", run.lint, kLintHelp);
   command.add_flag("--hash", run.hash,
                    "Print a hash of what each scenario's devices sent and did, to compare runs");
   command.add_option("--jobs", run.jobs,
@@ -54,15 +39,54 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
                   "Write a row for each case to this file: FILE.jsonl or FILE.sqlite; can be given twice")
       ->allow_extra_args(false)
       ->check(kNotEmpty);
-  command.add_option("--coverage", run.coverage, kCoverageHelp)->check(kNotEmpty);
-  command.add_option("--coverage-min", run.coverage_min,
-                     "Fail if fewer of the programs' lines have run, in per cent");
-  command.add_option("--device-coverage", run.device_coverage, kDeviceCoverageHelp)->check(kNotEmpty);
   command.add_flag("--resume", run.resume, "Skip cases that have a row in the file of --results already");
   command
       .add_option("--failures", run.failures,
                   "Folder for the recordings of failures, the first of each kind [below /tmp]")
       ->check(kNotEmpty);
+}
+
+inline void add_run_flags(CLI::App& command, RunArguments& run) {
+  command.add_option("SCENARIO", run.scenarios, "Scenario files, or folders whose scenarios are all run")
+      ->required();
+  command.add_flag("--real-time", run.real_time,
+                   "Run in real time over real ports, with libmodbus as the host");
+  command.add_option("--report", run.report, "Write a report on all scenarios to this file, as HTML")
+      ->check(kNotEmpty);
+  command
+      .add_option("--record", run.record,
+                  "Folder for the recordings of all scenarios [only failures are recorded, below /tmp]")
+      ->check(kNotEmpty);
+  command.add_option("--trace", run.trace, "Folder for a trace of each scenario, as CSV")->check(kNotEmpty);
+  command.add_option("--trace-also", run.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
+  command.add_option("--capture", run.capture, "Folder for a capture of each scenario, for Wireshark")
+      ->check(kNotEmpty);
+  add_save_below(command, run.save_below);
+  command.add_flag("--lint", run.lint, kLintHelp);
+  command.add_option("--coverage", run.coverage, kCoverageHelp)->check(kNotEmpty);
+  command.add_option("--coverage-min", run.coverage_min,
+                     "Fail if fewer of the programs' lines have run, in per cent");
+  command.add_option("--device-coverage", run.device_coverage, kDeviceCoverageHelp)->check(kNotEmpty);
+  add_case_flags(command, run);
+}
+
+/// The flags of `exec` besides those of `serve`.
+inline void add_exec_flags(CLI::App& command, ExecArguments& exec) {
+  command.add_option("--with", exec.with, "Scenario to run while the command runs [none]")->check(kNotEmpty);
+  add_save_below(command, exec.save_below);
+  command.add_flag("--tty-shim", exec.host.tty_shim,
+                   "Preload a library that lets hosts that insist on parity use a pseudo-terminal");
+  command.add_flag("--host-time", exec.host.host_time,
+                   "Put the command into simulated time as well; it includes --tty-shim");
+  command.add_option("--repeat", exec.repeat,
+                     "Run it so many times, and compare the recordings (with --host-time)");
+  command.add_flag_callback(
+      "--twice", [&exec] { exec.repeat = 2; }, "The same as --repeat 2");
+  command
+      .add_option("--timeout", exec.timeout,
+                  "End the command after this much real time [never; 60s in the cases of a scenario]")
+      ->check(kNotEmpty);
+  add_case_flags(command, exec.cases);
 }
 
 }  // namespace understudy::emulator::command_line

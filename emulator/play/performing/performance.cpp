@@ -95,8 +95,12 @@ Performance::Eyes::Eyes(world::World& of, bool with_hash)
       frames(of),
       hash(with_hash ? std::make_unique<world::OutcomeHash>(of) : nullptr) {}
 
-Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> executor, bool with_hash)
-    : executor_(std::move(executor)), bench_(scenario.bench), lines_(scenario.bench.devices.size()) {
+Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> executor, bool with_hash,
+                         HostCommand* command)
+    : executor_(std::move(executor)),
+      command_(command),
+      bench_(scenario.bench),
+      lines_(scenario.bench.devices.size()) {
   for (std::size_t i = 0; i < bench_.lines.size(); ++i) {
     for (const world::StationSetup& station : bench_.lines[i].stations) lines_[station.device].push_back(i);
   }

@@ -50,8 +50,10 @@ class Performance {
     std::uint64_t hash = 0;
   };
 
-  /// The scenario must outlive it. `with_hash` keeps outcome_hash(), which takes time.
-  Performance(const Scenario& scenario, std::unique_ptr<Executor> executor, bool with_hash);
+  /// The scenario must outlive it. `with_hash` keeps outcome_hash(), which takes time. `command` is the one
+  /// that the scenario runs beside, or null.
+  Performance(const Scenario& scenario, std::unique_ptr<Executor> executor, bool with_hash,
+              HostCommand* command = nullptr);
   ~Performance();
   Performance(const Performance&) = delete;
   Performance& operator=(const Performance&) = delete;
@@ -128,6 +130,7 @@ class Performance {
   void perform(const PowerStep& step);
   void perform(const ProgramStep& step);
   void perform(const MemoryStep& step);
+  void perform(const CommandEndStep& step);
 
   // The run executes these (run.h).
   void perform(const SnapshotStep&) {}
@@ -138,6 +141,7 @@ class Performance {
   Failure explain_failure(const StepError& error);
 
   std::unique_ptr<Executor> executor_;
+  HostCommand* command_;
   const world::Bench& bench_;
   std::vector<std::vector<std::size_t>> lines_;  // the lines of each device
   std::unique_ptr<Eyes> eyes_;

@@ -215,4 +215,27 @@ void Performance::perform(const ResetPeaksStep&) {
   executor_->with_world([&](world::World&) { eyes_->peaks.reset(); });
 }
 
+void Performance::perform(const CommandEndStep& step) {
+  if (command_ == nullptr) {
+    throw StepError("no command runs beside this scenario; expected `understudy exec " + step_->file +
+                    " -- COMMAND`");
+  }
+  if (step.stops) executor_->with_world([&](world::World&) { command_->stop(); });
+  const SimTime deadline = moment_in(step.within);
+  const auto is_over = [&](world::World&) { return eyes_->spans.violation() || command_->exit_code(); };
+  const bool has_ended = executor_->run_until({.is_there = is_over}, deadline);
+  throw_if_broken();
+  const std::string expected = "exit code " + std::to_string(step.exits);
+  if (!has_ended) {
+    throw StepError("the command did not end within " + format_duration(step.within),
+                    expected + " within " + format_duration(step.within), "it still runs");
+  }
+  int code = 0;
+  executor_->with_world([&](world::World&) { code = *command_->exit_code(); });
+  if (step.stops || code == step.exits) return;
+  throw StepError(
+      "the command ended with exit code " + std::to_string(code) + "; expected " + std::to_string(step.exits),
+      expected, "exit code " + std::to_string(code));
+}
+
 }  // namespace understudy::emulator::play

@@ -70,11 +70,13 @@ class Run {
  public:
   Run(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {}
 
+  std::unique_ptr<Executor> make_executor() const { return options_.make_executor(scenario_); }
+
   /// Performs the steps from power-up, or from a checkpoint.
   void perform(const std::string& name, const Steps& steps, const Checkpoint& begin, Checkpoints known) {
     const std::size_t number = results_.size();
     results_.push_back(result_called(name));
-    Performance performance(scenario_, options_.make_executor(scenario_), options_.with_hash);
+    Performance performance(scenario_, make_executor(), options_.with_hash, options_.command);
     Observers observers(performance, options_.observers);
     if (begin) {
       performance.restore(*begin);

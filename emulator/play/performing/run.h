@@ -23,6 +23,7 @@ struct RunOptions {
   ExecutorMaker make_executor = make_free_executor;
   bool with_hash = false;  // ScenarioResult::outcome_hash
   std::vector<ObserverMaker> observers{};
+  HostCommand* command = nullptr;  // that the scenario runs beside; null: there is none
 };
 
 /// Returns the scenario's own result, then those of its branches in the order of the file. A step that fails

@@ -76,17 +76,23 @@ Scenario load_side_scenario(ModelList models, const std::string& path, const wor
     throw FileError(
         path + ": bench: its devices or lines differ from those of the running bench; expected the same");
   }
+  require_steps_beside_host(scenario);
+  return scenario;
+}
+
+void require_steps_beside_host(const Scenario& scenario) {
   for (const Step& step : scenario.steps) {
     if (const char* const why = std::visit(Objection{}, step.what)) {
       throw FileError(step.file + ":" + std::to_string(step.line) + ": " + step.text + ": " + why);
     }
   }
-  return scenario;
 }
 
 SideScenario::SideScenario(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over,
-                           serve::HostTime* host_time)
-    : host_time_(host_time), thread_([this, &scenario, &daemon, over = std::move(over)] {
+                           serve::HostTime* host_time, RunOptions options)
+    : host_time_(host_time),
+      options_(std::move(options)),
+      thread_([this, &scenario, &daemon, over = std::move(over)] {
         play_on(scenario, daemon);
         turns_.finish();
         daemon.post(over);
@@ -115,9 +121,8 @@ std::unique_ptr<Executor> SideScenario::make_executor(serve::Daemon& daemon) {
 
 void SideScenario::play_on(const Scenario& scenario, serve::Daemon& daemon) {
   try {
-    RunOptions options;
-    options.make_executor = [&](const Scenario&) { return make_executor(daemon); };
-    results_ = run_scenario(scenario, options);
+    options_.make_executor = [&](const Scenario&) { return make_executor(daemon); };
+    results_ = run_scenario(scenario, options_);
   } catch (const ExecutionAborted&) {
     was_given_up_ = true;
   } catch (...) {

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "emulator/play/performing/run.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/executor.h"
@@ -26,13 +27,17 @@ namespace understudy::emulator::play {
 Scenario load_side_scenario(ModelList models, const std::string& path, const world::Bench& bench,
                             const std::string& save_below = "");
 
+/// Throws FileError at the first step that uses a line, or goes back in time.
+void require_steps_beside_host(const Scenario& scenario);
+
 class SideScenario {
  public:
   /// Starts when the daemon runs. `over` is called at the end, on the daemon's thread; if the daemon ends
   /// first, the scenario is abandoned. The scenario must outlive this object, and the world must not be used
-  /// elsewhere while it exists. With `host_time`, it acts while the host sleeps.
+  /// elsewhere while it exists. With `host_time`, it acts while the host sleeps. The executor of `options` is
+  /// replaced.
   SideScenario(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over,
-               serve::HostTime* host_time = nullptr);
+               serve::HostTime* host_time = nullptr, RunOptions options = {});
   ~SideScenario();
   SideScenario(const SideScenario&) = delete;
   SideScenario& operator=(const SideScenario&) = delete;
@@ -50,6 +55,7 @@ class SideScenario {
   std::unique_ptr<Executor> make_executor(serve::Daemon& daemon);
 
   serve::HostTime* host_time_;
+  RunOptions options_;
   Turns turns_;  // in host time
   std::atomic<bool> given_up_ = false;
   bool was_given_up_ = false;

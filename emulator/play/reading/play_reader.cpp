@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/choices.h"
@@ -284,14 +286,40 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   scenario.seed = scenario.bench.seed;
   StepsReader steps(trial, file_.reading, file_.path);
   all.attempt([&] { scenario.steps = steps.read(root.at("steps"), parameters); });
+  all.attempt([&] { read_command(root, parameters, scenario); });
   all.throw_if_any();
-  require_all_used(number, which, parameters);
+  // Without the command, nobody knows what it uses.
+  const auto is_of_command = [](const Step& step) {
+    return std::holds_alternative<CommandEndStep>(step.what);
+  };
+  const bool lacks_command = file_.command.empty() &&
+                             (root.has("environment") || std::ranges::any_of(scenario.steps, is_of_command));
+  if (!lacks_command) require_all_used(number, which, parameters);
   scenario.files.push_back({file_.path, "the scenario itself"});
   for (const auto& files : {scenario.bench.files, steps.files()}) {
     scenario.files.insert(scenario.files.end(), files.begin(), files.end());
   }
   require_own_paths(steps, scenario);
   return scenario;
+}
+
+/// Puts the case's values into the command's words and its environment.
+void PlayReader::read_command(const world::YamlFields& root, const Parameters& parameters,
+                              Scenario& scenario) const {
+  for (const std::string& word : file_.command) {
+    try {
+      scenario.command.push_back(parameters.apply(word));
+    } catch (const std::runtime_error& error) {
+      throw FileError(file_.path + ": the command's " + understudy::quoted(word) + ": " + error.what());
+    }
+  }
+  if (!root.has("environment")) return;
+  const world::YamlFields variables = root.at("environment");
+  variables.require_map();
+  for (const auto& [name, value] : variables.entries()) {
+    if (name.find('=') != std::string::npos) value.fail("its name has '='; expected a variable's name");
+    scenario.environment.emplace_back(name, value.text());
+  }
 }
 
 /// Checks the paths that a case saves: they must be in the folder for that, and nothing else may use them. A

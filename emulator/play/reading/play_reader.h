@@ -24,6 +24,7 @@ struct FilePlays {
   std::string path;
   std::string save_below;             // what is saved must be below this folder
   std::optional<std::uint64_t> seed;  // instead of the file's own
+  std::vector<std::string> command;   // as in ReadingOptions
   FileReading reading;
   /// What the cases so far save, while all of them are read.
   std::optional<std::vector<FileClaim>> saved_before{};
@@ -54,6 +55,7 @@ class PlayReader {
   world::Bench read_its_bench(const world::YamlFields& root) const;
   void choose(std::uint64_t number, world::Bench& bench) const;
   Scenario read_case(std::uint64_t number, const Case& which);
+  void read_command(const world::YamlFields& root, const Parameters& parameters, Scenario& scenario) const;
   void require_own_paths(const StepsReader& steps, Scenario& scenario);
 
   world::YamlFields own_;   // as it is written

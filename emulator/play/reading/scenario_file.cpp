@@ -36,6 +36,7 @@ class ScenarioFile::Reader {
         file_{.path = std::move(path),
               .save_below = options.save_below.empty() ? root.folder() : options.save_below,
               .seed = options.seed,
+              .command = options.command,
               .reading = {.shared = shared}} {
     head_.attempt([&] { root_.require_keys(kScenarioKeys); });
     head_.attempt([&] { root_.at("understudy").integer(world::kVersionSchema); });

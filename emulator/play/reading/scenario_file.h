@@ -21,6 +21,8 @@ struct ReadingOptions {
   /// empty, because a scenario may come from somebody else.
   std::string save_below{};
   std::optional<std::uint64_t> seed{};  // instead of the scenarios' own
+  /// The words of the command that runs beside each case; they may have ${...}. Empty: none does.
+  std::vector<std::string> command{};
 };
 
 /// A scenario file whose cases are read one at a time, because there may be more than fit into memory. Its

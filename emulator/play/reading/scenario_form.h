@@ -63,6 +63,8 @@ inline constexpr world::Key kGapKey{
 inline constexpr world::Key kSeedKey{"seed", "The seed of all random choices.", &world::kSeedSchema};
 inline constexpr world::Key kParametersKey{"parameters", "Names and values, used as ${name}.",
                                            &world::kTextByName};
+inline constexpr world::Key kEnvironmentKey{"environment", "Environment variables for the command of `exec`.",
+                                            &world::kTextByName};
 inline constexpr world::Key kCasesKey{"cases", "Rows of parameters; each row is a case.", &kCasesSchema};
 inline constexpr world::Key kChoiceKey{
     "choice",
@@ -82,6 +84,7 @@ inline constexpr std::array kPlayKeys{
     kGapKey,
     kSeedKey,
     kParametersKey,
+    kEnvironmentKey,
     kCasesKey,
     kChoiceKey,
     kVaryKey,
@@ -98,6 +101,7 @@ inline constexpr std::array kScenarioKeys{
     kGapKey,
     kSeedKey,
     kParametersKey,
+    kEnvironmentKey,
     kCasesKey,
     kChoiceKey,
     kVaryKey,

@@ -69,6 +69,16 @@ inline constexpr std::array kHearKeys{
     world::Key{"within", "How long to wait for them (500ms).", &world::kDuration}};
 inline constexpr world::Schema kHearSchema = world::keys_schema(kHearKeys);
 
+inline constexpr world::Schema kExitCodeSchema = world::integer_schema(0, 255);
+inline constexpr std::array kHostKeys{
+    world::Key{"exits", "The exit code that it must have (0).", &kExitCodeSchema},
+    world::Key{"within", "The step fails after this time.", &world::kDuration, true}};
+inline constexpr world::Schema kHostKeysSchema = world::keys_schema(kHostKeys);
+inline constexpr std::array<std::string_view, 1> kHostWords{"stop"};
+inline constexpr world::Schema kHostWordsSchema = world::words_schema(kHostWords);
+inline constexpr std::array<const world::Schema*, 2> kHostWays{&kHostWordsSchema, &kHostKeysSchema};
+inline constexpr world::Schema kHostSchema = world::any_of_schemas(kHostWays);
+
 inline constexpr world::Schema kForkSchema = world::names_schema(world::kSteps);
 
 inline constexpr std::array<std::string_view, 1> kResetWords{"peaks"};

@@ -31,6 +31,7 @@ void read_always(StepsReader& reader, const world::YamlFields& step, const world
 void read_never(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_end(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_reset(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
+void read_host(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_say(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 
 // These are in outside_steps.cpp.

@@ -40,6 +40,9 @@ constexpr std::array kStepRows{
             StepRow::Names::gives},
     StepRow{{"end", "Ends an `always` or `never`.", &world::kText}, read_end, {}, StepRow::Names::wants},
     StepRow{{"reset", "Restarts the search for peak speeds and accelerations.", &kResetSchema}, read_reset},
+    StepRow{
+        {"host", "Waits for the end of the command of `exec`; `stop` asks it to end first.", &kHostSchema},
+        read_host},
     StepRow{{"say", "A sentence for the reader.", &world::kText}, read_say},
     // These steps act from outside.
     StepRow{{"input", "Sets inputs, analog inputs and switches on the housing.", &world::kTextByInput},

@@ -1,6 +1,8 @@
-// Reads steps that look without the line: wait, advance, assert, always, never, end, reset, say.
+// Reads steps that look without the line: wait, advance, assert, always, never, end, reset, host, say.
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -144,6 +146,22 @@ void read_reset(StepsReader& reader, const world::YamlFields& step, const world:
 void read_say(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   const std::string text = world::on_one_line(value.text());
   reader.add(step, "say " + text, SayStep{text});
+}
+
+void read_host(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  if (!value.is_map()) {
+    if (value.text() != kHostWords[0])
+      value.fail(quoted(value.text()) + " is unknown; expected stop, or { exits: 0, within: 30s }");
+    constexpr SimTime kLongestStop = std::chrono::seconds(10);
+    return reader.add(step, "host stop", CommandEndStep{.stops = true, .within = kLongestStop});
+  }
+  reader.attempt([&] { value.require_keys(kHostKeys); });
+  CommandEndStep end;
+  reader.attempt([&] { end.within = read_some_time(value.at("within")); });
+  reader.attempt([&] {
+    if (value.has("exits")) end.exits = static_cast<int>(value.at("exits").integer(kExitCodeSchema));
+  });
+  reader.add(step, "host exits " + std::to_string(end.exits) + " within " + format_duration(end.within), end);
 }
 
 }  // namespace understudy::emulator::play

@@ -57,7 +57,8 @@ struct ScenarioResult {
   std::string
       branch{};  // "with a stall"; for a nested branch "with a stall / again"; empty: the scenario itself
   bool is_unreadable = false;  // the case could not be read and did not run; its failure has the reason
-  std::string like{};          // the earlier case that failed in the same way and whose recording was kept
+  std::string rerun{};  // the words after `understudy` that run the case alone; empty: run FILE --filter ID
+  std::string like{};   // the earlier case that failed in the same way and whose recording was kept
 };
 
 }  // namespace understudy::emulator::play

@@ -65,7 +65,9 @@ std::vector<std::string> failure_lines(const ScenarioResult& result) {
   if (!result.recording.empty()) add("to run this again: understudy replay " + result.recording);
   if (!result.like.empty())
     add("it failed in the same way as this one, whose recording is kept: " + result.like);
-  if (result.which.is_varied) {
+  if (!result.rerun.empty()) {
+    add("to run this case alone: understudy " + result.rerun);
+  } else if (result.which.is_varied) {
     add("to run this case alone: understudy run " + result.file + " --filter " +
         identity_text(identity_of(result.which)));
   }

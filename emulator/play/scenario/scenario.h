@@ -173,6 +173,14 @@ struct MemoryStep {
   std::string file;
 };
 
+/// host: { exits: 0, within: 30s } waits for the end of the command beside which the scenario runs; host:
+/// stop asks it to end first, and accepts any exit code.
+struct CommandEndStep {
+  bool stops = false;
+  int exits = 0;
+  SimTime within{0};
+};
+
 /// snapshot: NAME and restore: NAME
 struct SnapshotStep {
   std::string name;
@@ -205,7 +213,7 @@ struct Step {
   std::string text;  // its description, on one line: "write feeder.Aaxis_SVON=1"
   std::variant<WriteStep, CommandStep, ExpectStep, WaitStep, AdvanceStep, AssertStep, SpanStep, EndSpanStep,
                InputStep, TurnStep, InjectStep, ClearStep, PowerStep, SendStep, TextStep, ProgramStep,
-               MemoryStep, SnapshotStep, RestoreStep, ForkStep, ResetPeaksStep, SayStep>
+               MemoryStep, CommandEndStep, SnapshotStep, RestoreStep, ForkStep, ResetPeaksStep, SayStep>
       what;
 };
 
@@ -220,6 +228,8 @@ struct Scenario {
   std::vector<FileClaim> files{};    // that it is read from, the bench's as well
   std::vector<std::string> saved{};  // paths that its steps write
   Case which{};
+  std::vector<std::string> command{};  // the words of ReadingOptions::command, with the case's values
+  std::vector<std::pair<std::string, std::string>> environment{};  // for the command
 };
 
 }  // namespace understudy::emulator::play

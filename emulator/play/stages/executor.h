@@ -35,6 +35,16 @@ struct Awaited {
   std::function<Tick(Tick)> next_look{};
 };
 
+/// The command beside which a scenario runs (`exec`). Its functions are called inside Executor::with_world().
+class HostCommand {
+ public:
+  virtual ~HostCommand() = default;
+  /// Returns nothing while it runs.
+  virtual std::optional<int> exit_code() const = 0;
+  /// Asks it to end.
+  virtual void stop() = 0;
+};
+
 class Executor {
  public:
   virtual ~Executor() = default;

@@ -94,6 +94,11 @@ std::string why_not(const std::string& file, int depth) {
 
 }  // namespace
 
+bool can_be_started(const std::string& command) {
+  const std::string file = find_in_path(command);
+  return !file.empty() && access(file.c_str(), X_OK) == 0;
+}
+
 std::string why_not_in_host_time(const std::string& command) { return why_not(find_in_path(command), 0); }
 
 }  // namespace understudy::emulator::serve

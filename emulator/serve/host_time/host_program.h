@@ -1,9 +1,12 @@
-// Whether a command can load the library that puts hosts into simulated time.
+// Whether a command can be started, and can load the library that puts hosts into simulated time.
 #pragma once
 
 #include <string>
 
 namespace understudy::emulator::serve {
+
+/// Returns true if the command's program exists and may be started, as far as can be seen from here.
+bool can_be_started(const std::string& command);
 
 /// Returns why the command cannot live in simulated time, or an empty text. For a script its interpreter is
 /// looked at. A command that does not exist is no matter of this.

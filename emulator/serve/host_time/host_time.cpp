@@ -176,7 +176,7 @@ void HostTime::drop(int number) {
 }
 
 void HostTime::judge_end_of(int process) {
-  if (silent_.erase(process) == 0) return;
+  if (silent_.erase(process) == 0 || is_host_to_end_) return;
   if (process == first_process_) was_greeted_ = false;
   if (process == first_process_ || std::exchange(has_told_of_silence_, true)) return;
   tell_("process " + std::to_string(process) +

@@ -43,6 +43,9 @@ class HostTime {
   /// From now on time goes on only while the companion waits too. It must outlive this object, or be removed
   /// (null).
   void accompany(Companion* companion);
+  /// A signal is to end the host: threads that wait may go on, and processes may end before they have
+  /// greeted.
+  void host_is_to_end() { must_look_ = is_host_to_end_ = true; }
   /// The host has ended: takes the bytes that it wrote last. From now on the companion alone decides how far
   /// time goes.
   void host_ended();
@@ -75,6 +78,7 @@ class HostTime {
 
   Daemon& daemon_;
   Companion* companion_ = nullptr;
+  bool is_host_to_end_ = false;
   bool is_host_over_ = false;
   std::string place_;
   std::function<void(const std::string&)> tell_;

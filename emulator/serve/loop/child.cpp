@@ -59,7 +59,7 @@ Child::Child(EventLoop& loop, const ParentSignals& signals, const ChildCommand& 
     : loop_(loop), signals_(signals), over_(std::move(over)), parent_(getpid()) {
   // Processes that the command leaves behind become our children, so that they are reaped anywhere.
   prctl(PR_SET_CHILD_SUBREAPER, 1);
-  terminal_ = open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (command.output < 0) terminal_ = open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal_ >= 0 && tcgetpgrp(terminal_) != getpgrp()) {
     close(terminal_);  // the terminal belongs to another group
     terminal_ = -1;
@@ -101,7 +101,7 @@ void Child::start(const ChildCommand& command) {
   const Descriptor diagnostics(ends[0]);
   Descriptor complaining(ends[1]);
   pid_ = fork();
-  if (pid_ == 0) become(words.data(), entries.data(), complaining.get());
+  if (pid_ == 0) become(words.data(), entries.data(), complaining.get(), command.output);
   if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
   setpgid(pid_, pid_);  // both processes do it, because either may be first
   give_terminal_to(pid_);
@@ -119,8 +119,14 @@ void Child::start(const ChildCommand& command) {
 }
 
 /// Runs in the child, between fork and exec.
-void Child::become(char* const* words, char* const* environment, int diagnostics) {
+void Child::become(char* const* words, char* const* environment, int diagnostics, int output) {
   setpgid(0, 0);
+  if (output >= 0) {
+    const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(output, STDOUT_FILENO) < 0 ||
+        dup2(output, STDERR_FILENO) < 0)
+      _exit(127);
+  }
   give_terminal_to(getpid());
   prctl(PR_SET_PDEATHSIG, SIGTERM);  // its ports disappear with us, however we end
   if (getppid() != parent_) _exit(127);

@@ -24,6 +24,8 @@ struct ChildError : std::runtime_error {
 struct ChildCommand {
   std::vector<std::string> words;                                // the program and its arguments
   std::vector<std::pair<std::string, std::string>> environment;  // in addition to our own, or replacing them
+  /// A descriptor for what it prints; it then has no input and no terminal. -1: it has ours.
+  int output = -1;
 };
 
 /// Only one may exist at a time, because it waits for every child of this process and every orphan that it
@@ -54,7 +56,7 @@ class Child {
 
  private:
   void start(const ChildCommand& command);
-  [[noreturn]] void become(char* const* words, char* const* environment, int diagnostics);
+  [[noreturn]] void become(char* const* words, char* const* environment, int diagnostics, int output);
   void on_end(const siginfo_t& how);
   void on_stop();
   void look_at_group();

@@ -1,0 +1,171 @@
+#include "emulator/command_line/host_case.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/files/descriptor.h"
+#include "base/files/file_error.h"
+#include "base/text/one_line.h"
+#include "emulator/command_line/host_course.h"
+#include "emulator/command_line/log.h"
+#include "emulator/play/performing/side_scenario.h"
+#include "emulator/serve/control/control_door.h"
+#include "emulator/serve/loop/child.h"
+#include "emulator/serve/loop/parent_signals.h"
+#include "emulator/serve/ports/private_folder.h"
+#include "emulator/world/bench/bench.h"
+
+namespace understudy::emulator::command_line {
+
+namespace {
+
+constexpr serve::WallTime kUsualTimeout = std::chrono::seconds(60);
+constexpr std::size_t kToldLines = 5;     // of what the command has printed last
+constexpr std::size_t kToldBytes = 2000;  // of these
+
+bool is_command_end(const play::Step& step) {
+  return std::holds_alternative<play::CommandEndStep>(step.what);
+}
+
+/// A file that has no name any more.
+Descriptor make_output(const std::string& path) {
+  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0600));
+  if (!file) throw std::system_error(errno, std::generic_category(), path);
+  ::unlink(path.c_str());
+  return file;
+}
+
+/// Returns the last lines of a file.
+std::vector<std::string> last_lines(int file) {
+  std::array<char, kToldBytes> bytes{};
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  const auto from = std::max<off_t>(0, size - static_cast<off_t>(bytes.size()));
+  const ssize_t got = ::pread(file, bytes.data(), bytes.size(), from);
+  std::vector<std::string> lines;
+  std::string line;
+  for (ssize_t i = 0; i < got; ++i) {
+    const char c = bytes[static_cast<std::size_t>(i)];
+    if (c != '\n') {
+      line += c;
+      continue;
+    }
+    lines.push_back(std::exchange(line, {}));
+  }
+  if (!line.empty()) lines.push_back(line);
+  if (lines.size() > kToldLines)
+    lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(kToldLines));
+  return lines;
+}
+
+/// Ports with their links in the folder, and memories that are never written.
+Serving serving_of(const play::Scenario& scenario, const RunArguments& arguments, const std::string& folder,
+                   const std::string& recording) {
+  Serving serving;
+  serving.bench = scenario.bench;
+  for (world::LineSetup& line : serving.bench.lines) {
+    line.link = folder + "/" + line.name + ".port";
+    line.tcp.clear();
+    line.has_pty = true;
+  }
+  for (world::DeviceSetup& device : serving.bench.devices) device.nv_path.clear();
+  serving.options.watch_signals = false;
+  serving.options.door = serve::control_door(folder + "/control");
+  serving.options.record_path = recording;
+  serving.options.version = arguments.version;
+  if (arguments.host.host_time) serving.options.speed.kind = serve::Speed::Kind::manual;
+  return serving;
+}
+
+/// Returns a word as a shell wants it written.
+std::string shell_word(const std::string& word) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_./=:,@%+-").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string rerun_of(const play::Scenario& scenario, const HostArguments& host) {
+  std::string text = "exec " + shell_word(scenario.file);
+  if (host.host_time) text += " --host-time";
+  if (scenario.which.is_varied) text += " --filter " + play::identity_text(play::identity_of(scenario.which));
+  text += " --";
+  for (const std::string& word : host.command) text += " " + shell_word(word);
+  return text;
+}
+
+/// Returns why the case has failed, apart from its steps; or an empty text.
+std::string why_failed(const CourseEnd& end, const play::Scenario& scenario, const std::string& timeout) {
+  if (!end.was_reached) {
+    return "the command did not load our library, so it ran in real time; expected a program that keeps "
+           "LD_PRELOAD";
+  }
+  if (end.has_timed_out)
+    return "the command was ended because it took longer than " + (timeout.empty() ? "60s" : timeout);
+  if (end.was_given_up) return "the scenario did not run to its end, because the run was ended";
+  if (end.exit_code == 0 || std::ranges::any_of(scenario.steps, is_command_end)) return {};
+  return "the command ended with exit code " + std::to_string(end.exit_code) + "; expected 0";
+}
+
+}  // namespace
+
+void require_steps_for(const play::Scenario& scenario, bool has_command) {
+  if (has_command) return play::require_steps_beside_host(scenario);
+  const auto step = std::ranges::find_if(scenario.steps, is_command_end);
+  if (step == scenario.steps.end()) return;
+  throw FileError(step->file + ":" + std::to_string(step->line) + ": " + step->text +
+                  ": no command runs beside this scenario; expected `understudy exec " + scenario.file +
+                  " -- COMMAND`");
+}
+
+std::vector<play::ScenarioResult> run_host_case(const play::Scenario& scenario, play::RunOptions options,
+                                                const RunArguments& arguments, const std::string& recording) {
+  serve::PrivateFolder folder;
+  const Descriptor output = make_output(folder.path() + "/output");
+  HostArguments host = arguments.host;
+  host.command = scenario.command;
+  host.environment = scenario.environment;
+  serve::ParentSignals signals;
+  CourseEnd end = run_course({.serving = serving_of(scenario, arguments, folder.path(), recording),
+                              .host = std::move(host),
+                              .folder = folder.path(),
+                              .timeout = parse_timeout(arguments.timeout).value_or(kUsualTimeout),
+                              .scenario = &scenario,
+                              .run = std::move(options),
+                              .output = output.get()},
+                             {}, signals);
+  if (end.results.empty()) {
+    end.results.push_back(
+        {.name = scenario.name, .file = scenario.file, .which = scenario.which, .seed = scenario.seed});
+  }
+  play::ScenarioResult& result = end.results.front();
+  result.recording = recording;
+  result.rerun = rerun_of(scenario, arguments.host);
+  const std::string why = why_failed(end, scenario, arguments.timeout);
+  if (!result.failure && !why.empty()) {
+    result.verdict = play::ScenarioResult::Verdict::failed;
+    result.failure = play::Failure{.at = result.simulated, .what = why};
+  }
+  if (!result.failure) return std::move(end.results);
+  for (const std::string& line : last_lines(output.get()))
+    result.failure->details.push_back("the command printed: " + one_line(line));
+  return std::move(end.results);
+}
+
+}  // namespace understudy::emulator::command_line

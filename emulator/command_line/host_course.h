@@ -1,0 +1,50 @@
+// One course of a command beside a bench: the bench is served until the command, and the scenario beside it,
+// have ended.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/serving.h"
+#include "emulator/play/performing/run.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/parent_signals.h"
+
+namespace understudy::emulator::command_line {
+
+struct CourseSetup {
+  Serving serving;
+  HostArguments host;
+  std::string folder;  // a private one
+  std::optional<serve::WallTime> timeout{};
+  const play::Scenario* scenario = nullptr;  // null: none
+  play::RunOptions run{};                    // of the scenario; its executor is replaced
+  /// Where the command's output goes. If it is not ours (-1), the command has no terminal either, and it ends
+  /// with a scenario that has failed or has nothing more to do with it.
+  int output = -1;
+};
+
+struct CourseEnd {
+  int exit_code = 0;  // of the command
+  bool has_timed_out = false;
+  bool was_reached = true;  // it has loaded the library that --host-time needs
+  bool was_given_up = false;
+  std::vector<play::ScenarioResult> results{};
+};
+
+/// Throws UsageError if it is not a time.
+std::optional<serve::WallTime> parse_timeout(const std::string& text);
+/// Throws UsageError if two lines would have the same variable.
+void require_variables(const world::Bench& bench);
+
+/// Runs a course. The command is told its ports by environment variables. Throws ChildError and the errors of
+/// Daemon.
+CourseEnd run_course(CourseSetup setup, const ServeArguments& flags, serve::ParentSignals& signals);
+
+}  // namespace understudy::emulator::command_line

@@ -1,0 +1,39 @@
+// Runs cases in processes of their own: a case with a command has children and signals, of which a process
+// has one set.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "base/files/descriptor.h"
+#include "emulator/play/performing/suite.h"
+#include "emulator/play/results/result.h"
+
+namespace understudy::emulator::command_line {
+
+class WorkerProcesses {
+ public:
+  /// Starts `count` processes, each of which makes a Play. Must be called while this process has one thread.
+  WorkerProcesses(int count, const std::function<play::Play()>& make_play);
+  /// Lets them end, and waits for that.
+  ~WorkerProcesses();
+  WorkerProcesses(const WorkerProcesses&) = delete;
+  WorkerProcesses& operator=(const WorkerProcesses&) = delete;
+
+  std::size_t count() const { return workers_.size(); }
+  /// Runs a case in that worker, which no other thread may use meanwhile. Throws pty::PortError with the
+  /// message of what the worker has thrown, or if it has ended.
+  std::vector<play::ScenarioResult> play(std::size_t worker, const play::CaseId& which_case) const;
+
+ private:
+  struct Worker {
+    pid_t process = -1;
+    Descriptor wire;
+  };
+  std::vector<Worker> workers_;
+};
+
+}  // namespace understudy::emulator::command_line
