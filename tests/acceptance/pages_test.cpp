@@ -69,6 +69,8 @@ const std::vector<Left> kLeft = {
     {"docs/ci.md", "", "CiPage"},
     {"docs/import.md", "", "ImportPage"},
     {"docs/editors.md", "", "EditorsPage"},
+    {"docs/node.md", "", "needs npm; python/tests/test_node_page.py"},
+    {"docs/windows.md", "", "needs Windows or Wine"},
     {"scenarios/README.md", "understudy run", "ShippedScenarios"},
 };
 
