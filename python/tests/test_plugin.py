@@ -92,13 +92,20 @@ def test_ways(bench_factory, level):
 """
 
 
-@pytest.mark.parametrize("workers", [(), ("-n", "2")], ids=["alone", "xdist"])
-def test_coverage_of_all_tests_is_one_file(pytester, workers):
-    pytester.makepyfile(COVERAGE_SUITE)
+PYTEST_6 = """
+import pytest
+for name in ("CallInfo", "Config", "Parser", "Stash", "StashKey"):
+    delattr(pytest, name)
+"""
+
+
+@pytest.mark.parametrize("flags", [(), ("-n", "2"), ("-p", "pytest_6")], ids=["alone", "xdist", "pytest_6"])
+def test_coverage_of_all_tests_is_one_file(pytester, flags):
+    pytester.makepyfile(COVERAGE_SUITE, pytest_6=PYTEST_6)
     (pytester.path / "feed.lst").write_text("a:  Jump_IN_ON b DIN_3\n    END\nb:  Out DOUT_1 ON\n    END\n")
     (pytester.path / "bench.yaml").write_text(
         "understudy: 1\nlines: { a: { stations: [ { name: feeder, model: simple2-r3, program: feed.lst } ] } }\n")
-    result = pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--understudy-coverage", "c.info", *workers)
+    result = pytester.runpytest_subprocess(*flags, "-p", "understudy.pytest_plugin", "--understudy-coverage", "c.info")
     result.assert_outcomes(passed=2)
     result.stdout.fnmatch_lines(["coverage of programs: 4 of 4 lines (100.0 %), 2 of 2 branches (100.0 %)"])
     assert "DA:1,2" in (pytester.path / "c.info").read_text()

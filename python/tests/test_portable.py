@@ -1,10 +1,15 @@
-"""The archive that runs anywhere, and the wheel that has the program."""
+"""The archive that runs anywhere, and the wheel and the image that have the program."""
 import fcntl
+import gzip
+import hashlib
 import importlib.util
+import io
 import json
 import os
 import pathlib
+import re
 import shutil
+import socket
 import subprocess
 import sys
 import tarfile
@@ -125,6 +130,63 @@ def test_the_wheel_brings_program_client_and_plugin(wheel, tmp_path):
     plain = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "UNDERSTUDY_PROGRAM")}
     said_by(tmp_path / "v/bin/python", "-m", "pytest", "-q", "-p", "no:cacheprovider", tmp_path / "test_it.py", env=plain,
             cwd=tmp_path)
+
+
+@pytest.fixture(scope="module")
+def image(archive, tmp_path_factory):
+    return pathlib.Path(said_by(PROJECT / "packaging/oci_image.py", archive, tmp_path_factory.mktemp("image")))
+
+
+def blobs_of(image):
+    """The blobs by their digests, and the manifest."""
+    with tarfile.open(image) as whole:
+        blobs = {f"sha256:{hashlib.sha256(content).hexdigest()}": content
+                 for content in (whole.extractfile(member).read() for member in whole if member.isfile())}
+        (named,) = json.load(whole.extractfile("index.json"))["manifests"]
+        assert json.load(whole.extractfile("oci-layout")) == {"imageLayoutVersion": "1.0.0"}
+    return blobs, json.loads(blobs[named["digest"]])
+
+
+def test_the_image_holds_what_its_digests_name(image, archive, tmp_path):
+    blobs, manifest = blobs_of(image)
+    for part in (manifest["config"], *manifest["layers"]):
+        assert len(blobs[part["digest"]]) == part["size"]
+    layers = [gzip.decompress(blobs[part["digest"]]) for part in manifest["layers"]]
+    config = json.loads(blobs[manifest["config"]["digest"]])
+    assert config["rootfs"]["diff_ids"] == [f"sha256:{hashlib.sha256(layer).hexdigest()}" for layer in layers]
+    again = said_by(PROJECT / "packaging/oci_image.py", archive, tmp_path)
+    assert pathlib.Path(again).read_bytes() == image.read_bytes(), "equal archives make equal images"
+
+
+def test_the_program_of_the_image_serves_from_its_own_root(image, tmp_path):
+    if subprocess.run(["unshare", "--mount", "true"], stderr=subprocess.DEVNULL, check=False).returncode != 0:
+        pytest.skip("namespaces are not allowed here")
+    blobs, manifest = blobs_of(image)
+    for part in manifest["layers"]:
+        with tarfile.open(fileobj=io.BytesIO(blobs[part["digest"]])) as layer:
+            layer.extractall(tmp_path / "root")
+    config = json.loads(blobs[manifest["config"]["digest"]])["config"]
+    root = tmp_path / "root"
+    command = ["unshare", "--mount", f"--mount-proc={root}/proc", "chroot", root, *config["Entrypoint"]]
+    assert said_by(*command, "models") == said_by(PROGRAM, "models")
+    said_by(*command, "run", "/opt/understudy/share/understudy/scenarios/simple2-r3/absolute_positions.yaml")
+    arguments = [word.replace("0.0.0.0:5020", "127.0.0.1:0") for word in config["Cmd"]]
+    with subprocess.Popen([*command, *arguments], stdout=subprocess.PIPE, text=True) as served:
+        try:
+            port = int(re.fullmatch(r"ready line modbus-tcp://127\.0\.0\.1:(\d+) .*\n", served.stdout.readline())[1])
+            with socket.create_connection(("127.0.0.1", port), timeout=30) as host:
+                host.sendall(bytes.fromhex("000700000006 01 0300010001"))
+                assert host.recv(11, socket.MSG_WAITALL).hex() == "000700000005" "01" "0302c001"
+        finally:
+            served.terminate()
+    assert served.returncode == 0
+
+
+def test_a_file_that_is_no_archive_makes_no_image(tmp_path):
+    refused = subprocess.run([PROJECT / "packaging/oci_image.py", tmp_path / "understudy-1-linux.tar.gz"],
+                             capture_output=True, text=True, timeout=60)
+    assert refused.returncode == 1
+    assert refused.stderr.startswith("oci_image.py: ") and refused.stderr.count("\n") == 1, refused.stderr
 
 
 def test_run_takes_the_program_of_an_archive_beside_it(tmp_path):

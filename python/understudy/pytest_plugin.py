@@ -1,4 +1,6 @@
 """Fixtures for pytest: `-p understudy.pytest_plugin`. A failed test keeps its recording, its report and its frames."""
+from __future__ import annotations  # pytest before 7.0 lacks some of the types
+
 import contextlib
 import difflib
 import inspect
@@ -7,6 +9,7 @@ import os
 import subprocess
 from pathlib import Path
 from typing import Any, Callable, Dict, Generator, List, Mapping, Optional
+from weakref import WeakKeyDictionary
 
 import pytest
 
@@ -14,9 +17,10 @@ from .bench import Bench, start
 from .daemon import program_path
 
 REPLAYED_WITHIN_S = 60.0
-KEPT = pytest.StashKey[List[Path]]()
-FAILED = pytest.StashKey[bool]()
-SUM = pytest.StashKey[str]()
+# What this plugin knows of the tests and runs that are under way; pytest's own place for such things came with 7.0.
+KEPT: WeakKeyDictionary[pytest.Item, List[Path]] = WeakKeyDictionary()
+FAILED: WeakKeyDictionary[pytest.Item, bool] = WeakKeyDictionary()
+SUM: WeakKeyDictionary[pytest.Config, str] = WeakKeyDictionary()
 NUMBERS = itertools.count(1)
 
 
@@ -48,13 +52,13 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
         return
     parts = sorted(str(part) for part in pattern.parent.glob(pattern.name))
     if not parts:
-        session.config.stash[SUM] = "coverage of programs: no test has started a bench"
+        SUM[session.config] = "coverage of programs: no test has started a bench"
         return
     program = os.environ.get("UNDERSTUDY_PROGRAM") or "understudy"
     whole = str(Path(session.config.invocation_params.dir, session.config.getoption("--understudy-coverage")))
     done = subprocess.run([program, "coverage", *parts, "--output", whole], stdin=subprocess.DEVNULL,
                           capture_output=True, text=True, errors="replace", check=False)
-    session.config.stash[SUM] = (done.stdout + done.stderr).strip()
+    SUM[session.config] = (done.stdout + done.stderr).strip()
     if done.returncode != 0:
         session.exitstatus = pytest.ExitCode.INTERNAL_ERROR
         return
@@ -63,19 +67,19 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 
 def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
-    if SUM in config.stash:
-        terminalreporter.write_line(config.stash[SUM])
+    if config in SUM:
+        terminalreporter.write_line(SUM[config])
 
 
 @pytest.hookimpl(hookwrapper=True)  # type: ignore[misc]
 def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, Any, None]:
     outcome = yield
     report = outcome.get_result()
-    item.stash[FAILED] = item.stash.get(FAILED, False) or report.failed
+    FAILED[item] = FAILED.get(item, False) or report.failed
     # The benches are closed by now, so their recordings are complete. pytest shows a section of the teardown next to
     # the failure if its name contains "teardown".
-    if report.when == "teardown" and item.stash[FAILED]:
-        lines = [line for folder in item.stash.get(KEPT, []) for line in draw(folder)]
+    if report.when == "teardown" and FAILED[item]:
+        lines = [line for folder in KEPT.get(item, []) for line in draw(folder)]
         if lines:
             report.sections.append(("understudy (kept at teardown)", "\n".join(lines)))
 
@@ -110,7 +114,7 @@ def require_known(arguments: Mapping[str, Any]) -> None:
 def bench_factory(request: pytest.FixtureRequest, tmp_path: Path) -> Generator[Callable[..., Bench], None, None]:
     """Starts benches like `understudy.start`, each with its own folder and recording."""
     benches: List[Bench] = []
-    kept = request.node.stash.setdefault(KEPT, [])
+    kept = KEPT.setdefault(request.node, [])
     speed = "real" if request.config.getoption("--understudy-real-time") else "manual"
 
     def make(bench: Any = None, *flags: str, **arguments: Any) -> Bench:

@@ -58,6 +58,8 @@ const std::vector<Left> kLeft = {
     {"docs/install.md", "cd build/release", "DebianPackage"},
     {"docs/install.md", "docker", "needs a container"},
     {"docs/install.md", "cp /usr/share", "needs systemd; Installation"},
+    {"docs/install.md", "packaging/apt_repository.sh", "python/tests/test_apt_repository.py"},
+    {"docs/install.md", "podman load", "needs podman; python/tests/test_portable.py"},
     {"docs/install.md", "tar -xzf", "python/tests/test_portable.py"},
     {"docs/install.md", "python3 -m venv", "python/tests/test_portable.py"},
     {"docs/motion.md", "cmake", "draws all pictures"},
@@ -67,6 +69,8 @@ const std::vector<Left> kLeft = {
     {"docs/ci.md", "", "CiPage"},
     {"docs/import.md", "", "ImportPage"},
     {"docs/editors.md", "", "EditorsPage"},
+    {"docs/node.md", "", "needs npm; python/tests/test_node_page.py"},
+    {"docs/windows.md", "", "needs Windows or Wine"},
     {"scenarios/README.md", "understudy run", "ShippedScenarios"},
 };
 
