@@ -56,4 +56,4 @@ for pulses, target in ((3200, 3200), (-3200, 0)):
     if at != target:
         sys.exit(f"feed.py: axis A is at {at}; expected {target}")
     print(f"feed.py: axis A is at {at}")
-    client.close()  # and opened again for the way back
+    client.close()  # and opened again for the return move
