@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A host with pymodbus: it moves axis A one revolution forth and back, and checks that it arrived.
+"""A host with pymodbus: it moves axis A one revolution out and back, and checks that it arrived.
 
 Written for pymodbus 3.0 of Debian 12. The port is that of `understudy exec`.
 """

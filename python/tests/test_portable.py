@@ -1,4 +1,4 @@
-"""The archive that runs anywhere, and the wheel that has the program."""
+"""Tests the archive that runs anywhere, and the wheel that contains the program."""
 import fcntl
 import importlib.util
 import json
