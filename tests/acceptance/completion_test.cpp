@@ -12,7 +12,7 @@ bool is_here(const std::string& program) { return run({"which", program}).exit_c
 
 class Completion : public testing::Test {
  protected:
-  /// Writes the script of that shell to a file.
+  /// Writes the completion script of that shell to a file.
   std::string script(const std::string& shell) const {
     const Finished made = understudy({"completion", shell});
     EXPECT_EQ(made.exit_code, 0) << made.errors;
@@ -76,7 +76,7 @@ TEST_F(Completion, OfZshIsAScriptWithEveryCommandAndFlag) {
     EXPECT_NE(text.find("'" + flag + ":"), std::string::npos) << flag;
   }
   if (!is_here("zsh")) GTEST_SKIP() << "zsh is not installed";
-  // Returns what it would offer, without a terminal.
+  // Returns the completions that it would offer, without a terminal.
   const Finished offered = run({"zsh", "-fc",
                                 "compdef() { : }; source " + script("zsh") +
                                     "; _describe() { print -rl -- ${(P)@[-1]%%:*} }; "

@@ -175,7 +175,7 @@ TEST(ManualSpeed, TheManualsExampleTakesExactly3050Milliseconds) {
   EXPECT_EQ(position_after("25ms"), 66);   // 66.667
   EXPECT_EQ(position_after("25ms"), 266);  // 266.667, full speed
   EXPECT_EQ(position_after("950ms"), 10400);
-  EXPECT_EQ(position_after("2s"), 31733);    // 31733.33, begins to slow down
+  EXPECT_EQ(position_after("2s"), 31733);    // 31733.33, begins to decelerate
   EXPECT_EQ(position_after("49ms"), 31999);  // 31999.89; 3050 ms in all
   EXPECT_EQ(value(daemon, "STATUS.4"), 1);
   EXPECT_EQ(position_after("1ms"), 32000);
@@ -205,12 +205,12 @@ TEST(ManualSpeed, KeepsARequestThatIsStillOnTheWire) {
   ASSERT_TRUE(
       eventually([&] { return daemon.ctl({"status"}).output.find(" 8 bytes in") != std::string::npos; }));
   expect_done(daemon, {"advance", "2ms"});                     // three of eight characters
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // longer than any patience
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // longer than any timeout
   expect_done(daemon, {"advance", "20ms"});
   EXPECT_EQ(host.read(kHardwareCodeReply.size()), kHardwareCodeReply);
 }
 
-// Only silence shows the length of 0x41, and by the simulated clock there is no silence.
+// Only silence shows the length of 0x41, and in simulated time there is no silence.
 TEST(ManualSpeed, ServesWhatOnlySilenceEnds) {
   const RunningUnderstudy daemon({"--speed", "manual", "--timing", "instant"});
   Host host(daemon.port());

@@ -54,7 +54,7 @@ class TtyShim : public testing::Test {
     errno = 0;
     return through_shim_(descriptor, TCSANOW, &asked) == 0 ? 0 : errno;
   }
-  /// The same for an ioctl.
+  /// Like the above, for an ioctl.
   int control(int descriptor, unsigned long request, void* argument) const {
     errno = 0;
     return ioctl_(descriptor, request, argument) == 0 ? 0 : errno;
@@ -116,7 +116,7 @@ TEST_F(TtyShim, AnswersForModemLinesAsIfWiredThrough) {
     return answered;
   };
   EXPECT_EQ(now(), kAll);
-  lines = TIOCM_RTS | TIOCM_CTS;  // CTS is not the host's to set
+  lines = TIOCM_RTS | TIOCM_CTS;  // the host cannot set CTS
   EXPECT_EQ(control(slave(), TIOCMBIC, &lines), 0);
   EXPECT_EQ(now(), kAll & ~TIOCM_RTS);
   lines = TIOCM_DTR;
@@ -274,7 +274,7 @@ TEST(TtyShimHint, IsToldToPersonsWhoseLineHasParity) {
                       "--link",          folder / "port", "--control", folder / "c"};
     std::string command;
     for (const std::string& word : serve) command += word + " ";
-    // `script` gives it its own terminal.
+    // `script` gives it a terminal of its own.
     const Process on_terminal({"script", "-qfec", command, "/dev/null"});
     EXPECT_TRUE(eventually([&] { return on_terminal.output().find("ready ") != std::string::npos; }));
     const bool is_told = on_terminal.output().find("LD_PRELOAD=$(understudy tty-shim)") != std::string::npos;

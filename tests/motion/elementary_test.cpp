@@ -110,7 +110,7 @@ TEST_F(Elementary, SineAndCosineOfWhatIsNoAngleAreNan) {
 }
 
 void add_angle(Worst& worst, double y, double x) {
-  // + 0: unlike atan2 ours knows no negative zero.
+  // + 0: unlike atan2, ours has no negative zero.
   worst.add(angle_of(y, x), std::atan2(static_cast<long double>(y) + 0, static_cast<long double>(x)));
 }
 

@@ -97,7 +97,7 @@ TEST(KeptBlocks, AFileThatTheDeviceRefusesIsToldWithItsLine) {
   }
 }
 
-/// All of them, each at its place.
+/// All of them, each in its place.
 TEST(KeptBlocks, ThoseOfABenchAreToldWithTheirLines) {
   const std::string text =
       "understudy: 1\nlines:\n  rs485:\n    stations:\n      - name: it\n        model: workbench\n"

@@ -1,6 +1,6 @@
-// The whole register maps of two large controllers, written down with the words for rows, and read and
-// written over Modbus as their manuals say. The maps are facts read out of the manuals: a line for each
-// register, or a run of them (declared/*.csv).
+// The whole register maps of two large controllers, written down with the vocabulary of rows, and read and
+// written over Modbus as their manuals say. The maps are facts from the manuals: a line for each register, or
+// for a run of them (declared/*.csv).
 #include <gtest/gtest.h>
 
 #include <map>
@@ -25,7 +25,7 @@ struct Declaration {
   int first_number = 0;
   int count = 1;
   Type type = Type::u16;
-  std::string access;  // R, R/W, W; "-": a hole that the manual names
+  std::string access;  // R, R/W, W; "-": a hole that the manual mentions
   std::string held;    // stored, view, window, hole
   bool is_kept = false;
   Value power_up = 0;
@@ -184,7 +184,7 @@ Bytes bytes_of_bits(std::uint32_t bits, Type type, bool low_word_first) {
 }
 
 std::uint8_t reading(Table table) {
-  constexpr std::uint8_t kCodes[] = {0x03, 0x04, 0x01, 0x02};  // as Table lists them
+  constexpr std::uint8_t kCodes[] = {0x03, 0x04, 0x01, 0x02};  // in the order of Table
   return kCodes[static_cast<std::size_t>(table)];
 }
 
@@ -223,7 +223,7 @@ std::uint32_t some_bits(const Declaration& fact, int index) {
   return is_32_bit(fact.type) ? mixed : mixed >> 16;
 }
 
-/// Of each row its first, a middle and its last.
+/// The first, middle and last register of each row.
 std::vector<int> sample_of(const Declaration& fact) {
   std::vector<int> indices{0};
   if (fact.count > 2) indices.push_back(fact.count / 2);

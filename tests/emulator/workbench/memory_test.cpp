@@ -236,7 +236,7 @@ TEST(WorkbenchMemory, SharesBlocksThatDidNotChangeWithItsImages) {
   EXPECT_EQ(*rig.blocks().shared(), rig.blocks().all());
   rig.blocks().replace({});
   EXPECT_TRUE(rig.blocks().shared()->empty());
-  // Of a state that was put back.
+  // From a state that was restored.
   const std::vector<std::byte> none = rig.device().save_state();
   rig.fill();
   EXPECT_FALSE(rig.image().blocks.empty());

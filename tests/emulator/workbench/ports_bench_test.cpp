@@ -104,7 +104,7 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
       {lines_ab("{ device: mill }, { device: lathe, address: 5 }", "{ device: mill, port: HMI, address: 5 }",
                 devices),
        "bench.yaml:3:38: lines.a.stations[1]: address 5 is taken on this line; expected another"},
-      // The register of its number may be set, which comes after the address; by number as well.
+      // The register of its number can be set, which comes after the address; by number as well.
       {lines_ab(
            "{ device: mill, address: 4 }, { device: lathe, address: 5 }", "{ device: mill, port: HMI }",
            "devices:\n  mill: { model: workbench, set: { Station: 5 } }\n  lathe: { model: workbench }\n"),

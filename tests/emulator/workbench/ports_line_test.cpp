@@ -47,7 +47,8 @@ TEST(PortsOnLines, AnswerInTheTimeOfTheirOwnSpeed) {
 }
 
 TEST(PortsOnLines, ComeInTheOrderOfTheBench) {
-  // Both write, both read, each pair in one instant: the first line's comes first, whichever was fed first.
+  // Both write, both read, each pair at the same moment: the first line's comes first, whichever was fed
+  // first.
   for (const bool pc_is_first : {true, false}) {
     for (const bool is_turned : {false, true}) {
       std::string text = "understudy: 1\nlines:\n";
@@ -85,7 +86,7 @@ TEST(PortsOnLines, DoNotChangeAReplyOnItsWay) {
   EXPECT_EQ(two.ask(kPc, "01 10 00 64 00 03 06 11 11 11 11 11 11"), "01 10 00 64 00 03");
   two.send(kHmi, "01 03 00 64 00 03");
   while (two.world.line(kHmi).line.output().size() < 3) two.world.advance_to(*two.world.next_due());
-  two.send(kPc, "01 10 00 64 00 03 06 22 22 22 22 22 22");  // carried out before the other's data are over
+  two.send(kPc, "01 10 00 64 00 03 06 22 22 22 22 22 22");  // executed before the other's data end
   while (two.world.line(kPc).line.output().empty()) two.world.advance_to(*two.world.next_due());
   EXPECT_LT(two.world.line(kHmi).line.output().size(), 11U) << "it is still on its way";
   two.pass(50ms);

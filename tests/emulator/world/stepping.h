@@ -80,8 +80,8 @@ inline testing::AssertionResult same(World& one, World& other) {
   return testing::AssertionSuccess();
 }
 
-/// Applies the same events to both, one after the other, and compares them before each event and long after
-/// the last. The `plain` world is advanced in one step. `look` is called after each event. Fails fatally.
+/// Applies the same events to both, one after another, and compares them before each event and long after the
+/// last. The `plain` world is advanced in one step. `look` is called after each event. Fails fatally.
 template <typename Event>
 void play_both(World& plain, World& twin, const std::vector<Event>& events, const Stepping& stepping,
                const std::string& name, const std::function<void()>& look) {

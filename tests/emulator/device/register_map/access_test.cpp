@@ -14,7 +14,7 @@ constexpr Refusal kNone = Refusal::no_register;
 
 struct Write {
   std::string_view name;
-  Value before;  // of the whole register, given to its image
+  Value before;  // of the whole register, passed to its image
   Value value;
   Refusal refusal;
   Value after;  // of the whole register

@@ -123,7 +123,7 @@ TEST(DescribedAxis, RunsAsHostsHoldIt) {
   one.write("SPEED", 1500);
   one.advance(100);
   EXPECT_EQ(one.read("NOW"), 1500) << "another speed counts at once";
-  one.write("CONTROL", 4);  // backward: it slows down, and turns round
+  one.write("CONTROL", 4);  // backward: it decelerates and reverses
   one.advance(50);
   EXPECT_GT(one.read("NOW"), 0);
   one.advance(160);
@@ -132,7 +132,7 @@ TEST(DescribedAxis, RunsAsHostsHoldIt) {
   EXPECT_NEAR(static_cast<double>(one.ticks_until_still()), 100, 1);
   one.write("CONTROL", 2);
   one.advance(101);
-  one.write("COMMAND", 3);  // stopped, it waits to be told anew
+  one.write("COMMAND", 3);  // stopped, it waits for a new command
   one.advance(1000);
   EXPECT_EQ(one.read("STATUS.BUSY"), 0);
   one.write("CONTROL", 0);

@@ -15,7 +15,7 @@ using Lines = std::vector<std::string>;
 struct Case {
   int error;
   Lines lines;  // without RSM_MACRO_; "= 0C22 1" is sent as it is
-  int refused;  // the first line that is, counted from 0; as many as there are lines: CLOSE
+  int refused;  // the first line with an error, counted from 0; the number of lines stands for CLOSE
   int reason;   // of the last refusal, in input 102
   int command;  // input 112
   int line;     // input 113
@@ -31,7 +31,7 @@ Lines nested(int depth, const std::string& open, const std::string& close) {
 /// MP 41 has 16 lines.
 const Case kCases[] = {
     {0x01, Lines(17, "SET_VAR VAR1 1"), 16, 0x03, 0x0AD2, 16},
-    {0x02, nested(8, "IF 1 < 2", "END_IF"), 7, 0xB3, 0x0AD7, 7},  // the eighth END_IF has no IF then
+    {0x02, nested(8, "IF 1 < 2", "END_IF"), 7, 0xB3, 0x0AD7, 7},  // the eighth END_IF then has no IF
     {0x03, {"ELSE"}, 0, 0xB2, 0x0AD8, 0},
     {0x04, {"SET_VAR VAR1 1", "END_IF"}, 1, 0xB3, 0x0AD9, 1},
     {0x05, {"SET_VAR VAR1 1", "IF 1 < 2"}, 2, 0xB4, 0x0AD7, 1},
@@ -73,7 +73,7 @@ TEST(RsM8194hDownloadErrors, AllSixteenAreShownAndTheOldMacroStays) {
     const auto count = static_cast<int>(one.lines.size());
     for (int i = 0; i < count; ++i) {
       const std::string reply = send_line(rsm, one.lines[static_cast<std::size_t>(i)]);
-      if (i > one.refused) continue;  // what follows it may be refused or not
+      if (i > one.refused) continue;  // the lines after it may be refused or not
       EXPECT_EQ(reply.substr(0, 2), i < one.refused ? "10" : "90") << i;
     }
     EXPECT_EQ(rsm.exception("RSM_MACRO_MP_CLOSE"), one.refused == count ? 3 : 0);
@@ -92,7 +92,7 @@ TEST(RsM8194hDownloadErrors, AllSixteenAreShownAndTheOldMacroStays) {
     rsm.set("CALL_MP", 41);
     rsm.run(10);
     EXPECT_EQ(rsm.get("VAR7"), 77);
-    // The next correct one is stored, and the error is gone.
+    // The next valid one is stored, and the error is cleared.
     rsm.send({"RSM_MP_CREATE 41", "RSM_MACRO_SET_VAR VAR7 78", "RSM_MACRO_MP_CLOSE"});
     EXPECT_EQ(rsm.ask("04 00 6E 00 05"), "04 0A 00 29 00 03 00 00 00 00 00 00");
     EXPECT_EQ(rsm.get("IllegalFuncErr"), one.reason) << "good requests leave the reason";

@@ -67,7 +67,7 @@ TEST(RsM8194hEncoder, AloneIsCountedHoweverTimeGoesBy) {
   }
 }
 
-/// SET_ENCODER (3.10): edges of A and B, of A, or A's rising ones; B first counts down. Up and down pulses
+/// SET_ENCODER (3.10): edges of A and B, of A, or rising edges of A; B first counts down. Up and down pulses
 /// are counted one by one.
 TEST(RsM8194hEncoder, IsDividedAndTurnedRound) {
   for (int mode = 0; mode < 4; ++mode) {

@@ -179,7 +179,7 @@ TEST(RsM8194hLanguage, MessagesMakeTheSameTextAgain) {
     EXPECT_EQ(in_text(error.first()).substr(0, 17), "line 1, column 3:");
   }
 
-  // A host that sends the messages has stored the same.
+  // A host that sends the messages has stored the same macro.
   OneRsm rsm;
   for (const CellRow& row : rows) {
     std::vector<std::uint16_t> words;

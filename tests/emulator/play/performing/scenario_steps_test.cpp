@@ -1,4 +1,4 @@
-// Each kind of step, as it is written and as it runs.
+// Each kind of step: its text and its effect.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/play/performing/scenario_folder.h"
@@ -68,7 +68,7 @@ TEST_F(ScenarioSteps, TargetsAreNamesHalvesBitsAndNumbers) {
 }
 
 TEST_F(ScenarioSteps, WriteTakesWhatADeviceRefusesWhereThatIsMeant) {
-  // Aaxis_AccTime goes to 3000, HW_Code is read-only.
+  // The maximum of Aaxis_AccTime is 3000, and HW_Code is read-only.
   EXPECT_EQ(only<WriteStep>("write: { feeder.Aaxis_AccTime: 3001 }\n    exception: 3").answer.exception, 3);
   EXPECT_EQ(only<WriteStep>("write: { feeder.HW_Code: 1 }\n    exception: 2").answer.exception, 2);
   EXPECT_EQ(only<WriteStep>("write: { feeder.Aaxis_AccTime: 3000 }").entries.at(0).value, "3000");

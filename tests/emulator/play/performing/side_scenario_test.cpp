@@ -56,7 +56,7 @@ void end_beside(const std::string& steps, bool by_failure) {
   const Trap trap(*daemon);
   bool was_over = false;
   SideScenario side_scenario(scenario, *daemon, [&] { was_over = true; });
-  // It is in the middle of its steps by then, or not that far: the result is the same.
+  // It is in the middle of its steps by then, or earlier: the result is the same.
   std::thread springs([&] {
     std::this_thread::sleep_for(30ms);
     if (by_failure) return trap.spring();

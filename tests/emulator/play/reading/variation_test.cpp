@@ -98,7 +98,7 @@ TEST(Variation, SamplesAreDifferentAndWithinTheirBounds) {
   }
   // 100 of 1 to 1000 without repetition: 500.5 on average, with a standard deviation of 27.4.
   EXPECT_NEAR(sum / 100, 500.5, 4 * 27.4);
-  // All of them are each of them.
+  // All of them are each of them once.
   Strings all = all_of(of("{ between: [ 1, 30 ], samples: 30, seed: 7 }"));
   EXPECT_FALSE(std::is_sorted(all.begin(), all.end()));
   std::multiset<int> numbers;

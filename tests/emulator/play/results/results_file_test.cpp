@@ -66,7 +66,7 @@ class Rows : public testing::TestWithParam<std::string> {
     for (const ScenarioResult& result : results) rows.push_back(row_of(result, made_of, true));
     file.add(rows);
   }
-  /// Each row as Python has it: the values, in the order of the columns.
+  /// Each row as Python reads it: the values, in the order of the columns.
   std::string read_back() const {
     const std::string script = folder_ + "/read.py";
     std::ofstream(script) << (GetParam() == kSqliteEnding ? R"(

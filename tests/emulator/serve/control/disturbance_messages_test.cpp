@@ -1,5 +1,5 @@
-// Control messages that disturb: inputs in their units, power, programs, faults. What each does, and that a
-// bad one gets one line and changes nothing.
+// Control messages that disturb: inputs in their units, power, programs, faults. Tests the effect of each,
+// and that a bad one gets one line and changes nothing.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/serve/control/daemon_rig.h"
@@ -10,7 +10,7 @@ namespace disturbance_messages_test {
 const std::string kDone = R"({"ok":true})";
 constexpr Speed kManual{.kind = Speed::Kind::manual};
 
-/// Ticks of a world whose clock stands.
+/// Returns the ticks of a world with a stopped clock.
 void run(DaemonRig& rig, Tick ticks) {
   world::World& world = rig.daemon.world();
   world.advance_to(world.now() + time_of(ticks));
@@ -37,7 +37,7 @@ TEST(InputMessages, TakeWordsVoltagesAndSwitches) {
       kDone);
   run(rig, 1);
   EXPECT_EQ(rig.value("feeder.DIN_ALL"), 1 << 1 | 1 << 2);
-  EXPECT_EQ(rig.value("feeder.ADC_A"), 1000);  // 400 a volt
+  EXPECT_EQ(rig.value("feeder.ADC_A"), 1000);  // 400 per volt
   EXPECT_EQ(rig.value("turner.ADC_B"), 160);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["devices"][0]["pulse_format"], "CW/CCW")
       << "a switch on the housing is looked at when the power comes";
@@ -108,7 +108,7 @@ TEST(ProgramMessages, LoadAListingAndPrintTheProgramThatIsThere) {
   EXPECT_EQ(reply["ok"], true);
   const std::string text = reply["text"];
   EXPECT_NE(text.find("Delay_mSec 1500"), std::string::npos) << text;
-  // What it prints it takes, and is the same program.
+  // It accepts its own output, which is the same program.
   EXPECT_EQ(rig.reply_to(Json{{"do", "program"}, {"device", "turner"}, {"text", text}}.dump()), kDone);
   EXPECT_EQ(rig.ask(R"({"do":"program","device":"turner"})")["text"], text);
 }
@@ -215,7 +215,7 @@ TEST(StatusMessage, TellsWhatADriveIsAt) {
   EXPECT_EQ(drive(), "alarm");
 }
 
-// --- what is refused -----------------------------------------------------------------------------
+// --- refusals ------------------------------------------------------------------------------------
 
 struct Bad {
   std::string message;

@@ -166,7 +166,7 @@ TEST(Pacer, BeingWokenEarlyByAHostIsNotLateness) {
   pacer.woke(kStart + 10ms, kStart + 10ms + 40us);
   EXPECT_EQ(pacer.lateness().count(), 1u);
   EXPECT_EQ(pacer.lateness().greatest(), 40us);
-  // One who is woken just in time counts, with none.
+  // A wake-up just in time counts as one with no delay.
   pacer.woke(kStart + 10ms, kStart + 10ms);
   EXPECT_EQ(pacer.lateness().count(), 2u);
 }
@@ -200,7 +200,7 @@ TEST(Lateness, PercentilesAreExactHoweverFarApartTheTimesAre) {
   std::uint64_t state = 7;
   for (int i = 0; i < 4'000; ++i) {
     state = state * 6364136223846793005U + 1442695040888963407U;
-    // From nanoseconds to minutes, and some again and again.
+    // From nanoseconds to minutes, some of them several times.
     const auto ns = static_cast<std::int64_t>(i % 5 == 0 ? i % 40 : (state >> 24U) >> (state >> 58U) % 40);
     all.emplace_back(ns);
     lateness.record(all.back());

@@ -196,15 +196,15 @@ struct StepCase {
   const char* model;
   const char* program;
   const char* start;  // "CALL_MPn=41", or a line of text
-  int call;           // the line that calls, of the listing
+  int call;           // the line of the listing that calls
   int routine;        // the first line of the routine
-  int second;         // the line at which it is a step later: labels take no tick of their own
-  int behind;         // the line behind the call
-  const char* part;   // of a program at once with others
+  int second;         // the line one step later: labels take no tick of their own
+  int behind;         // the line after the call
+  const char* part;   // the number of programs that run at once
 };
 
-/// What a routine waits for takes some ticks, so that each step ends in a tick of its own. The first line of
-/// a macro begins in the tick of its call, so a step goes on to its second.
+/// A routine waits for something that takes some ticks, so each step ends in a different tick. The first line
+/// of a macro runs in the tick of its call, so a step continues to its second.
 constexpr StepCase kSteps[] = {
     {"rs-m8194h",
      "MP 2\n  RSM_MACRO_TIMER 5\n  RSM_MACRO_TIMER 6\n  RSM_MACRO_TIMER 7\nEND\nMP 41\n  RSM_MACRO_TIMER 5\n "
@@ -248,7 +248,7 @@ TEST_P(Steps, GoIntoRoutinesOverThemAndOutOfThem) {
   world.debugger.begin_anew();
   world.debugger.remove_all();
   world.debugger.add({.line = one.call});
-  // The stop is gone, so it begins where the program is.
+  // The stop is over, so it starts where the program is.
   EXPECT_NE(world.step(StepKind::out, one.part), "");
   EXPECT_EQ(line(), one.behind);
 }

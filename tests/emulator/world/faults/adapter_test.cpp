@@ -1,5 +1,6 @@
-// What stands between a line and its host: an echo, an adapter that hands over lumps, one that is pulled out.
-// Times are those of 8E1 at 19200: a character takes 11 bits, and the reply follows 750 us behind the eighth.
+// What is between a line and its host: an echo, an adapter that passes on data in lumps, one that is pulled
+// out. Times are those of 8E1 at 19200: a character takes 11 bits, and the reply follows 750 us after the
+// eighth.
 #include <gtest/gtest.h>
 
 #include <utility>

@@ -144,7 +144,7 @@ TEST(ModbusServer, ProgramCellsKeepTheLowByteOfWhatIsWritten) {
   EXPECT_EQ(read(*device, 0x4000, 4), (Words{0x34, 0x00, 0xFF, 0x7F}));
 }
 
-// --- what starts ------------------------------------------------------------------------------
+// --- commands that start motion ---------------------------------------------------------------
 
 TEST(ModbusServer, OneRequestSetsAMoveAndStartsItWithTheNewValues) {
   const auto device = make_simple2();
