@@ -164,7 +164,7 @@ class BadFrames : public testing::TestWithParam<Subject> {
 TEST_P(BadFrames, GetTheirExceptionAndTheNextIsServed) {
   const Bytes before = asked();
   ASSERT_EQ(before.size(), 32U);
-  ASSERT_EQ(before[1], 0x03) << "good frames are served";
+  ASSERT_EQ(before[1], 0x03) << "valid frames are served";
   for (const Case& c : cases_of(GetParam())) {
     const std::string told = c.what + ": " + c.request.substr(0, 40);
     send(c.request);

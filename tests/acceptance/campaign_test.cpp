@@ -188,7 +188,7 @@ TEST_F(Campaign, OneThatIsKilledGoesOn) {
       process.send(SIGKILL);
       if (process.wait(kPatience) == 128 + SIGKILL) ++killed;
     }
-    EXPECT_GT(killed, 0) << "it was always over before it was killed";
+    EXPECT_GT(killed, 0) << "it always ended before it was killed";
     const Finished last = understudy(command);
     EXPECT_EQ(last.exit_code, 1) << last.errors;
     const std::regex left_out("([0-9]+) skipped, since they ran before; ([0-9]+) of them failed");

@@ -172,10 +172,10 @@ TEST_F(ClaimedPort, IsServedAnewWhenTheDaemonWasKeptOut) {
     ASSERT_EQ(as_ordinary_user(claim_all_the_time), 128 + SIGKILL);
     EXPECT_EQ(as_ordinary_user([&] { return ask_for_hardware_code(port()); }), 0) << attempt;
   }
-  if (!is_anew()) GTEST_SKIP() << "the daemon was never kept out";
+  if (!is_anew()) GTEST_SKIP() << "the daemon was never locked out";
   struct stat access {};
   EXPECT_EQ(stat(port().c_str(), &access), 0);
-  EXPECT_EQ(access.st_mode & 0777U, 0666U) << "who was let in before is still let in";
+  EXPECT_EQ(access.st_mode & 0777U, 0666U) << "an earlier client is still admitted";
   EXPECT_TRUE(eventually([&] {
     return daemon().errors().find("left " + first.string() + " claimed (TIOCEXCL)") != std::string::npos;
   })) << daemon().errors();

@@ -59,7 +59,7 @@ TEST_F(Completion, OfBashKnowsEveryCommandAndFlag) {
   EXPECT_EQ(completed("understudy describe ''", 2), (Words{"rs-m8194h", "simple2-r3", "slim", "super-40nc"}));
   EXPECT_EQ(completed("understudy describe --format csv slim pa", 5), Words{"parameters"});
   EXPECT_EQ(completed("understudy ctl --port inject inject st", 5), (Words{"stall", "stuck"}));
-  EXPECT_EQ(completed("understudy ctl inject stall ''", 4), Words{""}) << "an axis of a bench that runs";
+  EXPECT_EQ(completed("understudy ctl inject stall ''", 4), Words{""}) << "an axis of a running bench";
   EXPECT_EQ(completed("understudy ctl power feeder o", 4), (Words{"on", "off"}));
   EXPECT_EQ(completed("understudy schema ''", 2), (Words{"bench", "scenario"}));
   EXPECT_EQ(completed("understudy exec b.yaml -- --mo", 4), Words{""}) << "the command's own words";

@@ -158,7 +158,7 @@ const Words kManualsExample{
 TEST(ManualSpeed, MovesNothingUntilTimeIsAdvanced) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   expect_done(daemon, kManualsExample);
-  EXPECT_EQ(value(daemon, "STATUS.4"), 1) << "moving, from the moment of acceptance";
+  EXPECT_EQ(value(daemon, "STATUS.4"), 1) << "moving, from the moment it is accepted";
   std::this_thread::sleep_for(Wait(100));
   EXPECT_EQ(value(daemon, "Cord_A"), 0);
   EXPECT_EQ(simulated_ns(daemon), 0);
@@ -244,7 +244,7 @@ TEST(ControlPause, StopsTimeAndResumeLetsItRunAgain) {
   EXPECT_EQ(value(daemon, "Cord_A"), 320);
   expect_done(daemon, {"resume"});
   EXPECT_TRUE(eventually([&] { return simulated_ns(daemon) > paused_at + 300'000'000; }));
-  EXPECT_LT(simulated_ns(daemon), paused_at + 5'000'000'000) << "what was paused is not caught up with";
+  EXPECT_LT(simulated_ns(daemon), paused_at + 5'000'000'000) << "paused time is not made up for";
   EXPECT_EQ(ModbusHost(daemon.port()).read(kHardwareCode), Registers{0xC001});
 }
 

@@ -86,7 +86,7 @@ class KilledDaemon {
     if (!image) return last_;
     const std::vector<std::int64_t> found = counts(*image);
     EXPECT_TRUE(is_some_moment(found)) << testing::PrintToString(found) << " after kill " << number;
-    EXPECT_GE(found.front(), last_) << "nothing that was kept is forgotten, kill " << number;
+    EXPECT_GE(found.front(), last_) << "no stored value is lost, kill " << number;
     last_ = found.front();
     return last_;
   }

@@ -385,7 +385,7 @@ std::string judged(const std::string& latenesses) {
 TEST(ReferenceTimer, TellsABusyMachineFromAQuietOne) {
   std::string quiet;
   for (int i = 0; i < 1000; ++i) quiet += i % 200 == 0 ? "60\\n" : "0.1\\n";
-  EXPECT_EQ(judged(quiet), "") << "now and then it is late everywhere";
+  EXPECT_EQ(judged(quiet), "") << "sometimes every wake-up is late";
   EXPECT_NE(judged(quiet + "700\\n").find("came up to 700 ms late"), std::string::npos);
   std::string busy;
   for (int i = 0; i < 1000; ++i) busy += i % 50 == 0 ? "60\\n" : "0.1\\n";

@@ -128,7 +128,7 @@ TEST_F(RsM8194hKept, APowerCutInADownloadLeavesTheMacroThatWas) {
   EXPECT_TRUE(host.write(kWindow, set_var1(43)));
   EXPECT_EQ(daemon->ctl({"power", "cell", "off"}).exit_code, 0);
   EXPECT_TRUE(host.in_vain([](ModbusHost& asked) { return asked.read_input(kRsmState); }).empty())
-      << "a box without power is silent";
+      << "a controller without power is silent";
   EXPECT_EQ(daemon->ctl({"power", "cell", "on"}).exit_code, 0);
   EXPECT_TRUE(eventually([&] { return host.read_input(kRsmState) == Registers{0}; }));
   // It has left the download: a macro line is refused, a command is accepted.

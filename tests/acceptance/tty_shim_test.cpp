@@ -77,7 +77,7 @@ class TtyShim : public testing::Test {
 
 TEST_F(TtyShim, TurnsTheErrorAboutParityIntoSuccess) {
   for (const tcflag_t parity : {PARENB, PARENB | PARODD}) {
-    ASSERT_EQ(libc(slave(), with(PARENB)), EINVAL) << "this libc has no such error";
+    ASSERT_EQ(libc(slave(), with(PARENB)), EINVAL) << "this libc does not have this error";
     EXPECT_EQ(shim(slave(), with(parity)), 0);
     EXPECT_EQ(shim(slave(), with(parity)), 0) << "again";
   }
@@ -142,7 +142,7 @@ TEST_F(TtyShim, RemembersRs485ModeAndLowLatency) {
   EXPECT_EQ(again.delay_rts_after_send, 3U);
   serial_struct serial{};
   EXPECT_EQ(control(slave(), TIOCGSERIAL, &serial), 0);
-  EXPECT_EQ(serial.type, PORT_16550A) << "a UART that is there";
+  EXPECT_EQ(serial.type, PORT_16550A) << "an existing UART";
   EXPECT_EQ(serial.flags & ASYNC_LOW_LATENCY, 0);
   serial.flags |= ASYNC_LOW_LATENCY;
   EXPECT_EQ(control(slave(), TIOCSSERIAL, &serial), 0);

@@ -87,7 +87,7 @@ TEST_F(TextFile, IsReadUpToTheLimitAndNotBeyond) {
   fs::resize_file(file, kMaxTextBytes + 1);
   EXPECT_FALSE(read_text_file(file));
   EXPECT_EQ(read_text_file(file).why, "is larger than 64 MiB");
-  EXPECT_EQ(why_not_readable(file), "") << "what is read piece by piece may have any length";
+  EXPECT_EQ(why_not_readable(file), "") << "a file that is read in pieces can have any length";
 }
 
 TEST_F(TextFile, WhoeverReadsOneSaysWhatIsWrongWithIt) {

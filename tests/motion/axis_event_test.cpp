@@ -129,7 +129,7 @@ TEST(AxisEvent, AComparatorOfTheEncoderMeetsWhatComesAfterIt) {
   EXPECT_FALSE(course.axis.must_recheck);
   course.axis.set_comparator(
       1, {.relation = Comparator::Relation::equal_upwards, .count = Count::encoder, .value = 30});
-  EXPECT_TRUE(firings(course, 5, 1).empty()) << "it was passed before";
+  EXPECT_TRUE(firings(course, 5, 1).empty()) << "it was passed earlier";
   course.axis.set_encoder(20);
   EXPECT_TRUE(course.axis.must_recheck);
   EXPECT_TRUE(firings(course, 5, 1).empty());

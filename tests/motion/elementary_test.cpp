@@ -26,7 +26,8 @@ constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 class Elementary : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP() << "long double is not more than double";
+    if (std::numeric_limits<long double>::digits < 64)
+      GTEST_SKIP() << "long double is not longer than double";
   }
 };
 

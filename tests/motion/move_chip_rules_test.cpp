@@ -127,7 +127,7 @@ TEST(MoveChipRules, ThereIsNoCreepingFromAStandstill) {
   for (const SpeedLaw& bad : {law, early, too_long}) {
     try {
       plan(250, bad);
-      ADD_FAILURE() << "crept at no speed";
+      ADD_FAILURE() << "creeps at no speed";
     } catch (const BadMotion& error) {
       EXPECT_EQ(error.refusal(), Refusal::not_positive);
       EXPECT_NE(std::string(error.what()).find("start speed"), std::string::npos) << error.what();

@@ -26,7 +26,7 @@ SpeedLaw good() {
 void expect_refused(const std::function<void()>& act, Refusal refusal, const std::string& require) {
   try {
     act();
-    ADD_FAILURE() << "accepted; should say: " << require;
+    ADD_FAILURE() << "accepted; expected the error: " << require;
   } catch (const BadMotion& error) {
     EXPECT_EQ(error.refusal(), refusal) << error.what();
     EXPECT_EQ(std::string(error.what()).find(require), 0U) << error.what();

@@ -192,12 +192,12 @@ TEST(RampChange, TheSpeedWithoutAccelerationIsWhereItFadesAtOnce) {
   const RampLaw sections = RampLaw::by_sections(100, 50);  // jerk 100
   EXPECT_DOUBLE_EQ(
       speed_without_acceleration({.speed_u_s = 70, .acceleration_u_s2 = 100}, jerk, slope, range), 120)
-      << "passes the greatest";
+      << "exceeds the maximum";
   EXPECT_DOUBLE_EQ(
       speed_without_acceleration({.speed_u_s = 70, .acceleration_u_s2 = -60}, slope, jerk, range), 52);
   EXPECT_DOUBLE_EQ(
       speed_without_acceleration({.speed_u_s = 70, .acceleration_u_s2 = -100}, jerk, soft, range), 20)
-      << "but not the least";
+      << "but not the minimum";
   EXPECT_DOUBLE_EQ(
       speed_without_acceleration({.speed_u_s = 70, .acceleration_u_s2 = 100}, slope, jerk, range), 70);
   EXPECT_DOUBLE_EQ(speed_without_acceleration({.speed_u_s = 70, .acceleration_u_s2 = 0}, jerk, jerk, range),
@@ -258,7 +258,7 @@ TEST(Ramp, WhatIsOutsideALawsDomainIsRefusedByName) {
     EXPECT_NO_THROW(row.make(1e-300));
     EXPECT_NO_THROW(row.make(1e300));
   }
-  EXPECT_THROW(check(RampLaw{}), BadMotion) << "a law that nobody made";
+  EXPECT_THROW(check(RampLaw{}), BadMotion) << "an invalid law";
 }
 
 }  // namespace ramp_test

@@ -51,7 +51,7 @@ TEST(UnitScale, MayCutPulsesOff) {
   UnitScale scale = UnitScale::of(INT32_MAX, 1);
   scale.truncates = true;
   EXPECT_EQ(scale.to_pulses(INT64_MAX), std::nullopt);
-  EXPECT_EQ(scale.to_units(INT32_MAX / 2 + 1), 1) << "what is shown is the nearest one";
+  EXPECT_EQ(scale.to_units(INT32_MAX / 2 + 1), 1) << "the displayed value is the nearest one";
 }
 
 TEST(UnitScale, RoundsHalfAwayFromZero) {

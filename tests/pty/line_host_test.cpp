@@ -308,7 +308,7 @@ TEST(LineHost, NothingIsLostToAnObserverThatTakesIt) {
     Taker taker(rig.line);
     for (int i = 0; i < 40; ++i) talker.says[i * 1s] = {Bytes(256, static_cast<std::uint8_t>(i))};
     rig.line.run(100s);
-    EXPECT_EQ(taker.taken.size(), 8192u) << "twice what the line keeps";
+    EXPECT_EQ(taker.taken.size(), 8192u) << "twice what the line stores";
     EXPECT_EQ(rig.line.output().size(), 40u * 256 - 8192);
     EXPECT_EQ(rig.line.output().back(), 39);
     EXPECT_EQ(rig.line.counters().bytes_discarded, 0u);

@@ -209,7 +209,7 @@ TEST(LineState, WhatNoLineCanBeIsRefusedAndChangesNothing) {
     spoil(bad);
     try {
       rig.wire.line.restore(bad);
-      ADD_FAILURE() << "was taken, though " << what;
+      ADD_FAILURE() << "was accepted, though " << what;
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(error.what(), "line rs485: " + what);
     }

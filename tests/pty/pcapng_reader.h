@@ -96,7 +96,7 @@ inline std::map<int, std::string> pcapng_options(std::string_view options) {
     found[code] = options.substr(0, length);
     options.remove_prefix(padded);
   }
-  ADD_FAILURE() << "the options have no end";
+  ADD_FAILURE() << "the options are unlimited";
   return found;
 }
 

@@ -178,7 +178,7 @@ TEST(PortLink, CanPointToAnother) {
     std::filesystem::remove(path);
     std::filesystem::create_symlink("/dev/pts/3", path);
     link.point_to("/dev/pts/4");
-    EXPECT_EQ(std::filesystem::read_symlink(path), "/dev/pts/3") << "another's by now";
+    EXPECT_EQ(std::filesystem::read_symlink(path), "/dev/pts/3") << "it belongs to another by now";
   }
   EXPECT_TRUE(std::filesystem::is_symlink(path));
 }

@@ -78,7 +78,7 @@ TEST(UnwatchedTerminal, LooksWhoIsThereWheneverItIsAsked) {
   const ScratchDirectory folder;
   const OrdinaryUser user(folder / ".");
   const AllInstances all;
-  if (!all.are_taken()) GTEST_SKIP() << "this machine has no limit to meet";
+  if (!all.are_taken()) GTEST_SKIP() << "this machine has no such limit";
   WatchedTerminal terminal;
   PseudoTerminal& port = terminal.port;
   EXPECT_LT(terminal.watch->descriptor(), 0);

@@ -62,7 +62,7 @@ struct Wire {
         served_at.push_back(due);
         EXPECT_GE(due, frame->end + kSilence);
       } else if (framer.due() == due) {
-        FAIL() << "it is due, and nothing comes of it";
+        FAIL() << "it is due, but has no effect";
       }
     }
   }

@@ -136,7 +136,7 @@ TEST_P(ModelContract, WiresItsAxesToTerminalsOfTheRightKind) {
     }
     for (const int output : {axis.servo_output, axis.alarm_clear_output})
       EXPECT_TRUE(is_that(output, false)) << axis.name << ": " << output;
-    EXPECT_GE(axis.home_input, 0) << axis.name << ": a machine's home switch would be seen by nobody";
+    EXPECT_GE(axis.home_input, 0) << axis.name << ": nothing would see a machine's home switch";
   }
 }
 

@@ -219,7 +219,7 @@ TEST(PageConnections, OfStrangersDoNotKeepOthersOut) {
             "HTTP/1.1 200");
   come(200);
   EXPECT_EQ(rig.browser()->why(), "");
-  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(4)) << "nobody was waited for";
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(4)) << "the bench waited for no one";
   // The oldest were closed for new ones; the newest are still connected, and so is every client that had the
   // token.
   EXPECT_TRUE(is_closed(*unauthenticated.front()));
@@ -292,7 +292,7 @@ TEST(PageLooks, AreOneForAllBrowsersAndAtMostThirtyASecond) {
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const int last = bench.looks();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_EQ(bench.looks(), last) << "nobody watches";
+  EXPECT_EQ(bench.looks(), last) << "there is no observer";
 }
 
 TEST(PageLooks, TellOnlyWhatHasChanged) {
@@ -368,7 +368,7 @@ TEST_P(PageLosses, AreToldWhereverTheHoleIs) {
   using Told = std::pair<std::vector<int>, int>;
   const auto browser = rig.browser();
   browser->say({{"do", "watch"}, {"bench", 0}, {key, true}});
-  EXPECT_EQ(wait_for(*browser, 8), Told({5, 6, 7, 8}, 0)) << "what was before it looked, it does not miss";
+  EXPECT_EQ(wait_for(*browser, 8), Told({5, 6, 7, 8}, 0)) << "frames before its first look are not missed";
   most = 2;
   EXPECT_EQ(wait_for(*browser, 22), Told({20, 21, 22}, 11));
   // There is also a gap within the frames that the page has stored.

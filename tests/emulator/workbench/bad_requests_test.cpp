@@ -203,7 +203,7 @@ TEST(BadRequests, GetTheRightExceptionAndChangeNothing) {
     EXPECT_EQ(after.reason, c.reason) << c.request;
     after.cause = before.cause;
     after.reason = before.reason;
-    EXPECT_EQ(after, before) << c.request << ": something of it was carried out";
+    EXPECT_EQ(after, before) << c.request << ": part of it was executed";
     const RefusedRequest& heard = rig.bench().last_refused;
     EXPECT_EQ(heard.function, function) << c.request;
     EXPECT_EQ(heard.exception, c.exception) << c.request;
@@ -258,7 +258,7 @@ TEST(BadRequests, AFunctionThatIsNotServedIsHeardOfToo) {
     EXPECT_EQ(heard.function, function);
     EXPECT_EQ(heard.exception, 1);
     EXPECT_EQ(heard.objection.cause, Cause::unknown_function);
-    EXPECT_EQ(heard.count, 0U) << "nobody knows what its bytes mean";
+    EXPECT_EQ(heard.count, 0U) << "the meaning of its bytes is unknown";
   }
 }
 

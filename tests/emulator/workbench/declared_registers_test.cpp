@@ -307,10 +307,11 @@ TEST(DeclaredRegisters, HolesAreWhatTheManualsSay) {
   EXPECT_EQ(rsm.ask(world::hex("04 00 1B 00 02")), "84 02") << "from the second word";
   EXPECT_EQ(rsm.ask(world::hex("04 00 1A 00 01")), "84 02") << "the first alone";
   EXPECT_EQ(rsm.ask(world::hex("06 00 5A 00 01")), "86 02") << "half a position";
-  EXPECT_EQ(rsm.ask(world::hex("03 1F A4 00 01")), "83 02") << "the last of the window can only be written";
+  EXPECT_EQ(rsm.ask(world::hex("03 1F A4 00 01")), "83 02")
+      << "the last register of the window is write-only";
   EXPECT_EQ(rsm.ask(world::hex("03 1F A5 00 01")), "83 02") << "beyond the table";
   EXPECT_EQ(rsm.ask(world::hex("03 02 00 00 02")), "03 04 00 00 00 00");
-  EXPECT_EQ(rsm.ask(world::hex("06 0A 00 00 01")), "86 02") << "a hole takes nothing";
+  EXPECT_EQ(rsm.ask(world::hex("06 0A 00 00 01")), "86 02") << "a hole stores nothing";
   Controller super("super-40nc", kSuper40Nc, kWithoutInputRegisters);
   const std::pair<const char*, const char*> cases[] = {
       {"01 00 20 00 01", "81 02"}, {"01 00 1F 00 02", "81 02"}, {"01 0A 8C 00 01", "81 02"},
@@ -318,7 +319,7 @@ TEST(DeclaredRegisters, HolesAreWhatTheManualsSay) {
       {"05 03 E0 FF 00", "85 02"}, {"02 00 30 00 01", "82 02"}};
   for (const auto& [request, reply] : cases) EXPECT_EQ(super.ask(world::hex(request)), reply) << request;
   EXPECT_EQ(super.ask(world::hex("06 00 6A 02 2B")), "06 00 6A 02 2B") << "a low word alone";
-  EXPECT_EQ(super.ask(world::hex("03 00 6A 00 02")), "03 04 02 2B 00 00") << "D53, as the manual has it";
+  EXPECT_EQ(super.ask(world::hex("03 00 6A 00 02")), "03 04 02 2B 00 00") << "D53, as in the manual";
 }
 
 }  // namespace declared_registers_test

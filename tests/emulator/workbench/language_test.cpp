@@ -109,7 +109,7 @@ TEST(Languages, ADeviceRefusesWhatTheCheckRefuses) {
       EXPECT_EQ(told(error.mistakes), wrong.mistakes);
       EXPECT_EQ(error.what(), error.mistakes.front().what);
     }
-    EXPECT_EQ(device->user_program()->program_text(), kListed) << "it is as it was";
+    EXPECT_EQ(device->user_program()->program_text(), kListed) << "it is unchanged";
   }
 }
 

@@ -15,7 +15,7 @@ TEST(PortsOfABench, AreThoseThatStationsName) {
   EXPECT_EQ(bench.lines[0].stations, (std::vector<StationSetup>{{0, 0}}));
   EXPECT_EQ(bench.lines[1].stations, (std::vector<StationSetup>{{0, 1}}));
   EXPECT_EQ(world::known_devices_of(bench)[0].lines, (std::vector<std::string>{"pc", "hmi"}));
-  EXPECT_EQ(bench.devices[0].settings.address, std::nullopt) << "its memory says it";
+  EXPECT_EQ(bench.devices[0].settings.address, std::nullopt) << "from its memory";
 }
 
 TEST(PortsOfABench, HaveSpeedsOfTheirOwn) {

@@ -31,7 +31,7 @@ void expect_exchanges(Device& device, std::span<const Exchange> exchanges) {
     EXPECT_EQ(reply, exchange.reply.empty() ? exchange.request.substr(0, 14) : exchange.reply)
         << exchange.request << ": " << exchange.what;
     if (reply.size() == 5) {
-      EXPECT_EQ(state_of(device), before) << exchange.request << ": refused, and something has changed";
+      EXPECT_EQ(state_of(device), before) << exchange.request << ": refused, but something has changed";
     }
   }
 }

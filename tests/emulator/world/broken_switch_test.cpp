@@ -107,7 +107,7 @@ TEST(BrokenSwitch, ALimitThatBreaksInTheMiddleOfAMoveStopsIt) {
   EXPECT_FALSE(machine.moving('A'));
   EXPECT_EQ(machine.coordinate('A'), 45);
   machine.set("Aaxis_Move_INC", 1);
-  EXPECT_FALSE(machine.moving('A')) << "that way is blocked";
+  EXPECT_FALSE(machine.moving('A')) << "that direction is blocked";
   machine.world().clear_fault(broken);
   machine.run(1);
   machine.set("Aaxis_Move_INC", 1);

@@ -290,7 +290,7 @@ class Course {
     const SimTime end = world_.now() + kTickLength * below(25);
     world_.advance_to(end);
     while (world_.now() < end) {
-      EXPECT_TRUE(debugging_ && debugging_->debugger.take_stop()) << "an advance ends early at stops alone";
+      EXPECT_TRUE(debugging_ && debugging_->debugger.take_stop()) << "an advance ends early only at stops";
       ++stops_;
       debugging_->step(stops_);
       world_.advance_to(end);
@@ -327,7 +327,7 @@ TEST_P(ReplacedPrograms, AreTheSameWhateverFreedMemoryHolds) {
       ASSERT_EQ(told, usual) << language.model << ", UNDERSTUDY_SEED=" << seed << ", fill " << fill;
     }
   }
-  EXPECT_GT(loaded, static_cast<int>(courses) * 9) << "hardly a program is taken";
+  EXPECT_GT(loaded, static_cast<int>(courses) * 9) << "hardly any program is accepted";
 }
 
 /// Nothing depends on an observer, and skipped ticks count as much as others.

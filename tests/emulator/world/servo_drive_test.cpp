@@ -115,7 +115,7 @@ TEST(ServoDrive, WithoutTheFunctionAssignedFollowsThePlainOutput) {
   servos.set("DOUT0_Aaxis_SVON", 0);
   servos.set("Aaxis_SVON", 1);
   servos.run_to(100);
-  EXPECT_FALSE(servos.ready('A')) << "SVON goes nowhere";
+  EXPECT_FALSE(servos.ready('A')) << "SVON is not connected";
   servos.set("DOUT_0", 1);
   servos.run_to(151);
   EXPECT_FALSE(servos.ready('A'));
@@ -171,7 +171,7 @@ TEST(ServoDrive, AnAlarmStopsMotionAndIsClearedOnceItsCauseIsGone) {
       EXPECT_FALSE(servos.alarm(axis == 'A' ? 'B' : 'A'));
 
       servos.start(axis, 5);
-      EXPECT_FALSE(servos.moves(axis)) << "commands are dropped while it lasts";
+      EXPECT_FALSE(servos.moves(axis)) << "commands are dropped while it is on";
 
       servos.set(servos.name(axis, "ACLR"), 1);  // too early: the cause persists
       servos.run_to(500);
@@ -281,7 +281,7 @@ TEST(Stall, ShowsAsAnEncoderThatStandsWhileTheCoordinateGoesOn) {
   EXPECT_EQ(servos.get("ENCA"), 195);
   EXPECT_EQ(servos.get("ENCA_RPM"), 0) << "over the last 100 ms";
   EXPECT_TRUE(servos.moves('A'));
-  EXPECT_FALSE(servos.alarm('A')) << "the controller has no eye for it";
+  EXPECT_FALSE(servos.alarm('A')) << "the controller cannot see it";
   servos.world().clear_fault(stall);
   servos.run_to(1200);
   EXPECT_EQ(servos.coordinate('A'), 1000);

@@ -117,7 +117,7 @@ void save_and_go_on(std::uint64_t seed_value, Moments& moments) {
       const std::string which = " act " + std::to_string(saved.next_act) + " at " +
                                 format_duration(saved.state.time) + " seed " + std::to_string(seed_value);
       restore(*other, saved.state);
-      ASSERT_EQ(save(*other), saved.state) << "restored is not what was saved;" << which;
+      ASSERT_EQ(save(*other), saved.state) << "the restored state differs from the saved one;" << which;
       std::vector<Seen> again;
       for (std::size_t i = saved.next_act; i < end; ++i) {
         other->advance_to(acts[i].at);
@@ -126,9 +126,9 @@ void save_and_go_on(std::uint64_t seed_value, Moments& moments) {
       }
       for (std::size_t i = 0; i < again.size(); ++i) {
         ASSERT_EQ(again[i].said, lived[saved.next_act + i].said)
-            << "says something else before act " << saved.next_act + i << which;
+            << "sends something else before act " << saved.next_act + i << which;
         ASSERT_EQ(again[i], lived[saved.next_act + i])
-            << "is another before act " << saved.next_act + i << which;
+            << "differs before act " << saved.next_act + i << which;
       }
     }
   }

@@ -50,7 +50,7 @@ inline void by_what_is_due(World& world, SimTime to) {
     const SimTime before = world.now();
     world.advance_to(*due);
     idle_turns = world.now() == before ? idle_turns + 1 : 0;
-    ASSERT_LT(idle_turns, 10) << "due again and again at " << format_duration(*due);
+    ASSERT_LT(idle_turns, 10) << "due repeatedly at " << format_duration(*due);
   }
   world.advance_to(to);
 }

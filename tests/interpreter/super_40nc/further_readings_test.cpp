@@ -95,7 +95,7 @@ TEST(Super40ncFurtherReadings, OfEdgesOfOneBit) {
     }
     EXPECT_EQ(plc.machine.value(d(0)), 2);
     EXPECT_EQ(plc.machine.value(d(1)), is_shared ? 0 : 2);
-    EXPECT_EQ(plc.machine.value(d(2)), is_shared ? 0 : 1) << "LDP has seen it fall";
+    EXPECT_EQ(plc.machine.value(d(2)), is_shared ? 0 : 1) << "LDP has seen it go OFF";
     EXPECT_EQ(plc.machine.value(d(3)), is_shared ? 0 : 2);
   }
 }

@@ -106,7 +106,7 @@ TEST(Super40ncOtherReadings, OfContactsThatGoOffAndStr) {
     off.tick();
     EXPECT_EQ(off.phase(Area::x), stops ? Phase::idle : Phase::paused);
     EXPECT_EQ(off.state(Area::x).step, stops ? 0 : 1);
-    EXPECT_EQ(off.phase(Area::c), Phase::paused) << "0 is PAUSE there, in print";
+    EXPECT_EQ(off.phase(Area::c), Phase::paused) << "0 is PAUSE in the manual's table";
 
     options = {};
     options.start_begins_anew = stops;

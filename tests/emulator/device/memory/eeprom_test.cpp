@@ -106,7 +106,7 @@ TEST(Eeprom, AValueThatWaitsIsChangedInItsPlace) {
   EXPECT_EQ(memory.kept()[1], 70u);
   memory.run_to(11);
   EXPECT_EQ(memory.kept()[2], 81u);
-  EXPECT_FALSE(memory.eeprom.writing()) << "five writes were two";
+  EXPECT_FALSE(memory.eeprom.writing()) << "five writes became two";
   EXPECT_EQ(memory.eeprom.revision(), 2u);
 }
 

@@ -120,7 +120,7 @@ TEST_F(NvFile, ALeftOverOfAWriterThatDiedIsNotReadAndNotTouched) {
   writer.write(path(), to_json(image_of(3)));
   writer.flush();
   EXPECT_EQ(value_of_whole(*read_nv_file(path())), 3);
-  EXPECT_EQ(text_of(path() + ".new"), torn) << "it may be somebody's";
+  EXPECT_EQ(text_of(path() + ".new"), torn) << "it may belong to somebody";
   EXPECT_EQ(file_count(), 2u);
 }
 
@@ -265,7 +265,7 @@ TEST_F(NvFile, AWriterKilledAtAnyMomentLeavesAWholeImage) {
     last = value;
   }
   const std::size_t left_overs = file_count() - 1;  // each has a different name
-  EXPECT_GE(last, 50) << "it got to write";
+  EXPECT_GE(last, 50) << "it was able to write";
   EXPECT_GT(left_overs, 3u) << "it died while writing";
 }
 
@@ -284,7 +284,7 @@ TEST_F(NvFile, ThatCannotBeReplacedIsToldOnceAndStays) {
                          ": cannot be written (it is a directory; expected a regular file, or a free path); "
                          "the file keeps its previous contents");
   EXPECT_TRUE(fs::exists(path() + "/in the way"));
-  EXPECT_EQ(file_count(), 1u) << "nothing is left beside it";
+  EXPECT_EQ(file_count(), 1u) << "nothing is left next to it";
   EXPECT_TRUE(writer.take_news().empty());
 
   fs::remove_all(path());
@@ -305,7 +305,7 @@ TEST_F(NvFile, InAFolderThatIsNotThereIsTold) {
             std::vector<std::string>{
                 path("gone/feeder.json") +
                 ": cannot be written (No such file or directory); the file keeps its previous contents"});
-  EXPECT_EQ(text_of(path()), "another's") << "one file's trouble is not another's";
+  EXPECT_EQ(text_of(path()), "another's") << "one file's error does not affect another";
 }
 
 /// Like a full disk: no file grows beyond this many bytes.

@@ -84,7 +84,7 @@ TEST(NvImage, TornAnywhereIsRefusedWithTheLineOfTheTear) {
               "line " + std::to_string(line) + ": is damaged or not JSON; expected an NV image")
         << "after " << size << " bytes";
   }
-  EXPECT_EQ(parse_nv_image(whole.substr(0, whole.size() - 1)), kExample) << "nothing of it is missing";
+  EXPECT_EQ(parse_nv_image(whole.substr(0, whole.size() - 1)), kExample) << "no part of it is missing";
 }
 
 TEST(NvImage, ATailOfAnotherImageBehindItIsRefused) {

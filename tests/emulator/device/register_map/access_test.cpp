@@ -32,7 +32,7 @@ void run(const std::vector<Write>& writes) {
       PreparedWrite prepared;
       EXPECT_EQ(prepare_value(toy.device, place, w.value, prepared), w.refusal) << which;
       EXPECT_EQ(toy.device.image()[slot], static_cast<std::uint32_t>(w.before))
-          << which << ": judging is not a writing";
+          << which << ": a check does not write";
       EXPECT_TRUE(toy.device.events.empty()) << which;
       EXPECT_EQ(write_value(toy.device, place, w.value), w.refusal) << which;
       Place whole = place.place;

@@ -99,7 +99,7 @@ TEST(Policy, WhereNothingIsMayReadAsZeroAndSwallowWrites) {
   EXPECT_EQ(toy.value("Far1"), 65536);
   EXPECT_EQ(toy.value("Cell2"), 3);
   EXPECT_EQ(world::answer(toy.device, world::read_pdu(3, 0xFFFF, 2)), "83 02")
-      << "past the last address is not a hole";
+      << "an address past the last one is not a hole";
   EXPECT_EQ(world::answer(toy.device, world::write_request(0xFFFF, world::Words{1, 2})), "90 02");
 }
 
@@ -340,7 +340,7 @@ TEST(NotImplemented, IsMentionedToWhoReadsItByName) {
   std::string log;
   toy.device.set_log([&](const std::string& line) { log += line + "\n"; });
   EXPECT_EQ(toy.value("Set"), 0);
-  EXPECT_EQ(log, "") << "what was written is read back";
+  EXPECT_EQ(log, "") << "the written value is read back";
   EXPECT_EQ(toy.value("Told.3"), 0);
   EXPECT_NE(log.find("no word"), std::string::npos) << log;
 }

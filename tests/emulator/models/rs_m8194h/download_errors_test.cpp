@@ -63,7 +63,7 @@ TEST(RsM8194hDownloadErrors, AllSixteenAreShownAndTheOldMacroStays) {
   int expected_error = 0;
   for (const Case& one : kCases) {
     SCOPED_TRACE("error " + std::to_string(one.error));
-    EXPECT_EQ(one.error, ++expected_error) << "each is there";
+    EXPECT_EQ(one.error, ++expected_error) << "each one is present";
     OneRsm rsm({.program = kOld + "ISR 3\n  RSM_MACRO_EXIT_MACRO\nEND\n"});
     rsm.send("RSM_MP_ISR_CREATE 3");  // its number stays in input 111
     rsm.send("RSM_MACRO_SET_VAR VAR1 1");
@@ -77,7 +77,7 @@ TEST(RsM8194hDownloadErrors, AllSixteenAreShownAndTheOldMacroStays) {
       EXPECT_EQ(reply.substr(0, 2), i < one.refused ? "10" : "90") << i;
     }
     EXPECT_EQ(rsm.exception("RSM_MACRO_MP_CLOSE"), one.refused == count ? 3 : 0);
-    EXPECT_EQ(rsm.get("RSM_STATE"), 0) << "the download is over in any case";
+    EXPECT_EQ(rsm.get("RSM_STATE"), 0) << "the download has ended either way";
     const std::string shown = rsm.ask("04 00 6E 00 05");
     world::Words words{41, 3, static_cast<std::uint16_t>(one.command), static_cast<std::uint16_t>(one.line),
                        static_cast<std::uint16_t>(one.error)};
@@ -95,7 +95,7 @@ TEST(RsM8194hDownloadErrors, AllSixteenAreShownAndTheOldMacroStays) {
     // The next valid one is stored, and the error is cleared.
     rsm.send({"RSM_MP_CREATE 41", "RSM_MACRO_SET_VAR VAR7 78", "RSM_MACRO_MP_CLOSE"});
     EXPECT_EQ(rsm.ask("04 00 6E 00 05"), "04 0A 00 29 00 03 00 00 00 00 00 00");
-    EXPECT_EQ(rsm.get("IllegalFuncErr"), one.reason) << "good requests leave the reason";
+    EXPECT_EQ(rsm.get("IllegalFuncErr"), one.reason) << "valid requests do not change the reason";
   }
   EXPECT_EQ(expected_error, 16);
 }
@@ -116,7 +116,7 @@ TEST(RsM8194hDownloadErrors, EveryLineWantsItsNumberOfRegisters) {
         EXPECT_EQ(rsm.ask(world::write_request(kWindow, request)), "90 03") << row.macro_name << " " << count;
       }
       EXPECT_EQ(rsm.exception(is_isr ? "RSM_MACRO_MP_ISR_CLOSE" : "RSM_MACRO_MP_CLOSE"), 0) << row.macro_name;
-      EXPECT_EQ(rsm.get("DOWNLOAD_ERROR"), 0) << "a line that is refused for its registers is left out";
+      EXPECT_EQ(rsm.get("DOWNLOAD_ERROR"), 0) << "a line that is refused for its registers is omitted";
     }
   }
 }
@@ -135,7 +135,7 @@ TEST(RsM8194hDownloadErrors, APowerCutInTheMidstLeavesTheOldMacro) {
     const bool is_new = cut == kNew.size();
     EXPECT_EQ(rsm.device().user_program()->program_text() == kOld, !is_new) << cut;
     EXPECT_EQ(rsm.get("RSM_STATE"), 0);
-    EXPECT_EQ(rsm.exception("RSM_MACRO_NEXT"), 3) << "no download goes on";
+    EXPECT_EQ(rsm.exception("RSM_MACRO_NEXT"), 3) << "no download is in progress";
     // A snapshot of the same moment continues where it was.
     OneRsm twin;
     twin.device().restore_state(saved);

@@ -260,7 +260,7 @@ TEST(RsM8194hEvents, AHeldLineScanBeginsWhenItIsReleased) {
   SteadyRsm rsm;
   rsm.send({"RSM_DRV_HOLD X", "RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN_START X 0 1000"});
   rsm.run(50);
-  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "it has not begun";
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "it has not started";
   rsm.send("RSM_DRV_START X");
   rsm.run(100);
   EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0);
@@ -290,7 +290,7 @@ TEST(RsM8194hEvents, LineScansThatBeginApartAreBothGiven) {
   rsm.run(100);
   rsm.send("RSM_LINE_SCAN_START Y 0 500");
   rsm.run(400);
-  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "X is on its way";
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "X is moving";
   rsm.run(600);
   EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
   EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 200);

@@ -128,7 +128,7 @@ TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathHasBegunAlready) {
   EXPECT_EQ(rsm.get("LP_U"), 77);
   rsm.send({"RSM_SET_LP U 0", "RSM_STOP_SLOWLY X"});
   rsm.run(20);
-  EXPECT_EQ(rsm.get("DRIVING_AXIS") & 1, 1) << "it slows down";
+  EXPECT_EQ(rsm.get("DRIVING_AXIS") & 1, 1) << "it decelerates";
   EXPECT_EQ(rsm.get("LP_U"), 0) << "D-STA came with the path";
 }
 
@@ -405,7 +405,7 @@ TEST(RsM8194hOtherReadings, AReadClearsWhatItHasShown) {
   rsm.send("RSM_FIXED_MOVE XY 5");
   rsm.run(20);
   EXPECT_EQ(rsm.get("RINT_STATE_ALL"), 2) << "the MP has ended; it has cleared the module's error";
-  EXPECT_EQ(rsm.get("RINT_STATE_ALL"), 2) << "who looks from outside clears nothing";
+  EXPECT_EQ(rsm.get("RINT_STATE_ALL"), 2) << "an observer clears nothing";
   EXPECT_EQ(rsm.ask("04 00 49 00 01"), "04 02 00 00");  // another bit
   EXPECT_EQ(rsm.ask("04 00 4A 00 01"), "04 02 00 01");
   EXPECT_EQ(rsm.ask("04 00 48 00 01"), "04 02 00 00");

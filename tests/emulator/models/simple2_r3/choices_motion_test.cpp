@@ -67,7 +67,7 @@ TEST(ChoicesMotion, ModeChangeWhileMovingReplacesTheMoveOrIsIgnored) {
       feeder.run(200);
       EXPECT_EQ(feeder.coordinate('A'), 100) << command;
       feeder.set(command, value);
-      EXPECT_EQ(feeder.get("Aaxis_Mode"), mode) << "it stands";
+      EXPECT_EQ(feeder.get("Aaxis_Mode"), mode) << "it does not move";
     }
   }
 }
@@ -209,7 +209,7 @@ TEST(ChoicesMotion, AlarmReactionStopsNothingOrSwitchesTheServoOffToo) {
     EXPECT_EQ(feeder.moving('A'), option == "none") << option;
     feeder.input(0, false);
     feeder.run(1);
-    EXPECT_EQ(feeder.bit("STATUS.10"), expected.servo) << "it does not come back by itself";
+    EXPECT_EQ(feeder.bit("STATUS.10"), expected.servo) << "it does not come back automatically";
   }
 }
 

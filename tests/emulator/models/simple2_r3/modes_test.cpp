@@ -159,7 +159,7 @@ TEST(EncoderSpeed, IsTheCountsOfTheLast100Milliseconds) {
   }
   EXPECT_EQ(feeder.get("ENCA_RPM"), 100);
   feeder.set("Axis_ENC_Polarity", 1);
-  EXPECT_EQ(feeder.get("ENCA_RPM"), 100) << "what is counted is counted";
+  EXPECT_EQ(feeder.get("ENCA_RPM"), 100) << "counted pulses stay counted";
   for (int i = 301; i <= 400; ++i) {
     feeder.device().axes()->set_encoder(0, 10 * i);
     feeder.run(1);
@@ -227,7 +227,7 @@ TEST(Homing, TurnsRoundAtTheLimitAndGivesUpAtTheSecond) {
   feeder.input(3, false);
   const Value turned = feeder.coordinate('A');
   feeder.run(100);
-  EXPECT_GT(feeder.coordinate('A'), turned) << "searches the other way";
+  EXPECT_GT(feeder.coordinate('A'), turned) << "searches in the other direction";
   feeder.input(2, true);
   feeder.run(50);
   EXPECT_FALSE(feeder.bit("STATUS.6"));

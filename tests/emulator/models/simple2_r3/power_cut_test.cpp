@@ -64,7 +64,7 @@ TEST(PowerCut, DuringAnErasureLeavesEverythingAsItWas) {
       EXPECT_EQ(feeder.get("AutoStart_MainProg"), reset ? 0 : 1);
       EXPECT_EQ(feeder.get("ADC_1V_A"), 401);
       feeder.run(10);
-      EXPECT_EQ(feeder.bit("DOUT_4"), !erased) << "the program that there is runs";
+      EXPECT_EQ(feeder.bit("DOUT_4"), !erased) << "the present program runs";
     }
   }
 }

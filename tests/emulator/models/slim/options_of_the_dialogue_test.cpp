@@ -223,7 +223,7 @@ TEST(SlimDialogueOptions, IntegerRangeOfWhatIsKept) {
   EXPECT_EQ(load({}), "-32767");
   try {
     load({{"integer_range", "from_minus_32766"}});
-    FAIL() << "it was taken";
+    FAIL() << "it was accepted";
   } catch (const NvError& error) {
     EXPECT_STREQ(error.what(), "registers: 'N3': -32767 does not fit; expected -32766 to 32766");
   }

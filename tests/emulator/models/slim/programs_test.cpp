@@ -138,7 +138,7 @@ AIN = 500
 > JG0
 @ 50
 )");
-  EXPECT_NEAR(*script.device().named_values()->value_named("PE"), 8333, 20) << "a tick or two more or less";
+  EXPECT_NEAR(*script.device().named_values()->value_named("PE"), 8333, 20) << "within a tick or two";
 }
 
 TEST(SlimPrograms, AsksTheHostForNumbers) {

@@ -283,7 +283,7 @@ TEST(SlimState, APowerCutLeavesOnlyWhatIsKept) {
     }
     EXPECT_EQ(cut.ask("?time"), "0:00:00");
     EXPECT_EQ(cut.ask("XMA 5"), "ERR 4") << "the map of PN37";
-    EXPECT_EQ(cut.ask("G"), "ERR 13") << "no program is kept";
+    EXPECT_EQ(cut.ask("G"), "ERR 13") << "no program is stored";
     cut.play("> RESET\n");
     for (int i = 0; i < 30; ++i) {
       cut.pass(100);

@@ -136,7 +136,7 @@ TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
     ticks_skipped += crossed.world().ticks_skipped();
     EXPECT_EQ(single.world().ticks_skipped(), 0U);
   }
-  EXPECT_GT(ticks_skipped, 10'000U) << "worth something only if much is";
+  EXPECT_GT(ticks_skipped, 10'000U) << "meaningful only if much is";
 }
 
 /// Also if an input has changed since the last tick.

@@ -75,7 +75,7 @@ void s3(const std::string& program) {
       legs.push_back({13, 0.170, {}});
     }
     expect_legs(one, 1, legs, 1200);
-    EXPECT_TRUE(one.on("M8100")) << "it goes on for ever";
+    EXPECT_TRUE(one.on("M8100")) << "it does not end";
     one.run(57);
     one.set(stop, 1);
     one.run(1);

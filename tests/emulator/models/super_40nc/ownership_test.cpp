@@ -249,7 +249,7 @@ void expect_cell(const std::string& held_by, const std::string& ask, char says) 
       EXPECT_EQ(one.get("D8094"), kTaken) << cell;
       for (Bench* bench : {&asked, &left_alone}) bench->one().run(100);
       if (is_line(ask)) {
-        EXPECT_TRUE(one.on("M60")) << cell << ": the program goes on";
+        EXPECT_TRUE(one.on("M60")) << cell << ": the program continues";
       }
       expect_undisturbed(asked, left_alone, cell);
       for (Bench* bench : {&asked, &left_alone}) {
@@ -278,7 +278,7 @@ void expect_cell(const std::string& held_by, const std::string& ask, char says) 
       expect_undisturbed(asked, left_alone, cell);
       asked.let_go();
       one.run(300);
-      EXPECT_EQ(one.on("M8120"), true) << cell << ": the other one still asks";
+      EXPECT_EQ(one.on("M8120"), true) << cell << ": the other one is still checked";
       const char* other = held_by == "jog" ? "M201" : "M8103";
       one.set(other, 0);
       one.run(100);

@@ -182,7 +182,7 @@ TEST(Super40ncWriters, ContactsAreObeyedInTheirOrder) {
   one.set("M8107", 1);
   one.set("M8106", 1);
   one.run(1);
-  EXPECT_TRUE(one.on("M8196")) << "ZERO SET came first, so it is there already";
+  EXPECT_TRUE(one.on("M8196")) << "ZERO SET came first, so it is already there";
   EXPECT_EQ(one.get("D8117"), 0);
 }
 
@@ -222,8 +222,8 @@ TEST(Super40ncWriters, RunContactsFollowTheSameOrder) {
     one.run(1);
     scans_off += one.on("M8100") ? 0 : 1;
   }
-  EXPECT_GT(scans_off, 2) << "END wins in its scan";
-  EXPECT_LT(scans_off, 10) << "SET starts it anew in the next";
+  EXPECT_GT(scans_off, 2) << "END has precedence in its scan";
+  EXPECT_LT(scans_off, 10) << "SET starts it again in the next";
 }
 
 }  // namespace writers_test

@@ -191,7 +191,7 @@ TEST_F(CaseListOf, TwoCasesNeverSaveOneFile) {
   CaseReader reader(all);
   const auto number_of_first = std::uint64_t{17};
   EXPECT_EQ(reader.read({.file = 0, .number = number_of_first})->saved.size(), 1U);
-  EXPECT_NO_THROW(reader.read({.file = 0, .number = number_of_first})) << "it may be played again";
+  EXPECT_NO_THROW(reader.read({.file = 0, .number = number_of_first})) << "it can run again";
   CaseReader other(all);
   try {
     other.read({.file = 0, .number = number_of_first + 1331});

@@ -18,7 +18,7 @@ class ScenarioSteps : public testing::Test {
     const Steps steps = folder_.steps("  - " + step + "\n");
     EXPECT_EQ(steps.size(), 1U) << step;
     const What* const what = std::get_if<What>(&steps.front().what);
-    if (what == nullptr) ADD_FAILURE() << step << " is another kind of step";
+    if (what == nullptr) ADD_FAILURE() << step << " is a different kind of step";
     return what == nullptr ? What{} : *what;
   }
   Strings texts(const std::string& steps) const { return texts_of(folder_.steps(steps)); }

@@ -112,8 +112,8 @@ TEST(Variation, SamplesAreTheSameForOneSeedAndNoOther) {
   const Strings of_7 = all_of(of(yaml + ", seed: 7 }", 3));
   EXPECT_EQ(all_of(of(yaml + ", seed: 7 }", 4)), of_7);
   EXPECT_NE(all_of(of(yaml + ", seed: 8 }")), of_7);
-  EXPECT_EQ(all_of(of(yaml + " }", 7)), of_7) << "the scenario's seed stands in";
-  EXPECT_NE(all_of(of(yaml + ", seed: 7 }", 9, true)), of_7) << "another one for all";
+  EXPECT_EQ(all_of(of(yaml + " }", 7)), of_7) << "the scenario's seed is used instead";
+  EXPECT_NE(all_of(of(yaml + ", seed: 7 }", 9, true)), of_7) << "a different one for all";
   // More samples begin with the same ones.
   const Strings more = all_of(of("{ between: [ 0, 100000 ], samples: 80, seed: 7 }"));
   EXPECT_TRUE(std::equal(of_7.begin(), of_7.end(), more.begin()));

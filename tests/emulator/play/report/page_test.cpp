@@ -155,7 +155,7 @@ TEST(ReportPage, TheFailingMomentCoversNoNumber) {
   const std::string page = page_of(steps + "  - assert: 1 == 2\n");
   const std::vector<double> label = heights_of(page, "failed end");
   ASSERT_EQ(label.size(), 1U);
-  EXPECT_GE(label[0], kLetters) << "it is cut off";
+  EXPECT_GE(label[0], kLetters) << "it is truncated";
   const std::vector<double> numbers = heights_of(page, "number middle");
   EXPECT_GT(numbers.size(), 8U);
   const std::vector<double> line = numbers_behind(page, "<line class=\"failure\" x1=\"1085.00\" y1=\"");

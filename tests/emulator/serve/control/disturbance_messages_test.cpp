@@ -40,7 +40,7 @@ TEST(InputMessages, TakeWordsVoltagesAndSwitches) {
   EXPECT_EQ(rig.value("feeder.ADC_A"), 1000);  // 400 per volt
   EXPECT_EQ(rig.value("turner.ADC_B"), 160);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["devices"][0]["pulse_format"], "CW/CCW")
-      << "a switch on the housing is looked at when the power comes";
+      << "a switch on the housing is read at power-up";
   EXPECT_EQ(rig.reply_to(power("feeder", "cycle")), kDone);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["devices"][0]["pulse_format"], "PLS/DIR");
   EXPECT_EQ(rig.reply_to(R"({"do":"input","values":{"feeder.DIN_1":"off","feeder.AIN_A":"0mV"}})"), kDone);
@@ -67,15 +67,15 @@ TEST(PowerMessages, OffMakesADeviceUnreachableAndOnRestartsIt) {
             no_power);
   EXPECT_EQ(error_of(rig, R"({"do":"program","device":"feeder"})"), no_power);
   EXPECT_EQ(error_of(rig, R"({"do":"program","device":"feeder","text":"NOP\n"})"), no_power);
-  EXPECT_EQ(rig.value("turner.Aaxis_Speed"), 7) << "the other one goes on";
+  EXPECT_EQ(rig.value("turner.Aaxis_Speed"), 7) << "the other one continues";
   const Json devices = rig.ask(R"({"do":"status"})")["status"]["devices"];
   EXPECT_EQ(devices[0]["power"], "off");
   EXPECT_EQ(devices[1]["power"], "on");
   run(rig, 2);
   EXPECT_EQ(rig.value("turner.DIN_10"), 0) << "its outputs are open";
 
-  EXPECT_EQ(rig.reply_to(power("feeder", "off")), kDone) << "a second time changes nothing";
-  EXPECT_EQ(rig.reply_to(R"({"do":"input","values":{"feeder.DIN_1":1}})"), kDone) << "whoever holds it";
+  EXPECT_EQ(rig.reply_to(power("feeder", "off")), kDone) << "the second time changes nothing";
+  EXPECT_EQ(rig.reply_to(R"({"do":"input","values":{"feeder.DIN_1":1}})"), kDone) << "whatever holds it";
   EXPECT_EQ(rig.reply_to(power("feeder", "on")), kDone);
   EXPECT_EQ(rig.value("feeder.Aaxis_Speed"), 0) << "not kept";
   run(rig, 1);
@@ -91,7 +91,7 @@ TEST(PowerMessages, CycleIsOffAndOn) {
   EXPECT_EQ(rig.value("feeder.Aaxis_Speed"), 0);
   EXPECT_EQ(rig.value("feeder.Aaxis_Resoultion"), 5000);
   rig.reply_to(power("feeder", "off"));
-  EXPECT_EQ(rig.reply_to(power("feeder", "cycle")), kDone) << "of one that is off: on";
+  EXPECT_EQ(rig.reply_to(power("feeder", "cycle")), kDone) << "a device that is off is switched on";
   EXPECT_EQ(rig.value("feeder.Aaxis_Resoultion"), 5000);
 }
 

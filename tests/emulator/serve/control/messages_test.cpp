@@ -85,7 +85,7 @@ TEST(ControlMessages, PauseAndResumeTellTheSimulatedTime) {
   EXPECT_EQ(paused["ok"], true);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["paused"], true);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["simulated_time_ns"], paused["simulated_time_ns"]);
-  EXPECT_EQ(rig.ask(R"({"do":"pause"})"), paused) << "a second time changes nothing";
+  EXPECT_EQ(rig.ask(R"({"do":"pause"})"), paused) << "the second time changes nothing";
   EXPECT_EQ(rig.ask(R"({"do":"resume"})"), paused);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["paused"], false);
 }
@@ -95,7 +95,7 @@ TEST(ControlMessages, TimeThatRunsByItselfCannotBeAdvanced) {
   const Json refused = rig.ask(R"({"do":"advance","by":"1ms"})");
   EXPECT_EQ(refused["ok"], false);
   rig.reply_to(R"({"do":"pause"})");
-  EXPECT_EQ(rig.reply_to(R"({"do":"advance","by":"1ms"})"), "") << "under way: its reply comes later";
+  EXPECT_EQ(rig.reply_to(R"({"do":"advance","by":"1ms"})"), "") << "in progress: its reply comes later";
   EXPECT_EQ(rig.ask(R"({"do":"advance","by":"1ms"})"), refused) << "one at a time";
 }
 

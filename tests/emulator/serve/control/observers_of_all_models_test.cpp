@@ -218,10 +218,10 @@ TEST(LineByHand, IsObeyedWithoutAWordOnTheLine) {
   EXPECT_EQ(refusal_of("VM=321"), "");
   EXPECT_EQ(bench.value("d.VM"), 321);
   EXPECT_EQ(refusal_of("G"), "");
-  EXPECT_EQ(refusal_of("G"), "d refuses it: it is busy (reason 3)") << "it runs already";
+  EXPECT_EQ(refusal_of("G"), "d refuses it: it is busy (reason 3)") << "it is already running";
   EXPECT_EQ(refusal_of("nonsense"), "d refuses it: the command is not accepted (reason 1)");
   bench.run(20);
-  EXPECT_EQ(frames(), before) << "its answers are nobody's";
+  EXPECT_EQ(frames(), before) << "nobody receives its replies";
   // The number of the program.
   bench.ask({{"do", "input"}, {"values", {{"d.IN3", 1}}}});
   bench.run(20);

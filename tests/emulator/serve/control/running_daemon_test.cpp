@@ -183,10 +183,10 @@ TEST(RunUntil, StopsAtTheEndOfTheFirstTickAtWhichItIsTrue) {
   EXPECT_EQ(until("feeder.A.pulses >= 1066"), reached(41 + 105));
   EXPECT_EQ(until("feeder.STATUS.4 == 0"), reached(41 + 310));
   EXPECT_EQ(daemon.get("feeder.Cord_A"), 3200);
-  EXPECT_EQ(until("feeder.STATUS.4 == 0"), reached(41 + 310)) << "true already";
+  EXPECT_EQ(until("feeder.STATUS.4 == 0"), reached(41 + 310)) << "already true";
   EXPECT_EQ(until("feeder.STATUS.4 == 1", "1500us"),
             (Json{{"ok", true}, {"reached", false}, {"simulated_time_ns", 352'500'000}}));
-  EXPECT_EQ(until("time >= 400ms"), reached(400)) << "quiet ticks are looked at as well";
+  EXPECT_EQ(until("time >= 400ms"), reached(400)) << "quiet ticks are checked as well";
 }
 
 TEST(RunUntil, RefusesWhatIsNoConditionAndMovesNothing) {

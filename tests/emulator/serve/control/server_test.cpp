@@ -97,7 +97,7 @@ TEST(ControlServer, OnlyItsOwnerMayOpenTheSocketWhateverTheUmask) {
     const mode_t before = umask(mask);
     rig.serve(rig.path);
     const mode_t after = umask(before);
-    EXPECT_EQ(after, mask) << "the umask is as it was";
+    EXPECT_EQ(after, mask) << "the umask is unchanged";
     struct stat status {};
     ASSERT_EQ(lstat(rig.path.c_str(), &status), 0);
     EXPECT_TRUE(S_ISSOCK(status.st_mode));
@@ -236,7 +236,7 @@ TEST(ControlServer, MessagesOfOneClientAreAnsweredInTheirOrder) {
   Client client(rig.path);
   client.say("advance\nget\n");
   rig.settle();
-  EXPECT_EQ(rig.heard, std::vector<std::string>{"advance"}) << "the next one waits";
+  EXPECT_EQ(rig.heard, std::vector<std::string>{"advance"}) << "the next client waits";
   rig.answers = true;
   rig.replies.at(0)("there");
   rig.settle();
@@ -375,7 +375,7 @@ TEST(ControlServer, ClientsTakeTurnsHoweverMuchOneHasToSay) {
   other.say("a word\n");
   rig.settle();
   const auto turn = std::find(rig.heard.begin(), rig.heard.end(), "a word") - rig.heard.begin();
-  EXPECT_LE(turn, 3) << "behind one message of the other's, not behind all";
+  EXPECT_LE(turn, 3) << "after one message of the other client, not after all";
   while (rig.heard.size() < 201) rig.loop.wait(wall_now() + std::chrono::seconds(5));
 }
 

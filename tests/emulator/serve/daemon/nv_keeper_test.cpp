@@ -72,7 +72,7 @@ TEST(ReadMemories, GivesEachDeviceAFileNamedAfterItInANewFolder) {
   EXPECT_TRUE(fs::is_directory(nv));
   EXPECT_EQ(bench.devices[0].nv_path, nv + "/feeder.json");
   EXPECT_EQ(bench.devices[1].nv_path, nv + "/turner.json");
-  EXPECT_FALSE(bench.devices[0].settings.nv) << "there is none yet";
+  EXPECT_FALSE(bench.devices[0].settings.nv) << "it does not exist yet";
   EXPECT_TRUE(fs::is_empty(nv)) << "reading writes nothing";
 }
 
@@ -151,7 +151,7 @@ TEST(ReadMemories, TellsAllThatIsWrongWithAllOfThem) {
   try {
     world::Bench bench = bench_of(folder);
     read_memories(bench, folder.path);
-    ADD_FAILURE() << "they are taken";
+    ADD_FAILURE() << "they are in use";
   } catch (const FileError& error) {
     ASSERT_EQ(error.diagnostics().size(), 4u) << error.what();
     const std::string begins[] = {
@@ -272,7 +272,7 @@ TEST(NvKeeper, FollowsWhatTheEepromHasKeptNotWhatWaits) {
   kept.write("feeder.Parms_Speed1", 77);  // stored in tick 6
   kept.run(5);
   kept.keeper->poll(10s);
-  EXPECT_EQ(kept.keeper->next_poll(), std::nullopt) << "nothing has been kept";
+  EXPECT_EQ(kept.keeper->next_poll(), std::nullopt) << "nothing has been stored";
   kept.run(1);
   kept.keeper->poll(11s);
   kept.look_until_quiet(11s);
@@ -327,7 +327,7 @@ TEST(NvKeeper, ReportsAnUnwritableFileEvenInAQuietWorld) {
   kept.bench.devices[0].nv_path = kept.folder.path + "/gone/feeder.json";
   kept.start();
   // The world has nothing due; only the keeper wakes its owner.
-  ASSERT_TRUE(kept.keeper->next_poll()) << "it wants to hear what became of it";
+  ASSERT_TRUE(kept.keeper->next_poll()) << "it waits for the result";
   kept.look_until_quiet(1s);
   ASSERT_EQ(kept.log.size(), 1u);
   EXPECT_EQ(kept.log[0], kept.folder.path +

@@ -226,7 +226,7 @@ TEST(EventLoop, WhatMayWaitGetsASliceAndEachItsTurn) {
     loop.wait(wall_now());
     most_of_one_turn = std::max(most_of_one_turn, all() - before);
   }
-  EXPECT_GE(turns_of_port, 25) << "it is looked at before each slice";
+  EXPECT_GE(turns_of_port, 25) << "it is checked before each slice";
   EXPECT_LE(most_of_one_turn, 3);
   EXPECT_LE(*std::max_element(calls.begin(), calls.end()) - *std::min_element(calls.begin(), calls.end()), 1)
       << "they take turns";
@@ -253,14 +253,14 @@ TEST(EventLoop, WorkInPiecesIsDoneInTurnWithClients) {
     std::erase(pieces, 'c');
     return pieces;
   }();
-  EXPECT_EQ(work_done, "ababab") << "each its turn, and no more than there is of it";
+  EXPECT_EQ(work_done, "ababab") << "each gets its turn, and no more than it has";
   EXPECT_LE(order.find_last_of('b'), 12U) << order;
   for (std::size_t i = 1; i < 12; ++i) EXPECT_NE(order[i] == 'c', order[i - 1] == 'c') << order;
 }
 
 TEST(EventLoop, APieceKnowsWhenItsTimeIsOver) {
   EventLoop loop;
-  EXPECT_FALSE(loop.slice_is_over()) << "nobody else waits";
+  EXPECT_FALSE(loop.slice_is_over()) << "no other client waits";
   bool was_over_at_once = true;
   bool was_over_later = false;
   loop.do_in_pieces([&] {

@@ -66,7 +66,7 @@ TEST(ModbusTcp, HasOneRequestAtATimeOnTheLine) {
   EXPECT_TRUE(gateway.hear_client(three));
   for (const std::uint8_t low : {1, 2, 3}) {
     EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
-    EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "another is on the line";
+    EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "another request is on the line";
     gateway.hear_line(kReplyFrame);
     EXPECT_EQ(gateway.take_for_client(), with_transaction(kReply, low));
   }
@@ -111,7 +111,7 @@ TEST(ModbusTcp, TellsOfAStationThatDoesNotAnswer) {
   gateway.hear_line(kReplyFrame);  // too late
   EXPECT_EQ(gateway.take_for_client(), Bytes{});
   gateway.give_up();
-  EXPECT_EQ(gateway.take_for_client(), Bytes{}) << "nothing was asked";
+  EXPECT_EQ(gateway.take_for_client(), Bytes{}) << "there was no request";
 }
 
 TEST(ModbusTcp, PassesOnNothingButTheReply) {
@@ -205,7 +205,7 @@ TEST(ModbusTcp, WaitsUntilItsAnswerIsTaken) {
   EXPECT_TRUE(gateway.hear_client(kRequest));
   gateway.take_for_line(kRoom);
   gateway.hear_line(kReplyFrame);
-  EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "nobody has taken the answer";
+  EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "the reply has not been taken";
   EXPECT_EQ(gateway.take_for_client(), kReply);
   EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
 }
@@ -238,7 +238,7 @@ TEST(ModbusTcp, StaysWholeWhateverItHears) {
     }
     const Bytes answer = gateway.take_for_client();
     if (answer.empty()) continue;
-    ASSERT_EQ(answer.size(), 6U + answer[5]) << "one, as one request was on the line";
+    ASSERT_EQ(answer.size(), 6U + answer[5]) << "one, because one request was on the line";
     ASSERT_LE(answer.size(), 260U);
   }
   EXPECT_GT(frames, 1'000);

@@ -153,7 +153,7 @@ TEST(PortOfADaemon, InAFolderThatCannotBeWrittenTellsOfLinks) {
   EXPECT_NE(refused.find("Permission denied"), std::string::npos) << refused;
   EXPECT_TRUE(refused.ends_with(" (--links FOLDER puts the links elsewhere)")) << refused;
   EXPECT_EQ(message("port"), "");
-  EXPECT_EQ(message("none/port").find("--links"), std::string::npos) << "that is another trouble";
+  EXPECT_EQ(message("none/port").find("--links"), std::string::npos) << "that is a different error";
 }
 
 }  // namespace port_test

@@ -45,7 +45,7 @@ TEST_F(LeftOvers, GoAfterAWeek) {
   remove();
   EXPECT_FALSE(fs::exists(old));
   EXPECT_TRUE(fs::exists(young));
-  EXPECT_TRUE(fs::exists(touched)) << "what is in it counts as well";
+  EXPECT_TRUE(fs::exists(touched)) << "its contents count as well";
 }
 
 TEST_F(LeftOvers, OfOthersAndOfOtherNamesStay) {

@@ -234,7 +234,7 @@ TEST(Rfc2217, PassesOverWhatIsMalformed) {
     EXPECT_EQ(answers, c.answer) << c.what;
     EXPECT_EQ(port.settings()->parity, Parity::even) << c.what;
     EXPECT_TRUE(port.hear_client(Bytes{0x7E}));
-    EXPECT_EQ(line_bytes(port), Bytes{0x7E}) << c.what << ": what follows is understood";
+    EXPECT_EQ(line_bytes(port), Bytes{0x7E}) << c.what << ": the data after it are understood";
   }
 }
 
@@ -245,7 +245,7 @@ TEST(Rfc2217, SaysABreakAsOneCharacter) {
        {com_port("05 05"), com_port("05 06"), Bytes{0x31}, com_port("05 05"), hex("FF F3")})
     said.insert(said.end(), more.begin(), more.end());
   EXPECT_TRUE(port.hear_client(said));
-  EXPECT_EQ(line_bytes(port), hex("00 31 00 00")) << "on while it is on is nothing new";
+  EXPECT_EQ(line_bytes(port), hex("00 31 00 00")) << "switching it on again is not a change";
 }
 
 TEST(Rfc2217, TakesBackAndThrowsAwayAsPurged) {
@@ -258,7 +258,7 @@ TEST(Rfc2217, TakesBackAndThrowsAwayAsPurged) {
                         Case{"0C 04", false, false}}) {
     Rfc2217 port = agreed();
     EXPECT_TRUE(port.hear_client(com_port(c.said)));
-    EXPECT_EQ(port.take_for_line(0), Bytes{}) << "also where the line has no room";
+    EXPECT_EQ(port.take_for_line(0), Bytes{}) << "even if the line has no room";
     EXPECT_EQ(port.takes_back(), c.takes_back) << c.said;
     EXPECT_EQ(port.throws_away(), c.throws_away) << c.said;
     EXPECT_FALSE(port.takes_back() || port.throws_away()) << "once";

@@ -173,7 +173,7 @@ TEST_P(EachProtocol, WithoutDescriptorsRestsUntilThereIsOne) {
     rig.run();
     const WallTime before = wall_now();
     rig.loop.wait(before + std::chrono::milliseconds(100));
-    EXPECT_GE(wall_now() - before, std::chrono::milliseconds(100)) << "nobody is told again and again";
+    EXPECT_GE(wall_now() - before, std::chrono::milliseconds(100)) << "it is not reported repeatedly";
   }
   EXPECT_TRUE(rig.eventually([&] {
     waiting.is_over();

@@ -28,7 +28,7 @@ TEST(BenchFile, MachinesHaveHysteresisAReversedEncoderAndADrive) {
   EXPECT_FALSE(a.drive->enabled_by);
   EXPECT_TRUE(a.drive->alarm_opens);
   const PlantSetup& b = bench.machines[1].plant;
-  ASSERT_TRUE(b.drive) << "an empty one is one";
+  ASSERT_TRUE(b.drive) << "an empty one counts";
   EXPECT_EQ(b.drive->ready_after, 0);
   EXPECT_TRUE(b.drive->enabled_by);
   EXPECT_FALSE(b.drive->alarm_opens);

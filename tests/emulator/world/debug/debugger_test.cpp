@@ -45,14 +45,14 @@ TEST(Breakpoint, StopsAtTheEndOfTheTickInWhichItsLineBegins) {
   EXPECT_FALSE(counting.debugger.remove(1));
   EXPECT_FALSE(counting.debugger.is_watching());
   EXPECT_EQ(counting.run(100), "");
-  EXPECT_EQ(counting.debugger.stop(), nullptr) << "the world has gone on";
+  EXPECT_EQ(counting.debugger.stop(), nullptr) << "the world has continued";
 }
 
 TEST(Breakpoint, OnALineWithoutInstructionMovesOn) {
   DebuggedWorld world("simple2-r3", kCounter);
   EXPECT_EQ(world.debugger.add({.line = 1}).line, 1);
   DebuggedWorld slim("slim", "; a remark\n\nMR 5\nRET\n");
-  EXPECT_EQ(slim.debugger.add({.line = 1}).line, 1) << "the listing that it gives back has no remarks";
+  EXPECT_EQ(slim.debugger.add({.line = 1}).line, 1) << "the listing that it returns has no comments";
 }
 
 TEST(Breakpoint, CountsOnlyHitsOfItsConditionAndActsAtTheNth) {
@@ -104,7 +104,8 @@ TEST(Breakpoint, OfAWriteTellsWhoWrites) {
   counting.world.write(0, prepared);
   EXPECT_EQ(counting.run(50), "breakpoint 2: m.PROG_VAR8: control writes 7");
   counting.world.write(0, prepared);
-  EXPECT_EQ(counting.run(50), "breakpoint 2: m.PROG_VAR8: control writes 7") << "even if it stays as it was";
+  EXPECT_EQ(counting.run(50), "breakpoint 2: m.PROG_VAR8: control writes 7")
+      << "even if its value does not change";
   counting.world.receive(0, write_request(1, 0, 1));  // of another register
   EXPECT_EQ(counting.run(50), "");
 }
@@ -189,7 +190,7 @@ TEST(Debugger, FindsItsLinesInEachProgramAnew) {
   EXPECT_EQ(counting.run(2000), "");
   counting.world.load_program(0, kCounter);
   set(counting.world, "PROG_MAIN_RunTime_START", 0);
-  EXPECT_NE(counting.run(100), "") << "power does not take it away";
+  EXPECT_NE(counting.run(100), "") << "a power cycle does not delete it";
 }
 
 struct StepCase {

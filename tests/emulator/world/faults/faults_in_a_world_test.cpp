@@ -24,7 +24,7 @@ TEST(StuckInputs, OverrideTheOutsideTheWiresAndTheMachine) {
       if ((levels & 4) != 0) inject(world, "slip", "feeder.A", {{"pulses", 110}});  // onto the home switch
       run(world, 3);
       EXPECT_EQ(get(world, "feeder.DIN_4"), stuck) << levels;
-      EXPECT_EQ(world.plant(0, 0).at_home(), (levels & 4) != 0) << "the switch is not what is broken";
+      EXPECT_EQ(world.plant(0, 0).at_home(), (levels & 4) != 0) << "the switch itself works";
       ASSERT_TRUE(world.clear_fault(number));
       run(world, 1);
       EXPECT_EQ(get(world, "feeder.DIN_4"), levels != 0) << levels << ": as it would have been";
@@ -65,7 +65,7 @@ TEST(Faults, HaveNumbersThatAreNotUsedAgain) {
   EXPECT_EQ(inject(world, "stall", "feeder.A"), 1u);
   EXPECT_EQ(inject(world, "slip", "feeder.A", {{"pulses", 5}}), 2u);
   EXPECT_EQ(inject(world, "stall", "feeder.B"), 3u);
-  EXPECT_FALSE(world.clear_fault(2)) << "over at once";
+  EXPECT_FALSE(world.clear_fault(2)) << "ends at once";
   EXPECT_TRUE(world.clear_fault(3));
   EXPECT_FALSE(world.clear_fault(3));
   EXPECT_FALSE(world.clear_fault(0));

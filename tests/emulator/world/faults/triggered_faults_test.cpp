@@ -61,7 +61,7 @@ TEST(TriggeredFaults, AStallAfter12000PulsesLosesWhatIsSentMeanwhile) {
   EXPECT_EQ(probe(line.world(), "feeder.A.position"), sent_at(strikes));
   line.world().advance_to(4s);
   EXPECT_EQ(probe(line.world(), "feeder.A.position"), 32'000 - lost);
-  EXPECT_EQ(line.course(number).hits, 1) << "the condition has held ever since";
+  EXPECT_EQ(line.course(number).hits, 1) << "the condition has been true ever since";
 }
 
 TEST(TriggeredFaults, AFrameBreaksAMachineUntilItIsCleared) {
@@ -80,8 +80,8 @@ TEST(TriggeredFaults, AFrameBreaksAMachineUntilItIsCleared) {
     line.world().advance_to(425ms);
     EXPECT_TRUE(line.course(number).in_force);
     line.world().advance_to(426ms);
-    EXPECT_EQ(line.course(number).in_force, *how == '\0') << "until 425.3 ms, seen at the tick behind it";
-    EXPECT_EQ(line.course(number).seen, 3) << "not what is for the other one";
+    EXPECT_EQ(line.course(number).in_force, *how == '\0') << "until 425.3 ms, detected in the tick after it";
+    EXPECT_EQ(line.course(number).seen, 3) << "not the other one's requests";
     line.world().clear_fault(number);
     line.world().advance_to(427ms);
     EXPECT_EQ(probe(line.world(), "feeder.DIN_3"), 0);
@@ -169,7 +169,7 @@ TEST(PowerCut, InTheMiddleOfAnEepromWriteKeepsWhatWasDone) {
     const std::size_t number = line.inject("power_cut feeder for=40ms " + std::string(at));
     const Answer answer = line.ask(write);
     EXPECT_EQ(answer.bytes.empty(), std::string(at).starts_with("address"))
-        << "carried out, but not answered";
+        << "executed, but without a reply";
     EXPECT_EQ(line.course(number).hits, 1);
     EXPECT_TRUE(line.world().device(0).powered());
     Bytes reply{0x01, 0x03, 0x0A};
@@ -212,7 +212,7 @@ TEST(PowerCut, LastsAsLongAsAnyOfThem) {
   const std::size_t first = line.inject("power_cut feeder");
   const std::size_t second = line.inject("power_cut feeder");
   world.clear_fault(first);
-  EXPECT_FALSE(world.device(0).powered()) << "the second one is in force";
+  EXPECT_FALSE(world.device(0).powered()) << "the second one is active";
   world.clear_fault(second);
   EXPECT_TRUE(world.device(0).powered());
   EXPECT_TRUE(world.device(1).powered());
@@ -239,7 +239,7 @@ TEST(PowerCut, AndTheSwitchAreTwoThings) {
       EXPECT_FALSE(world.device(0).powered());
       for (const bool on : switched) {
         world.switch_power(0, on);
-        EXPECT_FALSE(world.device(0).powered()) << "it is cut";
+        EXPECT_FALSE(world.device(0).powered()) << "it is truncated";
       }
       // Another world that continues from here knows the state of the switch.
       FaultyLine other;

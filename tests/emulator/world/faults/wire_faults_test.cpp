@@ -280,7 +280,7 @@ TEST(WireFaults, ABroadcastIsOneRequestOfTheLine) {
   for (const std::uint8_t station : {1, 2}) {
     EXPECT_EQ(line.ask(with_crc({station, 0x03, 0x10, 0x02, 0x00, 0x01})).bytes,
               with_crc({station, 0x03, 0x02, 0x00, 0x00}))
-        << "neither has heard it";
+        << "neither has received it";
   }
 }
 
@@ -336,7 +336,7 @@ TEST(WireFaults, StagesActInOrderAndDroppedFramesGoNoFurther) {
   EXPECT_EQ(line.course(garble).hits, 3);
   line.world().clear_fault(garble);
   line.world().clear_fault(behind);
-  EXPECT_EQ(line.ask(kAskFeeder), (Answer{kUsual, kFeederSays})) << "all mended";
+  EXPECT_EQ(line.ask(kAskFeeder), (Answer{kUsual, kFeederSays})) << "all cleared";
 }
 
 TEST(WireFaults, ALateReplyRunsIntoTheNextOne) {

@@ -51,7 +51,7 @@ struct StationRig final : pty::Transmitter {
       now = std::max(now, *station.due());
       station.run(now, *this);
       if (runs < 1000) continue;
-      ADD_FAILURE() << "it is due for ever";
+      ADD_FAILURE() << "it is always due";
       break;
     }
     now += 100ms;
@@ -133,7 +133,7 @@ TEST(RtuStation, EverySingleWrongBitKeepsItSilentAndUnchanged) {
       }
       EXPECT_TRUE(rig.is_untouched()) << example;
       EXPECT_EQ(rig.station.counters().requests, 0u);
-      EXPECT_EQ(rig.exchange(frame).size(), 1u) << "and it hears the next good frame";
+      EXPECT_EQ(rig.exchange(frame).size(), 1u) << "and it receives the next valid frame";
     }
   }
 }

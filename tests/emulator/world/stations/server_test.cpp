@@ -70,7 +70,7 @@ TEST(ModbusServer, TestsFunctionThenQuantityThenAddressesThenValues) {
   };
   const auto device = make_simple2();
   for (const Case& c : cases) EXPECT_EQ(ask(*device, c.request), c.reply) << c.what;
-  EXPECT_TRUE(same_state(*device, *make_simple2())) << "a refused request changed something";
+  EXPECT_TRUE(same_state(*device, *make_simple2())) << "a refused request has changed something";
 }
 
 TEST(ModbusServer, ARequestOfTheWrongLengthIsABadValue) {

@@ -126,7 +126,7 @@ TEST(TextBench, ExpressionsKnowItsValues) {
   EXPECT_EQ(value("robot.requests"), "0");
   try {
     value("robot.N1");
-    ADD_FAILURE() << "there is none";
+    ADD_FAILURE() << "it does not exist";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("robot has no value called 'N1'"), std::string::npos)
         << error.what();
