@@ -270,7 +270,7 @@ TEST_F(Exec, RefusesBadUsageBeforeAnythingRuns) {
 
 class ExecWith : public Exec {
  protected:
-  /// The scenario's steps, one a line.
+  /// The scenario's steps, one per line.
   Finished with(const std::string& steps, const std::string& text, Words flags = {}) const {
     const std::string path =
         folder().write("beside.yaml", "understudy: 1\nname: beside\nbench: bench.yaml\nsteps:\n" + steps);

@@ -116,7 +116,7 @@ TEST(HomingSimple2, TakesTheTimeOfItsLegs) {
   EXPECT_NEAR(static_cast<double>(bench.now - begun), 100 + 4950 + 100 + 200, 3.0);
 }
 
-constexpr double kJogPps = 100.0 * 10'000 / 60;  // 100 rpm, 10000 pulses a revolution
+constexpr double kJogPps = 100.0 * 10'000 / 60;  // 100 rpm, 10000 pulses per revolution
 constexpr double kJogSlope = 50'000;
 
 TEST(HomingSlim, RunsUntilHorgAndSlowsDownThere) {

@@ -66,7 +66,7 @@ inline Long greatest_speed(const Profile& profile) {
   return speed;
 }
 
-/// Returns the greatest distance from 0.
+/// Returns the largest distance from 0.
 inline Long farthest(const Profile& profile) {
   Long far = profile.endless() ? 0 : std::abs(Long{profile.end_position_u});
   for (std::int32_t i = 0; i < profile.segment_count; ++i) {

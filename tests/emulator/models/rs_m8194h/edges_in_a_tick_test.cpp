@@ -217,7 +217,7 @@ TEST(RsM8194hEdgesInATick, ActInTheirOrderAndAreCountedEach) {
     rsm.run(50);
     EXPECT_EQ(rsm.get("LATCH_Z"), is_late ? 5800 : 5500);
   }
-  // LPSET at C+ repeatedly: every 100 pulses, 40 times a millisecond, and as many output pulses.
+  // LPSET at C+ repeatedly: every 100 pulses, 40 times per millisecond, and as many output pulses.
   OneRsm rsm;
   rsm.send({"RSM_SET_MAX_V X 4000000", "RSM_SET_SV X 4000000", "RSM_SET_V X 4000000"});
   rsm.run(5);

@@ -9,7 +9,7 @@
 namespace understudy::emulator::models::rs_m8194h {
 namespace own_stops_test {
 
-/// 4,000 pulses a millisecond.
+/// 4,000 pulses per millisecond.
 struct FastRsm : OneRsm {
   explicit FastRsm(const GivenRsm& given = {}) : OneRsm(given) {
     send({"RSM_SET_MAX_V XYZU 4000000", "RSM_SET_SV XYZU 4000000", "RSM_SET_V XYZU 4000000"});

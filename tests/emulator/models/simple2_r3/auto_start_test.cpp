@@ -61,7 +61,7 @@ TEST(AutoStart, WrittenTooShortlyBeforeThePowerGoesIsLost) {
   EXPECT_FALSE(feeder.bit("PROG_MAIN_RunTime_Status"));
 }
 
-/// The EEPROM goes on while the device boots: eight words take 40 ms, and the boot lasts for a second.
+/// The EEPROM continues while the device boots: eight words take 40 ms, and the boot lasts for a second.
 TEST(AutoStart, WhatIsWrittenWhileTheDeviceBootsIsKept) {
   Switched feeder({.choices = {{"boot_time", "1s"}}, .set = {{"AutoStart_MainProg", 1}}});
   feeder.write(0x4000, {0x05, 4, 1, 0, 0xFF, 0, 0, 0});  // Out 4 ON; END

@@ -42,7 +42,7 @@ TEST(ChoicesFlags, BehindTheFirstEndCountOrDoNot) {
   for (const auto& [option, counts] :
        each_option<bool>("flags_after_end", {{"counts", true}, {"does_not_count", false}})) {
     OneSimple2 feeder(with("flags_after_end", option));
-    // Without the flag the jump is to line 0, for ever.
+    // Without the flag the jump is to line 0, forever.
     start_with_program(feeder, {{kJump, 1, 0, 0}, {kOut, 1, 1, 0}, kTheEnd, {kOut, 0, 1, 1}, kTheEnd});
     feeder.run(50);
     EXPECT_EQ(feeder.output(0), counts) << option;

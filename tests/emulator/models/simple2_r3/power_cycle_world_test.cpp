@@ -20,7 +20,7 @@ std::uint64_t seed() {
   return given != nullptr ? std::strtoull(given, nullptr, 10) : 81'002;
 }
 
-/// Counts in MEM0 and moves A to and fro, with waits of many kinds; lines of CMD, DATA1, DATA2, JMP.
+/// Counts in MEM0 and moves A back and forth, with waits of many kinds; lines of CMD, DATA1, DATA2, JMP.
 const std::vector<std::uint16_t> kProgram{
     0x2A, 0,  0, 1,  // SVON_A
     0x6B, 0,  0, 0,  // VAR_Inc MEM0

@@ -6,7 +6,7 @@
 namespace understudy::emulator::models::slim {
 namespace pause_of_jogs_test {
 
-/// At 1000 pulses a second, reached within 0.1 s and 50 pulses.
+/// At 1000 pulses per second, reached within 0.1 s and 50 pulses.
 OneChain at_jog(const ChainOptions& options = {}) {
   OneChain bench(options);
   bench.speeds(6, 10'000, 10'000);

@@ -202,7 +202,7 @@ Wishes wishes_of(const Course& wanted) {
 
 // --- playing -------------------------------------------------------------------------------------
 
-/// A box with the program running, and what is done to it in the order of time.
+/// A box with the program running, and what is done to it in chronological order.
 struct Stage {
   explicit Stage(const Play& given) : play(given), box(given.given) {
     for (const auto& some : play.deeds) deeds.insert(deeds.end(), some.begin(), some.end());
