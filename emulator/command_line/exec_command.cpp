@@ -162,7 +162,7 @@ int tell_of(const play::SideScenario& side_scenario, const play::Scenario& scena
   return code;
 }
 
-/// Tells why the command's own exit code does not count, if it does not.
+/// Reports why the command's own exit code does not count, if it does not.
 int exit_code_of(const ExecArguments& arguments, const serve::Child& child, bool timed_out,
                  bool was_reached) {
   const std::string command = one_line(arguments.command[0]);
